@@ -1,0 +1,336 @@
+//! A complete line contact: the laws that its scene asks for, evaluated in order.
+//!
+//! ```text
+//! normal force Q -> Hertz b, P_mean -> film h_c -> regime Lambda -> traction, self-heating -> mu, F_T
+//!                                                                                          -> F_EHLr
+//! ```
+//!
+//! Each part is optional and costs one predictable branch when absent. Friction is F_T = mu Q against the slip
+//! (NTN Eq. 10).
+
+use super::film_thickness::{Entrainment, FilmThickness};
+use super::lubrication_regime::LubricationRegime;
+use super::normal_contact::{ElasticLine, NormalDamping};
+use super::rolling_resistance::RollingResistance;
+use super::self_heating::SelfHeating;
+use super::traction::Traction;
+use crate::scalar::Real;
+
+/// Added to |du| in m/s, so that friction and its slope are defined at zero slip; far below round-off of any
+/// surface speed.
+const SLIP_FLOOR: f64 = 1e-12;
+
+/// The laws of one kind of line contact (for example all roller and inner ring contacts).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LineContact {
+    /// Elastic constants.
+    pub elastic: ElasticLine,
+    /// Normal damping.
+    pub damping: Option<NormalDamping>,
+    /// Film thickness; without it there is neither regime nor traction.
+    pub film: Option<FilmThickness>,
+    /// Full-film traction.
+    pub traction: Option<Traction>,
+    /// Self-heating of the traction film.
+    pub self_heating: Option<SelfHeating>,
+    /// Mixed and boundary lubrication.
+    pub regime: Option<LubricationRegime>,
+    /// Rolling resistance.
+    pub rolling_resistance: Option<RollingResistance>,
+}
+
+/// Motion of a contact pair, as the laws see it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactMotion<T> {
+    /// Approach delta, m; positive in contact.
+    pub delta: T,
+    /// Approach speed, m/s.
+    pub delta_dot: T,
+    /// Surface speed of body 1 (the roller) relative to the contact point, m/s.
+    pub u1: T,
+    /// Surface speed of body 2 (the mate) relative to the contact point, m/s.
+    pub u2: T,
+}
+
+/// Everything a line contact computes. All zero when the surfaces are apart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LineContactForce<T> {
+    /// Normal force Q, N.
+    pub normal: T,
+    /// Elastic stiffness dQ_el/d(delta), N/m.
+    pub stiffness: T,
+    /// Normal damping dQ/d(delta_dot), N s/m.
+    pub damping: T,
+    /// Central film thickness h_c, m.
+    pub film: T,
+    /// Film ratio Lambda.
+    pub film_ratio: T,
+    /// Temperature rise dT of the film, K.
+    pub temperature_rise: T,
+    /// Traction coefficient mu >= 0.
+    pub friction_coefficient: T,
+    /// Friction on body 1 along t, N; opposes u1 - u2.
+    pub friction: T,
+    /// |F_T|/|du|, N s/m: the secant slope of friction.
+    pub friction_secant: T,
+    /// Rolling resistance on each surface along t, N; opposes the rolling velocity.
+    pub rolling_resistance: T,
+}
+
+impl<T: Real> LineContactForce<T> {
+    /// The forces of two surfaces that do not touch.
+    pub fn apart() -> Self {
+        let zero = T::constant(0.0);
+        Self {
+            normal: zero,
+            stiffness: zero,
+            damping: zero,
+            film: zero,
+            film_ratio: zero,
+            temperature_rise: zero,
+            friction_coefficient: zero,
+            friction: zero,
+            friction_secant: zero,
+            rolling_resistance: zero,
+        }
+    }
+}
+
+impl LineContact {
+    /// Forces of the contact. `friction_blend` replaces the share `w` of the traction coefficient by a given one:
+    /// mu (1 - w) + mu_given w; it serves pocket edges.
+    pub fn force<T: Real>(
+        &self,
+        motion: &ContactMotion<T>,
+        friction_blend: Option<(T, T)>,
+    ) -> LineContactForce<T> {
+        let normal = self.elastic.normal_force(self.damping.as_ref(), motion.delta, motion.delta_dot);
+        let mut out = LineContactForce::apart();
+        if normal.force.value() == 0.0 {
+            return out;
+        }
+        let q = normal.force;
+        out.normal = q;
+        out.stiffness = normal.stiffness;
+        out.damping = normal.damping;
+
+        let du = motion.u1 - motion.u2;
+        let slip = du.abs() + SLIP_FLOOR;
+        let mut mu = T::constant(0.0);
+        if self.film.is_some() || self.rolling_resistance.is_some() {
+            let half_width = self.elastic.half_width(q);
+            let mean_pressure = q / (half_width * (2.0 * self.elastic.length));
+            let entrainment = Entrainment::new(motion.u1, motion.u2);
+            if let Some(film) = &self.film {
+                out.film = film.central(q, mean_pressure, &entrainment);
+                mu = self.traction_coefficient(
+                    motion,
+                    slip,
+                    half_width,
+                    mean_pressure,
+                    &entrainment,
+                    &mut out,
+                );
+            }
+            if let Some(rolling) = &self.rolling_resistance {
+                out.rolling_resistance =
+                    -(rolling.force(q, mean_pressure, &entrainment) * entrainment.direction);
+            }
+        }
+        if let Some((share, given)) = friction_blend {
+            mu += (given - mu) * share;
+        }
+        let magnitude = mu * q;
+        out.friction_coefficient = mu;
+        out.friction_secant = magnitude / slip;
+        out.friction = -(out.friction_secant * du);
+        out
+    }
+
+    /// mu of the film whose thickness is in `out`; also sets film ratio and temperature rise there.
+    fn traction_coefficient<T: Real>(
+        &self,
+        motion: &ContactMotion<T>,
+        slip: T,
+        half_width: T,
+        mean_pressure: T,
+        entrainment: &Entrainment<T>,
+        out: &mut LineContactForce<T>,
+    ) -> T {
+        let mut mu = T::constant(0.0);
+        let boundary_share = self.regime.as_ref().map_or(T::constant(0.0), |regime| {
+            out.film_ratio = regime.film_ratio(out.film);
+            regime.boundary_share(out.film_ratio)
+        });
+        if let Some(traction) = &self.traction
+            && boundary_share.value() < 1.0
+        {
+            let shear = traction.shear_state(mean_pressure, out.film, half_width, entrainment.speed, slip);
+            let stress = match &self.self_heating {
+                None => shear.mean_shear(T::constant(0.0)).stress,
+                Some(heating) => {
+                    let rise = heating.rise_per_stress(slip, out.film, half_width, motion.u1, motion.u2);
+                    let heated = heating.solve(&shear, rise);
+                    out.temperature_rise = heated.temperature_rise;
+                    heated.stress
+                }
+            };
+            mu = stress * traction.eyring_stress / mean_pressure;
+        }
+        if let Some(regime) = &self.regime {
+            mu += (regime.boundary.at(slip) - mu) * boundary_share;
+        }
+        mu
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::laws::film_thickness::{ThermalCorrection, ThermalLoad};
+    use crate::laws::normal_contact::effective_modulus;
+    use crate::laws::rolling_resistance::Extent;
+    use crate::laws::solid_friction::SolidFriction;
+    use crate::scalar::Dual;
+
+    /// The inner raceway contact of the NU2310 example.
+    pub fn raceway() -> LineContact {
+        let e = effective_modulus(206e9, 0.3, 206e9, 0.3);
+        let elastic = ElasticLine::new(e, 1.0 / (1.0 / 7.5e-3 + 1.0 / 32.5e-3), 0.0204);
+        let thermal = ThermalLoad::new(0.04, 0.06, 0.13);
+        let steel = 46.0 * 7830.0 * 460.0;
+        LineContact {
+            elastic,
+            damping: Some(NormalDamping { relaxation_time: 5e-7, softening_depth: 1e-8 }),
+            film: Some(FilmThickness::new(
+                &elastic,
+                0.06,
+                2e-8,
+                Some(ThermalCorrection::GhoshPandey(thermal)),
+            )),
+            traction: Some(Traction::new(0.06, 2e-8, 5e6, 3e8)),
+            self_heating: Some(SelfHeating {
+                temperature_viscosity: 0.04,
+                conductivity: 0.13,
+                eyring_stress: 5e6,
+                thermal_product_1: steel,
+                thermal_product_2: steel,
+            }),
+            regime: Some(LubricationRegime {
+                boundary: SolidFriction { coefficient: 0.1, transition_speed: 0.02 },
+                lambda_boundary: 0.06,
+                lambda_full: 3.0,
+                roughness: 1e-7,
+            }),
+            rolling_resistance: Some(RollingResistance::new(&elastic, 0.06, 2e-8, thermal, Extent::All)),
+        }
+    }
+
+    fn components<T: Real>(f: &LineContactForce<T>) -> [T; 3] {
+        [f.normal, f.friction, f.rolling_resistance]
+    }
+
+    #[test]
+    fn exact_derivatives_match_central_differences() {
+        let law = raceway();
+        for x in [
+            [2e-6, 1e-3, 6.0, 5.9],
+            [1e-8, -1e-4, 6.0, 6.3],
+            [4e-6, 0.0, 6.0, 6.0001],
+            [1e-6, 0.0, -3.0, -3.5],
+            [1e-6, 0.01, 0.4, -0.3],
+            [3e-7, 0.0, 0.02, 0.005],
+        ] {
+            let d: Vec<Dual<4>> = (0..4).map(|i| Dual::variable(x[i], i)).collect();
+            let motion = ContactMotion { delta: d[0], delta_dot: d[1], u1: d[2], u2: d[3] };
+            let exact = components(&law.force(&motion, None));
+            let value = |x: &[f64; 4]| {
+                components(
+                    &law.force(&ContactMotion { delta: x[0], delta_dot: x[1], u1: x[2], u2: x[3] }, None),
+                )
+            };
+            for i in 0..4 {
+                let h = [1e-5 * x[0], 1e-7, 1e-6, 1e-6][i];
+                let (mut lo, mut hi) = (x, x);
+                lo[i] -= h;
+                hi[i] += h;
+                let (lo, hi) = (value(&lo), value(&hi));
+                for k in 0..3 {
+                    let difference = (hi[k] - lo[k]) / (2.0 * h);
+                    let scale = difference.abs().max(1e-6 * value(&x)[0] / h);
+                    let error = (exact[k].eps[i] - difference).abs() / scale;
+                    assert!(error < 1e-5, "x {x:?} d{k}/d{i}: {} {difference}", exact[k].eps[i]);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn forces_are_continuous_through_every_switch() {
+        // A fine scan finds the steepest interval; halving it again and again must make the change vanish, which
+        // it does for any power law but not for a jump.
+        let law = raceway();
+        let scan = |name: &str, at: &dyn Fn(f64) -> ContactMotion<f64>| {
+            let value = |x: f64| components(&law.force(&at(x), None));
+            let n = 4000;
+            let grid: Vec<_> = (0..=n).map(|i| value(i as f64 / n as f64)).collect();
+            for k in 0..3 {
+                let largest = grid.iter().fold(1e-3f64, |m, v| m.max(v[k].abs()));
+                let change = |i: usize| (grid[i + 1][k] - grid[i][k]).abs();
+                let steepest = (0..n).max_by(|&i, &j| change(i).total_cmp(&change(j))).unwrap();
+                let (mut a, mut b) = (steepest as f64 / n as f64, (steepest + 1) as f64 / n as f64);
+                for _ in 0..40 {
+                    let middle = 0.5 * (a + b);
+                    let (fa, fm, fb) = (value(a)[k], value(middle)[k], value(b)[k]);
+                    if (fm - fa).abs() > (fb - fm).abs() { b = middle } else { a = middle }
+                }
+                let jump = (value(b)[k] - value(a)[k]).abs();
+                assert!(jump < 2e-3 * largest, "{name}: component {k} jumps by {jump} of {largest}");
+            }
+        };
+        scan("onset", &|x| ContactMotion { delta: 2e-8 * (x - 0.3), delta_dot: 0.02, u1: 6.0, u2: 5.0 });
+        scan("slip", &|x| ContactMotion { delta: 1e-6, delta_dot: 0.0, u1: 6.0 + 0.2 * (x - 0.5), u2: 6.0 });
+        scan("rolling", &|x| ContactMotion {
+            delta: 1e-6,
+            delta_dot: 0.0,
+            u1: 1e-4 * (x - 0.5),
+            u2: 1e-4 * (x - 0.5) - 0.3,
+        });
+        scan("regimes", &|x| {
+            let u = 1e-5 * 1e7f64.powf(x);
+            ContactMotion { delta: 1e-6, delta_dot: 0.0, u1: u, u2: 0.9 * u }
+        });
+        scan("pressure", &|x| ContactMotion {
+            delta: 1e-9 * 1e5f64.powf(x),
+            delta_dot: 0.0,
+            u1: 6.0,
+            u2: 5.95,
+        });
+    }
+
+    #[test]
+    fn friction_opposes_slip_and_rolling_resistance_opposes_rolling() {
+        let law = raceway();
+        for (u1, u2) in [(6.0, 5.0), (5.0, 6.0), (-6.0, -5.0), (-5.0, -6.0)] {
+            let f = law.force(&ContactMotion { delta: 1e-6, delta_dot: 0.0, u1, u2 }, None);
+            assert!(f.friction * (u1 - u2) < 0.0);
+            assert!(f.rolling_resistance * (u1 + u2) < 0.0);
+        }
+    }
+
+    #[test]
+    fn absent_laws_add_nothing() {
+        let bare = LineContact {
+            film: None,
+            traction: None,
+            self_heating: None,
+            regime: None,
+            rolling_resistance: None,
+            damping: None,
+            ..raceway()
+        };
+        let f = bare.force(&ContactMotion { delta: 1e-6, delta_dot: 1.0, u1: 6.0, u2: 1.0 }, None);
+        assert_eq!(f.normal, bare.elastic.load(1e-6));
+        assert_eq!([f.friction, f.rolling_resistance, f.film, f.damping], [0.0; 4]);
+    }
+}

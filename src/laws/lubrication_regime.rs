@@ -1,0 +1,72 @@
+//! Traction coefficient over all lubrication regimes, from boundary to full film.
+//!
+//! ```text
+//! Lambda = h_c / sigma
+//! mu = mu_bd                                                          Lambda <= L_bd
+//! mu = mu_hd + (mu_bd - mu_hd) ((Lambda - L_hd)/(L_bd - L_hd))^6      L_bd < Lambda < L_hd
+//! mu = mu_hd                                                          Lambda >= L_hd
+//! ```
+//!
+//! Source: NTN Eq. 9 and 10. The boundary coefficient falls to zero with the slip speed
+//! ([`super::solid_friction`]); that smoothing is an assumption of this library.
+
+use super::solid_friction::SolidFriction;
+use crate::scalar::Real;
+
+/// Mixed and boundary friction of one contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LubricationRegime {
+    /// mu_bd with its transition speed.
+    pub boundary: SolidFriction,
+    /// L_bd, largest film ratio of pure boundary lubrication.
+    pub lambda_boundary: f64,
+    /// L_hd, smallest film ratio of full-film lubrication.
+    pub lambda_full: f64,
+    /// sigma, composite roughness, m.
+    pub roughness: f64,
+}
+
+impl LubricationRegime {
+    /// Film ratio Lambda of the film thickness `film` in m.
+    pub fn film_ratio<T: Real>(&self, film: T) -> T {
+        film / self.roughness
+    }
+
+    /// Share of boundary friction, 1 at and below L_bd, 0 at and above L_hd.
+    pub fn boundary_share<T: Real>(&self, film_ratio: T) -> T {
+        let x = (film_ratio - self.lambda_full) / (self.lambda_boundary - self.lambda_full);
+        if x.value() >= 1.0 {
+            T::constant(1.0)
+        } else if x.value() <= 0.0 {
+            T::constant(0.0)
+        } else {
+            let cube = x * x * x;
+            cube * cube
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn share_is_continuous_and_monotone() {
+        let r = LubricationRegime {
+            boundary: SolidFriction { coefficient: 0.1, transition_speed: 0.02 },
+            lambda_boundary: 0.06,
+            lambda_full: 3.0,
+            roughness: 1e-7,
+        };
+        assert_eq!(r.boundary_share(0.05), 1.0);
+        assert_eq!(r.boundary_share(3.5), 0.0);
+        let mut last = 1.0;
+        for i in 0..=4000 {
+            let share = r.boundary_share(i as f64 * 1e-3);
+            assert!(share <= last && last - share < 3e-3);
+            last = share;
+        }
+        assert!((r.boundary_share(1.53) - 0.5f64.powi(6)).abs() < 1e-12);
+        assert!((r.film_ratio(3e-7) - 3.0).abs() < 1e-14);
+    }
+}

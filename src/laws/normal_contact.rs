@@ -1,0 +1,164 @@
+//! Normal force of a line contact: Palmgren's approach, contact damping, Hertz pressure.
+//!
+//! ```text
+//! delta = K Q^0.9,   K = 0.39 (8/E')^0.9 / l^0.8               (Palmgren)
+//! Q     = max(0, Q_el + tau_c s(delta) dQ_el/d(delta) delta_dot)
+//! s     = delta / (delta + delta_s)
+//! b     = sqrt(8 Q R_e / (pi l E')),  P_mean = Q / (2 b l),  P_max = (4/pi) P_mean   (Hertz)
+//! ```
+//!
+//! Valid for steel-like line contacts with b much smaller than R_e and l. Source: Sakaguchi and Ueno, NTN
+//! Technical Review 71 (2004), Eq. 1 and 4. Damping is an assumption of this library (the paper names none):
+//! it is proportional to stiffness, and the factor s lets Q start continuously at first touch.
+
+use crate::scalar::Real;
+use std::f64::consts::PI;
+
+/// Effective modulus `E' = 2 / [(1 - nu_a^2)/E_a + (1 - nu_b^2)/E_b]` in Pa (NTN Eq. 4).
+pub fn effective_modulus(young_a: f64, poisson_a: f64, young_b: f64, poisson_b: f64) -> f64 {
+    2.0 / ((1.0 - poisson_a * poisson_a) / young_a + (1.0 - poisson_b * poisson_b) / young_b)
+}
+
+/// Elastic constants of one line contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ElasticLine {
+    /// Effective modulus E', Pa.
+    pub effective_modulus: f64,
+    /// Equivalent radius R_e, m.
+    pub equivalent_radius: f64,
+    /// Effective contact length l, m.
+    pub length: f64,
+    /// Palmgren constant K, m/N^0.9.
+    pub compliance: f64,
+}
+
+/// Damping of the normal motion, proportional to the elastic stiffness.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NormalDamping {
+    /// tau_c, ratio of damping to stiffness, s.
+    pub relaxation_time: f64,
+    /// delta_s, approach at which half of the damping is active, m.
+    pub softening_depth: f64,
+}
+
+/// Normal force of a contact and its slopes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NormalForce<T> {
+    /// Q, N; zero when the surfaces are apart.
+    pub force: T,
+    /// dQ_el/d(delta), N/m.
+    pub stiffness: T,
+    /// dQ/d(delta_dot), N s/m.
+    pub damping: T,
+}
+
+impl ElasticLine {
+    /// Constants from E' (Pa), R_e (m) and effective length (m), all > 0.
+    pub fn new(effective_modulus: f64, equivalent_radius: f64, length: f64) -> Self {
+        let compliance = 0.39 * (8.0 / effective_modulus).powf(0.9) / length.powf(0.8);
+        Self { effective_modulus, equivalent_radius, length, compliance }
+    }
+
+    /// Elastic approach delta in m under the load `q` >= 0 in N.
+    pub fn approach(&self, q: f64) -> f64 {
+        self.compliance * q.powf(0.9)
+    }
+
+    /// Elastic load Q_el in N at the approach `delta` in m; zero for delta <= 0.
+    pub fn load<T: Real>(&self, delta: T) -> T {
+        if delta.value() <= 0.0 { T::constant(0.0) } else { (delta / self.compliance).powf(10.0 / 9.0) }
+    }
+
+    /// Elastic stiffness dQ_el/d(delta) in N/m under the load `q` > 0 in N.
+    pub fn stiffness_at_load(&self, q: f64) -> f64 {
+        10.0 / 9.0 * q.powf(0.1) / self.compliance
+    }
+
+    /// Normal force at the approach `delta` (m) and approach speed `delta_dot` (m/s).
+    pub fn normal_force<T: Real>(
+        &self,
+        damping: Option<&NormalDamping>,
+        delta: T,
+        delta_dot: T,
+    ) -> NormalForce<T> {
+        let zero = T::constant(0.0);
+        // Written so that a NaN approach is passed on and not taken for "apart".
+        if delta.value() <= 0.0 {
+            return NormalForce { force: zero, stiffness: zero, damping: zero };
+        }
+        let elastic = self.load(delta);
+        let stiffness = elastic * (10.0 / 9.0) / delta;
+        let coefficient = match damping {
+            Some(d) => stiffness * d.relaxation_time * (delta / (delta + d.softening_depth)),
+            None => zero,
+        };
+        let force = elastic + coefficient * delta_dot;
+        if force.value() <= 0.0 {
+            return NormalForce { force: zero, stiffness: zero, damping: zero };
+        }
+        NormalForce { force, stiffness, damping: coefficient }
+    }
+
+    /// Half width b of the Hertz contact in m under the load `q` > 0 in N.
+    pub fn half_width<T: Real>(&self, q: T) -> T {
+        (q * (8.0 * self.equivalent_radius / (PI * self.length * self.effective_modulus))).sqrt()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scalar::Dual;
+
+    fn steel(radius: f64) -> ElasticLine {
+        ElasticLine::new(effective_modulus(206e9, 0.3, 206e9, 0.3), radius, 0.024)
+    }
+
+    #[test]
+    fn hertz_line_reference_values() {
+        // Roller r = 8 mm on an inner race of 32 mm and an outer race of 48 mm, 1000 N on 24 mm.
+        for (re, b, p) in [(6.4e-3, 54.770e-6, 484.31e6), (9.6e-3, 67.079e-6, 395.44e6)] {
+            let c = steel(re);
+            let half_width = c.half_width(1000.0);
+            let p_max = 4.0 / PI * 1000.0 / (2.0 * half_width * c.length);
+            assert!((half_width / b - 1.0).abs() < 1e-5, "b = {half_width}");
+            assert!((p_max / p - 1.0).abs() < 1e-5, "p = {p_max}");
+        }
+    }
+
+    #[test]
+    fn palmgren_reference_value_and_steel_constant() {
+        let c = steel(6.4e-3);
+        assert!((c.effective_modulus / 226.3736e9 - 1.0).abs() < 1e-6);
+        assert!((c.approach(1000.0) / 1.51472e-6 - 1.0).abs() < 1e-5, "{}", c.approach(1000.0));
+        // The catalogue form for steel: 3.84e-5 Q^0.9 / l^0.8 in N and mm.
+        let catalogue = 3.84e-5 * 1000f64.powf(0.9) / 24f64.powf(0.8) * 1e-3;
+        assert!((c.approach(1000.0) / catalogue - 1.0).abs() < 5e-3);
+    }
+
+    #[test]
+    fn load_inverts_approach() {
+        let c = steel(6.4e-3);
+        for q in [1e-3, 1.0, 4900.0, 2e5] {
+            assert!((c.load(c.approach(q)) / q - 1.0).abs() < 1e-13);
+            let slope = c.load(Dual::<1>::variable(c.approach(q), 0)).eps[0];
+            assert!((slope / c.stiffness_at_load(q) - 1.0).abs() < 1e-12);
+        }
+        assert_eq!(c.load(-1e-6), 0.0);
+    }
+
+    #[test]
+    fn force_starts_continuously_and_never_pulls() {
+        let c = steel(6.4e-3);
+        let d = NormalDamping { relaxation_time: 5e-7, softening_depth: 1e-8 };
+        for speed in [-1.0, 0.0, 1.0] {
+            let touch = c.normal_force(Some(&d), 1e-14, speed).force;
+            assert!((0.0..0.02).contains(&touch), "{touch} at {speed}");
+        }
+        assert_eq!(c.normal_force(Some(&d), 1e-7, -10.0).force, 0.0);
+        assert!(c.normal_force(Some(&d), f64::NAN, 0.0).force.is_nan());
+        let still = c.normal_force(Some(&d), 1e-6, 0.0).force;
+        assert!(c.normal_force(Some(&d), 1e-6, 0.1).force > still);
+        assert_eq!(still, c.normal_force(None, 1e-6, 0.1).force);
+    }
+}

@@ -1,0 +1,154 @@
+//! Traction of a fully lubricated line contact (Muraki and Kimura's simplified equations).
+//!
+//! ```text
+//! Sigma = eta_P |du| / (tau0 h_c),   D = eta_P u / (G_l b),   X_c = (D/Sigma) asinh(Sigma)
+//! S = asinh(Sigma) (1 - X_c/4)   for X_c < 2,      S = Sigma/D   for X_c >= 2
+//! F = tau0 S 2 b l
+//! ```
+//!
+//! S is the mean over the contact length of a stress that ramps up elastically with slope Sigma/D and is capped
+//! at asinh(Sigma); it is continuously differentiable at X_c = 2. Sigma/D does not depend on viscosity, and only
+//! ln(eta_P) enters, so pressures far above 1 GPa do not overflow. Source: NTN Eq. 6-8.
+
+use crate::scalar::Real;
+use std::f64::consts::LN_2;
+
+/// Above this ln(Sigma), asinh(Sigma) equals ln(2 Sigma) to round-off.
+const ASINH_ASYMPTOTE: f64 = 20.0;
+
+/// Lubricant constants of the traction law.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Traction {
+    /// ln(eta0), eta0 in Pa s.
+    pub ln_viscosity: f64,
+    /// alpha, 1/Pa.
+    pub pressure_viscosity: f64,
+    /// tau0, characteristic (Eyring) stress, Pa.
+    pub eyring_stress: f64,
+    /// G_l, shear modulus of the lubricant, Pa.
+    pub shear_modulus: f64,
+}
+
+/// Conditions of one contact under which the mean shear stress is wanted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShearState<T> {
+    /// ln(eta_P / (tau0 h_c)) without self-heating, eta_P in Pa s, tau0 in Pa, h_c in m.
+    pub ln_rate_scale: T,
+    /// Slip speed |du| > 0, m/s.
+    pub slip: T,
+    /// Sigma/D, the elastic slope.
+    pub elastic_slope: T,
+}
+
+/// Mean dimensionless shear stress and its derivative with respect to ln(eta_P).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeanShear<T> {
+    /// S.
+    pub stress: T,
+    /// dS/d(ln eta_P).
+    pub slope: T,
+}
+
+impl Traction {
+    /// From eta0 (Pa s), alpha (1/Pa), tau0 (Pa) and G_l (Pa), all > 0.
+    pub fn new(viscosity: f64, pressure_viscosity: f64, eyring_stress: f64, shear_modulus: f64) -> Self {
+        Self { ln_viscosity: viscosity.ln(), pressure_viscosity, eyring_stress, shear_modulus }
+    }
+
+    /// The shear state at mean pressure (Pa), film thickness (m), half width (m), rolling speed and slip (m/s).
+    pub fn shear_state<T: Real>(
+        &self,
+        mean_pressure: T,
+        film: T,
+        half_width: T,
+        speed: T,
+        slip: T,
+    ) -> ShearState<T> {
+        let stress_film = film * self.eyring_stress;
+        ShearState {
+            ln_rate_scale: mean_pressure * self.pressure_viscosity + self.ln_viscosity - stress_film.ln(),
+            slip,
+            elastic_slope: slip * half_width * self.shear_modulus / (stress_film * speed),
+        }
+    }
+}
+
+impl<T: Real> ShearState<T> {
+    /// S when the film is warmer than the inlet so that ln(eta_P) falls by `cooling` (= beta dT).
+    pub fn mean_shear(&self, cooling: T) -> MeanShear<T> {
+        let ln_scale = self.ln_rate_scale - cooling;
+        let ln_sigma = ln_scale.value() + self.slip.value().ln();
+        // d asinh(Sigma)/d ln(Sigma) = Sigma/sqrt(1 + Sigma^2) = tanh(asinh(Sigma)).
+        let (cap, cap_slope) = if ln_sigma > ASINH_ASYMPTOTE {
+            (ln_scale + self.slip.ln() + LN_2, T::constant(1.0))
+        } else {
+            let sigma = ln_scale.exp() * self.slip;
+            (sigma.asinh(), sigma / (sigma * sigma + 1.0).sqrt())
+        };
+        if cap.value() >= 2.0 * self.elastic_slope.value() {
+            MeanShear { stress: self.elastic_slope, slope: T::constant(0.0) }
+        } else {
+            let x_c = cap / self.elastic_slope;
+            MeanShear { stress: cap * (-x_c * 0.25 + 1.0), slope: cap_slope * (-x_c * 0.5 + 1.0) }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn state(sigma: f64, d: f64) -> ShearState<f64> {
+        ShearState { ln_rate_scale: sigma.ln(), slip: 1.0, elastic_slope: sigma / d }
+    }
+
+    /// Mean over 0 < X < 2 of min(X Sigma/D, asinh Sigma) by the midpoint rule.
+    fn mean_of_ramp(sigma: f64, d: f64) -> f64 {
+        let n = 200_000;
+        (0..n).map(|i| ((i as f64 + 0.5) * 2.0 / n as f64 * sigma / d).min(sigma.asinh())).sum::<f64>()
+            / n as f64
+    }
+
+    #[test]
+    fn mean_shear_is_the_mean_of_a_capped_ramp() {
+        for sigma in [0.01, 0.5, 3.0, 100.0] {
+            for d in [0.05, 0.5, 1.9, 2.1, 30.0, 500.0] {
+                let s = state(sigma, d).mean_shear(0.0).stress;
+                // mean over a length 2 of a ramp that reaches its cap at X_c
+                let expected = mean_of_ramp(sigma, d);
+                assert!((s / expected - 1.0).abs() < 1e-6, "Sigma {sigma}, D {d}: {s} {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn smooth_at_the_change_from_elastic_to_viscous() {
+        // X_c = 2 where asinh(Sigma) = 2 Sigma / D.
+        let sigma = 5.0_f64;
+        let d = 2.0 * sigma / sigma.asinh();
+        let at = |f: f64| state(sigma, d * f).mean_shear(0.0);
+        let (below, above) = (at(1.0 - 1e-7), at(1.0 + 1e-7));
+        assert!((below.stress - above.stress).abs() < 1e-6);
+        assert!((below.slope - above.slope).abs() < 1e-6);
+    }
+
+    #[test]
+    fn limits_newtonian_and_extreme_pressure() {
+        // Small Sigma and D: Newtonian, S = Sigma.
+        assert!((state(1e-4, 1e-5).mean_shear(0.0).stress / 1e-4 - 1.0).abs() < 1e-5);
+        // A mean pressure of 100 GPa would overflow exp(alpha P).
+        let t = Traction::new(0.06, 2e-8, 5e6, 3e8);
+        let s = t.shear_state(1e11, 1e-7, 1e-4, 5.0, 0.1).mean_shear(0.0).stress;
+        assert!(s.is_finite() && s > 0.0);
+    }
+
+    #[test]
+    fn slope_is_the_derivative_with_ln_viscosity() {
+        for (sigma, d) in [(0.3, 0.2), (40.0, 1.0), (1e12, 1e9), (2.0, 50.0)] {
+            let s = state(sigma, d);
+            let h = 1e-6;
+            let difference = (s.mean_shear(-h).stress - s.mean_shear(h).stress) / (2.0 * h);
+            assert!((s.mean_shear(0.0).slope - difference).abs() < 1e-6 * (1.0 + difference.abs()));
+        }
+    }
+}

@@ -1,0 +1,31 @@
+//! Dynamics of the cage, the rolling elements and the rings of a rolling bearing.
+//!
+//! Data flows one way: JSON text becomes a checked [`Scene`], the scene a compiled [`Model`], and any number of
+//! simulations [`Sim`] run on it. The C ABI in `include/cagedyn.h` offers the same in C.
+//!
+//! ```no_run
+//! use std::sync::Arc;
+//!
+//! fn main() -> cagedyn::Result<()> {
+//!     let text = std::fs::read_to_string("scenes/nu2310.json").unwrap_or_default();
+//!     let model = Arc::new(cagedyn::Model::from_json(&text)?);
+//!     let mut sim = cagedyn::Sim::new(model)?;
+//!     sim.advance_to(1e-3)?;
+//!     println!("cage centre: {:?} m", &sim.state()[2..4]);
+//!     Ok(())
+//! }
+//! ```
+
+pub mod contact;
+mod error;
+pub mod integrate;
+pub mod laws;
+pub mod model;
+pub mod scalar;
+pub mod scene;
+pub mod sim;
+
+pub use error::{Error, Result, Status};
+pub use model::Model;
+pub use scene::Scene;
+pub use sim::{Recording, Sim, Spread};
