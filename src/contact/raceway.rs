@@ -1,0 +1,181 @@
+//! Roller against the raceway of the outer or the inner ring.
+//!
+//! The roller is described in cylindrical coordinates about the centre of the outer ring: r = r_p + rho, angle psi.
+//! rho is its offset from the pitch circle, so a gap of nanometres is a sum of small numbers and never a
+//! difference of radii:
+//!
+//! ```text
+//! outer gap = gap_0 - rho
+//! inner gap = gap_0 + rho + (d - r),   d - r = (|x|^2 - 2 r x_r)/(d + r)
+//! ```
+//!
+//! with x the centre of the inner ring, x_r its component along the roller's radius and d its distance from the
+//! roller centre. Local frame: (radial, circumferential) at the roller.
+//!
+//! Surface speeds are relative to the contact point, which moves with the line of centres:
+//! `u1 = arm_1 (w_b - phi_dot)`, `u2 = -arm_2 (w_r - phi_dot)`, phi_dot the turning rate of that line.
+
+use super::PairFrame;
+use crate::laws::line_contact::ContactMotion;
+use crate::scalar::Real;
+
+/// Motion of a roller in cylindrical coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RollerMotion<T> {
+    /// rho, radial offset from the pitch circle, m.
+    pub radial_offset: T,
+    /// Radial speed, m/s.
+    pub radial_speed: T,
+    /// Orbit speed psi_dot, rad/s.
+    pub orbit_speed: T,
+    /// Spin speed w_b, rad/s.
+    pub spin_speed: T,
+}
+
+/// Motion of a ring, its vectors in the local frame of a roller.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RingMotion<T> {
+    /// Centre, m.
+    pub position: [T; 2],
+    /// Velocity of the centre, m/s.
+    pub velocity: [T; 2],
+    /// Rotation speed, rad/s.
+    pub speed: T,
+}
+
+/// Radii of a roller set between its raceways.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RacewayGeometry {
+    /// r_p, radius of the pitch circle: mean of the raceway radii, m.
+    pub pitch_radius: f64,
+    /// R_b, m.
+    pub roller_radius: f64,
+    /// Gap of a roller on the pitch circle to either raceway with the inner ring centred, m.
+    pub gap: f64,
+}
+
+impl RacewayGeometry {
+    /// From the outer raceway radius, the roller radius and the diametral clearance, m.
+    pub fn new(outer_raceway_radius: f64, roller_radius: f64, diametral_clearance: f64) -> Self {
+        let gap = diametral_clearance / 4.0;
+        Self { pitch_radius: outer_raceway_radius - roller_radius - gap, roller_radius, gap }
+    }
+
+    /// Motion and frame of the contact with the outer raceway; the outer ring is centred and at rest.
+    pub fn outer<T: Real>(&self, roller: &RollerMotion<T>) -> (ContactMotion<T>, PairFrame<T>) {
+        let arm_1 = T::constant(self.roller_radius);
+        let arm_2 = -(roller.radial_offset + (self.pitch_radius + self.roller_radius));
+        let motion = ContactMotion {
+            delta: roller.radial_offset - self.gap,
+            delta_dot: roller.radial_speed,
+            u1: arm_1 * (roller.spin_speed - roller.orbit_speed),
+            u2: arm_2 * roller.orbit_speed,
+        };
+        (motion, PairFrame { normal: [T::constant(1.0), T::constant(0.0)], arm_1, arm_2 })
+    }
+
+    /// Approach of a roller to the inner raceway, m, without anything else: the test for contact.
+    pub fn inner_approach<T: Real>(&self, radial_offset: T, ring: [T; 2]) -> T {
+        let r = radial_offset + self.pitch_radius;
+        let across = r - ring[0];
+        let d = (across * across + ring[1] * ring[1]).sqrt();
+        -(radial_offset + self.gap + shift(r, d, ring))
+    }
+
+    /// Motion and frame of the contact with the inner raceway.
+    pub fn inner<T: Real>(
+        &self,
+        roller: &RollerMotion<T>,
+        ring: &RingMotion<T>,
+    ) -> (ContactMotion<T>, PairFrame<T>) {
+        let r = roller.radial_offset + self.pitch_radius;
+        let to_ring = [ring.position[0] - r, ring.position[1]];
+        let d = (to_ring[0] * to_ring[0] + to_ring[1] * to_ring[1]).sqrt();
+        let normal = [to_ring[0] / d, to_ring[1] / d];
+        let arm_1 = T::constant(self.roller_radius);
+        let frame = PairFrame { normal, arm_1, arm_2: d - self.roller_radius };
+        let tangent = frame.tangent();
+        let relative = [ring.velocity[0] - roller.radial_speed, ring.velocity[1] - r * roller.orbit_speed];
+        let turning = (relative[0] * tangent[0] + relative[1] * tangent[1]) / d;
+        let motion = ContactMotion {
+            delta: -(roller.radial_offset + self.gap + shift(r, d, ring.position)),
+            delta_dot: -(relative[0] * normal[0] + relative[1] * normal[1]),
+            u1: arm_1 * (roller.spin_speed - turning),
+            u2: -(frame.arm_2 * (ring.speed - turning)),
+        };
+        (motion, frame)
+    }
+}
+
+/// d - r without cancellation.
+fn shift<T: Real>(r: T, d: T, ring: [T; 2]) -> T {
+    (ring[0] * ring[0] + ring[1] * ring[1] - r * ring[0] * 2.0) / (d + r)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const G: RacewayGeometry = RacewayGeometry { pitch_radius: 0.03999, roller_radius: 0.0075, gap: 1e-5 };
+
+    #[test]
+    fn geometry_splits_the_clearance() {
+        let g = RacewayGeometry::new(0.0475, 0.0075, 40e-6);
+        assert!((g.pitch_radius - 0.03999).abs() < 1e-15);
+        assert!((g.gap - 1e-5).abs() < 1e-18);
+    }
+
+    #[test]
+    fn kinematic_speeds_roll_without_slip() {
+        // Inner ring centred and turning: cage speed w_i (1 - gamma)/2, roller spin from rolling on the outer ring.
+        let (r_i, r_o) = (0.03999 - 0.0075, 0.03999 + 0.0075);
+        let w_i = -314.0;
+        let orbit = w_i * r_i / (r_i + r_o);
+        let spin = -orbit * 0.03999 / 0.0075;
+        let roller =
+            RollerMotion { radial_offset: 0.0, radial_speed: 0.0, orbit_speed: orbit, spin_speed: spin };
+        let ring = RingMotion { position: [0.0; 2], velocity: [0.0; 2], speed: w_i };
+        let (outer, _) = G.outer(&roller);
+        let (inner, frame) = G.inner(&roller, &ring);
+        assert!((outer.u1 - outer.u2).abs() < 1e-13);
+        assert!((inner.u1 - inner.u2).abs() < 1e-13);
+        // Entrainment d_m w_i (1 - gamma^2)/4, in magnitude.
+        let gamma = 0.0075 / 0.03999;
+        let u = 2.0 * 0.03999 * 314.0 * (1.0 - gamma * gamma) / 4.0;
+        assert!((outer.u1.abs() - u).abs() < 1e-12 && (inner.u1.abs() - u).abs() < 1e-12);
+        assert_eq!(frame.normal, [-1.0, 0.0]);
+        assert!((inner.delta + G.gap).abs() < 1e-20);
+    }
+
+    #[test]
+    fn nanometre_gaps_keep_their_digits() {
+        // The exact gap of a ring shifted along the radius is gap + rho - x: check it to 1e-22 m.
+        let (rho, x) = (3.123_456_789e-9, 1.000_987_654_321e-5);
+        let approach = G.inner_approach(rho, [x, 0.0]);
+        assert!((approach - (x - G.gap - rho)).abs() < 1e-20, "{approach}");
+        // A sideways shift lengthens the distance by x^2/(2 r) to leading order.
+        let approach = G.inner_approach(0.0, [0.0, 2e-5]);
+        let expected = -(G.gap + 4e-10 / (2.0 * G.pitch_radius));
+        assert!((approach / expected - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn approach_speed_is_the_derivative_of_approach() {
+        let roller =
+            RollerMotion { radial_offset: 2e-6, radial_speed: 0.01, orbit_speed: -120.0, spin_speed: 700.0 };
+        let ring = RingMotion { position: [8e-6, -1.5e-5], velocity: [0.02, -0.03], speed: -314.0 };
+        let (motion, frame) = G.inner(&roller, &ring);
+        let h = 1e-9;
+        let at = |s: f64| {
+            // The ring vector as seen from the turning local frame.
+            let turn = roller.orbit_speed * s;
+            let x = [ring.position[0] + ring.velocity[0] * s, ring.position[1] + ring.velocity[1] * s];
+            let x = super::super::rotate(x, (-turn).sin(), (-turn).cos());
+            G.inner_approach(roller.radial_offset + roller.radial_speed * s, x)
+        };
+        let difference = (at(h) - at(-h)) / (2.0 * h);
+        assert!((motion.delta_dot - difference).abs() < 1e-7, "{} {difference}", motion.delta_dot);
+        assert!((motion.delta - at(0.0)).abs() < 1e-22);
+        assert!((frame.normal[0].hypot(frame.normal[1]) - 1.0).abs() < 1e-15);
+    }
+}
