@@ -1,0 +1,90 @@
+//! Case sets: many scenes as one base scene and the values that differ.
+
+use super::{Scene, json_error, set_path};
+use crate::error::{Error, Result, Status};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Name and version of the case set format.
+pub const CASES_SCHEMA: &str = "cagedyn.cases/1";
+
+/// A series of runs that differ from a base scene in a few values.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CaseSet {
+    /// Format of this file: "cagedyn.cases/1".
+    pub schema: String,
+    /// Free text for tables and pictures.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub title: Option<String>,
+    /// File name of the base scene, relative to this file.
+    pub scene: String,
+    /// The cases.
+    pub cases: Vec<Case>,
+}
+
+/// One run of a case set.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Case {
+    /// Name, also used for files.
+    pub name: String,
+    /// Values by dotted path, as in "inner_ring.speed.constant". null removes an optional block.
+    pub set: BTreeMap<String, serde_json::Value>,
+}
+
+impl CaseSet {
+    /// Reads a case set.
+    ///
+    /// # Errors
+    /// [`Status::BadJson`]; [`Status::BadScene`] for a wrong format name or names that cannot name files.
+    pub fn from_json(text: &str) -> Result<Self> {
+        let mut reader = serde_json::Deserializer::from_str(text);
+        let set: Self = serde_path_to_error::deserialize(&mut reader).map_err(json_error)?;
+        reader.end().map_err(|e| Error::new(Status::BadJson, e.to_string()))?;
+        let bad = |text: String| Err(Error::new(Status::BadScene, text));
+        if set.schema != CASES_SCHEMA {
+            return bad(format!("schema: '{}' is not '{CASES_SCHEMA}'", set.schema));
+        }
+        for (i, case) in set.cases.iter().enumerate() {
+            let plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
+            if case.name.is_empty() || case.name.starts_with('.') || !case.name.chars().all(plain) {
+                return bad(format!(
+                    "cases.{i}.name: '{}' has other characters than A-Z a-z 0-9 - _ .",
+                    case.name
+                ));
+            }
+            if set.cases[..i].iter().any(|other| other.name == case.name) {
+                return bad(format!("cases.{i}.name: '{}' is used twice", case.name));
+            }
+        }
+        Ok(set)
+    }
+
+    /// The checked scene of every case; `base` is the JSON text of the base scene.
+    ///
+    /// # Errors
+    /// As [`Scene::from_json_with`], with the name of the case in front.
+    pub fn scenes(&self, base: &str) -> Result<Vec<Scene>> {
+        Scene::from_json(base)?;
+        let parsed: serde_json::Value =
+            serde_json::from_str(base).map_err(|e| Error::new(Status::BadJson, e.to_string()))?;
+        self.cases
+            .iter()
+            .map(|case| {
+                let mut value = parsed.clone();
+                case.set
+                    .iter()
+                    .try_for_each(|(path, new)| set_path(&mut value, path, new.clone()))
+                    .and_then(|()| Scene::from_value(value))
+                    .map_err(|e| Error::new(e.status, format!("case {}: {e}", case.name)))
+            })
+            .collect()
+    }
+
+    /// The JSON Schema (draft 2020-12) of the case set format.
+    pub fn json_schema() -> serde_json::Value {
+        schemars::schema_for!(CaseSet).to_value()
+    }
+}

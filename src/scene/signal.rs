@@ -1,0 +1,132 @@
+//! Functions of time for loads and speeds.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
+
+/// A value over time (t in s, value in the unit of the field that uses it).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Signal {
+    /// The same at all times.
+    Constant(f64),
+    /// Jumps at one instant.
+    Step {
+        /// Value before the jump.
+        before: f64,
+        /// Value from the jump on.
+        after: f64,
+        /// Time of the jump, s.
+        time: f64,
+    },
+    /// Changes linearly between two instants and is constant outside.
+    Ramp {
+        /// Value up to `start`.
+        from: f64,
+        /// Value from `end` on.
+        to: f64,
+        /// Start of the change, s.
+        start: f64,
+        /// End of the change, s.
+        end: f64,
+    },
+    /// mean + amplitude * sin(2 pi frequency t + phase).
+    Sine {
+        /// Mean value.
+        mean: f64,
+        /// Amplitude.
+        amplitude: f64,
+        /// Frequency, Hz.
+        frequency: f64,
+        /// Phase at t = 0, rad.
+        phase: f64,
+    },
+    /// Linear between points, constant before the first and after the last.
+    Table {
+        /// Times in strictly growing order, s.
+        time: Vec<f64>,
+        /// Values at these times.
+        value: Vec<f64>,
+    },
+}
+
+impl Signal {
+    /// Value at time `t` in s. At a jump it is the value after it.
+    pub fn at(&self, t: f64) -> f64 {
+        match self {
+            Signal::Constant(value) => *value,
+            Signal::Step { before, after, time } => {
+                if t < *time {
+                    *before
+                } else {
+                    *after
+                }
+            }
+            Signal::Ramp { from, to, start, end } => {
+                let x = ((t - start) / (end - start)).clamp(0.0, 1.0);
+                from + (to - from) * x
+            }
+            Signal::Sine { mean, amplitude, frequency, phase } => {
+                mean + amplitude * (TAU * frequency * t + phase).sin()
+            }
+            Signal::Table { time, value } => interpolate(time, value, t),
+        }
+    }
+
+    /// The first jump or kink after time `t` in s; infinity when there is none.
+    pub fn next_event(&self, t: f64) -> f64 {
+        let first_after = |times: &[f64]| times.iter().copied().find(|&x| x > t).unwrap_or(f64::INFINITY);
+        match self {
+            Signal::Constant(_) | Signal::Sine { .. } => f64::INFINITY,
+            Signal::Step { time, .. } => first_after(&[*time]),
+            Signal::Ramp { start, end, .. } => first_after(&[*start, *end]),
+            Signal::Table { time, .. } => {
+                time.get(time.partition_point(|&x| x <= t)).copied().unwrap_or(f64::INFINITY)
+            }
+        }
+    }
+
+    /// Largest magnitude the signal reaches.
+    pub fn largest(&self) -> f64 {
+        match self {
+            Signal::Constant(value) => value.abs(),
+            Signal::Step { before, after, .. } => before.abs().max(after.abs()),
+            Signal::Ramp { from, to, .. } => from.abs().max(to.abs()),
+            Signal::Sine { mean, amplitude, .. } => mean.abs() + amplitude.abs(),
+            Signal::Table { value, .. } => value.iter().fold(0.0, |m, v| m.max(v.abs())),
+        }
+    }
+}
+
+fn interpolate(time: &[f64], value: &[f64], t: f64) -> f64 {
+    let next = time.partition_point(|&x| x <= t);
+    match (next.checked_sub(1), time.get(next)) {
+        (None, _) => value.first().copied().unwrap_or(f64::NAN),
+        (Some(_), None) => value.last().copied().unwrap_or(f64::NAN),
+        (Some(last), Some(t1)) => {
+            let (t0, v0, v1) = (time[last], value[last], value[next]);
+            v0 + (v1 - v0) * ((t - t0) / (t1 - t0))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_and_events() {
+        let step = Signal::Step { before: 1.0, after: 2.0, time: 0.1 };
+        assert_eq!((step.at(0.0999), step.at(0.1)), (1.0, 2.0));
+        assert_eq!((step.next_event(0.0), step.next_event(0.1)), (0.1, f64::INFINITY));
+        let ramp = Signal::Ramp { from: 0.0, to: 4.0, start: 1.0, end: 3.0 };
+        assert_eq!((ramp.at(0.0), ramp.at(2.0), ramp.at(9.0)), (0.0, 2.0, 4.0));
+        assert_eq!((ramp.next_event(0.0), ramp.next_event(1.0)), (1.0, 3.0));
+        let table = Signal::Table { time: vec![0.0, 1.0, 3.0], value: vec![1.0, 3.0, -1.0] };
+        assert_eq!((table.at(-1.0), table.at(0.5), table.at(2.0), table.at(3.0)), (1.0, 2.0, 1.0, -1.0));
+        assert_eq!((table.next_event(0.0), table.next_event(3.0)), (1.0, f64::INFINITY));
+        let sine = Signal::Sine { mean: 1.0, amplitude: 2.0, frequency: 0.25, phase: 0.0 };
+        assert!((sine.at(1.0) - 3.0).abs() < 1e-15);
+        assert_eq!(sine.largest(), 3.0);
+    }
+}
