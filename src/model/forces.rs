@@ -1,0 +1,185 @@
+//! Force report: every contact and every contribution to every body at one state.
+
+use super::evaluate::{Loaded, Workspace, pocket_wrenches};
+use super::{Model, RingBody};
+use crate::contact::pocket::Pillar;
+use crate::contact::{Wrench, guide};
+
+/// Name, unit and meaning of a reported quantity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Quantity {
+    /// Name.
+    pub name: &'static str,
+    /// SI unit; "1" for ratios.
+    pub unit: &'static str,
+    /// What it is.
+    pub description: &'static str,
+}
+
+const fn quantity(name: &'static str, unit: &'static str, description: &'static str) -> Quantity {
+    Quantity { name, unit, description }
+}
+
+/// What is reported of a contact. All zero when the surfaces are apart, except the approach and the speeds, which
+/// are zero too.
+pub const CONTACT_QUANTITIES: [Quantity; 12] = [
+    quantity("normal_force", "N", "normal force Q"),
+    quantity("approach", "m", "elastic approach delta"),
+    quantity("film_thickness", "m", "central film thickness h_c"),
+    quantity("film_ratio", "1", "film ratio Lambda"),
+    quantity("temperature_rise", "K", "temperature rise of the traction film"),
+    quantity("friction_coefficient", "1", "traction coefficient mu"),
+    quantity("friction", "N", "friction F_T on the roller along t"),
+    quantity("rolling_resistance", "N", "rolling resistance F_EHLr on each surface along t"),
+    quantity("film_pressure_roller", "N", "film pressure force F_px through the roller centre along t"),
+    quantity("film_pressure_mate", "N", "film pressure force F_px through the centre of the mate along t"),
+    quantity("slip_speed", "m/s", "u1 - u2: surface speed of the roller less that of the mate"),
+    quantity("rolling_speed", "m/s", "u: mean of the surface speeds"),
+];
+
+/// Values of [`CONTACT_QUANTITIES`].
+pub type ContactForces = [f64; CONTACT_QUANTITIES.len()];
+
+/// Index of the normal force in [`ContactForces`].
+pub(super) const NORMAL_FORCE: usize = 0;
+/// Index of the film thickness in [`ContactForces`].
+pub(super) const FILM_THICKNESS: usize = 2;
+
+/// Where forces on a body come from.
+pub const FORCE_SOURCES: [&str; 7] =
+    ["outer_raceway", "inner_raceway", "pocket", "guide", "gravity", "load", "support"];
+
+pub(super) const OUTER: usize = 0;
+pub(super) const INNER: usize = 1;
+pub(super) const POCKET: usize = 2;
+pub(super) const GUIDE: usize = 3;
+const GRAVITY: usize = 4;
+const LOAD: usize = 5;
+const SUPPORT: usize = 6;
+
+/// Forces on one body by source: (F_y in N, F_z in N, moment about its own centre in N m).
+pub type BodyForces = [[f64; 3]; FORCE_SOURCES.len()];
+
+/// All forces at one state.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Forces {
+    /// Per contact, in the order of [`Model::contact_names`].
+    pub contacts: Vec<ContactForces>,
+    /// Per body, in the order of [`Model::body_names`]. Inertia forces of the rotating frame are not included.
+    pub bodies: Vec<BodyForces>,
+    /// Acceleration of every velocity state, m/s^2 or rad/s^2.
+    pub accelerations: Vec<f64>,
+    /// Smallest film thickness of the cage guide, m; zero without a guide film.
+    pub guide_film: f64,
+}
+
+impl Model {
+    /// Writes the results of the last evaluation at (`q`, `v`) into `out`.
+    pub(crate) fn report(&self, q: &[f64], v: &[f64], ws: &Workspace, a: &[f64], out: &mut Forces) {
+        let per_roller = self.contacts_per_roller();
+        out.contacts.clear();
+        out.contacts.resize(per_roller * self.layout.count, ContactForces::default());
+        out.bodies.clear();
+        out.bodies.resize(self.body_names_len(), BodyForces::default());
+        out.accelerations.clear();
+        out.accelerations.extend_from_slice(a);
+        out.guide_film = ws.guide.map_or(0.0, |film| film.minimum_film);
+        for contact in ws.outer.iter() {
+            out.contacts[per_roller * contact.roller] = quantities(&contact);
+            self.report_raceway(OUTER, 0, &contact, ws, out);
+        }
+        for contact in ws.inner.iter() {
+            out.contacts[per_roller * contact.roller + 1] = quantities(&contact);
+            self.report_raceway(INNER, 1, &contact, ws, out);
+        }
+        for contact in ws.wall.iter().chain(ws.edge.iter()) {
+            let pillar = match contact.site.pillar {
+                Pillar::Front => 2,
+                Pillar::Back => 3,
+            };
+            out.contacts[per_roller * contact.roller + pillar] = quantities(&contact);
+            let site = &ws.rollers[contact.roller];
+            let (on_roller, on_cage) = pocket_wrenches(&contact, site);
+            let on_roller = Wrench { force: site.to_global(on_roller.force), ..on_roller };
+            add(&mut out.bodies[self.roller_body(contact.roller)][POCKET], &on_roller);
+            add(&mut out.bodies[CAGE_BODY][POCKET], &on_cage);
+        }
+        self.report_guide_and_external(q, v, ws, out);
+    }
+
+    fn report_raceway(
+        &self,
+        source: usize,
+        mate: usize,
+        contact: &Loaded<'_, ()>,
+        ws: &Workspace,
+        out: &mut Forces,
+    ) {
+        let site = &ws.rollers[contact.roller];
+        let [on_roller, on_mate] = contact
+            .frame
+            .wrenches(contact.force)
+            .map(|w| Wrench { force: site.to_global(w.force), moment: w.moment });
+        add(&mut out.bodies[self.roller_body(contact.roller)][source], &on_roller);
+        add(&mut out.bodies[mate][source], &on_mate);
+    }
+
+    fn report_guide_and_external(&self, q: &[f64], v: &[f64], ws: &Workspace, out: &mut Forces) {
+        let weight = |mass: f64| [mass * self.gravity[0], mass * self.gravity[1], 0.0];
+        if let (Some(cage), Some(c)) = (&self.cage, self.layout.cage) {
+            if let Some(film) = &ws.guide {
+                let [on_cage, on_ring] = guide::wrenches(film, [q[c], q[c + 1]]);
+                add(&mut out.bodies[CAGE_BODY][GUIDE], &on_cage);
+                add(&mut out.bodies[0][GUIDE], &on_ring);
+            }
+            out.bodies[CAGE_BODY][GRAVITY] = weight(cage.mass);
+        }
+        if let RingBody::Free { mass, damping } = self.ring {
+            let (_, velocity) = self.ring_motion(q, v);
+            out.bodies[1][GRAVITY] = weight(mass);
+            out.bodies[1][LOAD] = [ws.inputs.load[0], ws.inputs.load[1], 0.0];
+            out.bodies[1][SUPPORT] = [-damping * velocity[0], -damping * velocity[1], 0.0];
+        }
+        for j in 0..self.layout.count {
+            out.bodies[self.roller_body(j)][GRAVITY] = weight(self.roller_mass);
+        }
+    }
+
+    /// Number of bodies in a force report.
+    pub fn body_names_len(&self) -> usize {
+        2 + usize::from(self.cage.is_some()) + self.layout.count
+    }
+
+    /// Index of a roller among the bodies of a force report.
+    pub(super) fn roller_body(&self, j: usize) -> usize {
+        2 + usize::from(self.cage.is_some()) + j
+    }
+}
+
+/// Index of the cage among the bodies, if there is one.
+pub(super) const CAGE_BODY: usize = 2;
+
+fn add(sum: &mut [f64; 3], w: &Wrench<f64>) {
+    sum[0] += w.force[0];
+    sum[1] += w.force[1];
+    sum[2] += w.moment;
+}
+
+fn quantities<S>(contact: &Loaded<'_, S>) -> ContactForces {
+    let (f, m) = (contact.force, contact.motion);
+    let [pressure_roller, pressure_mate] = contact.frame.film_pressure_forces(f);
+    [
+        f.normal,
+        m.delta,
+        f.film,
+        f.film_ratio,
+        f.temperature_rise,
+        f.friction_coefficient,
+        f.friction,
+        f.rolling_resistance,
+        pressure_roller,
+        pressure_mate,
+        m.u1 - m.u2,
+        0.5 * (m.u1 + m.u2),
+    ]
+}
