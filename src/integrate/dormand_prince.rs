@@ -1,0 +1,159 @@
+//! Explicit Runge-Kutta pair of order 5(4) by Dormand and Prince, with its fourth-order dense output.
+//!
+//! Coefficients: Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, table II.5.2 and
+//! section II.6. The error of a step is the largest component in units of its absolute tolerance: no component
+//! is hidden by a mean, and none is measured by its own size (angles grow without limit).
+
+use super::{Reader, Stepper, System};
+
+const C: [f64; 7] = [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0];
+const A: [[f64; 6]; 7] = [
+    [0.0; 6],
+    [0.2, 0.0, 0.0, 0.0, 0.0, 0.0],
+    [3.0 / 40.0, 9.0 / 40.0, 0.0, 0.0, 0.0, 0.0],
+    [44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0, 0.0, 0.0, 0.0],
+    [19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0, 0.0, 0.0],
+    [9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0, 0.0],
+    [35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0],
+];
+/// Fifth-order minus fourth-order weights.
+const E: [f64; 7] =
+    [71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339200.0, 22.0 / 525.0, -1.0 / 40.0];
+/// Weights of the last dense output polynomial.
+const D: [f64; 7] = [
+    -12715105075.0 / 11282082432.0,
+    0.0,
+    87487479700.0 / 32700410799.0,
+    -10690763975.0 / 1880347072.0,
+    701980252875.0 / 199316789632.0,
+    -1453857185.0 / 822651844.0,
+    69997945.0 / 29380423.0,
+];
+
+/// The method's memory.
+#[derive(Clone, Debug)]
+pub struct DormandPrince {
+    positions: usize,
+    /// Absolute tolerance per state.
+    tolerance: Vec<f64>,
+    state: Vec<f64>,
+    trial: Vec<f64>,
+    /// Rates at the seven stages; the first is that of `state`.
+    k: [Vec<f64>; 7],
+    a: Vec<f64>,
+    /// Polynomials of the last accepted step and of the attempt.
+    dense: [Vec<f64>; 5],
+    trial_dense: [Vec<f64>; 5],
+}
+
+impl DormandPrince {
+    /// Memory for a system with an absolute tolerance for every state.
+    pub fn new<S: System>(system: &S, tolerance: Vec<f64>) -> Self {
+        let n = system.positions() + system.velocities();
+        let zeros = || vec![0.0; n];
+        Self {
+            positions: system.positions(),
+            tolerance,
+            state: zeros(),
+            trial: zeros(),
+            k: std::array::from_fn(|_| zeros()),
+            a: vec![0.0; system.velocities()],
+            dense: std::array::from_fn(|_| zeros()),
+            trial_dense: std::array::from_fn(|_| zeros()),
+        }
+    }
+
+    fn rate<S: System>(
+        system: &mut S,
+        t: f64,
+        positions: usize,
+        state: &[f64],
+        a: &mut [f64],
+        rate: &mut [f64],
+    ) -> Result<(), S::Fault> {
+        let (q, v) = state.split_at(positions);
+        system.accelerations(t, q, v, a)?;
+        rate[..positions].copy_from_slice(&v[..positions]);
+        rate[positions..].copy_from_slice(a);
+        Ok(())
+    }
+}
+
+impl<S: System> Stepper<S> for DormandPrince {
+    fn set_state(&mut self, state: &[f64]) {
+        self.state.copy_from_slice(state);
+        for part in &mut self.dense {
+            part.fill(0.0);
+        }
+        self.dense[0].copy_from_slice(state);
+    }
+
+    fn refresh(&mut self, system: &mut S, t: f64) -> Result<(), S::Fault> {
+        Self::rate(system, t, self.positions, &self.state, &mut self.a, &mut self.k[0])
+    }
+
+    fn attempt(&mut self, system: &mut S, t: f64, h: f64, t_last: f64) -> Result<Option<f64>, S::Fault> {
+        let n = self.state.len();
+        for stage in 1..7 {
+            let (done, rest) = self.k.split_at_mut(stage);
+            for i in 0..n {
+                let sum: f64 = done.iter().zip(&A[stage]).map(|(k, a)| a * k[i]).sum();
+                self.trial[i] = self.state[i] + h * sum;
+            }
+            let time = (t + C[stage] * h).min(t_last);
+            Self::rate(system, time, self.positions, &self.trial, &mut self.a, &mut rest[0])?;
+        }
+        let mut error: f64 = 0.0;
+        for i in 0..n {
+            let weighted = |w: &[f64; 7]| -> f64 { self.k.iter().zip(w).map(|(k, w)| w * k[i]).sum() };
+            let scaled = (h * weighted(&E) / self.tolerance[i]).abs();
+            // f64::max would drop a NaN.
+            error = if scaled <= error { error } else { scaled };
+            let change = self.trial[i] - self.state[i];
+            let bend = h * self.k[0][i] - change;
+            let [d0, d1, d2, d3, d4] = &mut self.trial_dense;
+            d0[i] = self.state[i];
+            d1[i] = change;
+            d2[i] = bend;
+            d3[i] = change - h * self.k[6][i] - bend;
+            d4[i] = h * weighted(&D);
+        }
+        Ok(Some(error))
+    }
+
+    fn accept(&mut self) {
+        std::mem::swap(&mut self.state, &mut self.trial);
+        std::mem::swap(&mut self.dense, &mut self.trial_dense);
+        self.k.swap(0, 6);
+    }
+
+    fn state(&self) -> &[f64] {
+        &self.state
+    }
+
+    fn interpolate(&self, theta: f64, out: &mut [f64]) {
+        let (x, y) = (theta, 1.0 - theta);
+        let [d0, d1, d2, d3, d4] = &self.dense;
+        for (i, out) in out.iter_mut().enumerate() {
+            *out = d0[i] + x * (d1[i] + y * (d2[i] + x * (d3[i] + y * d4[i])));
+        }
+    }
+
+    fn control_order(&self) -> f64 {
+        5.0
+    }
+
+    fn save(&self, out: &mut Vec<f64>) {
+        out.extend_from_slice(&self.state);
+        out.extend_from_slice(&self.k[0]);
+        for part in &self.dense {
+            out.extend_from_slice(part);
+        }
+    }
+
+    fn load(&mut self, from: &mut Reader<'_>) -> Option<()> {
+        from.fill(&mut self.state)?;
+        from.fill(&mut self.k[0])?;
+        self.dense.iter_mut().try_for_each(|part| from.fill(part))
+    }
+}

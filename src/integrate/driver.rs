@@ -1,0 +1,262 @@
+//! The driver: chooses step sizes, lands on events, retries failed steps, counts, interpolates.
+//!
+//! The driver runs ahead of the time its caller asks for and answers from the dense output of the last step, so
+//! the times of the questions never influence the steps.
+
+use super::control::{FAULT_SHRINK, PiController, RECOVERY_GROWTH};
+use super::{Reader, Stepper, System};
+
+/// Limits of the step size and the number of steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// First step, and for methods without error estimate the nominal step, s.
+    pub nominal_step: f64,
+    /// Smallest step, s.
+    pub min_step: f64,
+    /// Largest step of methods with error estimate, s.
+    pub max_step: f64,
+    /// Largest number of attempts in one advance.
+    pub max_steps: u64,
+}
+
+/// Counts since the last start.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Statistics {
+    /// Accepted steps.
+    pub steps: u64,
+    /// Steps rejected by the error estimate.
+    pub rejected: u64,
+    /// Steps abandoned because forces were undefined.
+    pub faults: u64,
+    /// Events landed on.
+    pub events: u64,
+    /// Smallest accepted step that was not cut by an event, s; zero before the first.
+    pub smallest_step: f64,
+    /// Largest accepted step, s.
+    pub largest_step: f64,
+}
+
+/// Why a run cannot go on. The state is that of the last accepted step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Failure<F> {
+    /// Forces are undefined at the start.
+    AtStart {
+        /// Time, s.
+        time: f64,
+        /// What is wrong.
+        fault: F,
+    },
+    /// The step size fell below its minimum.
+    StepTooSmall {
+        /// Time, s.
+        time: f64,
+        /// Step that would be needed, s.
+        step: f64,
+        /// The last fault, if faults and not the error estimate made the step small.
+        fault: Option<F>,
+    },
+    /// The limit on the number of steps was reached.
+    TooManySteps {
+        /// Time reached, s.
+        time: f64,
+        /// The limit.
+        limit: u64,
+    },
+}
+
+/// Integrates a system with one method.
+pub struct Driver<S: System> {
+    stepper: Box<dyn Stepper<S> + Send>,
+    limits: Limits,
+    /// The last accepted step spans `from` to `to`, s.
+    from: f64,
+    to: f64,
+    next_step: f64,
+    control: PiController,
+    needs_refresh: bool,
+    statistics: Statistics,
+}
+
+/// A step size, and whether an event cut it.
+struct Plan {
+    h: f64,
+    end: f64,
+    t_last: f64,
+    cut: bool,
+    on_event: bool,
+}
+
+impl<S: System> Driver<S> {
+    /// A driver at rest; [`Driver::start`] comes next.
+    pub fn new(stepper: Box<dyn Stepper<S> + Send>, limits: Limits) -> Self {
+        Self {
+            stepper,
+            limits,
+            from: 0.0,
+            to: 0.0,
+            next_step: limits.nominal_step,
+            control: PiController::new(),
+            needs_refresh: true,
+            statistics: Statistics::default(),
+        }
+    }
+
+    /// Starts at time `t` from `state`. Counts go on.
+    pub fn start(&mut self, t: f64, state: &[f64]) {
+        self.stepper.set_state(state);
+        (self.from, self.to) = (t, t);
+        self.next_step = self.limits.nominal_step;
+        self.control = PiController::new();
+        self.needs_refresh = true;
+    }
+
+    /// Time the integration has reached, s; at least the time asked for.
+    pub fn reached(&self) -> f64 {
+        self.to
+    }
+
+    /// Counts since creation.
+    pub fn statistics(&self) -> &Statistics {
+        &self.statistics
+    }
+
+    /// Sets all counts to zero.
+    pub fn clear_statistics(&mut self) {
+        self.statistics = Statistics::default();
+    }
+
+    /// Integrates until `t` is reached or passed.
+    ///
+    /// # Errors
+    /// A [`Failure`]; everything up to the last accepted step stays available.
+    pub fn advance(&mut self, system: &mut S, t: f64) -> Result<(), Failure<S::Fault>> {
+        let mut attempts = 0;
+        while self.to < t {
+            if self.needs_refresh {
+                let refreshed = self.stepper.refresh(system, self.to);
+                refreshed.map_err(|fault| Failure::AtStart { time: self.to, fault })?;
+                self.needs_refresh = false;
+            }
+            self.step(system, &mut attempts)?;
+        }
+        Ok(())
+    }
+
+    /// State at time `t` within the last step (s).
+    pub fn state_at(&self, t: f64, out: &mut [f64]) {
+        if t >= self.to || self.to <= self.from {
+            out.copy_from_slice(self.stepper.state());
+        } else {
+            self.stepper.interpolate((t - self.from) / (self.to - self.from), out);
+        }
+    }
+
+    /// Makes one accepted step.
+    fn step(&mut self, system: &mut S, attempts: &mut u64) -> Result<(), Failure<S::Fault>> {
+        let mut last_fault = None;
+        loop {
+            if *attempts >= self.limits.max_steps {
+                return Err(Failure::TooManySteps { time: self.to, limit: self.limits.max_steps });
+            }
+            *attempts += 1;
+            let plan = self.plan(system);
+            match self.stepper.attempt(system, self.to, plan.h, plan.t_last) {
+                Ok(Some(error)) if error <= 1.0 => {
+                    let order = self.stepper.control_order();
+                    let factor = self.control.accepted(error, order);
+                    // A step cut by an event says little about the size of the next one: do not shrink for it.
+                    let floor = if plan.cut { self.next_step } else { 0.0 };
+                    self.next_step = (plan.h * factor).max(floor).min(self.limits.max_step);
+                    self.accept(&plan);
+                    return Ok(());
+                }
+                Ok(None) => {
+                    self.next_step = (self.next_step * RECOVERY_GROWTH).min(self.limits.nominal_step);
+                    self.accept(&plan);
+                    return Ok(());
+                }
+                Ok(Some(error)) => {
+                    self.statistics.rejected += 1;
+                    let order = self.stepper.control_order();
+                    // A NaN error is no estimate: shrink as for a fault.
+                    let factor = if error.is_finite() {
+                        self.control.rejected(error, order)
+                    } else {
+                        self.control.after_rejection = true;
+                        FAULT_SHRINK
+                    };
+                    self.next_step = plan.h * factor;
+                }
+                Err(fault) => {
+                    self.statistics.faults += 1;
+                    self.control.after_rejection = true;
+                    self.next_step = plan.h * FAULT_SHRINK;
+                    last_fault = Some(fault);
+                }
+            }
+            let smallest = self.limits.min_step.max(4.0 * f64::EPSILON * self.to.abs());
+            if self.next_step < smallest {
+                let step = self.next_step;
+                self.next_step = self.limits.nominal_step;
+                return Err(Failure::StepTooSmall { time: self.to, step, fault: last_fault });
+            }
+        }
+    }
+
+    fn accept(&mut self, plan: &Plan) {
+        self.stepper.accept();
+        (self.from, self.to) = (self.to, plan.end);
+        self.needs_refresh = plan.on_event;
+        let s = &mut self.statistics;
+        s.steps += 1;
+        s.events += u64::from(plan.on_event);
+        s.largest_step = s.largest_step.max(plan.h);
+        if !plan.cut && (s.smallest_step == 0.0 || plan.h < s.smallest_step) {
+            s.smallest_step = plan.h;
+        }
+    }
+
+    /// The next step: never across an event, and not leaving a tiny rest before it.
+    fn plan(&self, system: &S) -> Plan {
+        let event = system.next_event(self.to);
+        let rest = event - self.to;
+        let h = self.next_step;
+        if rest <= h {
+            Plan { h: rest, end: event, t_last: event.next_down(), cut: true, on_event: true }
+        } else if rest < 2.0 * h {
+            let h = 0.5 * rest;
+            Plan { h, end: self.to + h, t_last: event.next_down(), cut: true, on_event: false }
+        } else {
+            Plan { h, end: self.to + h, t_last: event.next_down(), cut: false, on_event: false }
+        }
+    }
+
+    /// Appends everything that the next steps depend on.
+    pub fn save(&self, out: &mut Vec<f64>) {
+        let s = &self.statistics;
+        out.extend([self.from, self.to, self.next_step]);
+        out.extend([self.control.last_error, f64::from(u8::from(self.control.after_rejection))]);
+        out.push(f64::from(u8::from(self.needs_refresh)));
+        out.extend([s.steps, s.rejected, s.faults, s.events].map(|n| n as f64));
+        out.extend([s.smallest_step, s.largest_step]);
+        self.stepper.save(out);
+    }
+
+    /// Takes back what [`Driver::save`] wrote; `None` if it does not fit, and the driver must be started again.
+    pub fn load(&mut self, from: &mut Reader<'_>) -> Option<()> {
+        self.from = from.number()?;
+        self.to = from.number()?;
+        self.next_step = from.number()?;
+        self.control = PiController { last_error: from.number()?, after_rejection: from.count()? == 1 };
+        self.needs_refresh = from.count()? == 1;
+        self.statistics = Statistics {
+            steps: from.count()?,
+            rejected: from.count()?,
+            faults: from.count()?,
+            events: from.count()?,
+            smallest_step: from.number()?,
+            largest_step: from.number()?,
+        };
+        self.stepper.load(from)
+    }
+}

@@ -1,0 +1,71 @@
+//! Time integration. Knows second-order systems, steps and errors; nothing of bearings.
+
+mod control;
+mod dormand_prince;
+mod driver;
+mod leapfrog;
+mod pack;
+
+pub use dormand_prince::DormandPrince;
+pub use driver::{Driver, Failure, Limits, Statistics};
+pub use leapfrog::Leapfrog;
+pub use pack::Reader;
+
+use nalgebra::Matrix3;
+
+/// A second-order system `q' = v[..positions]`, `v' = a(t, q, v)`. Velocities beyond the positions have no position.
+///
+/// A state vector is (q, v).
+pub trait System {
+    /// Why an evaluation failed.
+    type Fault: Copy;
+
+    /// Number of positions.
+    fn positions(&self) -> usize;
+    /// Number of velocities, at least the number of positions.
+    fn velocities(&self) -> usize;
+    /// Accelerations at time `t` in s. A failure makes the driver retry with a smaller step.
+    ///
+    /// # Errors
+    /// The system's fault when forces are undefined at this state.
+    fn accelerations(&mut self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> Result<(), Self::Fault>;
+    /// The fault for a result that is not finite at the index of a velocity.
+    fn not_finite(&self, velocity: usize) -> Self::Fault;
+    /// The first time after `t` at which the accelerations jump or kink by themselves; infinity if there is none.
+    fn next_event(&self, t: f64) -> f64;
+    /// Number of velocity triples with implicit damping.
+    fn damped_blocks(&self) -> usize;
+    /// Velocity indices of such a triple.
+    fn damped_block(&self, i: usize) -> [usize; 3];
+    /// -da/dv within each triple at the last evaluated state, or a positive approximation of it, 1/s.
+    fn damping(&self, blocks: &mut [Matrix3<f64>]);
+}
+
+/// One integration method: makes steps and interpolates in the last one.
+pub trait Stepper<S: System> {
+    /// Sets the state.
+    fn set_state(&mut self, state: &[f64]);
+    /// Evaluates what the next step starts from; called at the start and after events.
+    ///
+    /// # Errors
+    /// The system's fault at this state.
+    fn refresh(&mut self, system: &mut S, t: f64) -> Result<(), S::Fault>;
+    /// Tries a step of size `h` from time `t`; never evaluates later than `t_last`. Returns the error in units of
+    /// the tolerance, if the method estimates it.
+    ///
+    /// # Errors
+    /// The system's fault at a stage; the state is then unchanged.
+    fn attempt(&mut self, system: &mut S, t: f64, h: f64, t_last: f64) -> Result<Option<f64>, S::Fault>;
+    /// Makes the last attempt the current state.
+    fn accept(&mut self);
+    /// State at the end of the last accepted step.
+    fn state(&self) -> &[f64];
+    /// State within the last accepted step at the fraction 0 <= `theta` <= 1 of it.
+    fn interpolate(&self, theta: f64, out: &mut [f64]);
+    /// Order of the method's error estimate plus one: the exponent of step-size control.
+    fn control_order(&self) -> f64;
+    /// Appends everything that the next steps depend on.
+    fn save(&self, out: &mut Vec<f64>);
+    /// Takes back what [`Stepper::save`] wrote; `None` if it does not fit.
+    fn load(&mut self, from: &mut Reader<'_>) -> Option<()>;
+}

@@ -1,0 +1,40 @@
+//! Flat arrays of numbers for saving and restoring.
+
+/// Reads numbers in the order they were written.
+#[derive(Debug)]
+pub struct Reader<'a> {
+    rest: &'a [f64],
+}
+
+impl<'a> Reader<'a> {
+    /// Starts at the first number.
+    pub fn new(values: &'a [f64]) -> Self {
+        Self { rest: values }
+    }
+
+    /// The next number.
+    pub fn number(&mut self) -> Option<f64> {
+        let (first, rest) = self.rest.split_first()?;
+        self.rest = rest;
+        Some(*first)
+    }
+
+    /// The next number if it is a count.
+    pub fn count(&mut self) -> Option<u64> {
+        let x = self.number()?;
+        (x >= 0.0 && x.fract() == 0.0 && x < 9e15).then_some(x as u64)
+    }
+
+    /// Fills `out` with the next numbers.
+    pub fn fill(&mut self, out: &mut [f64]) -> Option<()> {
+        let (head, rest) = self.rest.split_at_checked(out.len())?;
+        out.copy_from_slice(head);
+        self.rest = rest;
+        Some(())
+    }
+
+    /// Whether everything was read.
+    pub fn finished(&self) -> bool {
+        self.rest.is_empty()
+    }
+}

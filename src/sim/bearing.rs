@@ -1,0 +1,101 @@
+//! The model as the integrator sees it: with its workspace, inputs and counts.
+
+use crate::integrate::System;
+use crate::model::{Channel, Fault, Forces, HostInputs, Model, Workspace};
+use nalgebra::Matrix3;
+use std::sync::Arc;
+
+pub(super) struct Bearing {
+    model: Arc<Model>,
+    workspace: Workspace,
+    host: HostInputs,
+    evaluations: u64,
+}
+
+impl Bearing {
+    pub(super) fn new(model: Arc<Model>) -> Self {
+        let workspace = Workspace::new(&model);
+        Self { model, workspace, host: HostInputs::default(), evaluations: 0 }
+    }
+
+    pub(super) fn model(&self) -> &Arc<Model> {
+        &self.model
+    }
+
+    pub(super) fn host(&self) -> &HostInputs {
+        &self.host
+    }
+
+    pub(super) fn host_mut(&mut self) -> &mut HostInputs {
+        &mut self.host
+    }
+
+    pub(super) fn evaluations(&self) -> u64 {
+        self.evaluations
+    }
+
+    pub(super) fn set_evaluations(&mut self, evaluations: u64) {
+        self.evaluations = evaluations;
+    }
+
+    pub(super) fn reset(&mut self) {
+        self.host = HostInputs::default();
+        self.evaluations = 0;
+    }
+
+    /// Accelerations of a state vector; not counted as an evaluation of the integration.
+    pub(super) fn accelerations_at(&mut self, t: f64, state: &[f64], a: &mut [f64]) -> Result<(), Fault> {
+        let (q, v) = state.split_at(self.model.layout().positions());
+        let inputs = self.model.inputs_at(t, &self.host);
+        self.model.accelerations(inputs, q, v, &mut self.workspace, a)
+    }
+
+    pub(super) fn report(&self, state: &[f64], a: &[f64], out: &mut Forces) {
+        let (q, v) = state.split_at(self.model.layout().positions());
+        self.model.report(q, v, &self.workspace, a, out);
+    }
+
+    pub(super) fn channel_value(&self, channel: &Channel, state: &[f64], forces: &Forces) -> f64 {
+        let (q, v) = state.split_at(self.model.layout().positions());
+        self.model.channel_value(channel, q, v, &self.workspace, forces)
+    }
+}
+
+impl System for Bearing {
+    type Fault = Fault;
+
+    fn positions(&self) -> usize {
+        self.model.layout().positions()
+    }
+
+    fn velocities(&self) -> usize {
+        self.model.layout().velocities()
+    }
+
+    fn accelerations(&mut self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> Result<(), Fault> {
+        self.evaluations += 1;
+        let inputs = self.model.inputs_at(t, &self.host);
+        self.model.accelerations(inputs, q, v, &mut self.workspace, a)
+    }
+
+    fn not_finite(&self, velocity: usize) -> Fault {
+        Fault::NotFinite { velocity }
+    }
+
+    fn next_event(&self, t: f64) -> f64 {
+        self.model.next_event(t, &self.host)
+    }
+
+    fn damped_blocks(&self) -> usize {
+        self.model.layout().count
+    }
+
+    fn damped_block(&self, i: usize) -> [usize; 3] {
+        let layout = self.model.layout();
+        [layout.roller(i), layout.roller(i) + 1, layout.spin(i)]
+    }
+
+    fn damping(&self, blocks: &mut [Matrix3<f64>]) {
+        self.model.roller_damping(&self.workspace, blocks);
+    }
+}

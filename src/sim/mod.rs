@@ -1,0 +1,381 @@
+//! A running simulation: state, integrator and outputs of one model. Mutable, one per thread.
+
+mod bearing;
+mod recording;
+mod snapshot;
+
+pub use recording::{Recording, Spread};
+
+use crate::error::{Error, Result, Status};
+use crate::integrate::{DormandPrince, Driver, Failure, Leapfrog, Limits, Statistics, Stepper};
+use crate::model::{Channel, Fault, Forces, Model, RATE_SCALE};
+use crate::scene::Method;
+use bearing::Bearing;
+use std::sync::Arc;
+
+/// Largest step of methods with error control, s: a tenth of a millisecond still sees every roller pass.
+const MAX_STEP: f64 = 1e-4;
+/// First step of methods with error control in units of 1/(highest frequency).
+const FIRST_STEP: f64 = 0.1;
+/// Nominal leapfrog step in units of 1/(highest frequency), with and without contact damping.
+const DAMPED_STEP: f64 = 1.0;
+const UNDAMPED_STEP: f64 = 0.5;
+
+/// Counts of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RunStatistics {
+    /// Steps.
+    pub driver: Statistics,
+    /// Force evaluations of the integration.
+    pub evaluations: u64,
+}
+
+/// A simulation of one model.
+///
+/// The integrator may have run ahead of [`Sim::time`]; the state is then interpolated. Setting the state or an
+/// input restarts the integrator at the current time.
+pub struct Sim {
+    bearing: Bearing,
+    driver: Driver<Bearing>,
+    time: f64,
+    state: Vec<f64>,
+    channels: Arc<[Channel]>,
+    forces: Forces,
+    accelerations: Vec<f64>,
+    /// Whether `forces` belongs to the current state.
+    forces_current: bool,
+}
+
+impl Sim {
+    /// A simulation at the start of the scene.
+    ///
+    /// # Errors
+    /// [`Status::BadScene`] when the initial state cannot be found, [`Status::BadState`] when forces are undefined
+    /// there.
+    pub fn new(model: Arc<Model>) -> Result<Self> {
+        let state = model.initial_state()?;
+        let bearing = Bearing::new(model.clone());
+        let driver = Driver::new(stepper(&model, &bearing), limits(&model));
+        let mut sim = Self {
+            channels: model.channels().into(),
+            accelerations: vec![0.0; model.layout().velocities()],
+            bearing,
+            driver,
+            time: 0.0,
+            state,
+            forces: Forces::default(),
+            forces_current: false,
+        };
+        sim.restart();
+        sim.forces()?;
+        Ok(sim)
+    }
+
+    /// The model.
+    pub fn model(&self) -> &Arc<Model> {
+        self.bearing.model()
+    }
+
+    /// Simulated time, s.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// The state (q, v) at [`Sim::time`]; order and units as in [`Model::state_infos`].
+    pub fn state(&self) -> &[f64] {
+        &self.state
+    }
+
+    /// Sets time and state and restarts the integrator. Forces must be defined there.
+    ///
+    /// # Errors
+    /// [`Status::WrongSize`], [`Status::BadValue`] for numbers that are not finite or a negative time,
+    /// [`Status::BadState`]. The simulation is then unchanged.
+    pub fn set_state(&mut self, time: f64, state: &[f64]) -> Result<()> {
+        check_time("time", time)?;
+        self.check_state(state)?;
+        let mut rates = vec![0.0; self.accelerations.len()];
+        self.bearing.accelerations_at(time, state, &mut rates).map_err(|f| self.bad_state(time, f))?;
+        self.time = time;
+        self.state.copy_from_slice(state);
+        self.restart();
+        Ok(())
+    }
+
+    /// All forces at the current state, without stepping.
+    ///
+    /// # Errors
+    /// [`Status::BadState`] when forces are undefined.
+    pub fn forces(&mut self) -> Result<&Forces> {
+        if !self.forces_current {
+            let evaluated = self.bearing.accelerations_at(self.time, &self.state, &mut self.accelerations);
+            evaluated.map_err(|f| self.bad_state(self.time, f))?;
+            self.bearing.report(&self.state, &self.accelerations, &mut self.forces);
+            self.forces_current = true;
+        }
+        Ok(&self.forces)
+    }
+
+    /// Rate of an arbitrary state at time `t` (s), for hosts with their own integrator. The simulation's own state
+    /// is not touched.
+    ///
+    /// # Errors
+    /// [`Status::WrongSize`], [`Status::BadValue`], [`Status::BadState`]; `rate` is then unchanged.
+    pub fn derivative(&mut self, t: f64, state: &[f64], rate: &mut [f64]) -> Result<()> {
+        check_time("t", t)?;
+        self.check_state(state)?;
+        if rate.len() != state.len() {
+            return Err(wrong_size("rate", rate.len(), state.len()));
+        }
+        self.forces_current = false;
+        let evaluated = self.bearing.accelerations_at(t, state, &mut self.accelerations);
+        evaluated.map_err(|f| self.bad_state(t, f))?;
+        let nq = self.model().layout().positions();
+        rate[..nq].copy_from_slice(&state[nq..2 * nq]);
+        rate[nq..].copy_from_slice(&self.accelerations);
+        Ok(())
+    }
+
+    /// Advances by `dt` >= 0 seconds.
+    ///
+    /// # Errors
+    /// As [`Sim::advance_to`].
+    pub fn step(&mut self, dt: f64) -> Result<()> {
+        check_time("dt", dt)?;
+        self.advance_to(self.time + dt)
+    }
+
+    /// Advances to time `t` (s), not before the current time.
+    ///
+    /// # Errors
+    /// [`Status::BadValue`], [`Status::BadState`], [`Status::StepTooSmall`], [`Status::TooManySteps`]. Time and
+    /// state are then unchanged, and the simulation can be reset, changed or asked again.
+    pub fn advance_to(&mut self, t: f64) -> Result<()> {
+        check_time("t", t)?;
+        if t < self.time {
+            let text = format!("t: {t:?} s is before the current time {:?} s", self.time);
+            return Err(Error::new(Status::BadValue, text));
+        }
+        self.driver.advance(&mut self.bearing, t).map_err(|f| self.failure(f))?;
+        self.time = t;
+        self.driver.state_at(t, &mut self.state);
+        self.forces_current = false;
+        Ok(())
+    }
+
+    /// Back to the start of the scene. Inputs set by the host follow the scene again; counts start at zero.
+    ///
+    /// # Errors
+    /// As [`Sim::new`].
+    pub fn reset(&mut self) -> Result<()> {
+        let state = self.model().initial_state()?;
+        self.bearing.reset();
+        self.time = 0.0;
+        self.state.copy_from_slice(&state);
+        self.driver.clear_statistics();
+        self.restart();
+        Ok(())
+    }
+
+    /// Value of input `index` at the current time.
+    ///
+    /// # Errors
+    /// [`Status::BadIndex`].
+    pub fn input(&self, index: usize) -> Result<f64> {
+        self.check_input(index)?;
+        let values = self.model().inputs_at(self.time, self.bearing.host());
+        Ok([values.ring_speed, values.load[0], values.load[1]][index])
+    }
+
+    /// Holds input `index` at `value` from now on, instead of the scene's function of time.
+    ///
+    /// # Errors
+    /// [`Status::BadIndex`]; [`Status::BadValue`] if the value is not finite.
+    pub fn set_input(&mut self, index: usize, value: f64) -> Result<()> {
+        self.check_input(index)?;
+        if !value.is_finite() {
+            return Err(Error::new(Status::BadValue, format!("value: {value} is not a finite number")));
+        }
+        self.bearing.host_mut()[index] = Some(value);
+        self.restart();
+        Ok(())
+    }
+
+    /// Lets input `index` follow the scene again.
+    ///
+    /// # Errors
+    /// [`Status::BadIndex`].
+    pub fn release_input(&mut self, index: usize) -> Result<()> {
+        self.check_input(index)?;
+        self.bearing.host_mut()[index] = None;
+        self.restart();
+        Ok(())
+    }
+
+    /// The output channels.
+    pub fn channels(&self) -> &[Channel] {
+        &self.channels
+    }
+
+    /// Writes the value of every output channel at the current state.
+    ///
+    /// # Errors
+    /// [`Status::WrongSize`], [`Status::BadState`]; `out` is then unchanged.
+    pub fn outputs(&mut self, out: &mut [f64]) -> Result<()> {
+        if out.len() != self.channels.len() {
+            return Err(wrong_size("outputs", out.len(), self.channels.len()));
+        }
+        self.forces()?;
+        for (out, channel) in out.iter_mut().zip(self.channels.iter()) {
+            *out = self.bearing.channel_value(channel, &self.state, &self.forces);
+        }
+        Ok(())
+    }
+
+    /// Value of one output channel at the current state.
+    ///
+    /// # Errors
+    /// [`Status::BadIndex`], [`Status::BadState`].
+    pub fn output(&mut self, index: usize) -> Result<f64> {
+        let channels = self.channels.clone();
+        let channel = channels.get(index).ok_or_else(|| bad_index("output", index, channels.len()))?;
+        self.forces()?;
+        Ok(self.bearing.channel_value(channel, &self.state, &self.forces))
+    }
+
+    /// Counts since creation, reset or restore.
+    pub fn statistics(&self) -> RunStatistics {
+        RunStatistics { driver: *self.driver.statistics(), evaluations: self.bearing.evaluations() }
+    }
+
+    fn restart(&mut self) {
+        self.driver.start(self.time, &self.state);
+        self.forces_current = false;
+    }
+
+    fn check_input(&self, index: usize) -> Result<()> {
+        let count = self.model().input_count();
+        if index < count { Ok(()) } else { Err(bad_index("input", index, count)) }
+    }
+
+    fn check_state(&self, state: &[f64]) -> Result<()> {
+        if state.len() != self.state.len() {
+            return Err(wrong_size("state", state.len(), self.state.len()));
+        }
+        match state.iter().position(|x| !x.is_finite()) {
+            None => Ok(()),
+            Some(i) => {
+                let name = &self.model().state_infos()[i].name;
+                let text = format!("state[{i}] ({name}): {} is not a finite number", state[i]);
+                Err(Error::new(Status::BadValue, text))
+            }
+        }
+    }
+
+    fn bad_state(&self, time: f64, fault: Fault) -> Error {
+        Error::new(Status::BadState, format!("at t = {time:?} s: {}", self.model().describe(fault)))
+    }
+
+    fn failure(&self, failure: Failure<Fault>) -> Error {
+        match failure {
+            Failure::AtStart { time, fault } => self.bad_state(time, fault),
+            Failure::StepTooSmall { time, step, fault } => {
+                let why = fault.map_or("the error estimate stays above the tolerance".to_owned(), |f| {
+                    self.model().describe(f)
+                });
+                let min = self.model().scene().solver.min_step;
+                let text = format!(
+                    "at t = {time:?} s: a step of {step:e} s would be needed, at least {min:e} s is allowed: {why}"
+                );
+                Error::new(Status::StepTooSmall, text)
+            }
+            Failure::TooManySteps { time, limit } => {
+                let text = format!("at t = {time:?} s: {limit} steps in one advance (solver.max_steps)");
+                Error::new(Status::TooManySteps, text)
+            }
+        }
+    }
+}
+
+fn check_time(what: &str, t: f64) -> Result<()> {
+    if t.is_finite() && t >= 0.0 {
+        return Ok(());
+    }
+    Err(Error::new(Status::BadValue, format!("{what}: {t} s is not a finite number >= 0")))
+}
+
+fn wrong_size(what: &str, given: usize, expected: usize) -> Error {
+    Error::new(Status::WrongSize, format!("{what}: length {given}, must be {expected}"))
+}
+
+fn bad_index(what: &str, index: usize, count: usize) -> Error {
+    Error::new(Status::BadIndex, format!("{what}: index {index}, there are {count}"))
+}
+
+/// The method that the scene asks for.
+fn stepper(model: &Model, bearing: &Bearing) -> Box<dyn Stepper<Bearing> + Send> {
+    match &model.scene().solver.method {
+        Method::Leapfrog(_) => Box::new(Leapfrog::new(bearing)),
+        Method::DormandPrince(m) => {
+            let scales = model.state_scales();
+            let tolerance = scales.into_iter().map(|scale| m.tolerance * scale).collect();
+            Box::new(DormandPrince::new(bearing, tolerance))
+        }
+    }
+}
+
+fn limits(model: &Model) -> Limits {
+    let solver = &model.scene().solver;
+    let nominal_step = match &solver.method {
+        Method::Leapfrog(m) => m.step.unwrap_or_else(|| {
+            let share = if model.damped() { DAMPED_STEP } else { UNDAMPED_STEP };
+            share / model.highest_frequency()
+        }),
+        Method::DormandPrince(_) => FIRST_STEP / model.highest_frequency(),
+    };
+    Limits {
+        nominal_step: nominal_step.max(solver.min_step),
+        min_step: solver.min_step,
+        max_step: MAX_STEP.max(solver.min_step),
+        max_steps: solver.max_steps,
+    }
+}
+
+impl Model {
+    /// What counts as one unit of error for every state: the reference length for positions, divided by a radius
+    /// for angles, times 1e4 1/s for velocities.
+    pub fn state_scales(&self) -> Vec<f64> {
+        let length = self.reference_length();
+        let (pitch, radius) = (self.pitch_radius(), self.scene().rollers.radius);
+        let layout = self.layout();
+        let mut positions = vec![length; layout.positions()];
+        if let Some(c) = layout.cage {
+            positions[c + 2] = length / pitch;
+        }
+        for j in 0..layout.count {
+            positions[layout.roller(j) + 1] = length / pitch;
+        }
+        let mut scales = positions.clone();
+        scales.extend(positions.iter().map(|x| x * RATE_SCALE));
+        scales.extend(std::iter::repeat_n(length / radius * RATE_SCALE, layout.count));
+        scales
+    }
+
+    /// A fault in words.
+    pub fn describe(&self, fault: Fault) -> String {
+        match fault {
+            Fault::NoGuideFilm { minimum_film } => {
+                format!("no film between cage and guide (smallest thickness {minimum_film:e} m, must be > 0)")
+            }
+            Fault::LostRoller { roller, radial_offset } => {
+                format!("roller[{roller}] has left the bearing (radial offset {radial_offset:e} m)")
+            }
+            Fault::NotFinite { velocity } => {
+                let index = self.layout().positions() + velocity;
+                let infos = self.state_infos();
+                let name = infos.get(index).map_or("?", |info| info.name.as_str());
+                format!("the rate of {name} is not a finite number")
+            }
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! Outputs recorded on a fixed time grid, and their statistics.
+
+use super::Sim;
+use crate::error::Result;
+
+/// Output channels over time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Recording {
+    /// Times, s.
+    pub times: Vec<f64>,
+    /// One column per output channel, in the order of [`Sim::channels`].
+    pub columns: Vec<Vec<f64>>,
+}
+
+/// Mean and spread of a channel over a window of time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spread {
+    /// Mean.
+    pub mean: f64,
+    /// Standard deviation.
+    pub deviation: f64,
+    /// Smallest value.
+    pub min: f64,
+    /// Largest value.
+    pub max: f64,
+    /// Fifth percentile.
+    pub p05: f64,
+    /// 95th percentile.
+    pub p95: f64,
+}
+
+impl Recording {
+    /// Advances `sim` to `until` (s) and records its outputs every `interval` seconds, start and end included.
+    /// `keep_going` is called with the time after every record and ends the run by returning false.
+    ///
+    /// # Errors
+    /// As [`Sim::advance_to`]; what was recorded before is kept in `self`.
+    pub fn run(
+        &mut self,
+        sim: &mut Sim,
+        until: f64,
+        interval: f64,
+        mut keep_going: impl FnMut(f64) -> bool,
+    ) -> Result<()> {
+        let start = sim.time();
+        self.columns.resize(sim.channels().len(), Vec::new());
+        let mut row = vec![0.0; self.columns.len()];
+        // Records at multiples of the interval, without adding up its round-off.
+        let last = ((until - start) / interval * (1.0 + 1e-12)).floor() as u64;
+        for i in 0..=last {
+            sim.advance_to((start + i as f64 * interval).min(until))?;
+            sim.outputs(&mut row)?;
+            self.times.push(sim.time());
+            for (column, value) in self.columns.iter_mut().zip(&row) {
+                column.push(*value);
+            }
+            if !keep_going(sim.time()) {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Index of the first record at or after time `t` in s.
+    pub fn index_at(&self, t: f64) -> usize {
+        self.times.partition_point(|&x| x < t)
+    }
+
+    /// Statistics of column `column` from time `from` (s) on; `None` when it holds no record.
+    pub fn spread(&self, column: usize, from: f64) -> Option<Spread> {
+        let values = self.columns.get(column)?.get(self.index_at(from)..)?;
+        Spread::of(values)
+    }
+}
+
+impl Spread {
+    /// Statistics of some values; `None` when there are none.
+    pub fn of(values: &[f64]) -> Option<Self> {
+        let mut sorted = values.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        let (min, max) = (*sorted.first()?, *sorted.last()?);
+        let n = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / n;
+        let variance = values.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / n;
+        let percentile = |p: f64| {
+            let place = p * (n - 1.0);
+            let (low, share) = (place.floor() as usize, place.fract());
+            let high = (low + 1).min(sorted.len() - 1);
+            sorted[low] + share * (sorted[high] - sorted[low])
+        };
+        Some(Self {
+            mean,
+            deviation: variance.sqrt(),
+            min,
+            max,
+            p05: percentile(0.05),
+            p95: percentile(0.95),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn spread_of_known_values() {
+        let values: Vec<f64> = (0..=100).map(f64::from).collect();
+        let s = Spread::of(&values).unwrap();
+        assert_eq!((s.mean, s.min, s.max, s.p05, s.p95), (50.0, 0.0, 100.0, 5.0, 95.0));
+        assert!((s.deviation - 850f64.sqrt()).abs() < 1e-12);
+        assert_eq!(Spread::of(&[]), None);
+    }
+}

@@ -1,0 +1,85 @@
+//! Saving and restoring a simulation as a flat array of numbers, with bit-identical continuation.
+
+use super::Sim;
+use crate::error::{Error, Result, Status};
+use crate::integrate::Reader;
+use crate::model::{HostInputs, INPUTS};
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+/// First number of a snapshot; changes when its content changes.
+const FORMAT: f64 = 1.0;
+
+impl Sim {
+    /// Everything the future of this simulation depends on, for the same model in the same build of the library.
+    pub fn save(&self) -> Vec<f64> {
+        let mut out = vec![FORMAT];
+        out.extend(self.fingerprint());
+        out.extend([self.time, self.bearing.evaluations() as f64]);
+        for input in self.bearing.host() {
+            out.extend([f64::from(u8::from(input.is_some())), input.unwrap_or(0.0)]);
+        }
+        out.extend_from_slice(&self.state);
+        self.driver.save(&mut out);
+        out
+    }
+
+    /// Length of [`Sim::save`]'s result; the same at all times.
+    pub fn save_len(&self) -> usize {
+        self.save().len()
+    }
+
+    /// Continues from a snapshot of a simulation of the same scene.
+    ///
+    /// # Errors
+    /// [`Status::BadSnapshot`]; the simulation is then unchanged.
+    pub fn restore(&mut self, snapshot: &[f64]) -> Result<()> {
+        let before = self.save();
+        let bad = |text: &str| Error::new(Status::BadSnapshot, format!("snapshot: {text}"));
+        if snapshot.len() != before.len() {
+            return Err(bad(&format!("length {}, must be {}", snapshot.len(), before.len())));
+        }
+        if let Some(i) = snapshot.iter().position(|x| !x.is_finite()) {
+            return Err(bad(&format!("item {i} is {}, not a finite number", snapshot[i])));
+        }
+        let head = 1 + self.fingerprint().len();
+        if snapshot[..head] != before[..head] {
+            return Err(bad("made from another scene or by another version of the library"));
+        }
+        if self.load(snapshot).is_none() {
+            // What was just saved fits, so this brings the old simulation back.
+            let _ = self.load(&before);
+            return Err(bad("damaged"));
+        }
+        Ok(())
+    }
+
+    fn load(&mut self, snapshot: &[f64]) -> Option<()> {
+        let mut from = Reader::new(snapshot.get(1 + self.fingerprint().len()..)?);
+        let time = from.number().filter(|t| *t >= 0.0)?;
+        let evaluations = from.count()?;
+        let mut host: HostInputs = [None; INPUTS];
+        for input in &mut host {
+            let (set, value) = (from.count()?, from.number()?);
+            *input = (set == 1).then_some(value);
+        }
+        from.fill(&mut self.state)?;
+        self.driver.load(&mut from)?;
+        if !from.finished() {
+            return None;
+        }
+        self.time = time;
+        *self.bearing.host_mut() = host;
+        self.bearing.set_evaluations(evaluations);
+        self.forces_current = false;
+        Some(())
+    }
+
+    /// Scene and library version as four numbers that fit exactly into f64.
+    fn fingerprint(&self) -> [f64; 2] {
+        let mut hasher = DefaultHasher::new();
+        env!("CARGO_PKG_VERSION").hash(&mut hasher);
+        self.model().scene().to_json().hash(&mut hasher);
+        let bits = hasher.finish();
+        [(bits >> 32) as f64, (bits & 0xffff_ffff) as f64]
+    }
+}
