@@ -16,6 +16,7 @@
 //! }
 //! ```
 
+pub mod capi;
 pub mod contact;
 mod error;
 pub mod integrate;

@@ -37,8 +37,18 @@ pub trait System {
     fn damped_blocks(&self) -> usize;
     /// Velocity indices of such a triple.
     fn damped_block(&self, i: usize) -> [usize; 3];
-    /// -da/dv within each triple at the last evaluated state, or a positive approximation of it, 1/s.
-    fn damping(&self, blocks: &mut [Matrix3<f64>]);
+    /// Damping within each triple at the last evaluated state.
+    fn damping(&self, blocks: &mut [DampingBlock]);
+}
+
+/// -da/dv of three coupled velocities, or a positive approximation of it, 1/s.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DampingBlock {
+    /// D, all of it.
+    pub full: Matrix3<f64>,
+    /// D_i, the share to take at the end of the step: half for the trapezoidal rule, all where rates exceed the
+    /// step by far.
+    pub implicit: Matrix3<f64>,
 }
 
 /// One integration method: makes steps and interpolates in the last one.

@@ -7,12 +7,11 @@ use super::{InputValues, Model, PocketLaws, RingBody};
 use crate::contact::pocket::{CageMotion, Pillar, PillarContact, PocketMotion};
 use crate::contact::raceway::{RingMotion, RollerMotion};
 use crate::contact::{PairFrame, Wrench, guide, rotate};
+use crate::integrate::DampingBlock;
 use crate::laws::line_contact::{ContactMotion, LineContactForce};
 use crate::laws::short_bearing::{FilmForce, JournalMotion};
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 
-/// Share of the normal contact damping in the damping matrix: one half makes it the trapezoidal rule.
-const NORMAL_DAMPING_SHARE: f64 = 0.5;
 /// A roller this far from the pitch circle, in pitch radii, has left the bearing.
 const LOST_ROLLER: f64 = 0.25;
 
@@ -330,17 +329,18 @@ impl Model {
         }
     }
 
-    /// Damping of each roller at the last evaluated state, as `-d(acceleration)/d(velocity)` over
-    /// (radial speed, orbit speed, spin speed): half of the contact damping and the secant slope of friction.
-    pub fn roller_damping(&self, ws: &Workspace, blocks: &mut [Matrix3<f64>]) {
-        blocks.fill(Matrix3::zeros());
+    /// Damping of each roller at the last evaluated state over (radial speed, orbit speed, spin speed): contact
+    /// damping, half of it implicit, and the secant slope of friction, all of it implicit.
+    pub(crate) fn roller_damping(&self, ws: &Workspace, blocks: &mut [DampingBlock]) {
+        blocks.fill(DampingBlock::default());
         let radius = self.geometry.roller_radius;
-        let mut collect = |roller: usize, normal: [f64; 2], force: &LineContactForce<f64>| {
-            let [nr, nc] = normal;
-            let n = nalgebra::Vector3::new(nr, nc, 0.0);
-            let d = nalgebra::Vector3::new(-nc, nr, radius);
-            blocks[roller] += n * n.transpose() * (NORMAL_DAMPING_SHARE * force.damping)
-                + d * d.transpose() * force.friction_secant;
+        let mut collect = |roller: usize, [nr, nc]: [f64; 2], force: &LineContactForce<f64>| {
+            let n = Vector3::new(nr, nc, 0.0);
+            let d = Vector3::new(-nc, nr, radius);
+            let normal = n * n.transpose() * force.damping;
+            let friction = d * d.transpose() * force.friction_secant;
+            blocks[roller].full += normal + friction;
+            blocks[roller].implicit += normal * 0.5 + friction;
         };
         for contact in ws.outer.iter().chain(ws.inner.iter()) {
             collect(contact.roller, contact.frame.normal, contact.force);
@@ -349,15 +349,15 @@ impl Model {
             let (sin, cos) = contact.site.lead;
             collect(contact.roller, rotate(contact.frame.normal, -sin, cos), contact.force);
         }
+        // From force over speed in the local frame to acceleration over rate of the coordinates.
         for (block, site) in blocks.iter_mut().zip(&ws.rollers) {
             let r = self.geometry.pitch_radius + site.motion.radial_offset;
-            let to_speed = [1.0, r, 1.0];
-            let inertia = [self.roller_mass, self.roller_mass * r, self.roller_inertia];
-            for row in 0..3 {
-                for column in 0..3 {
-                    block[(row, column)] *= to_speed[column] / inertia[row];
-                }
-            }
+            let speed = Matrix3::from_diagonal(&Vector3::new(1.0, r, 1.0));
+            let mass = self.roller_mass;
+            let inertia = Vector3::new(mass, mass * r, self.roller_inertia);
+            let inverse = Matrix3::from_diagonal(&inertia.map(|m| 1.0 / m));
+            block.full = inverse * block.full * speed;
+            block.implicit = inverse * block.implicit * speed;
         }
     }
 }

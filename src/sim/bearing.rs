@@ -1,8 +1,7 @@
 //! The model as the integrator sees it: with its workspace, inputs and counts.
 
-use crate::integrate::System;
+use crate::integrate::{DampingBlock, System};
 use crate::model::{Channel, Fault, Forces, HostInputs, Model, Workspace};
-use nalgebra::Matrix3;
 use std::sync::Arc;
 
 pub(super) struct Bearing {
@@ -95,7 +94,7 @@ impl System for Bearing {
         [layout.roller(i), layout.roller(i) + 1, layout.spin(i)]
     }
 
-    fn damping(&self, blocks: &mut [Matrix3<f64>]) {
+    fn damping(&self, blocks: &mut [DampingBlock]) {
         self.model.roller_damping(&self.workspace, blocks);
     }
 }

@@ -1,0 +1,156 @@
+/* State, forces, stepping, inputs, outputs, saving and restoring. */
+#include <math.h>
+
+#include "check.h"
+
+static void check_state_and_derivative(const cagedyn_model *m)
+{
+    int64_t n = cagedyn_model_state_count(m), nq = cagedyn_model_position_count(m), nv = n - nq;
+    double *state = numbers(n), *rate = numbers(n), *a = numbers(nv);
+    cagedyn_sim *sim = cagedyn_sim_new(m);
+    CHECK(sim != NULL);
+    CHECK(cagedyn_sim_get_state(sim, state, n) == CAGEDYN_OK);
+
+    /* The derivative of the present state holds the velocities and the accelerations. */
+    CHECK(cagedyn_sim_derivative(sim, 0.0, state, rate, n) == CAGEDYN_OK);
+    CHECK(cagedyn_sim_accelerations(sim, a, nv) == CAGEDYN_OK);
+    CHECK(memcmp(rate, state + nq, (size_t)nq * sizeof(double)) == 0);
+    CHECK(memcmp(rate + nq, a, (size_t)nv * sizeof(double)) == 0);
+
+    /* The same array for state and rate. */
+    CHECK(cagedyn_sim_derivative(sim, 0.0, state, state, n) == CAGEDYN_OK);
+    CHECK(memcmp(rate, state, (size_t)n * sizeof(double)) == 0);
+
+    /* A changed state is taken over with its time. */
+    double time = -1.0;
+    CHECK(cagedyn_sim_get_state(sim, state, n) == CAGEDYN_OK);
+    state[2] = 50e-6;
+    CHECK(cagedyn_sim_set_state(sim, 0.25, state, n) == CAGEDYN_OK);
+    CHECK(cagedyn_sim_time(sim, &time) == CAGEDYN_OK && time == 0.25);
+    CHECK(cagedyn_sim_get_state(sim, rate, n) == CAGEDYN_OK && rate[2] == 50e-6);
+    cagedyn_sim_free(sim);
+    free(state), free(rate), free(a);
+}
+
+static void check_forces(const cagedyn_model *m)
+{
+    int64_t bodies = cagedyn_model_body_count(m), sources = cagedyn_model_force_source_count(m);
+    int64_t contacts = cagedyn_model_contact_count(m), columns = cagedyn_model_contact_quantity_count(m);
+    double *force = numbers(bodies * sources * 3), *contact = numbers(contacts * columns);
+    cagedyn_sim *sim = cagedyn_sim_new(m);
+    CHECK(cagedyn_sim_body_forces(sim, force, bodies * sources * 3) == CAGEDYN_OK);
+    CHECK(cagedyn_sim_contact_forces(sim, contact, contacts * columns) == CAGEDYN_OK);
+
+    /* At the static start the raceways carry load and weight of the ring. */
+    int64_t ring = cagedyn_model_find_body(m, "inner_ring");
+    int64_t raceway = cagedyn_model_find_force_source(m, "inner_raceway");
+    int64_t load = cagedyn_model_find_force_source(m, "load");
+    double up = force[(ring * sources + raceway) * 3 + 1], down = force[(ring * sources + load) * 3 + 1];
+    CHECK(down == -4900.0);
+    CHECK(fabs(up - (4900.0 + 3.0 * 9.80665)) < 60.0);
+
+    /* The sum over the contacts of one column is the sum the raceways report. */
+    int64_t q = cagedyn_model_find_contact_quantity(m, "normal_force");
+    double sum = 0.0;
+    for (int64_t i = 0; i < contacts; i++) sum += contact[i * columns + q];
+    CHECK(sum > 2.0 * 4900.0);
+    cagedyn_sim_free(sim);
+    free(force), free(contact);
+}
+
+static void check_steps_and_outputs(const cagedyn_model *m)
+{
+    int64_t n = cagedyn_model_output_count(m), states = cagedyn_model_state_count(m);
+    double *all = numbers(n), *one = numbers(states), *many = numbers(states), count[7], time = 0.0;
+    cagedyn_sim *sim = cagedyn_sim_new(m), *other = cagedyn_sim_new(m);
+
+    /* Many small calls give the trajectory of one call. */
+    CHECK(cagedyn_sim_advance_to(sim, 2e-3) == CAGEDYN_OK);
+    for (int i = 1; i <= 333; i++) CHECK(cagedyn_sim_advance_to(other, 2e-3 * i / 333.0) == CAGEDYN_OK);
+    CHECK(cagedyn_sim_get_state(sim, one, states) == CAGEDYN_OK);
+    CHECK(cagedyn_sim_get_state(other, many, states) == CAGEDYN_OK);
+    CHECK(memcmp(one, many, (size_t)states * sizeof(double)) == 0);
+    CHECK(cagedyn_sim_step(sim, 1e-3) == CAGEDYN_OK);
+    CHECK(cagedyn_sim_time(sim, &time) == CAGEDYN_OK && fabs(time - 3e-3) < 1e-15);
+
+    CHECK(cagedyn_sim_get_outputs(sim, all, n) == CAGEDYN_OK);
+    for (int64_t i = 0; i < n; i++) {
+        double value = NAN;
+        CHECK(cagedyn_sim_get_output(sim, i, &value) == CAGEDYN_OK);
+        CHECK(value == all[i] && isfinite(value));
+    }
+    CHECK(cagedyn_statistic_count() == 7);
+    CHECK(strcmp(cagedyn_statistic_name(0), "steps") == 0);
+    CHECK(cagedyn_statistic_name(7)[0] == '\0');
+    CHECK(cagedyn_sim_statistics(sim, count, 7) == CAGEDYN_OK && count[0] > 100.0);
+    cagedyn_sim_free(sim);
+    cagedyn_sim_free(other);
+    free(all), free(one), free(many);
+}
+
+static void check_inputs(const cagedyn_model *m)
+{
+    cagedyn_sim *sim = cagedyn_sim_new(m);
+    int64_t load = cagedyn_model_find_input(m, "load.z");
+    int64_t ring = cagedyn_model_find_output(m, "inner_ring.z");
+    double value = 0.0, before = 0.0, after = 0.0;
+    CHECK(cagedyn_sim_get_input(sim, load, &value) == CAGEDYN_OK && value == -4900.0);
+    CHECK(cagedyn_sim_advance_to(sim, 1e-3) == CAGEDYN_OK);
+    CHECK(cagedyn_sim_get_output(sim, ring, &before) == CAGEDYN_OK);
+    CHECK(cagedyn_sim_set_input(sim, load, -9800.0) == CAGEDYN_OK);
+    CHECK(cagedyn_sim_get_input(sim, load, &value) == CAGEDYN_OK && value == -9800.0);
+    CHECK(cagedyn_sim_step(sim, 4e-3) == CAGEDYN_OK);
+    CHECK(cagedyn_sim_get_output(sim, ring, &after) == CAGEDYN_OK);
+    CHECK(after < before - 1e-6);
+    CHECK(cagedyn_sim_release_input(sim, load) == CAGEDYN_OK);
+    CHECK(cagedyn_sim_get_input(sim, load, &value) == CAGEDYN_OK && value == -4900.0);
+    cagedyn_sim_free(sim);
+}
+
+static void check_save_and_reset(const cagedyn_model *m)
+{
+    int64_t n = cagedyn_model_state_count(m);
+    double *first = numbers(n), *again = numbers(n), *start = numbers(n);
+    size_t bytes = (size_t)n * sizeof(double);
+    cagedyn_sim *sim = cagedyn_sim_new(m), *other = cagedyn_sim_new(m);
+    int64_t length = cagedyn_sim_save_length(sim);
+    double *saved = numbers(length);
+    CHECK(cagedyn_sim_get_state(sim, start, n) == CAGEDYN_OK);
+    CHECK(cagedyn_sim_set_input(sim, 0, -300.0) == CAGEDYN_OK);
+    CHECK(cagedyn_sim_advance_to(sim, 1.2345e-3) == CAGEDYN_OK);
+    CHECK(cagedyn_sim_save(sim, saved, length) == CAGEDYN_OK);
+    CHECK(cagedyn_sim_advance_to(sim, 3e-3) == CAGEDYN_OK);
+    CHECK(cagedyn_sim_get_state(sim, first, n) == CAGEDYN_OK);
+    CHECK(cagedyn_sim_restore(other, saved, length) == CAGEDYN_OK);
+    CHECK(cagedyn_sim_advance_to(other, 3e-3) == CAGEDYN_OK);
+    CHECK(cagedyn_sim_get_state(other, again, n) == CAGEDYN_OK);
+    CHECK(memcmp(first, again, bytes) == 0);
+
+    CHECK(cagedyn_sim_reset(sim) == CAGEDYN_OK);
+    CHECK(cagedyn_sim_get_state(sim, again, n) == CAGEDYN_OK && memcmp(start, again, bytes) == 0);
+
+    saved[1] += 1.0;
+    CHECK_FAILS(cagedyn_sim_restore(other, saved, length), CAGEDYN_ERR_BAD_SNAPSHOT, "another scene");
+    CHECK(cagedyn_sim_get_state(other, again, n) == CAGEDYN_OK && memcmp(first, again, bytes) == 0);
+    cagedyn_sim_free(sim);
+    cagedyn_sim_free(other);
+    free(first), free(again), free(start), free(saved);
+}
+
+int main(int argc, char **argv)
+{
+    cagedyn_model *model = load_model(argc, argv);
+    check_state_and_derivative(model);
+    check_forces(model);
+    check_steps_and_outputs(model);
+    check_inputs(model);
+    check_save_and_reset(model);
+
+    /* A simulation outlives its model. */
+    cagedyn_sim *sim = cagedyn_sim_new(model);
+    cagedyn_model_free(model);
+    CHECK(cagedyn_sim_step(sim, 1e-4) == CAGEDYN_OK);
+    cagedyn_sim_free(sim);
+    cagedyn_sim_free(NULL);
+    return failures != 0;
+}

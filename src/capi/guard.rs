@@ -1,0 +1,169 @@
+//! What every entry of the C ABI passes through: error memory, panic guard, argument checks.
+
+use crate::error::{Error, Result, Status};
+use std::cell::RefCell;
+use std::ffi::{CStr, CString, c_char};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+thread_local! {
+    static LAST_ERROR: RefCell<(i32, CString)> = RefCell::new((0, CString::default()));
+}
+
+/// Clears the error, runs `entry`, and returns its value, or `on_failure` after storing the error. A panic becomes
+/// [`Status::Internal`].
+pub fn guard<R>(on_failure: impl FnOnce(Status) -> R, entry: impl FnOnce() -> Result<R>) -> R {
+    if last_status() != 0 {
+        store(0, CString::default());
+    }
+    let error = match catch_unwind(AssertUnwindSafe(entry)) {
+        Ok(Ok(value)) => return value,
+        Ok(Err(error)) => error,
+        Err(panic) => {
+            let text = panic.downcast_ref::<&str>().map(|s| (*s).to_owned());
+            let text = text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default();
+            Error::new(Status::Internal, format!("internal defect: {text}"))
+        }
+    };
+    store(error.status as i32, to_c_string(&error.message));
+    on_failure(error.status)
+}
+
+/// [`guard`] for entries that return a status.
+pub fn status(entry: impl FnOnce() -> Result<()>) -> i32 {
+    guard(|s| s as i32, || entry().map(|()| 0))
+}
+
+/// [`guard`] for entries that return a count or an index; failures are negative status codes.
+pub fn count(entry: impl FnOnce() -> Result<usize>) -> i64 {
+    guard(|s| s as i64, || entry().map(|n| i64::try_from(n).unwrap_or(i64::MAX)))
+}
+
+/// Text of the last error of this thread, empty after a success.
+pub fn last_message() -> *const c_char {
+    LAST_ERROR.try_with(|e| e.try_borrow().map_or(EMPTY.as_ptr(), |e| e.1.as_ptr())).unwrap_or(EMPTY.as_ptr())
+}
+
+/// Status of the last call in this thread.
+pub fn last_status() -> i32 {
+    LAST_ERROR.try_with(|e| e.try_borrow().map_or(0, |e| e.0)).unwrap_or(0)
+}
+
+/// The empty string that stands for "no name".
+pub const EMPTY: &CStr = c"";
+
+fn store(status: i32, message: CString) {
+    // A thread that is being torn down has no error memory left; its calls still return their status.
+    let _ = LAST_ERROR.try_with(|e| e.try_borrow_mut().map(|mut e| *e = (status, message)));
+}
+
+/// A C string of `text`; NUL bytes inside become spaces.
+pub fn to_c_string(text: &str) -> CString {
+    CString::new(text.replace('\0', " ")).unwrap_or_default()
+}
+
+/// The text behind a C string.
+///
+/// # Safety
+/// `text` is NULL or points to a NUL-terminated string that lives as long as the result.
+pub unsafe fn text<'a>(name: &str, text: *const c_char) -> Result<&'a str> {
+    if text.is_null() {
+        return Err(null(name));
+    }
+    // SAFETY: not NULL; NUL-terminated by the contract of the ABI.
+    let text = unsafe { CStr::from_ptr(text) };
+    text.to_str().map_err(|e| Error::new(Status::BadText, format!("{name}: not valid UTF-8 ({e})")))
+}
+
+/// The object behind a handle.
+///
+/// # Safety
+/// `handle` is NULL or came from the matching constructor and was not freed.
+pub unsafe fn shared<'a, T>(name: &str, handle: *const T) -> Result<&'a T> {
+    // SAFETY: NULL is checked by as_ref; validity is the contract of the ABI.
+    unsafe { handle.as_ref() }.ok_or_else(|| null(name))
+}
+
+/// The object behind a handle, for changing it.
+///
+/// # Safety
+/// As [`shared`], and no other thread uses the handle during the call.
+pub unsafe fn exclusive<'a, T>(name: &str, handle: *mut T) -> Result<&'a mut T> {
+    // SAFETY: NULL is checked by as_mut; validity and exclusiveness are the contract of the ABI.
+    unsafe { handle.as_mut() }.ok_or_else(|| null(name))
+}
+
+/// Copies a caller's array into `to`.
+///
+/// # Safety
+/// `from` is NULL or points to `length` numbers.
+pub unsafe fn read_array(name: &str, from: *const f64, length: i64, to: &mut [f64]) -> Result<()> {
+    check_array(name, from.is_null(), length, to.len())?;
+    // SAFETY: both hold to.len() numbers; bytes may be copied whatever the alignment of `from`.
+    unsafe { std::ptr::copy(from.cast::<u8>(), to.as_mut_ptr().cast::<u8>(), size_of_val(to)) };
+    Ok(())
+}
+
+/// Copies `from` into a caller's array.
+///
+/// # Safety
+/// `to` is NULL or points to `length` numbers.
+pub unsafe fn write_array(name: &str, from: &[f64], to: *mut f64, length: i64) -> Result<()> {
+    check_array(name, to.is_null(), length, from.len())?;
+    // SAFETY: both hold from.len() numbers; bytes may be copied whatever the alignment of `to`.
+    unsafe { std::ptr::copy(from.as_ptr().cast::<u8>(), to.cast::<u8>(), size_of_val(from)) };
+    Ok(())
+}
+
+/// Checks a caller's array before anything is computed for it.
+pub fn check_array(name: &str, is_null: bool, length: i64, expected: usize) -> Result<()> {
+    if is_null {
+        return Err(null(name));
+    }
+    if usize::try_from(length) != Ok(expected) {
+        return Err(Error::new(Status::WrongSize, format!("{name}: length {length}, must be {expected}")));
+    }
+    Ok(())
+}
+
+/// An index given by the caller.
+pub fn index(name: &str, index: i64, count: usize) -> Result<usize> {
+    usize::try_from(index)
+        .ok()
+        .filter(|&i| i < count)
+        .ok_or_else(|| Error::new(Status::BadIndex, format!("{name}: index {index}, there are {count}")))
+}
+
+fn null(name: &str) -> Error {
+    Error::new(Status::NullArgument, format!("{name}: is NULL"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn message() -> String {
+        // SAFETY: the pointer is a C string that lives until the next guarded call of this thread.
+        unsafe { CStr::from_ptr(last_message()) }.to_string_lossy().into_owned()
+    }
+
+    #[test]
+    fn panics_become_errors_and_are_cleared_by_the_next_call() {
+        let hook = std::panic::take_hook();
+        std::panic::set_hook(Box::new(|_| {}));
+        let code = status(|| panic!("broken {}", 7));
+        std::panic::set_hook(hook);
+        assert_eq!((code, last_status()), (-99, -99));
+        assert!(message().contains("broken 7"));
+        assert_eq!(status(|| Ok(())), 0);
+        assert_eq!((last_status(), message().as_str()), (0, ""));
+    }
+
+    #[test]
+    fn lengths_and_indices_are_checked() {
+        assert!(check_array("a", false, -1, 3).is_err());
+        assert!(check_array("a", true, 3, 3).is_err());
+        assert!(check_array("a", false, 3, 3).is_ok());
+        assert!(index("i", -1, 3).is_err() && index("i", 3, 3).is_err());
+        assert_eq!(index("i", 2, 3), Ok(2));
+    }
+}

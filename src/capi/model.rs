@@ -1,0 +1,487 @@
+//! Models in C: creation and introspection.
+
+use super::guard::{EMPTY, count, exclusive, guard, index, shared, text, to_c_string};
+use crate::error::{Error, Result, Status};
+use crate::model::{CONTACT_QUANTITIES, FORCE_SOURCES, Model};
+use crate::scene::Scene;
+use std::ffi::{CString, c_char};
+use std::sync::Arc;
+
+/// A compiled scene. Immutable; may be used from several threads at a time.
+#[allow(non_camel_case_types)]
+pub struct cagedyn_model {
+    pub(super) model: Arc<Model>,
+    scene: CString,
+    states: Vec<Item>,
+    inputs: Vec<Item>,
+    outputs: Vec<Item>,
+    contacts: Vec<Item>,
+    bodies: Vec<Item>,
+    quantities: Vec<Item>,
+    sources: Vec<Item>,
+}
+
+/// Texts of a named item.
+struct Item {
+    name: CString,
+    unit: CString,
+    description: CString,
+}
+
+impl Item {
+    fn new(name: &str, unit: &str, description: &str) -> Self {
+        Self { name: to_c_string(name), unit: to_c_string(unit), description: to_c_string(description) }
+    }
+}
+
+impl cagedyn_model {
+    fn new(model: Model) -> Self {
+        let plain = |names: Vec<String>| names.iter().map(|n| Item::new(n, "", "")).collect();
+        let states = model.state_infos();
+        let inputs = model.input_infos();
+        Self {
+            scene: to_c_string(&model.scene().to_json()),
+            states: states.iter().map(|s| Item::new(&s.name, s.unit, s.description)).collect(),
+            inputs: inputs.iter().map(|s| Item::new(&s.name, s.unit, s.description)).collect(),
+            outputs: model.channels().iter().map(|c| Item::new(&c.name, c.unit, c.description)).collect(),
+            contacts: plain(model.contact_names()),
+            bodies: plain(model.body_names()),
+            quantities: CONTACT_QUANTITIES.iter().map(|q| Item::new(q.name, q.unit, q.description)).collect(),
+            sources: FORCE_SOURCES.iter().map(|s| Item::new(s, "", "")).collect(),
+            model: Arc::new(model),
+        }
+    }
+}
+
+/// A handle, or NULL with the error stored.
+fn create(build: impl FnOnce() -> Result<Model>) -> *mut cagedyn_model {
+    guard(|_| std::ptr::null_mut(), || Ok(Box::into_raw(Box::new(cagedyn_model::new(build()?)))))
+}
+
+/// Length of one list of a model.
+fn length(model: *const cagedyn_model, list: impl FnOnce(&cagedyn_model) -> &Vec<Item>) -> i64 {
+    // SAFETY: the caller passes a live handle or NULL.
+    count(|| unsafe { shared("model", model) }.map(|m| list(m).len()))
+}
+
+/// One text of an item of a list, or "" with the error stored.
+fn item(
+    model: *const cagedyn_model,
+    i: i64,
+    list: impl FnOnce(&cagedyn_model) -> &Vec<Item>,
+    field: impl FnOnce(&Item) -> &CString,
+) -> *const c_char {
+    guard(
+        |_| EMPTY.as_ptr(),
+        || {
+            // SAFETY: the caller passes a live handle or NULL.
+            let items = list(unsafe { shared("model", model) }?);
+            let i = index("index", i, items.len())?;
+            Ok(field(&items[i]).as_ptr())
+        },
+    )
+}
+
+/// Index of the item of this name, or a negative status code.
+fn find(
+    model: *const cagedyn_model,
+    name: *const c_char,
+    list: impl FnOnce(&cagedyn_model) -> &Vec<Item>,
+) -> i64 {
+    count(|| {
+        // SAFETY: the caller passes a live handle or NULL, and a NUL-terminated text or NULL.
+        let (items, name) = unsafe { (list(shared("model", model)?), text("name", name)?) };
+        let found = items.iter().position(|item| item.name.to_bytes() == name.as_bytes());
+        found.ok_or_else(|| Error::new(Status::UnknownName, format!("name: there is no '{name}'")))
+    })
+}
+
+/// Creates a model from the JSON text of a scene. Returns NULL on failure. Free it with cagedyn_model_free().
+///
+/// # Safety
+/// `json` is NULL or a NUL-terminated text.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_from_json(json: *const c_char) -> *mut cagedyn_model {
+    // SAFETY: see above.
+    create(|| Model::from_json(unsafe { text("json", json) }?))
+}
+
+/// Creates a model from the JSON text of a scene with some values replaced. `overrides` has one replacement per line,
+/// "path=value", for example "inner_ring.speed.constant=-104.7"; the value null removes an optional block. Returns
+/// NULL on failure.
+///
+/// # Safety
+/// Both texts are NULL or NUL-terminated.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_from_json_with(
+    json: *const c_char,
+    overrides: *const c_char,
+) -> *mut cagedyn_model {
+    create(|| {
+        // SAFETY: see above.
+        let (json, overrides) = unsafe { (text("json", json)?, text("overrides", overrides)?) };
+        let lines = overrides.lines().map(str::trim).filter(|line| !line.is_empty());
+        let pairs: Vec<(&str, &str)> = lines
+            .map(|line| {
+                let pair = line.split_once('=').map(|(path, value)| (path.trim(), value.trim()));
+                let text = format!("overrides: '{line}' is not of the form path=value");
+                pair.ok_or_else(|| Error::new(Status::BadValue, text))
+            })
+            .collect::<Result<_>>()?;
+        Model::new(Scene::from_json_with(json, pairs)?)
+    })
+}
+
+/// Creates a model from a scene file. Returns NULL on failure.
+///
+/// # Safety
+/// `path` is NULL or a NUL-terminated text.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_from_file(path: *const c_char) -> *mut cagedyn_model {
+    create(|| {
+        // SAFETY: see above.
+        let path = unsafe { text("path", path) }?;
+        let json = std::fs::read_to_string(path)
+            .map_err(|e| Error::new(Status::File, format!("path: cannot read '{path}': {e}")))?;
+        Model::from_json(&json)
+    })
+}
+
+/// Frees a model. Simulations made from it stay valid. NULL is ignored.
+///
+/// # Safety
+/// `model` is NULL or a live handle; it must not be used afterwards.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_free(model: *mut cagedyn_model) {
+    guard(
+        |_| (),
+        || {
+            if !model.is_null() {
+                // SAFETY: the handle came from Box::into_raw and is given back here.
+                drop(unsafe { Box::from_raw(exclusive("model", model)?) });
+            }
+            Ok(())
+        },
+    );
+}
+
+/// JSON text of the scene the model was made from, replacements included. "" on failure. Lives as long as the model.
+///
+/// # Safety
+/// `model` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_scene_json(model: *const cagedyn_model) -> *const c_char {
+    // SAFETY: see above.
+    guard(|_| EMPTY.as_ptr(), || Ok(unsafe { shared("model", model) }?.scene.as_ptr()))
+}
+
+/// Number of positions: the first part of the state vector. Negative status code on failure.
+///
+/// # Safety
+/// `model` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_position_count(model: *const cagedyn_model) -> i64 {
+    // SAFETY: see above.
+    count(|| Ok(unsafe { shared("model", model) }?.model.layout().positions()))
+}
+
+/// Number of velocities: the second part of the state vector. Negative status code on failure.
+///
+/// # Safety
+/// `model` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_velocity_count(model: *const cagedyn_model) -> i64 {
+    // SAFETY: see above.
+    count(|| Ok(unsafe { shared("model", model) }?.model.layout().velocities()))
+}
+
+/// Number of states. Negative status code on failure.
+///
+/// # Safety
+/// `model` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_state_count(model: *const cagedyn_model) -> i64 {
+    length(model, |m| &m.states)
+}
+
+/// Name of a state; "" on failure. Lives as long as the model.
+///
+/// # Safety
+/// `model` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_state_name(model: *const cagedyn_model, index: i64) -> *const c_char {
+    item(model, index, |m| &m.states, |item| &item.name)
+}
+
+/// SI unit ("1" for ratios) of a state; "" on failure. Lives as long as the model.
+///
+/// # Safety
+/// `model` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_state_unit(model: *const cagedyn_model, index: i64) -> *const c_char {
+    item(model, index, |m| &m.states, |item| &item.unit)
+}
+
+/// Meaning of a state; "" on failure. Lives as long as the model.
+///
+/// # Safety
+/// `model` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_state_description(
+    model: *const cagedyn_model,
+    index: i64,
+) -> *const c_char {
+    item(model, index, |m| &m.states, |item| &item.description)
+}
+
+/// Index of the state of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
+///
+/// # Safety
+/// `model` is NULL or a live handle, `name` NULL or a NUL-terminated text.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_find_state(model: *const cagedyn_model, name: *const c_char) -> i64 {
+    find(model, name, |m| &m.states)
+}
+
+/// Number of inputs. Negative status code on failure.
+///
+/// # Safety
+/// `model` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_input_count(model: *const cagedyn_model) -> i64 {
+    length(model, |m| &m.inputs)
+}
+
+/// Name of an input; "" on failure. Lives as long as the model.
+///
+/// # Safety
+/// `model` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_input_name(model: *const cagedyn_model, index: i64) -> *const c_char {
+    item(model, index, |m| &m.inputs, |item| &item.name)
+}
+
+/// SI unit ("1" for ratios) of an input; "" on failure. Lives as long as the model.
+///
+/// # Safety
+/// `model` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_input_unit(model: *const cagedyn_model, index: i64) -> *const c_char {
+    item(model, index, |m| &m.inputs, |item| &item.unit)
+}
+
+/// Meaning of an input; "" on failure. Lives as long as the model.
+///
+/// # Safety
+/// `model` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_input_description(
+    model: *const cagedyn_model,
+    index: i64,
+) -> *const c_char {
+    item(model, index, |m| &m.inputs, |item| &item.description)
+}
+
+/// Index of the input of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
+///
+/// # Safety
+/// `model` is NULL or a live handle, `name` NULL or a NUL-terminated text.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_find_input(model: *const cagedyn_model, name: *const c_char) -> i64 {
+    find(model, name, |m| &m.inputs)
+}
+
+/// Number of outputs. Negative status code on failure.
+///
+/// # Safety
+/// `model` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_output_count(model: *const cagedyn_model) -> i64 {
+    length(model, |m| &m.outputs)
+}
+
+/// Name of an output; "" on failure. Lives as long as the model.
+///
+/// # Safety
+/// `model` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_output_name(model: *const cagedyn_model, index: i64) -> *const c_char {
+    item(model, index, |m| &m.outputs, |item| &item.name)
+}
+
+/// SI unit ("1" for ratios) of an output; "" on failure. Lives as long as the model.
+///
+/// # Safety
+/// `model` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_output_unit(model: *const cagedyn_model, index: i64) -> *const c_char {
+    item(model, index, |m| &m.outputs, |item| &item.unit)
+}
+
+/// Meaning of an output; "" on failure. Lives as long as the model.
+///
+/// # Safety
+/// `model` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_output_description(
+    model: *const cagedyn_model,
+    index: i64,
+) -> *const c_char {
+    item(model, index, |m| &m.outputs, |item| &item.description)
+}
+
+/// Index of the output of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
+///
+/// # Safety
+/// `model` is NULL or a live handle, `name` NULL or a NUL-terminated text.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_find_output(model: *const cagedyn_model, name: *const c_char) -> i64 {
+    find(model, name, |m| &m.outputs)
+}
+
+/// Number of contacts: rows of cagedyn_sim_contact_forces(). Negative status code on failure.
+///
+/// # Safety
+/// `model` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_contact_count(model: *const cagedyn_model) -> i64 {
+    length(model, |m| &m.contacts)
+}
+
+/// Name of a contact that can exist; "" on failure. Lives as long as the model.
+///
+/// # Safety
+/// `model` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_contact_name(
+    model: *const cagedyn_model,
+    index: i64,
+) -> *const c_char {
+    item(model, index, |m| &m.contacts, |item| &item.name)
+}
+
+/// Index of the contact that can exist of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
+///
+/// # Safety
+/// `model` is NULL or a live handle, `name` NULL or a NUL-terminated text.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_find_contact(model: *const cagedyn_model, name: *const c_char) -> i64 {
+    find(model, name, |m| &m.contacts)
+}
+
+/// Number of contact quantities: columns of cagedyn_sim_contact_forces(). Negative status code on failure.
+///
+/// # Safety
+/// `model` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_contact_quantity_count(model: *const cagedyn_model) -> i64 {
+    length(model, |m| &m.quantities)
+}
+
+/// Name of a contact quantity; "" on failure. Lives as long as the model.
+///
+/// # Safety
+/// `model` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_contact_quantity_name(
+    model: *const cagedyn_model,
+    index: i64,
+) -> *const c_char {
+    item(model, index, |m| &m.quantities, |item| &item.name)
+}
+
+/// SI unit ("1" for ratios) of a contact quantity; "" on failure. Lives as long as the model.
+///
+/// # Safety
+/// `model` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_contact_quantity_unit(
+    model: *const cagedyn_model,
+    index: i64,
+) -> *const c_char {
+    item(model, index, |m| &m.quantities, |item| &item.unit)
+}
+
+/// Meaning of a contact quantity; "" on failure. Lives as long as the model.
+///
+/// # Safety
+/// `model` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_contact_quantity_description(
+    model: *const cagedyn_model,
+    index: i64,
+) -> *const c_char {
+    item(model, index, |m| &m.quantities, |item| &item.description)
+}
+
+/// Index of the contact quantity of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
+///
+/// # Safety
+/// `model` is NULL or a live handle, `name` NULL or a NUL-terminated text.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_find_contact_quantity(
+    model: *const cagedyn_model,
+    name: *const c_char,
+) -> i64 {
+    find(model, name, |m| &m.quantities)
+}
+
+/// Number of bodies: blocks of cagedyn_sim_body_forces(). Negative status code on failure.
+///
+/// # Safety
+/// `model` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_body_count(model: *const cagedyn_model) -> i64 {
+    length(model, |m| &m.bodies)
+}
+
+/// Name of a body; "" on failure. Lives as long as the model.
+///
+/// # Safety
+/// `model` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_body_name(model: *const cagedyn_model, index: i64) -> *const c_char {
+    item(model, index, |m| &m.bodies, |item| &item.name)
+}
+
+/// Index of the body of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
+///
+/// # Safety
+/// `model` is NULL or a live handle, `name` NULL or a NUL-terminated text.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_find_body(model: *const cagedyn_model, name: *const c_char) -> i64 {
+    find(model, name, |m| &m.bodies)
+}
+
+/// Number of force sources: rows of a block of cagedyn_sim_body_forces(). Negative status code on failure.
+///
+/// # Safety
+/// `model` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_force_source_count(model: *const cagedyn_model) -> i64 {
+    length(model, |m| &m.sources)
+}
+
+/// Name of a force source; "" on failure. Lives as long as the model.
+///
+/// # Safety
+/// `model` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_force_source_name(
+    model: *const cagedyn_model,
+    index: i64,
+) -> *const c_char {
+    item(model, index, |m| &m.sources, |item| &item.name)
+}
+
+/// Index of the force source of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
+///
+/// # Safety
+/// `model` is NULL or a live handle, `name` NULL or a NUL-terminated text.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_find_force_source(
+    model: *const cagedyn_model,
+    name: *const c_char,
+) -> i64 {
+    find(model, name, |m| &m.sources)
+}

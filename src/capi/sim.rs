@@ -1,0 +1,358 @@
+//! Simulations in C.
+
+use super::guard::{check_array, count, exclusive, guard, index, read_array, shared, status, write_array};
+use super::model::cagedyn_model;
+use crate::error::Result;
+use crate::sim::Sim;
+use std::ffi::c_char;
+
+/// A running simulation. May be used by one thread at a time.
+#[allow(non_camel_case_types)]
+pub struct cagedyn_sim {
+    sim: Sim,
+    /// Copies of the caller's arrays, so that overlapping arrays are harmless.
+    state: Vec<f64>,
+    result: Vec<f64>,
+}
+
+/// Names of the statistics, NUL-terminated.
+const STATISTICS: [&str; 7] = [
+    "steps\0",
+    "rejected_steps\0",
+    "failed_steps\0",
+    "evaluations\0",
+    "events\0",
+    "smallest_step\0",
+    "largest_step\0",
+];
+
+/// Runs `entry` on a simulation that it may change.
+///
+/// # Safety
+/// `sim` is NULL or a live handle that no other thread uses.
+unsafe fn with(sim: *mut cagedyn_sim, entry: impl FnOnce(&mut cagedyn_sim) -> Result<()>) -> i32 {
+    // SAFETY: see above.
+    status(|| entry(unsafe { exclusive("sim", sim) }?))
+}
+
+/// Creates a simulation at the start of the model's scene. It keeps what it needs of the model. Returns NULL on
+/// failure. Free it with cagedyn_sim_free().
+///
+/// # Safety
+/// `model` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_new(model: *const cagedyn_model) -> *mut cagedyn_sim {
+    guard(
+        |_| std::ptr::null_mut(),
+        || {
+            // SAFETY: see above.
+            let sim = Sim::new(unsafe { shared("model", model) }?.model.clone())?;
+            let (states, outputs) = (sim.state().len(), sim.channels().len());
+            let (state, result) = (vec![0.0; states], vec![0.0; states.max(outputs)]);
+            Ok(Box::into_raw(Box::new(cagedyn_sim { sim, state, result })))
+        },
+    )
+}
+
+/// Frees a simulation. NULL is ignored.
+///
+/// # Safety
+/// `sim` is NULL or a live handle; it must not be used afterwards.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_free(sim: *mut cagedyn_sim) {
+    guard(
+        |_| (),
+        || {
+            if !sim.is_null() {
+                // SAFETY: the handle came from Box::into_raw and is given back here.
+                drop(unsafe { Box::from_raw(sim) });
+            }
+            Ok(())
+        },
+    );
+}
+
+/// Back to the start of the scene; inputs follow the scene again, statistics start at zero.
+///
+/// # Safety
+/// `sim` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_reset(sim: *mut cagedyn_sim) -> i32 {
+    // SAFETY: see above.
+    unsafe { with(sim, |s| s.sim.reset()) }
+}
+
+/// Writes the simulated time in s to `time`.
+///
+/// # Safety
+/// `sim` is NULL or a live handle, `time` NULL or a valid pointer.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_time(sim: *const cagedyn_sim, time: *mut f64) -> i32 {
+    // SAFETY: see above.
+    status(|| unsafe { write_array("time", &[shared("sim", sim)?.sim.time()], time, 1) })
+}
+
+/// Writes the state to `state` (length: state count).
+///
+/// # Safety
+/// `sim` is NULL or a live handle, `state` NULL or an array of `length` numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_get_state(sim: *const cagedyn_sim, state: *mut f64, length: i64) -> i32 {
+    // SAFETY: see above.
+    status(|| unsafe { write_array("state", shared("sim", sim)?.sim.state(), state, length) })
+}
+
+/// Sets time (s) and state (length: state count) and restarts the integrator. On failure nothing changes.
+///
+/// # Safety
+/// `sim` is NULL or a live handle, `state` NULL or an array of `length` numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_set_state(
+    sim: *mut cagedyn_sim,
+    time: f64,
+    state: *const f64,
+    length: i64,
+) -> i32 {
+    // SAFETY: see above.
+    unsafe {
+        with(sim, |s| {
+            read_array("state", state, length, &mut s.state)?;
+            s.sim.set_state(time, &s.state)
+        })
+    }
+}
+
+/// Writes the rate of an arbitrary state at time `t` (s) to `rate`, for hosts with their own integrator: the
+/// velocities, then the accelerations. Both arrays have the length of the state and may be the same. The
+/// simulation's own state does not change.
+///
+/// # Safety
+/// `sim` is NULL or a live handle, the arrays are NULL or hold `length` numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_derivative(
+    sim: *mut cagedyn_sim,
+    t: f64,
+    state: *const f64,
+    rate: *mut f64,
+    length: i64,
+) -> i32 {
+    // SAFETY: see above.
+    unsafe {
+        with(sim, |s| {
+            check_array("rate", rate.is_null(), length, s.state.len())?;
+            read_array("state", state, length, &mut s.state)?;
+            let n = s.state.len();
+            s.sim.derivative(t, &s.state, &mut s.result[..n])?;
+            write_array("rate", &s.result[..n], rate, length)
+        })
+    }
+}
+
+/// Advances by `dt` >= 0 seconds. On failure time and state do not change.
+///
+/// # Safety
+/// `sim` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_step(sim: *mut cagedyn_sim, dt: f64) -> i32 {
+    // SAFETY: see above.
+    unsafe { with(sim, |s| s.sim.step(dt)) }
+}
+
+/// Advances to time `t` (s), not before the present time. On failure time and state do not change.
+///
+/// # Safety
+/// `sim` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_advance_to(sim: *mut cagedyn_sim, t: f64) -> i32 {
+    // SAFETY: see above.
+    unsafe { with(sim, |s| s.sim.advance_to(t)) }
+}
+
+/// Writes the accelerations at the present state (length: velocity count, that is the states from position count on).
+///
+/// # Safety
+/// `sim` is NULL or a live handle, `out` NULL or an array of `length` numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_accelerations(sim: *mut cagedyn_sim, out: *mut f64, length: i64) -> i32 {
+    // SAFETY: see above.
+    unsafe { with(sim, |s| write_array("out", &s.sim.forces()?.accelerations, out, length)) }
+}
+
+/// Writes the forces of all contacts at the present state: one row per contact, one column per contact quantity,
+/// rows one after the other (length: contact count times contact quantity count).
+///
+/// # Safety
+/// `sim` is NULL or a live handle, `out` NULL or an array of `length` numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_contact_forces(
+    sim: *mut cagedyn_sim,
+    out: *mut f64,
+    length: i64,
+) -> i32 {
+    // SAFETY: see above.
+    unsafe { with(sim, |s| write_array("out", s.sim.forces()?.contacts.as_flattened(), out, length)) }
+}
+
+/// Writes the forces on all bodies by source at the present state: for every body a block with one row per force
+/// source of (force to the right in N, force upwards in N, moment about the body's centre in N m) (length: body
+/// count times force source count times 3).
+///
+/// # Safety
+/// `sim` is NULL or a live handle, `out` NULL or an array of `length` numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_body_forces(sim: *mut cagedyn_sim, out: *mut f64, length: i64) -> i32 {
+    // SAFETY: see above.
+    unsafe {
+        with(sim, |s| {
+            let bodies = s.sim.forces()?.bodies.as_flattened().as_flattened();
+            write_array("out", bodies, out, length)
+        })
+    }
+}
+
+/// Writes the present value of an input to `value`.
+///
+/// # Safety
+/// `sim` is NULL or a live handle, `value` NULL or a valid pointer.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_get_input(sim: *const cagedyn_sim, input: i64, value: *mut f64) -> i32 {
+    status(|| {
+        // SAFETY: see above.
+        let sim = &unsafe { shared("sim", sim) }?.sim;
+        let input = index("input", input, sim.model().input_count())?;
+        // SAFETY: see above.
+        unsafe { write_array("value", &[sim.input(input)?], value, 1) }
+    })
+}
+
+/// Holds an input at `value` from now on, instead of the scene's function of time.
+///
+/// # Safety
+/// `sim` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_set_input(sim: *mut cagedyn_sim, input: i64, value: f64) -> i32 {
+    // SAFETY: see above.
+    unsafe {
+        with(sim, |s| {
+            let input = index("input", input, s.sim.model().input_count())?;
+            s.sim.set_input(input, value)
+        })
+    }
+}
+
+/// Lets an input follow the scene again.
+///
+/// # Safety
+/// `sim` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_release_input(sim: *mut cagedyn_sim, input: i64) -> i32 {
+    // SAFETY: see above.
+    unsafe {
+        with(sim, |s| {
+            let input = index("input", input, s.sim.model().input_count())?;
+            s.sim.release_input(input)
+        })
+    }
+}
+
+/// Writes all outputs at the present state (length: output count).
+///
+/// # Safety
+/// `sim` is NULL or a live handle, `out` NULL or an array of `length` numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_get_outputs(sim: *mut cagedyn_sim, out: *mut f64, length: i64) -> i32 {
+    // SAFETY: see above.
+    unsafe {
+        with(sim, |s| {
+            let n = s.sim.channels().len();
+            s.sim.outputs(&mut s.result[..n])?;
+            write_array("out", &s.result[..n], out, length)
+        })
+    }
+}
+
+/// Writes one output at the present state to `value`.
+///
+/// # Safety
+/// `sim` is NULL or a live handle, `value` NULL or a valid pointer.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_get_output(sim: *mut cagedyn_sim, output: i64, value: *mut f64) -> i32 {
+    // SAFETY: see above.
+    unsafe {
+        with(sim, |s| {
+            let output = index("output", output, s.sim.channels().len())?;
+            write_array("value", &[s.sim.output(output)?], value, 1)
+        })
+    }
+}
+
+/// Length of the array for cagedyn_sim_save(); constant over the life of a simulation. Negative status code on
+/// failure.
+///
+/// # Safety
+/// `sim` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_save_length(sim: *const cagedyn_sim) -> i64 {
+    // SAFETY: see above.
+    count(|| Ok(unsafe { shared("sim", sim) }?.sim.save_len()))
+}
+
+/// Writes everything the future of the simulation depends on (length: save length). After cagedyn_sim_restore() into
+/// a simulation of the same scene, with the same build of the library, it continues with bit-identical results.
+///
+/// # Safety
+/// `sim` is NULL or a live handle, `out` NULL or an array of `length` numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_save(sim: *const cagedyn_sim, out: *mut f64, length: i64) -> i32 {
+    // SAFETY: see above.
+    status(|| unsafe { write_array("out", &shared("sim", sim)?.sim.save(), out, length) })
+}
+
+/// Continues from what cagedyn_sim_save() wrote. On failure nothing changes.
+///
+/// # Safety
+/// `sim` is NULL or a live handle, `saved` NULL or an array of `length` numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_restore(sim: *mut cagedyn_sim, saved: *const f64, length: i64) -> i32 {
+    // SAFETY: see above.
+    unsafe {
+        with(sim, |s| {
+            let mut copy = vec![0.0; s.sim.save_len()];
+            read_array("saved", saved, length, &mut copy)?;
+            s.sim.restore(&copy)
+        })
+    }
+}
+
+/// Number of statistics.
+#[unsafe(no_mangle)]
+pub extern "C" fn cagedyn_statistic_count() -> i64 {
+    STATISTICS.len() as i64
+}
+
+/// Name of a statistic: steps, rejected_steps (by the error estimate), failed_steps (forces undefined), evaluations
+/// (of all forces), events, smallest_step and largest_step (s). "" for other numbers. Static text.
+#[unsafe(no_mangle)]
+pub extern "C" fn cagedyn_statistic_name(index: i64) -> *const c_char {
+    let name = usize::try_from(index).ok().and_then(|i| STATISTICS.get(i)).copied();
+    name.unwrap_or("\0").as_ptr().cast()
+}
+
+/// Writes the counts since creation, reset or restore (length: statistic count).
+///
+/// # Safety
+/// `sim` is NULL or a live handle, `out` NULL or an array of `length` numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_statistics(sim: *const cagedyn_sim, out: *mut f64, length: i64) -> i32 {
+    status(|| {
+        // SAFETY: see above.
+        let s = unsafe { shared("sim", sim) }?.sim.statistics();
+        let d = s.driver;
+        let counts = [d.steps, d.rejected, d.faults, s.evaluations, d.events].map(|n| n as f64);
+        let mut values = [0.0; STATISTICS.len()];
+        values[..5].copy_from_slice(&counts);
+        values[5..].copy_from_slice(&[d.smallest_step, d.largest_step]);
+        // SAFETY: see above.
+        unsafe { write_array("out", &values, out, length) }
+    })
+}

@@ -1,0 +1,267 @@
+//! The integration methods on small systems with known solutions: order, dense output, events, faults, saving.
+
+use cagedyn::integrate::{
+    DampingBlock, DormandPrince, Driver, Failure, Leapfrog, Limits, Reader, Stepper, System,
+};
+use nalgebra::{Matrix3, Vector3};
+
+/// A damped oscillator, a driven rotor and a speed without position, coupled, with an analytic solution:
+/// x'' = -2 zeta x' - x, y'' = 0, w' = -rate (w - goal), and z'' = 0.
+#[derive(Clone)]
+struct Oscillator {
+    zeta: f64,
+    rate: f64,
+    /// The goal of w jumps from 1 to 2 at this time.
+    jump: f64,
+    /// Positions beyond this have no forces.
+    wall: f64,
+    evaluations: u64,
+}
+
+impl Oscillator {
+    fn smooth() -> Self {
+        Self { zeta: 0.1, rate: 0.7, jump: f64::INFINITY, wall: f64::INFINITY, evaluations: 0 }
+    }
+
+    /// x, x', w at time t from x = 1, x' = 0, w = 0.
+    fn exact(&self, t: f64) -> [f64; 3] {
+        let omega = (1.0 - self.zeta * self.zeta).sqrt();
+        let decay = (-self.zeta * t).exp();
+        let x = decay * ((omega * t).cos() + self.zeta / omega * (omega * t).sin());
+        let v = -decay * (omega * t).sin() / omega;
+        let before = 1.0 - (-self.rate * t.min(self.jump)).exp();
+        let w =
+            if t <= self.jump { before } else { 2.0 + (before - 2.0) * (-self.rate * (t - self.jump)).exp() };
+        [x, v, w]
+    }
+}
+
+impl System for Oscillator {
+    type Fault = &'static str;
+
+    fn positions(&self) -> usize {
+        2
+    }
+    fn velocities(&self) -> usize {
+        3
+    }
+    fn accelerations(&mut self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> Result<(), &'static str> {
+        self.evaluations += 1;
+        if q[0] > self.wall {
+            return Err("behind the wall");
+        }
+        let goal = if t < self.jump { 1.0 } else { 2.0 };
+        a[0] = -2.0 * self.zeta * v[0] - q[0];
+        a[1] = 0.0;
+        a[2] = -self.rate * (v[2] - goal);
+        Ok(())
+    }
+    fn not_finite(&self, _: usize) -> &'static str {
+        "not finite"
+    }
+    fn next_event(&self, t: f64) -> f64 {
+        if t < self.jump { self.jump } else { f64::INFINITY }
+    }
+    fn damped_blocks(&self) -> usize {
+        1
+    }
+    fn damped_block(&self, _: usize) -> [usize; 3] {
+        [0, 1, 2]
+    }
+    fn damping(&self, blocks: &mut [DampingBlock]) {
+        let full = Matrix3::from_diagonal(&Vector3::new(2.0 * self.zeta, 0.0, self.rate));
+        blocks[0] = DampingBlock { full, implicit: full * 0.5 };
+    }
+}
+
+const START: [f64; 5] = [1.0, 0.0, 0.0, 3.0, 0.0];
+
+fn limits(step: f64) -> Limits {
+    Limits { nominal_step: step, min_step: 1e-14, max_step: 0.5, max_steps: 10_000_000 }
+}
+
+fn leapfrog(s: &Oscillator, step: f64) -> Driver<Oscillator> {
+    Driver::new(Box::new(Leapfrog::new(s)), limits(step))
+}
+
+fn dormand_prince(s: &Oscillator, tolerance: f64) -> Driver<Oscillator> {
+    Driver::new(Box::new(DormandPrince::new(s, vec![tolerance; 5])), limits(1e-3))
+}
+
+/// Largest error of x, x', w at time t.
+fn error(driver: &mut Driver<Oscillator>, system: &mut Oscillator, t: f64) -> f64 {
+    let mut out = [0.0; 5];
+    driver.advance(system, t).unwrap();
+    driver.state_at(t, &mut out);
+    let exact = system.exact(t);
+    [out[0] - exact[0], out[2] - exact[1], out[4] - exact[2]]
+        .into_iter()
+        .fold(0.0, |m, e: f64| m.max(e.abs()))
+}
+
+#[test]
+fn leapfrog_is_of_second_order() {
+    let errors: Vec<f64> = [0.04, 0.02, 0.01, 0.005]
+        .into_iter()
+        .map(|h| {
+            let mut s = Oscillator::smooth();
+            let mut d = leapfrog(&s, h);
+            d.start(0.0, &START);
+            error(&mut d, &mut s, 4.0)
+        })
+        .collect();
+    for pair in errors.windows(2) {
+        let order = (pair[0] / pair[1]).log2();
+        assert!((order - 2.0).abs() < 0.2, "{errors:?}");
+    }
+}
+
+#[test]
+fn dormand_prince_steps_are_of_fifth_order_and_dense_output_of_fourth() {
+    let attempt = |h: f64, theta: f64| {
+        let mut s = Oscillator::smooth();
+        let mut m = DormandPrince::new(&s, vec![1.0; 5]);
+        let mut out = [0.0; 5];
+        Stepper::<Oscillator>::set_state(&mut m, &START);
+        m.refresh(&mut s, 0.0).unwrap();
+        m.attempt(&mut s, 0.0, h, f64::INFINITY).unwrap();
+        Stepper::<Oscillator>::accept(&mut m);
+        Stepper::<Oscillator>::interpolate(&m, theta, &mut out);
+        let exact = s.exact(theta * h);
+        (out[0] - exact[0]).abs().max((out[4] - exact[2]).abs())
+    };
+    let local_order = |theta: f64| (attempt(0.4, theta) / attempt(0.2, theta)).log2();
+    assert!((local_order(1.0) - 6.0).abs() < 0.3, "{}", local_order(1.0));
+    assert!((local_order(0.37) - 5.0).abs() < 0.4, "{}", local_order(0.37));
+}
+
+#[test]
+fn errors_follow_the_tolerance() {
+    let at = |tolerance: f64| {
+        let mut s = Oscillator::smooth();
+        let mut d = dormand_prince(&s, tolerance);
+        d.start(0.0, &START);
+        error(&mut d, &mut s, 10.0)
+    };
+    assert!(at(1e-6) < 1e-5 && at(1e-9) < 1e-8 && at(1e-12) < 1e-11);
+    assert!(at(1e-9) < 0.02 * at(1e-6));
+}
+
+#[test]
+fn questions_do_not_change_the_steps() {
+    for adaptive in [false, true] {
+        let run = |questions: usize| {
+            let mut s = Oscillator::smooth();
+            let mut d = if adaptive { dormand_prince(&s, 1e-7) } else { leapfrog(&s, 0.013) };
+            d.start(0.0, &START);
+            let mut out = [0.0; 5];
+            for i in 1..=questions {
+                let t = 5.0 * i as f64 / questions as f64;
+                d.advance(&mut s, t).unwrap();
+                d.state_at(t, &mut out);
+            }
+            (out, s.evaluations, *d.statistics())
+        };
+        assert_eq!(run(1), run(1000));
+    }
+}
+
+#[test]
+fn dense_output_is_continuous_and_accurate() {
+    let mut s = Oscillator::smooth();
+    let mut d = leapfrog(&s, 0.01);
+    d.start(0.0, &START);
+    for i in 0..500 {
+        assert!(error(&mut d, &mut s, 0.0137 * f64::from(i)) < 1e-4);
+    }
+}
+
+#[test]
+fn events_are_landed_on_exactly() {
+    for adaptive in [false, true] {
+        let mut s = Oscillator { jump: 1.234_567, ..Oscillator::smooth() };
+        let mut d = if adaptive { dormand_prince(&s, 1e-9) } else { leapfrog(&s, 0.002) };
+        d.start(0.0, &START);
+        let e = error(&mut d, &mut s, 3.0);
+        assert!(e < if adaptive { 1e-8 } else { 2e-6 }, "{e}");
+        assert_eq!(d.statistics().events, 1);
+        assert_eq!(d.statistics().rejected, 0, "a jump that is landed on costs no rejected step");
+    }
+}
+
+#[test]
+fn a_fault_is_retried_with_smaller_steps_and_ends_in_an_error() {
+    for adaptive in [false, true] {
+        // x falls from 1, so a wall below never matters; one above 1 that is crossed upwards does.
+        let mut s = Oscillator { zeta: 0.0, wall: 0.5, ..Oscillator::smooth() };
+        let mut d = if adaptive { dormand_prince(&s, 1e-6) } else { leapfrog(&s, 0.01) };
+        d.start(0.0, &[0.0, 0.0, 1.0, 0.0, 0.0]);
+        let Err(Failure::StepTooSmall { time, fault, .. }) = d.advance(&mut s, 2.0) else {
+            panic!("the wall must stop the run");
+        };
+        assert_eq!(fault, Some("behind the wall"));
+        // x = sin t reaches the wall at asin(0.5).
+        assert!((time - 0.5f64.asin()).abs() < 1e-3, "stopped at {time}");
+        assert!(d.statistics().faults > 10);
+        let mut out = [0.0; 5];
+        d.state_at(time, &mut out);
+        assert!((out[0] - 0.5).abs() < 1e-3 && d.reached() == time);
+        // With the wall gone the same driver goes on.
+        s.wall = f64::INFINITY;
+        d.advance(&mut s, 2.0).unwrap();
+        d.state_at(2.0, &mut out);
+        assert!((out[0] - 2f64.sin()).abs() < 1e-3);
+    }
+}
+
+#[test]
+fn a_fault_at_the_start_and_the_step_limit_are_reported() {
+    let mut s = Oscillator { wall: 0.5, ..Oscillator::smooth() };
+    let mut d = leapfrog(&s, 0.01);
+    d.start(0.0, &START);
+    assert!(matches!(d.advance(&mut s, 1.0), Err(Failure::AtStart { time: 0.0, .. })));
+    let mut s = Oscillator::smooth();
+    let few = Limits { max_steps: 10, ..limits(0.01) };
+    let mut d = Driver::new(Box::new(Leapfrog::new(&s)), few);
+    d.start(0.0, &START);
+    assert!(matches!(d.advance(&mut s, 1.0), Err(Failure::TooManySteps { limit: 10, .. })));
+    assert!(d.reached() > 0.09);
+}
+
+#[test]
+fn saving_continues_bit_identically() {
+    for adaptive in [false, true] {
+        let mut s = Oscillator { jump: 2.1, ..Oscillator::smooth() };
+        let new = |s: &Oscillator| if adaptive { dormand_prince(s, 1e-7) } else { leapfrog(s, 0.01) };
+        let mut d = new(&s);
+        d.start(0.0, &START);
+        d.advance(&mut s, 1.003).unwrap();
+        let mut saved = Vec::new();
+        d.save(&mut saved);
+        let mut other = new(&s);
+        other.start(7.0, &[0.0; 5]);
+        let mut reader = Reader::new(&saved);
+        assert!(other.load(&mut reader).is_some() && reader.finished());
+        let (mut a, mut b) = ([0.0; 5], [0.0; 5]);
+        for t in [1.001, 1.5, 3.0] {
+            d.advance(&mut s, t).unwrap();
+            other.advance(&mut s.clone(), t).unwrap();
+            d.state_at(t, &mut a);
+            other.state_at(t, &mut b);
+            assert_eq!(a, b);
+        }
+        assert!(other.load(&mut Reader::new(&saved[..saved.len() - 1])).is_none());
+    }
+}
+
+#[test]
+fn stiff_damping_of_the_leapfrog_is_stable() {
+    // A speed that relaxes a thousand times within one step.
+    let mut s = Oscillator { rate: 1e5, ..Oscillator::smooth() };
+    let mut d = leapfrog(&s, 0.01);
+    d.start(0.0, &START);
+    let mut out = [0.0; 5];
+    d.advance(&mut s, 1.0).unwrap();
+    d.state_at(1.0, &mut out);
+    assert!(out[4].abs() < 2.1, "{}", out[4]);
+}
