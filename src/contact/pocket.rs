@@ -82,8 +82,8 @@ impl PocketGeometry {
     /// d in m for a roller at `lead` rad ahead of its pocket; `(sin, cos)` are those of `lead`.
     pub fn offset<T: Real>(&self, radial_offset: T, (sin, cos): (T, T), cage: [T; 2]) -> [T; 2] {
         let r = radial_offset + self.pitch_radius;
-        // 1 - cos without cancellation.
-        let versine = sin * sin / (cos + 1.0);
+        // 1 - cos without cancellation for the small leads of a roller in its pocket.
+        let versine = if cos.value() > 0.0 { sin * sin / (cos + 1.0) } else { -cos + 1.0 };
         [radial_offset - r * versine - cage[0], r * sin - cage[1]]
     }
 

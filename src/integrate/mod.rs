@@ -37,8 +37,8 @@ pub trait System {
     fn damped_blocks(&self) -> usize;
     /// Velocity indices of such a triple.
     fn damped_block(&self, i: usize) -> [usize; 3];
-    /// Damping within each triple at the last evaluated state.
-    fn damping(&self, blocks: &mut [DampingBlock]);
+    /// Damping within each triple at the last evaluated state, for a step of size `h` in s.
+    fn damping(&self, h: f64, blocks: &mut [DampingBlock]);
 }
 
 /// -da/dv of three coupled velocities, or a positive approximation of it, 1/s.
@@ -46,9 +46,17 @@ pub trait System {
 pub struct DampingBlock {
     /// D, all of it.
     pub full: Matrix3<f64>,
-    /// D_i, the share to take at the end of the step: half for the trapezoidal rule, all where rates exceed the
-    /// step by far.
+    /// D_i, the share to take at the end of the step: half for the trapezoidal rule, all where rates exceed 1/h
+    /// by far. See [`implicit_share`].
     pub implicit: Matrix3<f64>,
+}
+
+/// Share of a decay at rate r to take at the end of a step, z = h r >= 0: `1/(1 - exp(-z)) - 1/z`.
+///
+/// It makes one step of `v' = -r v` exact: one half for slow decays (second order), towards one for fast ones (no
+/// overshoot).
+pub fn implicit_share(z: f64) -> f64 {
+    if z < 1e-3 { 0.5 + z / 12.0 } else { 1.0 / (1.0 - (-z).exp()) - 1.0 / z }
 }
 
 /// One integration method: makes steps and interpolates in the last one.

@@ -7,9 +7,10 @@ use super::{InputValues, Model, PocketLaws, RingBody};
 use crate::contact::pocket::{CageMotion, Pillar, PillarContact, PocketMotion};
 use crate::contact::raceway::{RingMotion, RollerMotion};
 use crate::contact::{PairFrame, Wrench, guide, rotate};
-use crate::integrate::DampingBlock;
+use crate::integrate::{DampingBlock, implicit_share};
 use crate::laws::line_contact::{ContactMotion, LineContactForce};
 use crate::laws::short_bearing::{FilmForce, JournalMotion};
+use crate::scalar::{Dual, Real};
 use nalgebra::{Matrix3, Vector3};
 
 /// A roller this far from the pitch circle, in pitch radii, has left the bearing.
@@ -133,6 +134,8 @@ pub struct Workspace {
     pub(super) wall: Batch<PocketSite>,
     pub(super) edge: Batch<PocketSite>,
     pub(super) guide: Option<FilmForce<f64>>,
+    /// Motion of the cage that `guide` belongs to.
+    journal: JournalMotion<f64>,
     pub(super) inputs: InputValues,
     /// Contact forces on each roller, local frame.
     on_roller: Vec<Wrench<f64>>,
@@ -150,6 +153,7 @@ impl Workspace {
             wall: Batch::with_capacity(pockets),
             edge: Batch::with_capacity(pockets),
             guide: None,
+            journal: JournalMotion { position: [0.0; 2], velocity: [0.0; 2], angle: 0.0, speed: 0.0 },
             inputs: InputValues::default(),
             on_roller: vec![Wrench::default(); n],
         }
@@ -267,13 +271,13 @@ impl Model {
             edge.force.extend(edge.motion.iter().map(|m| pocket.edge.force(m, friction(m, 1.0))));
         }
         if let Some(bearing) = &cage.guide {
-            let motion = JournalMotion {
+            ws.journal = JournalMotion {
                 position: [q[c], q[c + 1]],
                 velocity: [v[c], v[c + 1]],
                 angle: q[c + 2],
                 speed: v[c + 2],
             };
-            let film = bearing.force(&motion);
+            let film = bearing.force(&ws.journal);
             ws.guide = Some(film.map_err(|e| Fault::NoGuideFilm { minimum_film: e.minimum_film })?);
         }
         Ok(())
@@ -359,6 +363,31 @@ impl Model {
             block.full = inverse * block.full * speed;
             block.implicit = inverse * block.implicit * speed;
         }
+    }
+}
+
+impl Model {
+    /// Damping of the cage by its guide film at the last evaluated state, over (y, z, angle), exact by dual numbers.
+    /// Zero without a film.
+    pub(crate) fn cage_damping(&self, ws: &Workspace, h: f64) -> DampingBlock {
+        let mut block = DampingBlock::default();
+        let Some(cage) = &self.cage else { return block };
+        let Some(bearing) = &cage.guide else { return block };
+        let m = &ws.journal;
+        let motion = JournalMotion {
+            position: m.position.map(Dual::<3>::constant),
+            velocity: [Dual::variable(m.velocity[0], 0), Dual::variable(m.velocity[1], 1)],
+            angle: Dual::constant(m.angle),
+            speed: Dual::variable(m.speed, 2),
+        };
+        let Ok(film) = bearing.force(&motion) else { return block };
+        for k in 0..3 {
+            block.full[(0, k)] = -film.force[0].eps[k] / cage.mass;
+            block.full[(1, k)] = -film.force[1].eps[k] / cage.mass;
+            block.full[(2, k)] = -film.moment.eps[k] / cage.inertia;
+        }
+        block.implicit = block.full * implicit_share(h * block.full.diagonal().amax());
+        block
     }
 }
 

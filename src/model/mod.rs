@@ -145,7 +145,8 @@ impl Model {
         -self.orbit_ratio() * self.geometry.pitch_radius / self.geometry.roller_radius
     }
 
-    /// Highest contact frequency in rad/s: a roller between two loaded raceways, at the largest load of the scene.
+    /// Highest contact frequency in rad/s at the largest load of the scene: of a roller between two loaded raceways,
+    /// or of the cage between all its rollers if it is so light.
     pub fn highest_frequency(&self) -> f64 {
         let [speed, y, z] = self.inputs.signals.each_ref().map(|s| s.largest());
         let ring_mass = match self.ring {
@@ -160,7 +161,13 @@ impl Model {
         let per_roller = 4.1 / (self.layout.count as f64).max(4.1);
         let q = per_roller * (y.hypot(z) + weight) + centrifugal + preload + 1.0;
         let stiffness = self.inner.elastic.stiffness_at_load(q) + self.outer.elastic.stiffness_at_load(q);
-        (stiffness / self.roller_mass).sqrt()
+        let roller = stiffness / self.roller_mass;
+        let cage = self.cage.as_ref().map_or(0.0, |cage| {
+            let pockets = cage.pocket.map_or(0.0, |p| p.wall.elastic.stiffness_at_load(q));
+            let lever = self.geometry.pitch_radius;
+            pockets * self.layout.count as f64 * (1.0 / cage.mass + lever * lever / cage.inertia)
+        });
+        roller.max(cage).sqrt()
     }
 
     /// Whether the raceway contacts are damped.

@@ -86,15 +86,23 @@ impl System for Bearing {
     }
 
     fn damped_blocks(&self) -> usize {
-        self.model.layout().count
+        let layout = self.model.layout();
+        layout.count + usize::from(layout.cage.is_some())
     }
 
     fn damped_block(&self, i: usize) -> [usize; 3] {
         let layout = self.model.layout();
-        [layout.roller(i), layout.roller(i) + 1, layout.spin(i)]
+        match layout.cage {
+            Some(c) if i == layout.count => [c, c + 1, c + 2],
+            _ => [layout.roller(i), layout.roller(i) + 1, layout.spin(i)],
+        }
     }
 
-    fn damping(&self, blocks: &mut [DampingBlock]) {
-        self.model.roller_damping(&self.workspace, blocks);
+    fn damping(&self, h: f64, blocks: &mut [DampingBlock]) {
+        let (rollers, cage) = blocks.split_at_mut(self.model.layout().count);
+        self.model.roller_damping(&self.workspace, rollers);
+        if let Some(cage) = cage.first_mut() {
+            *cage = self.model.cage_damping(&self.workspace, h);
+        }
     }
 }
