@@ -23,7 +23,7 @@ fn library() -> tempfile::TempDir {
 }
 
 /// Compiles and links one source file.
-fn compile(source: &str, standard: &str, library: &Path) -> PathBuf {
+fn compile(source: &Path, standard: &str, library: &Path) -> PathBuf {
     let cpp = standard.starts_with("c++");
     let compiler = cc::Build::new()
         .cpp(cpp)
@@ -33,7 +33,7 @@ fn compile(source: &str, standard: &str, library: &Path) -> PathBuf {
         .host(env!("CAGEDYN_HOST"))
         .out_dir(library)
         .get_compiler();
-    let stem = Path::new(source).file_stem().expect("a file name").to_string_lossy().into_owned();
+    let stem = source.file_stem().expect("a file name").to_string_lossy().into_owned();
     let program = library.join(format!("{stem}-{standard}"));
     let mut command = compiler.to_command();
     command
@@ -65,7 +65,7 @@ fn succeed(command: &mut Command) -> Output {
 fn run_c_test(source: &str) {
     let library = library();
     let scene = root().join("scenes/nu2310.json");
-    let program = compile(source, "c11", library.path());
+    let program = compile(Path::new(source), "c11", library.path());
     succeed(Command::new(&program).arg(&scene));
     if Command::new("valgrind").arg("--version").output().is_ok() {
         let kinds = ["--leak-check=full", "--errors-for-leak-kinds=definite,indirect,possible"];
@@ -100,7 +100,7 @@ fn c_threads() {
 fn c_example_as_c99_and_cpp17() {
     let library = library();
     for standard in ["c99", "c++17"] {
-        let program = compile("examples/nu2310.c", standard, library.path());
+        let program = compile(Path::new("examples/nu2310.c"), standard, library.path());
         let csv = library.path().join(format!("{standard}.csv"));
         let output = succeed(Command::new(&program).arg(root().join("scenes/nu2310.json")).arg(&csv));
         let text = String::from_utf8_lossy(&output.stdout);
@@ -111,6 +111,18 @@ fn c_example_as_c99_and_cpp17() {
         // Without arguments it explains itself and fails.
         assert!(!Command::new(&program).output().expect("it starts").status.success());
     }
+}
+
+#[test]
+fn c_example_of_the_readme() {
+    let readme = std::fs::read_to_string(root().join("README.md")).expect("the README");
+    let code = readme.split("```c\n").nth(1).and_then(|rest| rest.split("```").next());
+    let library = library();
+    let source = library.path().join("readme.c");
+    std::fs::write(&source, code.expect("the README has a C example")).expect("a file");
+    let program = compile(&source, "c11", library.path());
+    let output = succeed(Command::new(&program).current_dir(root()));
+    assert!(String::from_utf8_lossy(&output.stdout).contains("of the clearance"));
 }
 
 #[test]

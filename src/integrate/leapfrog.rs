@@ -121,14 +121,16 @@ impl<S: System> Stepper<S> for Leapfrog {
             x * x * (3.0 - 2.0 * x),
             x * x * (x - 1.0) * h,
         ];
-        for i in 0..nq {
-            out[i] = hermite[0] * self.start[i]
+        let (positions, velocities) = out.split_at_mut(nq);
+        for (i, out) in positions.iter_mut().enumerate() {
+            *out = hermite[0] * self.start[i]
                 + hermite[1] * self.start[nq + i]
                 + hermite[2] * self.end[i]
                 + hermite[3] * self.end[nq + i];
         }
-        for i in nq..out.len() {
-            out[i] = self.start[i] + x * (self.end[i] - self.start[i]);
+        let ends = self.start.iter().zip(&self.end).skip(nq);
+        for (out, (start, end)) in velocities.iter_mut().zip(ends) {
+            *out = start + x * (end - start);
         }
     }
 

@@ -159,7 +159,7 @@ impl Workspace {
         }
     }
 
-    /// Number of contacts that carried a force in the last evaluation: raceways, pockets.
+    /// Number of contacts that touched in the last evaluation: raceways, pockets.
     pub fn active_contacts(&self) -> [usize; 2] {
         [self.outer.roller.len() + self.inner.roller.len(), self.wall.roller.len() + self.edge.roller.len()]
     }

@@ -20,8 +20,8 @@ const fn quantity(name: &'static str, unit: &'static str, description: &'static 
     Quantity { name, unit, description }
 }
 
-/// What is reported of a contact. All zero when the surfaces are apart, except the approach and the speeds, which
-/// are zero too.
+/// What is reported of a contact. All zero when the surfaces are apart. A contact that touches but whose damping
+/// would pull has a normal force of zero, its approach and its speeds.
 pub const CONTACT_QUANTITIES: [Quantity; 12] = [
     quantity("normal_force", "N", "normal force Q"),
     quantity("approach", "m", "elastic approach delta"),

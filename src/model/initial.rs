@@ -1,12 +1,14 @@
 //! Start of a run: kinematic speeds, and on request the static equilibrium of ring and rollers.
 
 use super::{HostInputs, Model, RingBody};
+use crate::contact::raceway::{RingMotion, RollerMotion};
+use crate::contact::rotate;
 use crate::error::{Error, Result, Status};
 use crate::scene::RingStart;
 use std::f64::consts::TAU;
 
-/// Newton steps for the equilibrium of the ring; about ten are usual.
-const MAX_ITERATIONS: usize = 200;
+/// Steps for the equilibrium of the ring; about twenty are usual.
+const MAX_ITERATIONS: usize = 500;
 /// Accepted residual force relative to the load.
 const TOLERANCE: f64 = 1e-10;
 
@@ -21,15 +23,19 @@ impl Model {
         let mut state = vec![0.0; layout.states()];
         let (q, v) = state.split_at_mut(layout.positions());
         let orbit = self.orbit_ratio() * inputs.ring_speed;
+        let cage = self.scene.initial.cage;
         for j in 0..layout.count {
-            q[layout.roller(j) + 1] =
-                self.scene.initial.first_roller_angle + TAU * j as f64 / layout.count as f64;
+            let pocket = self.scene.initial.first_roller_angle + TAU * j as f64 / layout.count as f64;
+            let (sin, cos) = pocket.sin_cos();
+            // The pocket of a cage off centre lies beside its angle.
+            let beside = cage.z * cos - cage.y * sin;
+            q[layout.roller(j) + 1] = pocket + (beside / self.geometry.pitch_radius).asin();
             v[layout.roller(j) + 1] = orbit;
             v[layout.spin(j)] = self.spin_ratio() * inputs.ring_speed;
         }
         if let Some(c) = layout.cage {
-            q[c] = self.scene.initial.cage.y;
-            q[c + 1] = self.scene.initial.cage.z;
+            q[c] = cage.y;
+            q[c + 1] = cage.z;
             v[c + 2] = orbit;
         }
         if self.scene.initial.inner_ring == RingStart::Equilibrium
@@ -42,43 +48,42 @@ impl Model {
             q[i + 1] = ring[1];
             for j in 0..layout.count {
                 let (sin, cos) = q[layout.roller(j) + 1].sin_cos();
-                let towards = ring[0] * cos + ring[1] * sin;
-                q[layout.roller(j)] = self.roller_balance(towards, centrifugal).radial_offset;
+                let local = rotate(ring, -sin, cos);
+                q[layout.roller(j)] = self.roller_balance(local, centrifugal).radial_offset;
             }
         }
         Ok(state)
     }
 
-    /// Position of the ring, m, at which the rollers carry `load` (N).
+    /// Position of the ring, m, at which the rollers carry `load` (N): the minimum of the potential energy, found by
+    /// Newton steps whose length a Levenberg-Marquardt parameter controls.
     fn equilibrium(&self, q: &[f64], load: [f64; 2], centrifugal: f64) -> Result<[f64; 2]> {
         let size = load[0].hypot(load[1]);
         if size == 0.0 {
             return Ok([0.0; 2]);
         }
-        let clearance = 2.0 * self.geometry.gap;
-        let reach = clearance.max(0.0) + self.inner.elastic.approach(size);
-        let mut x = load.map(|f| f / size * reach);
+        let reach = (2.0 * self.geometry.gap).max(0.0) + 2.0 * self.inner.elastic.approach(size);
+        let mut x = [0.0; 2];
+        let mut here = self.ring_balance(q, x, load, centrifugal);
+        let mut parameter = size / reach;
         for _ in 0..MAX_ITERATIONS {
-            let (force, stiffness) = self.ring_reaction(q, x, centrifugal);
-            let residual = [load[0] + force[0], load[1] + force[1]];
-            if residual[0].hypot(residual[1]) <= TOLERANCE * size {
+            let residual = here.force[0].hypot(here.force[1]);
+            if residual <= TOLERANCE * size {
                 return Ok(x);
             }
-            // A little isotropic stiffness keeps the matrix regular when one roller or none carries load.
-            let [kyy, kyz, kzz] = stiffness;
-            let floor = 1e-9 * (kyy + kzz) + size / (reach + 1e-6) * 1e-6;
-            let (kyy, kzz) = (kyy + floor, kzz + floor);
+            let [kyy, kyz, kzz] = here.stiffness;
+            let (kyy, kzz) = (kyy + parameter, kzz + parameter);
             let determinant = kyy * kzz - kyz * kyz;
-            let mut step = [
-                (kzz * residual[0] - kyz * residual[1]) / determinant,
-                (kyy * residual[1] - kyz * residual[0]) / determinant,
-            ];
-            let length = step[0].hypot(step[1]);
-            let longest = 0.5 * reach + 1e-7;
-            if length > longest {
-                step = step.map(|s| s * longest / length);
+            let [fy, fz] = here.force;
+            let trial =
+                [x[0] + (kzz * fy - kyz * fz) / determinant, x[1] + (kyy * fz - kyz * fy) / determinant];
+            let there = self.ring_balance(q, trial, load, centrifugal);
+            // Close to the minimum the energy drowns in round-off, and the force alone tells progress.
+            let better = there.energy < here.energy || there.force[0].hypot(there.force[1]) < 0.5 * residual;
+            if better {
+                (x, here) = (trial, there);
             }
-            x = [x[0] + step[0], x[1] + step[1]];
+            parameter *= if better { 0.2 } else { 5.0 };
         }
         let text = format!(
             "initial.inner_ring: no static equilibrium found for a load of ({:?}, {:?}) N; start 'centred' instead",
@@ -87,52 +92,68 @@ impl Model {
         Err(Error::new(Status::BadScene, text))
     }
 
-    /// Force of all rollers on the ring at `x` and its stiffness (yy, yz, zz), both positive definite.
-    fn ring_reaction(&self, q: &[f64], x: [f64; 2], centrifugal: f64) -> ([f64; 2], [f64; 3]) {
-        let mut force = [0.0; 2];
-        let mut stiffness = [0.0; 3];
+    /// Energy, force and stiffness of the ring at `x` under `load` and all rollers.
+    fn ring_balance(&self, q: &[f64], x: [f64; 2], load: [f64; 2], centrifugal: f64) -> RingBalance {
+        let mut sum =
+            RingBalance { energy: -(load[0] * x[0] + load[1] * x[1]), force: load, stiffness: [0.0; 3] };
         for j in 0..self.layout.count {
             let (sin, cos) = q[self.layout.roller(j) + 1].sin_cos();
-            let balance = self.roller_balance(x[0] * cos + x[1] * sin, centrifugal);
-            force[0] -= balance.load * cos;
-            force[1] -= balance.load * sin;
-            stiffness[0] += balance.stiffness * cos * cos;
-            stiffness[1] += balance.stiffness * cos * sin;
-            stiffness[2] += balance.stiffness * sin * sin;
+            let roller = self.roller_balance(rotate(x, -sin, cos), centrifugal);
+            let [ny, nz] = rotate(roller.normal, sin, cos);
+            sum.energy += roller.energy;
+            sum.force[0] += roller.load * ny;
+            sum.force[1] += roller.load * nz;
+            sum.stiffness[0] += roller.stiffness * ny * ny;
+            sum.stiffness[1] += roller.stiffness * ny * nz;
+            sum.stiffness[2] += roller.stiffness * nz * nz;
         }
-        (force, stiffness)
+        sum
     }
 
-    /// Radial equilibrium of a roller when the ring is displaced by `towards` m in its direction.
-    fn roller_balance(&self, towards: f64, centrifugal: f64) -> RollerBalance {
+    /// Radial equilibrium of a roller, with the ring centre at `ring` (m) in the roller's local frame.
+    fn roller_balance(&self, ring: [f64; 2], centrifugal: f64) -> RollerBalance {
         let (outer, inner) = (&self.outer.elastic, &self.inner.elastic);
-        let resting = self.geometry.gap + outer.approach(centrifugal);
-        let squeeze = towards - self.geometry.gap - resting;
-        if squeeze <= 0.0 {
-            return RollerBalance { load: 0.0, stiffness: 0.0, radial_offset: resting };
-        }
-        // approach_i(Q) + approach_o(Q + F_c) - approach_o(F_c) grows with Q: bisection in ln Q never fails.
-        let excess = |q: f64| {
-            inner.approach(q) + outer.approach(q + centrifugal) - outer.approach(centrifugal) - squeeze
+        let g = &self.geometry;
+        // The outward force of the roller falls with its offset: bisection between resting outside and squeezed in.
+        let state = |offset: f64| {
+            let still =
+                RollerMotion { radial_offset: offset, radial_speed: 0.0, orbit_speed: 0.0, spin_speed: 0.0 };
+            let still_ring = RingMotion { position: ring, velocity: [0.0; 2], speed: 0.0 };
+            let (motion, frame) = g.inner(&still, &still_ring);
+            (inner.load(motion.delta), outer.load(offset - g.gap), motion.delta, frame.normal)
         };
-        let (mut low, mut high) = (1e-12, inner.load(squeeze).max(1e-12));
-        for _ in 0..200 {
-            let middle = (low * high).sqrt();
-            if excess(middle) > 0.0 {
-                high = middle;
-            } else {
+        let resting = g.gap + outer.approach(centrifugal);
+        let squeezed = ring[0].abs() + ring[1].abs() + 2.0 * g.gap.abs();
+        let (mut low, mut high) = (resting, resting + squeezed);
+        for _ in 0..100 {
+            let middle = 0.5 * (low + high);
+            let (on_inner, on_outer, _, normal) = state(middle);
+            if centrifugal - on_inner * normal[0] > on_outer {
                 low = middle;
+            } else {
+                high = middle;
             }
         }
-        let load = (low * high).sqrt();
-        let compliance =
-            1.0 / inner.stiffness_at_load(load) + 1.0 / outer.stiffness_at_load(load + centrifugal);
-        RollerBalance {
-            load,
-            stiffness: 1.0 / compliance,
-            radial_offset: self.geometry.gap + outer.approach(load + centrifugal),
-        }
+        let (load, on_outer, delta, normal) = state(high);
+        // Palmgren's law: the energy at the approach delta is 9/19 Q delta.
+        let energy = 9.0 / 19.0 * (load * delta.max(0.0) + on_outer * (high - g.gap).max(0.0))
+            - centrifugal * (high - g.gap);
+        let stiffness = if load > 0.0 {
+            1.0 / (1.0 / inner.stiffness_at_load(load) + 1.0 / outer.stiffness_at_load(on_outer))
+        } else {
+            0.0
+        };
+        RollerBalance { load, stiffness, energy, normal, radial_offset: high }
     }
+}
+
+struct RingBalance {
+    /// Potential energy, J.
+    energy: f64,
+    /// Sum of load and contact forces (y, z), N.
+    force: [f64; 2],
+    /// Stiffness of the contacts (yy, yz, zz), N/m.
+    stiffness: [f64; 3],
 }
 
 struct RollerBalance {
@@ -140,6 +161,10 @@ struct RollerBalance {
     load: f64,
     /// Stiffness of both contacts in series, N/m.
     stiffness: f64,
+    /// Elastic energy of both contacts less the work of the centrifugal force, J.
+    energy: f64,
+    /// From the roller to the ring, local frame: the direction of the force on the ring.
+    normal: [f64; 2],
     /// Offset from the pitch circle, m.
     radial_offset: f64,
 }

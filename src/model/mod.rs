@@ -134,15 +134,16 @@ impl Model {
         self.geometry.pitch_radius
     }
 
-    /// Orbit speed of cage and rollers per ring speed when nothing slips: R_i/(R_i + R_o).
+    /// Orbit speed per ring speed of a roller that touches both raceways and does not slip: R_i/(2 (R_o - R_b)).
     pub fn orbit_ratio(&self) -> f64 {
-        let (r, b) = (self.geometry.pitch_radius, self.geometry.roller_radius);
-        (r - b) / (2.0 * r)
+        let g = &self.geometry;
+        (g.pitch_radius - g.roller_radius - g.gap) / (2.0 * (g.pitch_radius + g.gap))
     }
 
-    /// Spin speed of a roller per ring speed when nothing slips.
+    /// Spin speed per ring speed of such a roller.
     pub fn spin_ratio(&self) -> f64 {
-        -self.orbit_ratio() * self.geometry.pitch_radius / self.geometry.roller_radius
+        let g = &self.geometry;
+        -self.orbit_ratio() * (g.pitch_radius + g.gap) / g.roller_radius
     }
 
     /// Highest contact frequency in rad/s at the largest load of the scene: of a roller between two loaded raceways,

@@ -35,12 +35,10 @@ impl Model {
         let mut q = Vec::new();
         let mut v = Vec::new();
         if self.layout.ring.is_some() {
-            for (axis, where_to) in [("y", "to the right"), ("z", "upwards")] {
-                let position = if where_to == "upwards" { UP } else { RIGHT };
-                let velocity = if where_to == "upwards" { UP_SPEED } else { RIGHT_SPEED };
-                q.push(StateInfo::new(format!("inner_ring.{axis}"), "m", position));
-                v.push(StateInfo::new(format!("inner_ring.v{axis}"), "m/s", velocity));
-            }
+            q.push(StateInfo::new("inner_ring.y", "m", RIGHT));
+            q.push(StateInfo::new("inner_ring.z", "m", UP));
+            v.push(StateInfo::new("inner_ring.vy", "m/s", RIGHT_SPEED));
+            v.push(StateInfo::new("inner_ring.vz", "m/s", UP_SPEED));
         }
         if self.layout.cage.is_some() {
             q.push(StateInfo::new("cage.y", "m", RIGHT));

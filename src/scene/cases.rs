@@ -1,6 +1,6 @@
 //! Case sets: many scenes as one base scene and the values that differ.
 
-use super::{Scene, json_error, set_path};
+use super::{Scene, json_error, set_path, strict};
 use crate::error::{Error, Result, Status};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -31,6 +31,7 @@ pub struct Case {
     /// Name, also used for files.
     pub name: String,
     /// Values by dotted path, as in "inner_ring.speed.constant". null removes an optional block.
+    #[serde(deserialize_with = "strict::map")]
     pub set: BTreeMap<String, serde_json::Value>,
 }
 
@@ -43,6 +44,7 @@ impl CaseSet {
         let mut reader = serde_json::Deserializer::from_str(text);
         let set: Self = serde_path_to_error::deserialize(&mut reader).map_err(json_error)?;
         reader.end().map_err(|e| Error::new(Status::BadJson, e.to_string()))?;
+        strict::same_shape(text, &set)?;
         let bad = |text: String| Err(Error::new(Status::BadScene, text));
         if set.schema != CASES_SCHEMA {
             return bad(format!("schema: '{}' is not '{CASES_SCHEMA}'", set.schema));

@@ -15,14 +15,15 @@ pub const fn range(min: f64, max: f64, unit: &'static str) -> Range {
     Range { min, max, unit }
 }
 
-/// Factors between the usual units and SI: mm or ms, um or us, MPa or MN, GPa, and rpm.
-const UNIT_SLIPS: [(f64, &str); 6] = [
-    (1e-3, "milli"),
-    (1e-6, "micro"),
-    (1e3, "kilo"),
-    (1e6, "mega"),
-    (1e9, "giga"),
-    (std::f64::consts::TAU / 60.0, "revolutions per minute"),
+/// What a value in a usual unit is multiplied with and divided by to get SI.
+const UNIT_SLIPS: [(f64, f64, &str); 7] = [
+    (std::f64::consts::PI, 30.0, "revolutions per minute"),
+    (1.0, 1e3, "milli"),
+    (1.0, 1e6, "micro"),
+    (1.0, 1e9, "nano"),
+    (1e3, 1.0, "kilo"),
+    (1e6, 1.0, "mega"),
+    (1e9, 1.0, "giga"),
 ];
 
 /// A [`Status::BadScene`] error at a path.
@@ -37,17 +38,26 @@ pub fn number(path: &str, value: f64, allowed: Range) -> Result<()> {
         return Ok(());
     }
     let unit_text = if unit.is_empty() { String::new() } else { format!(" {unit}") };
-    let slip = UNIT_SLIPS
-        .iter()
-        .filter(|(_, name)| (unit == "rad/s") == name.starts_with("rev"))
-        .find(|(factor, _)| value != 0.0 && (min..=max).contains(&(value * factor)))
-        .map_or(String::new(), |(factor, name)| {
-            format!(
-                "; values are in SI units, is it meant in '{name}' units ({:e}{unit_text})?",
-                value * factor
-            )
-        });
+    let slip = unit_slip(value, allowed).map_or(String::new(), |(si, name)| {
+        format!("; values are in SI units: was it meant in '{name}' units, {si:e}{unit_text}?")
+    });
     Err(bad(path, format!("{value:?}{unit_text} is not within {min:e} to {max:e}{unit_text}{slip}")))
+}
+
+/// The unit in which a refused value would be the most usual one, and its SI value.
+fn unit_slip(value: f64, allowed: Range) -> Option<(f64, &'static str)> {
+    let Range { min, max, unit } = allowed;
+    // The middle of the range by order of magnitude; a range that reaches zero has its usual values below its end.
+    let usual = if min > 0.0 { (min * max).sqrt() } else { 1e-2 * max };
+    let distance = |si: f64| (si.abs() / usual).ln().abs();
+    UNIT_SLIPS
+        .iter()
+        .filter(|(_, _, name)| {
+            value != 0.0 && !unit.is_empty() && (unit == "rad/s") == name.starts_with("rev")
+        })
+        .map(|&(multiply, divide, name)| (value * multiply / divide, name))
+        .filter(|(si, _)| (min..=max).contains(si))
+        .min_by(|a, b| distance(a.0).total_cmp(&distance(b.0)))
 }
 
 /// Checks an optional number.

@@ -7,6 +7,7 @@ mod cases;
 mod check;
 mod overrides;
 mod signal;
+mod strict;
 mod validate;
 
 pub use cases::{CASES_SCHEMA, Case, CaseSet};
@@ -36,6 +37,7 @@ pub struct Scene {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gravity: Option<PlaneVector>,
     /// Materials by name.
+    #[serde(deserialize_with = "strict::map")]
     pub materials: BTreeMap<String, Material>,
     /// The lubricant. Needed by films, traction, rolling resistance and lubricated guides.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -377,7 +379,7 @@ pub struct ShortBearingGuide {
     pub diametral_clearance: f64,
     /// Width of one of the two lands, m.
     pub land_width: f64,
-    /// Whether the film is squeezed by the cage's velocity (dh/dt).
+    /// Whether the film is squeezed (dh/dt of the moving centre and of the turning roundness).
     #[serde(default)]
     pub squeeze: bool,
     /// Roundness of the cage. Absent: round.
@@ -416,10 +418,11 @@ pub struct Initial {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum RingStart {
-    /// Ring centred, rollers on the pitch circle; the load drops the ring through the clearance.
+    /// Ring centred (a fixed ring: at its place), rollers on the pitch circle; the load drops a free ring through
+    /// the clearance.
     #[default]
     Centred,
-    /// Static equilibrium of ring and rollers under load, gravity and centrifugal force.
+    /// Static equilibrium of ring and rollers under the load, the weight of the ring and centrifugal force.
     Equilibrium,
 }
 
@@ -431,7 +434,7 @@ pub struct Solver {
     pub method: Method,
     /// Smallest step size, s; a run that needs less fails.
     pub min_step: f64,
-    /// Largest number of steps of one advance.
+    /// Largest number of attempted steps in one advance.
     pub max_steps: u64,
 }
 
@@ -488,6 +491,7 @@ impl Scene {
         let mut reader = serde_json::Deserializer::from_str(text);
         let scene: Self = serde_path_to_error::deserialize(&mut reader).map_err(json_error)?;
         reader.end().map_err(|e| Error::new(Status::BadJson, e.to_string()))?;
+        strict::same_shape(text, &scene)?;
         scene.validate()?;
         Ok(scene)
     }
@@ -519,7 +523,8 @@ impl Scene {
     /// # Errors
     /// As [`Scene::from_json`].
     pub fn from_value(value: serde_json::Value) -> Result<Self> {
-        let scene: Self = serde_path_to_error::deserialize(value).map_err(json_error)?;
+        let scene: Self = serde_path_to_error::deserialize(&value).map_err(json_error)?;
+        strict::same_shape_as(&value, &scene)?;
         scene.validate()?;
         Ok(scene)
     }
@@ -535,8 +540,15 @@ impl Scene {
     }
 }
 
+/// A JSON error with its dotted path.
 fn json_error(e: serde_path_to_error::Error<serde_json::Error>) -> Error {
-    let path = e.path().to_string();
-    let text = e.into_inner().to_string();
-    Error::new(Status::BadJson, if path == "." { text } else { format!("{path}: {text}") })
+    let mut path = String::new();
+    for segment in e.path() {
+        let name = segment.to_string();
+        let separator = if path.is_empty() { "" } else { "." };
+        path += &format!("{separator}{}", name.trim_matches(['[', ']']));
+    }
+    // What serde_json says of a plain value where an object or a word is needed.
+    let text = e.into_inner().to_string().replace("expected value", "the value is of the wrong type");
+    Error::new(Status::BadJson, if path.is_empty() || path == "?" { text } else { format!("{path}: {text}") })
 }

@@ -9,7 +9,7 @@ pub fn parse_override(text: &str) -> Value {
 }
 
 /// Replaces the value at a dotted path (`cage.guide.short_bearing.roundness.0.amplitude`). The last object key may
-/// be new; everything before it must exist. `null` removes an optional block.
+/// be new; everything before it must exist. `null` removes the key, and with it an optional block.
 ///
 /// # Errors
 /// [`Status::UnknownName`] when the path leads nowhere.
@@ -22,7 +22,10 @@ pub fn set_path(scene: &mut Value, path: &str, new: Value) -> Result<()> {
         let last = keys.peek().is_none();
         place = match place {
             Value::Object(map) => {
-                if last {
+                if last && new.is_null() {
+                    map.remove(key);
+                    return Ok(());
+                } else if last {
                     map.entry(key).or_insert(Value::Null)
                 } else {
                     map.get_mut(key).ok_or_else(|| unknown(format!("there is no '{key}' in '{walked}'")))?
@@ -57,7 +60,7 @@ mod tests {
         set_path(&mut v, "a.b.1.c", parse_override("5e-3")).unwrap();
         set_path(&mut v, "a.new", parse_override("text")).unwrap();
         set_path(&mut v, "n", parse_override("null")).unwrap();
-        assert_eq!(v, json!({"a": {"b": [1, {"c": 5e-3}], "new": "text"}, "n": null}));
+        assert_eq!(v, json!({"a": {"b": [1, {"c": 5e-3}], "new": "text"}}));
         for path in ["x.y", "a.b.7", "a.b.one", "a.b.0.z", "a.b.1.c.d"] {
             let e = set_path(&mut v, path, json!(1)).unwrap_err();
             assert_eq!(e.status, Status::UnknownName);

@@ -163,6 +163,17 @@ impl Scene {
         }
         contact("cage.pocket.contact", &pocket.contact)?;
         let radius = self.rollers.radius + pocket.radial_clearance;
+        // Rollers start beside each other in their pockets; radially, the edges must not reach into them.
+        let edge = radius * pocket.half_angle.sin();
+        let discriminant = edge * edge - (radius * radius - self.rollers.radius * self.rollers.radius);
+        let start = self.initial.cage.y.hypot(self.initial.cage.z);
+        if discriminant > 0.0 && start > edge - discriminant.sqrt() {
+            let text = format!(
+                "the centre {start:?} m off pushes pocket edges into rollers; at most {:e} m",
+                edge - discriminant.sqrt()
+            );
+            return Err(bad("initial.cage", text));
+        }
         self.neighbours_apart("cage.pocket.radial_clearance", radius, "pockets")
     }
 
@@ -211,16 +222,20 @@ impl Scene {
     }
 
     fn validate_run(&self) -> Result<()> {
+        if self.cage.is_none() && self.initial.cage != PlaneVector::default() {
+            return Err(bad("initial.cage", "there is no cage to place"));
+        }
         number("initial.first_roller_angle", self.initial.first_roller_angle, ANGLE)?;
+        number("solver.min_step", self.solver.min_step, range(1e-18, 1e-6, "s"))?;
         match &self.solver.method {
             Method::Leapfrog(m) => {
-                optional("solver.method.leapfrog.step", m.step, range(1e-10, 1e-3, "s"))?;
+                let allowed = range(self.solver.min_step.max(1e-10), 1e-3, "s");
+                optional("solver.method.leapfrog.step", m.step, allowed)?;
             }
             Method::DormandPrince(m) => {
                 number("solver.method.dormand_prince.tolerance", m.tolerance, range(1e-12, 1e-1, ""))?;
             }
         }
-        number("solver.min_step", self.solver.min_step, range(1e-18, 1e-6, "s"))?;
         if self.solver.max_steps == 0 {
             return Err(bad("solver.max_steps", "0 is not allowed; at least 1"));
         }

@@ -30,7 +30,7 @@ pub struct Spread {
 }
 
 impl Recording {
-    /// Advances `sim` to `until` (s) and records its outputs every `interval` seconds, start and end included.
+    /// Advances `sim` and records its outputs at its present time and every `interval` seconds after, up to `until` (s).
     /// `keep_going` is called with the time after every record and ends the run by returning false.
     ///
     /// # Errors

@@ -74,7 +74,7 @@ impl Sim {
         Some(())
     }
 
-    /// Scene and library version as four numbers that fit exactly into f64.
+    /// Scene and library version, hashed into two numbers that fit exactly into f64.
     fn fingerprint(&self) -> [f64; 2] {
         let mut hasher = DefaultHasher::new();
         env!("CARGO_PKG_VERSION").hash(&mut hasher);

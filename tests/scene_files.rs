@@ -1,0 +1,231 @@
+//! The scenes, case sets and JSON Schemas of the repository fit each other and the library.
+
+mod common;
+
+use cagedyn::scene::CaseSet;
+use cagedyn::{Model, Scene, Status};
+use common::{example_with, read, repository};
+use serde_json::{Value, json};
+
+/// Paths of all files in `scenes/`, relative to the repository: scenes and case sets.
+fn files() -> (Vec<String>, Vec<String>) {
+    let mut names: Vec<String> = std::fs::read_dir(repository("scenes"))
+        .expect("the repository has scenes")
+        .map(|entry| entry.expect("readable").file_name().into_string().expect("UTF-8"))
+        .filter(|name| name.ends_with(".json"))
+        .map(|name| format!("scenes/{name}"))
+        .collect();
+    names.sort();
+    names.into_iter().partition(|name| !name.ends_with(".cases.json"))
+}
+
+/// Fails with everything that the schema has to say about a document.
+fn assert_valid(name: &str, schema: &Value, document: &Value) {
+    let validator = jsonschema::draft202012::new(schema).expect("the schema is a JSON Schema");
+    let complaints: Vec<String> =
+        validator.iter_errors(document).map(|e| format!("{}: {e}", e.instance_path())).collect();
+    assert!(complaints.is_empty(), "{name}: {}", complaints.join("\n"));
+}
+
+fn parse(name: &str) -> Value {
+    serde_json::from_str(&read(name)).unwrap_or_else(|e| panic!("{name}: {e}"))
+}
+
+#[test]
+fn scenes_fit_the_schema_and_compile() {
+    let (scenes, _) = files();
+    assert!(!scenes.is_empty());
+    let schema = Scene::json_schema();
+    for name in &scenes {
+        assert_valid(name, &schema, &parse(name));
+        Model::from_json(&read(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
+    }
+}
+
+#[test]
+fn case_sets_fit_the_schema_and_every_case_compiles() {
+    let (_, sets) = files();
+    assert!(!sets.is_empty());
+    let schema = CaseSet::json_schema();
+    for name in &sets {
+        assert_valid(name, &schema, &parse(name));
+        let set = CaseSet::from_json(&read(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let base = read(&format!("scenes/{}", set.scene));
+        let scenes = set.scenes(&base).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert_eq!(scenes.len(), set.cases.len());
+        for (case, scene) in set.cases.iter().zip(scenes) {
+            Model::new(scene).unwrap_or_else(|e| panic!("{name}, case {}: {e}", case.name));
+        }
+    }
+}
+
+#[test]
+fn cases_differ_from_the_base_scene_only_in_their_values() {
+    let set = CaseSet::from_json(&read("scenes/nu2310_fig9.cases.json")).unwrap();
+    let base = read("scenes/nu2310.json");
+    for (case, scene) in set.cases.iter().zip(set.scenes(&base).unwrap()) {
+        let changes: Vec<(&str, Value)> = case.set.iter().map(|(k, v)| (k.as_str(), v.clone())).collect();
+        let expected = Scene::from_value(example_with(&changes)).unwrap();
+        assert_eq!(scene, expected, "case {}", case.name);
+    }
+}
+
+/// Compares a committed schema with the generated one; with CAGEDYN_BLESS=1 it writes the generated one instead.
+fn check_committed(path: &str, schema: &Value) {
+    let generated = serde_json::to_string_pretty(schema).expect("a schema is JSON") + "\n";
+    let file = repository(path);
+    if std::env::var_os("CAGEDYN_BLESS").is_some_and(|v| v == "1") {
+        std::fs::create_dir_all(file.parent().expect("inside the repository")).unwrap();
+        std::fs::write(&file, &generated).unwrap();
+        return;
+    }
+    let hint = "run `CAGEDYN_BLESS=1 cargo test --test scene_files` and commit the result";
+    let committed = std::fs::read_to_string(&file).unwrap_or_else(|e| panic!("{path}: {e}; {hint}"));
+    let same = committed.replace("\r\n", "\n") == generated;
+    assert!(same, "{path} is not what the library generates; {hint}");
+}
+
+#[test]
+fn committed_schemas_are_the_generated_ones() {
+    check_committed("schemas/scene.schema.json", &Scene::json_schema());
+    check_committed("schemas/cases.schema.json", &CaseSet::json_schema());
+}
+
+#[test]
+fn every_field_of_the_schemas_is_described() {
+    for (name, schema) in [("scene", Scene::json_schema()), ("cases", CaseSet::json_schema())] {
+        let mut bare = Vec::new();
+        collect_undescribed(&schema, "", &mut bare);
+        assert!(bare.is_empty(), "{name}: no description for {}", bare.join(", "));
+    }
+}
+
+/// Paths of the properties below `schema` that have no description.
+fn collect_undescribed(schema: &Value, path: &str, bare: &mut Vec<String>) {
+    let Value::Object(map) = schema else {
+        if let Value::Array(list) = schema {
+            list.iter().enumerate().for_each(|(i, s)| collect_undescribed(s, &format!("{path}/{i}"), bare));
+        }
+        return;
+    };
+    for (key, inner) in map {
+        let path = format!("{path}/{key}");
+        if key == "properties" {
+            // The property of a variant repeats the name of the variant, whose description stands above.
+            let variant = map.contains_key("description")
+                && map.get("required").is_some()
+                && inner.as_object().is_some_and(|p| p.len() == 1);
+            for (name, property) in inner.as_object().into_iter().flatten() {
+                if property.get("description").is_none() && !variant {
+                    bare.push(format!("{path}/{name}"));
+                }
+            }
+        }
+        collect_undescribed(inner, &path, bare);
+    }
+}
+
+#[test]
+fn a_scene_survives_writing_and_reading() {
+    let (scenes, _) = files();
+    let mut texts: Vec<(String, String)> = scenes.iter().map(|name| (name.clone(), read(name))).collect();
+    let roundness = json!([{"order": 2, "amplitude": 1e-5, "phase": 0.1}]);
+    let variants: [(&str, &[(&str, Value)]); 7] = [
+        (
+            "no options",
+            &[
+                ("lubricant", Value::Null),
+                ("gravity", Value::Null),
+                ("cage", Value::Null),
+                ("raceways", json!({})),
+                ("title", Value::Null),
+            ],
+        ),
+        (
+            "fixed ring",
+            &[
+                ("inner_ring.motion", json!({"fixed": {"y": 1e-6, "z": -3e-5}})),
+                ("initial.inner_ring", json!("centred")),
+            ],
+        ),
+        (
+            "step and ramp",
+            &[
+                ("inner_ring.speed", json!({"ramp": {"from": 0.0, "to": -314.0, "start": 0.0, "end": 0.1}})),
+                (
+                    "inner_ring.motion.free.load.z",
+                    json!({"step": {"before": 0.0, "after": -1.0 / 3.0, "time": 1e-3}}),
+                ),
+            ],
+        ),
+        (
+            "sine and table",
+            &[
+                ("inner_ring.speed", json!({"table": {"time": [0.0, 0.1], "value": [0.1, 0.2]}})),
+                (
+                    "inner_ring.motion.free.load.z",
+                    json!({"sine": {"mean": 0.1, "amplitude": 0.7, "frequency": 3.0, "phase": 0.3}}),
+                ),
+            ],
+        ),
+        ("roundness", &[("cage.guide.short_bearing.roundness", roundness)]),
+        (
+            "loaded contacts",
+            &[
+                ("raceways.rolling_resistance.extent", json!({"loaded": {"threshold": 12.3}})),
+                ("raceways.contact.thermal_correction", json!("gupta")),
+            ],
+        ),
+        (
+            "solver",
+            &[(
+                "solver",
+                json!({"method": {"dormand_prince": {"tolerance": 1e-5}}, "max_steps": 18446744073709551615u64}),
+            )],
+        ),
+    ];
+    for (name, changes) in variants {
+        texts.push((name.to_owned(), example_with(changes).to_string()));
+    }
+    let schema = Scene::json_schema();
+    for (name, text) in texts {
+        let scene = Scene::from_json(&text).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let written = scene.to_json();
+        let again = Scene::from_json(&written).unwrap_or_else(|e| panic!("{name}, written: {e}"));
+        assert_eq!(scene, again, "{name}");
+        assert_eq!(written, again.to_json(), "{name}: the text changes when it is written again");
+        assert_valid(&name, &schema, &serde_json::from_str(&written).unwrap());
+        assert_valid(&name, &schema, &serde_json::from_str(&text).unwrap());
+    }
+}
+
+#[test]
+fn what_the_schema_refuses_the_library_refuses() {
+    let schema = Scene::json_schema();
+    let validator = jsonschema::draft202012::new(&schema).unwrap();
+    let rows: [(&str, &str, Value); 15] = [
+        ("unknown field at the top", "speed", json!(1.0)),
+        ("unknown field in a block", "rollers.diameter", json!(15e-3)),
+        ("unknown field in a law", "cage.pocket.contact.boundary_friction.mu", json!(0.1)),
+        ("unknown field in a vector", "gravity.x", json!(0.0)),
+        ("unknown field in a signal", "inner_ring.speed.unit", json!("rpm")),
+        ("unknown field in a material", "materials.steel.name", json!("steel")),
+        ("unknown law", "raceways.contact.film", json!("hamrock_dowson")),
+        ("text for a number", "rollers.radius", json!("7.5e-3")),
+        ("negative count", "rollers.count", json!(-1)),
+        ("fractional count", "rollers.count", json!(12.5)),
+        ("null for a number", "rollers.mass", Value::Null),
+        ("number for a block", "cage.pocket", json!(1)),
+        ("array for a block", "gravity", json!([0.0, -9.8])),
+        ("array for a nested block", "raceways.contact.damping", json!([5e-7, 1e-8])),
+        ("object for a plain choice", "raceways.contact.film", json!({"pan_hamrock": null})),
+    ];
+    for (name, path, value) in rows {
+        let document = example_with(&[(path, value)]);
+        assert!(!validator.is_valid(&document), "{name}: the schema accepts it");
+        match Scene::from_json(&document.to_string()) {
+            Ok(_) => panic!("{name}: the library accepts {path} although the schema refuses it"),
+            Err(e) => assert_eq!(e.status, Status::BadJson, "{name}: {e}"),
+        }
+    }
+}
