@@ -425,10 +425,10 @@ fn accelerations_are_forces_over_inertia() {
         };
         // Round-off is measured by the largest contribution.
         let scale = |body: &BodyForces, k: usize| body.iter().map(|f| f[k].abs()).fold(1e-300, f64::max);
-        for k in 0..2 {
+        for (k, rate) in a.iter().take(2).enumerate() {
             let ring = value("/inner_ring/motion/free/mass");
             let body = &forces.bodies[INNER_RING];
-            same(format!("ring {k}"), a[k], sum(body)[k] / ring, scale(body, k) / ring);
+            same(format!("ring {k}"), *rate, sum(body)[k] / ring, scale(body, k) / ring);
         }
         for k in 0..3 {
             let cage = if k < 2 { value("/cage/mass") } else { value("/cage/inertia") };

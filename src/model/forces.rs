@@ -80,7 +80,7 @@ impl Model {
         out.contacts.clear();
         out.contacts.resize(per_roller * self.layout.count, ContactForces::default());
         out.bodies.clear();
-        out.bodies.resize(self.body_names_len(), BodyForces::default());
+        out.bodies.resize(self.body_count(), BodyForces::default());
         out.accelerations.clear();
         out.accelerations.extend_from_slice(a);
         out.guide_film = ws.guide.map_or(0.0, |film| film.minimum_film);
@@ -146,7 +146,7 @@ impl Model {
     }
 
     /// Number of bodies in a force report.
-    pub fn body_names_len(&self) -> usize {
+    pub fn body_count(&self) -> usize {
         2 + usize::from(self.cage.is_some()) + self.layout.count
     }
 

@@ -134,10 +134,14 @@ impl Model {
         self.geometry.pitch_radius
     }
 
+    /// Radius of the inner raceway, m.
+    pub fn inner_raceway_radius(&self) -> f64 {
+        self.geometry.pitch_radius - self.geometry.roller_radius - self.geometry.gap
+    }
+
     /// Orbit speed per ring speed of a roller that touches both raceways and does not slip: R_i/(2 (R_o - R_b)).
     pub fn orbit_ratio(&self) -> f64 {
-        let g = &self.geometry;
-        (g.pitch_radius - g.roller_radius - g.gap) / (2.0 * (g.pitch_radius + g.gap))
+        self.inner_raceway_radius() / (2.0 * (self.geometry.pitch_radius + self.geometry.gap))
     }
 
     /// Spin speed per ring speed of such a roller.

@@ -28,7 +28,10 @@ pub fn set_path(scene: &mut Value, path: &str, new: Value) -> Result<()> {
                 } else if last {
                     map.entry(key).or_insert(Value::Null)
                 } else {
-                    map.get_mut(key).ok_or_else(|| unknown(format!("there is no '{key}' in '{walked}'")))?
+                    map.get_mut(key).ok_or_else(|| {
+                        let place = if walked.is_empty() { "the scene" } else { walked.as_str() };
+                        unknown(format!("there is no '{key}' in {place}"))
+                    })?
                 }
             }
             Value::Array(list) => {

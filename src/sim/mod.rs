@@ -243,6 +243,11 @@ impl Sim {
         Ok(self.bearing.channel_value(channel, &self.state, &self.forces))
     }
 
+    /// Step that runs start with, s; a method without error control keeps it.
+    pub fn nominal_step(&self) -> f64 {
+        limits(self.model()).nominal_step
+    }
+
     /// Counts since creation, reset or restore.
     pub fn statistics(&self) -> RunStatistics {
         RunStatistics { driver: *self.driver.statistics(), evaluations: self.bearing.evaluations() }

@@ -1,1 +1,185 @@
-fn main() {}
+//! `cagedyn`: runs scenes and case sets from the command line and writes tables and pictures of the results.
+
+mod cases;
+mod effects;
+mod info;
+mod intervals;
+mod output;
+mod plots;
+mod report;
+mod run;
+mod schema;
+mod spectrum;
+mod summary;
+mod table;
+mod terminal;
+
+use cagedyn::Result;
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Dynamics of cage, rollers and rings of a cylindrical roller bearing.
+#[derive(Parser)]
+#[command(name = "cagedyn", version)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+/// What to do.
+#[derive(Subcommand)]
+enum Command {
+    /// Run a scene; write its time series, summary and pictures.
+    Run(RunArgs),
+    /// Run every case of a case set; write each like `run`, and a comparison.
+    Cases(CasesArgs),
+    /// Show what a scene contains: bodies, states, effects, channels, geometry.
+    Info(InfoArgs),
+    /// Print the JSON Schema of a file format.
+    Schema(SchemaArgs),
+}
+
+/// Arguments of `run`.
+#[derive(Args)]
+pub struct RunArgs {
+    /// Scene file.
+    scene: PathBuf,
+    /// Folder for the results; made if it does not exist.
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Simulated time in s, instead of the scene's.
+    #[arg(long, value_name = "T", allow_negative_numbers = true, value_parser = parse_time)]
+    until: Option<f64>,
+    #[command(flatten)]
+    sets: Sets,
+}
+
+/// Arguments of `cases`.
+#[derive(Args)]
+pub struct CasesArgs {
+    /// Case set file.
+    file: PathBuf,
+    /// Folder for the results; every case gets a folder of its own in it.
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Simulated time in s, instead of that of the scenes.
+    #[arg(long, value_name = "T", allow_negative_numbers = true, value_parser = parse_time)]
+    until: Option<f64>,
+}
+
+/// Arguments of `info`.
+#[derive(Args)]
+pub struct InfoArgs {
+    /// Scene file.
+    scene: PathBuf,
+    #[command(flatten)]
+    sets: Sets,
+}
+
+/// Arguments of `schema`.
+#[derive(Args)]
+pub struct SchemaArgs {
+    /// File format.
+    #[arg(value_enum, default_value_t = Format::Scene)]
+    format: Format,
+}
+
+/// A file format with a schema.
+#[derive(Clone, Copy, ValueEnum)]
+pub enum Format {
+    /// One bearing and one run.
+    Scene,
+    /// A base scene and the values that differ from case to case.
+    Cases,
+}
+
+/// Values that replace those of the scene.
+#[derive(Args)]
+pub struct Sets {
+    /// Replace a value of the scene, as in inner_ring.speed.constant=-104.7; null removes an optional block.
+    #[arg(long = "set", value_name = "PATH=VALUE", value_parser = parse_set)]
+    list: Vec<(String, String)>,
+}
+
+impl Sets {
+    /// Path and text of every value.
+    pub fn pairs(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.list.iter().map(|(path, value)| (path.as_str(), value.as_str()))
+    }
+}
+
+fn main() -> ExitCode {
+    match dispatch(&Cli::parse().command) {
+        Ok(code) => code,
+        Err(error) => {
+            terminal::complain(&error);
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn dispatch(command: &Command) -> Result<ExitCode> {
+    match command {
+        Command::Run(args) => run::command(args),
+        Command::Cases(args) => cases::command(args),
+        Command::Info(args) => info::command(args),
+        Command::Schema(args) => schema::command(args),
+    }
+}
+
+/// Splits `path=value` at the first equals sign; the value may contain more of them.
+fn parse_set(text: &str) -> std::result::Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((path, value)) if !path.trim().is_empty() => {
+            Ok((path.trim().to_owned(), value.trim().to_owned()))
+        }
+        _ => Err("must have the form PATH=VALUE".to_owned()),
+    }
+}
+
+/// A time in s, positive and finite.
+fn parse_time(text: &str) -> std::result::Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(time) if time.is_finite() && time > 0.0 => Ok(time),
+        _ => Err("must be a number of seconds above zero".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn arguments_are_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn sets_are_split_at_the_first_equals_sign() {
+        let pair = |path: &str, value: &str| Ok((path.to_owned(), value.to_owned()));
+        assert_eq!(parse_set("a.b.0=1e-3"), pair("a.b.0", "1e-3"));
+        assert_eq!(parse_set(" title = x = y "), pair("title", "x = y"));
+        assert_eq!(parse_set("gravity="), pair("gravity", ""));
+        for bad in ["gravity", "=3", "  =3", ""] {
+            assert!(parse_set(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn sets_may_be_repeated() {
+        let line = ["cagedyn", "run", "s.json", "--out", "o", "--set", "a=1", "--set", "b.c=-2"];
+        let cli = Cli::try_parse_from(line).unwrap();
+        let Command::Run(args) = cli.command else { panic!("not a run") };
+        assert_eq!(args.sets.pairs().collect::<Vec<_>>(), [("a", "1"), ("b.c", "-2")]);
+    }
+
+    #[test]
+    fn times_are_positive_and_finite() {
+        assert_eq!(parse_time("1e-3"), Ok(1e-3));
+        for bad in ["0", "-1", "inf", "nan", "1 s"] {
+            assert!(parse_time(bad).is_err(), "{bad}");
+        }
+    }
+}

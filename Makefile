@@ -1,0 +1,66 @@
+# make test      everything that CI runs: formatting, lints, all tests
+# make run       the NU2310 example, results in out/
+# make cases     the twelve NU2310 cases, results in out/cases/
+# make pictures  the pictures of the README
+# make bench     time of a force evaluation and of a step
+# make header    writes include/cagedyn.h and schemas/ anew after a change
+# make install   library, header and pkg-config file below $(DESTDIR)$(PREFIX)
+
+PREFIX ?= /usr/local
+DESTDIR ?=
+VERSION := $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -n 1)
+CARGO ?= cargo
+
+.PHONY: test tools fmt lint unit run cases pictures bench header install clean
+
+test: tools fmt lint unit
+
+# What a fresh Debian machine lacks. Each line says what it installs; nothing happens when it is there.
+tools:
+	@command -v cc >/dev/null && command -v c++ >/dev/null && command -v readelf >/dev/null \
+		|| ./tools/install.sh build-essential
+	@command -v valgrind >/dev/null || ./tools/install.sh valgrind
+	@$(CARGO) fmt --version >/dev/null 2>&1 || { echo "installing rustfmt"; rustup component add rustfmt; }
+	@$(CARGO) clippy --version >/dev/null 2>&1 || { echo "installing clippy"; rustup component add clippy; }
+
+fmt:
+	$(CARGO) fmt --check
+
+lint:
+	$(CARGO) clippy --locked --all-targets -- -D warnings
+
+unit:
+	CAGEDYN_REQUIRE_VALGRIND=1 $(CARGO) test --locked
+
+run:
+	$(CARGO) run --release --locked -- run scenes/nu2310.json --out out
+
+cases:
+	$(CARGO) run --release --locked -- cases scenes/nu2310_fig9.cases.json --out out/cases
+
+pictures:
+	$(CARGO) run --release --locked -- run scenes/nu2310.json --out out
+	mkdir -p docs/images
+	cp out/cage_orbit.svg out/roller_history.svg docs/images/
+
+bench:
+	$(CARGO) bench --locked
+
+header:
+	CAGEDYN_BLESS=1 $(CARGO) test --locked --test header --test scene_files
+
+install:
+	$(CARGO) build --release --locked
+	install -d $(DESTDIR)$(PREFIX)/lib/pkgconfig $(DESTDIR)$(PREFIX)/include $(DESTDIR)$(PREFIX)/bin
+	install -m 644 include/cagedyn.h $(DESTDIR)$(PREFIX)/include/
+	install -m 755 target/release/libcagedyn.so $(DESTDIR)$(PREFIX)/lib/libcagedyn.so.$(VERSION)
+	ln -sf libcagedyn.so.$(VERSION) $(DESTDIR)$(PREFIX)/lib/libcagedyn.so.0
+	ln -sf libcagedyn.so.0 $(DESTDIR)$(PREFIX)/lib/libcagedyn.so
+	install -m 644 target/release/libcagedyn.a $(DESTDIR)$(PREFIX)/lib/
+	install -m 755 target/release/cagedyn $(DESTDIR)$(PREFIX)/bin/
+	sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@VERSION@|$(VERSION)|' tools/cagedyn.pc.in \
+		> $(DESTDIR)$(PREFIX)/lib/pkgconfig/cagedyn.pc
+
+clean:
+	$(CARGO) clean
+	rm -rf out

@@ -1,0 +1,157 @@
+//! Axes with round tick values.
+
+use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
+use std::ops::Range;
+
+/// More decimals than this, or larger numbers, are written with an exponent.
+const MAX_DECIMALS: f64 = 5.0;
+const LARGEST_PLAIN: f64 = 1e6;
+
+/// How tick values are written.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Notation {
+    /// Plain, with this many decimals.
+    Decimals(usize),
+    /// With an exponent, where plain numbers would be too long for their strip.
+    Exponent,
+    /// As power of ten; the axis shows logarithms.
+    PowerOfTen,
+}
+
+/// Range, ticks and name of an axis.
+#[derive(Clone)]
+pub struct Axis {
+    /// Name with unit.
+    pub name: String,
+    /// Lower end.
+    pub min: f64,
+    /// Upper end.
+    pub max: f64,
+    step: f64,
+    notation: Notation,
+}
+
+impl Axis {
+    /// An axis from `min` to `max` with about `ticks` ticks.
+    pub fn new(name: &str, min: f64, max: f64, ticks: usize) -> Self {
+        let step = round_step((max - min) / ticks.max(1) as f64);
+        // A tick of 1, 2 or 5 times a power of ten has no more digits than that power.
+        let decimals = (-(step * (1.0 + 1e-9)).log10().floor()).max(0.0);
+        let plain = decimals <= MAX_DECIMALS && min.abs().max(max.abs()) < LARGEST_PLAIN;
+        let notation = if plain { Notation::Decimals(decimals as usize) } else { Notation::Exponent };
+        Self { name: name.to_owned(), min, max, step, notation }
+    }
+
+    /// An axis that shows all finite values with some room around them.
+    pub fn covering(name: &str, values: impl Iterator<Item = f64>, ticks: usize) -> Self {
+        let finite = values.filter(|v| v.is_finite());
+        let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
+        let (low, high) = if low > high { (0.0, 0.0) } else { (low, high) };
+        // A constant still needs a range to be drawn in.
+        let size = low.abs().max(high.abs());
+        let constant = high - low <= 1e-9 * size;
+        let room = match (constant, size > 0.0) {
+            (false, _) => 0.06 * (high - low),
+            (true, true) => 0.1 * size,
+            (true, false) => 1.0,
+        };
+        Self::new(name, low - room, high + room, ticks)
+    }
+
+    /// An axis of logarithms to the base 10, with a tick at every power of ten.
+    pub fn powers_of_ten(name: &str, min: f64, max: f64) -> Self {
+        Self { name: name.to_owned(), min, max, step: 1.0, notation: Notation::PowerOfTen }
+    }
+
+    /// Places of the ticks.
+    pub fn ticks(&self) -> Vec<f64> {
+        let slack = 1e-9 * (self.max - self.min);
+        let first = ((self.min - slack) / self.step).ceil() as i64;
+        let last = ((self.max + slack) / self.step).floor() as i64;
+        (first..=last).map(|i| i as f64 * self.step).collect()
+    }
+
+    /// Text of a tick.
+    pub fn label(&self, value: f64) -> String {
+        match self.notation {
+            Notation::Decimals(decimals) => minus(&format!("{value:.decimals$}")),
+            Notation::Exponent => minus(&format!("{value:.1e}")),
+            Notation::PowerOfTen => format!("10{}", superscript(value.round() as i64)),
+        }
+    }
+}
+
+impl Ranged for Axis {
+    type FormatOption = DefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
+        let share = (value - self.min) / (self.max - self.min);
+        (f64::from(limit.0) + share * f64::from(limit.1 - limit.0)).round() as i32
+    }
+
+    /// The ticks as bold lines; no light lines between them.
+    fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
+        if hint.weight().allow_light_points() { Vec::new() } else { self.ticks() }
+    }
+
+    fn range(&self) -> Range<f64> {
+        self.min..self.max
+    }
+}
+
+/// The smallest of 1, 2, 5 times a power of ten that is at least `x`.
+fn round_step(x: f64) -> f64 {
+    if !x.is_finite() || x <= 0.0 {
+        return 1.0;
+    }
+    let power = 10f64.powf(x.log10().floor());
+    let step = [1.0, 2.0, 5.0].into_iter().find(|m| m * power >= x * (1.0 - 1e-9));
+    step.unwrap_or(10.0) * power
+}
+
+/// A number with a typographic minus sign, and none in front of zero.
+pub fn minus(number: &str) -> String {
+    match number.strip_prefix('-') {
+        Some(rest) if rest.chars().any(|c| ('1'..='9').contains(&c)) => format!("\u{2212}{rest}"),
+        Some(rest) => rest.to_owned(),
+        None => number.to_owned(),
+    }
+}
+
+fn superscript(n: i64) -> String {
+    let raised = |c: char| match c {
+        '-' => '\u{207b}',
+        '1' => '\u{b9}',
+        '2' => '\u{b2}',
+        '3' => '\u{b3}',
+        digit => char::from_u32(0x2070 + digit.to_digit(10).unwrap_or(0)).unwrap_or(digit),
+    };
+    n.to_string().chars().map(raised).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_round_and_inside() {
+        let axis = Axis::new("x", -0.23, 0.31, 5);
+        let labels: Vec<_> = axis.ticks().iter().map(|&t| axis.label(t)).collect();
+        assert_eq!(labels, ["\u{2212}0.2", "0.0", "0.2"]);
+        assert_eq!(Axis::new("x", 0.0, 1000.0, 10).ticks().len(), 11);
+        let small = Axis::new("x", 0.0, 3e-7, 3);
+        assert_eq!(small.label(-2e-7), "\u{2212}2.0e-7");
+        let log = Axis::powers_of_ten("x", -3.2, 0.5);
+        assert_eq!(log.ticks(), [-3.0, -2.0, -1.0, 0.0]);
+        assert_eq!(log.label(-13.0), "10\u{207b}\u{b9}\u{b3}");
+    }
+
+    #[test]
+    fn constants_and_nothing_have_a_range() {
+        for values in [vec![], vec![3.0, 3.0], vec![f64::NAN]] {
+            let axis = Axis::covering("x", values.into_iter(), 4);
+            assert!(axis.max > axis.min && !axis.ticks().is_empty());
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! A diagram with grid and axes at an exact place of a picture.
+
+use super::axis::Axis;
+use super::style::{Canvas, Drawn, GRID, INK, MUTED, SHADE, TEXT, line, px, text};
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, VPos};
+
+/// Width of the strip for the labels of the y axis, px.
+pub const Y_LABELS: f64 = 74.0;
+/// Height of the strip for the labels of the x axis, px.
+pub const X_LABELS: f64 = 46.0;
+/// Curves are drawn as dashes of this length and half as long gaps, px.
+const DASH: f64 = 6.0;
+
+/// Rectangle of a diagram without its labels, px.
+#[derive(Clone, Copy)]
+pub struct Place {
+    /// Left edge.
+    pub x: f64,
+    /// Upper edge.
+    pub y: f64,
+    /// Width.
+    pub w: f64,
+    /// Height.
+    pub h: f64,
+}
+
+type Coordinates = Cartesian2d<Axis, Axis>;
+
+/// A diagram to draw in.
+pub struct Panel<'c, 'a, 'b> {
+    canvas: &'c Canvas<'b>,
+    chart: ChartContext<'a, SVGBackend<'b>, Coordinates>,
+    y_range: (f64, f64),
+}
+
+/// Draws a diagram; `draw` adds its contents. Without `x_labels` the x axis has a grid only.
+pub fn panel(
+    canvas: &Canvas<'_>,
+    place: Place,
+    (x, y): (&Axis, &Axis),
+    x_labels: bool,
+    shaded: &[(f64, f64)],
+    draw: impl FnOnce(&mut Panel<'_, '_, '_>) -> Drawn,
+) -> Drawn {
+    let below = if x_labels { X_LABELS } else { 0.0 };
+    let corner = (px(place.x - Y_LABELS), px(place.y));
+    let area = canvas.clone().shrink(corner, (px(place.w + Y_LABELS) as u32, px(place.h + below) as u32));
+    let mut chart = ChartBuilder::on(&area)
+        .set_label_area_size(LabelAreaPosition::Left, px(Y_LABELS))
+        .set_label_area_size(LabelAreaPosition::Bottom, px(below))
+        .build_cartesian_2d(x.clone(), y.clone())?;
+    let rectangles = shaded
+        .iter()
+        .map(|&(a, b)| Rectangle::new([(a.max(x.min), y.min), (b.min(x.max), y.max)], SHADE.filled()));
+    chart.draw_series(rectangles)?;
+    mesh(&mut chart, x, y)?;
+    let frame = [(x.min, y.min), (x.max, y.max)];
+    chart.draw_series([Rectangle::new(frame, line(MUTED, 0.8))])?;
+    draw(&mut Panel { canvas, chart, y_range: (y.min, y.max) })
+}
+
+fn mesh(chart: &mut ChartContext<'_, SVGBackend<'_>, Coordinates>, x: &Axis, y: &Axis) -> Drawn {
+    let label = text(TEXT - 1.0, INK, HPos::Center, VPos::Center);
+    let name = text(TEXT, INK, HPos::Center, VPos::Center);
+    chart
+        .configure_mesh()
+        .bold_line_style(line(GRID, 0.8))
+        .axis_style(line(MUTED, 0.8))
+        .label_style(label)
+        .axis_desc_style(name)
+        .x_desc(x.name.as_str())
+        .y_desc(y.name.as_str())
+        .x_label_formatter(&|v| x.label(*v))
+        .y_label_formatter(&|v| y.label(*v))
+        .set_all_tick_mark_size(px(4.0))
+        .draw()
+}
+
+impl<'b> Panel<'_, '_, 'b> {
+    /// Draws a curve.
+    pub fn curve(&mut self, points: impl IntoIterator<Item = (f64, f64)>, style: ShapeStyle) -> Drawn {
+        self.chart.draw_series(LineSeries::new(points, style))?;
+        Ok(())
+    }
+
+    /// Draws a dashed curve.
+    pub fn dashed(&mut self, points: impl IntoIterator<Item = (f64, f64)>, style: ShapeStyle) -> Drawn {
+        let points: Vec<_> = points.into_iter().collect();
+        self.chart.draw_series(DashedLineSeries::new(points, px(DASH), px(0.5 * DASH), style))?;
+        Ok(())
+    }
+
+    /// Draws a vertical line from the bottom up to `top`.
+    pub fn vertical(&mut self, x: f64, top: f64, style: ShapeStyle) -> Drawn {
+        self.dashed([(x, self.y_range.0), (x, top)], style)
+    }
+
+    /// Draws a circle about the origin.
+    pub fn circle(&mut self, radius: f64, style: ShapeStyle) -> Drawn {
+        let angles = (0..=180).map(|i| f64::from(i) * std::f64::consts::TAU / 180.0);
+        self.curve(angles.map(|a| (radius * a.cos(), radius * a.sin())), style)
+    }
+
+    /// Place of a point on the surface.
+    pub fn place(&self, point: (f64, f64)) -> (i32, i32) {
+        self.chart.backend_coord(&point)
+    }
+
+    /// The surface of the whole picture.
+    pub fn canvas(&self) -> &Canvas<'b> {
+        self.canvas
+    }
+}

@@ -1,0 +1,103 @@
+//! Amplitude spectrum of the cage position (compare Fig. 6).
+
+use super::axis::Axis;
+use super::panel::{Place, panel};
+use super::style::{self, BLUE, INK, MUTED, Marker, RED, Symbol, TEXT, THIN, line, px, text};
+use crate::run::Run;
+use crate::spectrum::{Spectrum, amplitude_spectrum};
+use crate::summary::Summary;
+use crate::table::{number, rounded};
+use cagedyn::Result;
+use plotters::prelude::Text;
+use plotters::style::text_anchor::{HPos, VPos};
+
+/// The start of a run is left out, s ...
+const SETTLED: f64 = 0.08;
+/// ... but at most this share of it.
+const LARGEST_START_SHARE: f64 = 1.0 / 3.0;
+/// Highest frequency shown, Hz.
+const HIGHEST: f64 = 1000.0;
+/// Powers of ten shown below the peak.
+const DECADES: f64 = 4.0;
+/// Frequency ranges that are told apart.
+const COLUMNS: usize = 1000;
+/// Room above the peak for the labels of the frequencies, in powers of ten.
+const LABEL_ROOM: f64 = 1.3;
+
+/// The picture, if there is a cage and the run is long enough.
+pub fn cage_spectrum(run: &Run, summary: &Summary) -> Option<Result<String>> {
+    let start = SETTLED.min(LARGEST_START_SHARE * run.end()) - 1e-6 * run.interval();
+    let from = run.recording.index_at(start);
+    let samples: Vec<f64> = run.column("cage.z")?.get(from..)?.iter().map(|x| 1e3 * x).collect();
+    let mut spectrum = amplitude_spectrum(&samples, run.interval())?;
+    let shown = spectrum.frequencies.partition_point(|f| *f <= HIGHEST);
+    spectrum.frequencies.truncate(shown);
+    spectrum.amplitudes.truncate(shown);
+    let first = run.recording.times.get(from).copied()?;
+    let subtitle =
+        format!("Amplitude spectrum of cage.z from {} s to {} s", rounded(first), rounded(run.end()));
+    Some(draw(&run.title, &subtitle, &spectrum, &orders(run, summary)))
+}
+
+/// Frequencies to mark, with their names: those of the cage and of the pockets passing by.
+fn orders(run: &Run, summary: &Summary) -> Vec<(f64, String)> {
+    let Some(cage) = summary.cage_frequency_hz.filter(|f| *f > 0.0) else { return Vec::new() };
+    let count = run.roller_count();
+    let mut list = vec![(cage, "f_c".to_owned())];
+    if count != 4 {
+        list.push((4.0 * cage, "4 f_c".to_owned()));
+    }
+    list.push((count as f64 * cage, format!("Z f_c = {count} f_c")));
+    list.sort_by(|a, b| a.0.total_cmp(&b.0));
+    list
+}
+
+fn draw(title: &str, subtitle: &str, spectrum: &Spectrum, orders: &[(f64, String)]) -> Result<String> {
+    let highest = spectrum.frequencies.last().copied().unwrap_or(HIGHEST);
+    let peak = spectrum.peak();
+    let largest = spectrum.amplitudes.iter().fold(0.0, |m: f64, a| m.max(*a)).max(1e-15).log10();
+    let x_axis = Axis::new("frequency [Hz]", 0.0, highest, 10);
+    let y_axis =
+        Axis::powers_of_ten("amplitude of cage.z [mm]", (largest - DECADES).round(), largest + LABEL_ROOM);
+    let place = Place { x: 100.0, y: 100.0, w: 770.0, h: 370.0 };
+    style::picture((900.0, 540.0), title, subtitle, |canvas| {
+        let mut entries = vec![(Symbol::Line(BLUE), "amplitude, Hann window".to_owned())];
+        if let Some((frequency, amplitude)) = peak {
+            let label = format!("peak {} mm at {} Hz", number(amplitude), number(frequency));
+            entries.push((Symbol::Marker(Marker::Ring, RED), label));
+        }
+        entries.push((Symbol::Dashed(MUTED), "multiples of the cage frequency f_c".to_owned()));
+        style::legend_row(canvas, 78.0, &entries)?;
+        panel(canvas, place, (&x_axis, &y_axis), true, &[], |panel| {
+            // Every label has a height of its own and its line ends there, so that none crosses another's text.
+            let shown = orders.iter().filter(|(frequency, _)| *frequency < highest);
+            for (row, (frequency, name)) in shown.enumerate() {
+                let top = y_axis.max - 0.12 - 0.35 * row as f64;
+                panel.vertical(*frequency, top, line(MUTED, THIN))?;
+                let (x, y) = panel.place((*frequency, top));
+                let label = format!("{name}, {} Hz", number(*frequency));
+                let style = text(TEXT - 1.0, INK, HPos::Left, VPos::Top);
+                panel.canvas().draw(&Text::new(label, (x + px(5.0), y - px(2.0)), style))?;
+            }
+            let points = envelope(spectrum).map(|(f, a)| (f, a.max(1e-300).log10().max(y_axis.min)));
+            panel.curve(points, line(BLUE, THIN + 0.2))?;
+            match peak {
+                Some((f, a)) if a > 0.0 => {
+                    style::marker(panel.canvas(), Marker::Ring, panel.place((f, a.log10())), 4.5, RED)
+                }
+                _ => Ok(()),
+            }
+        })
+    })
+}
+
+/// The largest amplitude in each of a limited number of equal frequency ranges: what a picture can resolve. The
+/// spectrum of a long run has so many lines that its minima would only blacken the picture.
+fn envelope(spectrum: &Spectrum) -> impl Iterator<Item = (f64, f64)> {
+    let lines = spectrum.amplitudes.len().div_ceil(COLUMNS).max(1);
+    let ranges = spectrum.frequencies.chunks(lines).zip(spectrum.amplitudes.chunks(lines));
+    ranges.filter_map(|(f, a)| {
+        let largest = f.iter().zip(a).max_by(|x, y| x.1.total_cmp(y.1))?;
+        Some((*largest.0, *largest.1))
+    })
+}

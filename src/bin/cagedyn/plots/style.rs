@@ -1,0 +1,223 @@
+//! What all pictures share: colours, fonts, titles, markers and legends.
+
+use cagedyn::{Error, Result, Status};
+use plotters::coord::Shift;
+use plotters::prelude::*;
+pub use plotters::style::RGBColor as Paint;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+use std::io;
+
+/// A drawing surface.
+pub type Canvas<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+/// Result of drawing.
+pub type Drawn<T = ()> = std::result::Result<T, DrawingAreaErrorKind<io::Error>>;
+
+/// The drawing library rounds to whole pixels, which makes curves jagged. It therefore draws this many times larger,
+/// and the viewer scales back.
+const SCALE: f64 = 4.0;
+/// The library divides font sizes by this factor.
+const FONT_FACTOR: f64 = 1.24;
+/// Mean width of a character in units of the font size, on the safe side.
+const CHARACTER_WIDTH: f64 = 0.58;
+
+/// Background.
+pub const PAPER: Paint = WHITE;
+/// Text and axes.
+pub const INK: Paint = Paint(0x22, 0x2b, 0x35);
+/// Secondary text and thin marks.
+pub const MUTED: Paint = Paint(0x66, 0x71, 0x7d);
+/// Grid lines.
+pub const GRID: Paint = Paint(0xe4, 0xe7, 0xeb);
+/// Shaded intervals.
+pub const SHADE: Paint = Paint(0xec, 0xf1, 0xf8);
+/// Curves that stand behind others.
+pub const FAINT: Paint = Paint(0xa9, 0xbb, 0xd0);
+/// First curve.
+pub const BLUE: Paint = Paint(0x1f, 0x5f, 0xa6);
+/// Second curve.
+pub const ORANGE: Paint = Paint(0xd9, 0x6a, 0x1d);
+/// Third curve.
+pub const GREEN: Paint = Paint(0x2a, 0x8a, 0x5c);
+/// Fourth curve, and marks that must be seen.
+pub const RED: Paint = Paint(0xb8, 0x2e, 0x3a);
+/// Fifth curve.
+pub const PURPLE: Paint = Paint(0x74, 0x54, 0xa6);
+/// Sixth curve.
+pub const TEAL: Paint = Paint(0x1c, 0x8f, 0x9c);
+
+/// Colours of series, in order.
+pub const SERIES: [Paint; 6] = [BLUE, ORANGE, GREEN, PURPLE, TEAL, RED];
+
+/// Size of normal text, px.
+pub const TEXT: f64 = 13.0;
+/// Line width of curves, px.
+pub const CURVE: f64 = 1.4;
+/// Line width of auxiliary lines, px.
+pub const THIN: f64 = 0.9;
+
+/// A length in px of the finished picture, in units of the surface.
+pub fn px(length: f64) -> i32 {
+    (length * SCALE).round() as i32
+}
+
+/// A line of some width in px.
+pub fn line(color: Paint, width: f64) -> ShapeStyle {
+    ShapeStyle { color: color.to_rgba(), filled: false, stroke_width: px(width).max(1) as u32 }
+}
+
+/// Text of a size in px, placed relative to its anchor.
+pub fn text(size: f64, color: Paint, h: HPos, v: VPos) -> TextStyle<'static> {
+    let font: FontDesc<'static> = ("sans-serif", size * FONT_FACTOR * SCALE).into();
+    font.color(&color).pos(Pos::new(h, v))
+}
+
+fn bold(size: f64) -> TextStyle<'static> {
+    let font = FontDesc::new(FontFamily::SansSerif, size * FONT_FACTOR * SCALE, FontStyle::Bold);
+    font.color(&INK).pos(Pos::new(HPos::Left, VPos::Top))
+}
+
+/// Estimated width of a text, px.
+pub fn text_width(text: &str, size: f64) -> f64 {
+    CHARACTER_WIDTH * size * text.chars().count() as f64
+}
+
+/// Draws a picture of a size in px with a title and a line below it; `draw` adds the rest.
+///
+/// # Errors
+/// [`Status::File`] when drawing fails.
+pub fn picture(
+    size: (f64, f64),
+    title: &str,
+    subtitle: &str,
+    draw: impl FnOnce(&Canvas<'_>) -> Drawn,
+) -> Result<String> {
+    let mut svg = String::new();
+    let (width, height) = (px(size.0), px(size.1));
+    let drawn = (|| {
+        let canvas = SVGBackend::with_string(&mut svg, (width as u32, height as u32)).into_drawing_area();
+        canvas.fill(&WHITE)?;
+        let room = size.0 - 2.0 * LEFT;
+        let fitting = 18.0 * (room / text_width(title, 19.0)).min(1.0);
+        canvas.draw(&Text::new(title.to_owned(), (px(LEFT), px(16.0)), bold(fitting)))?;
+        let style = text(TEXT, MUTED, HPos::Left, VPos::Top);
+        canvas.draw(&Text::new(subtitle.to_owned(), (px(LEFT), px(42.0)), style))?;
+        draw(&canvas)?;
+        canvas.present()
+    })();
+    drawn.map_err(|e: DrawingAreaErrorKind<io::Error>| Error::new(Status::File, format!("picture: {e}")))?;
+    // The view box keeps the large coordinates; only the size of the picture shrinks.
+    let drawn_size = format!("width=\"{width}\" height=\"{height}\"");
+    Ok(svg.replacen(&drawn_size, &format!("width=\"{}\" height=\"{}\"", size.0, size.1), 1))
+}
+
+/// Left margin of titles and legends, px.
+pub const LEFT: f64 = 24.0;
+
+/// Shape of a marker.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Marker {
+    /// Filled circle.
+    Disc,
+    /// White circle with a coloured edge.
+    Ring,
+    /// Diagonal cross.
+    Cross,
+    /// Filled square.
+    Square,
+    /// Filled triangle.
+    Triangle,
+    /// Filled diamond.
+    Diamond,
+}
+
+/// Draws a marker of some size (about its radius in px) at a place of the surface.
+pub fn marker(canvas: &Canvas<'_>, shape: Marker, at: (i32, i32), size: f64, color: Paint) -> Drawn {
+    let (x, y) = at;
+    let corners = |list: &[(f64, f64)]| -> Vec<(i32, i32)> {
+        list.iter().map(|(dx, dy)| (x + px(dx * size), y + px(dy * size))).collect()
+    };
+    match shape {
+        Marker::Disc => canvas.draw(&Circle::new(at, px(size), color.filled())),
+        Marker::Ring => {
+            canvas.draw(&Circle::new(at, px(size), WHITE.filled()))?;
+            canvas.draw(&Circle::new(at, px(size), line(color, 1.8)))
+        }
+        Marker::Cross => {
+            // A white edge keeps the cross visible on top of curves.
+            for (paint, width) in [(WHITE, 4.6), (color, 2.4)] {
+                for ends in [[(-1.0, -1.0), (1.0, 1.0)], [(-1.0, 1.0), (1.0, -1.0)]] {
+                    canvas.draw(&PathElement::new(corners(&ends), line(paint, width)))?;
+                }
+            }
+            Ok(())
+        }
+        Marker::Square => {
+            let list = [(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)];
+            canvas.draw(&Polygon::new(corners(&list), color.filled()))
+        }
+        Marker::Triangle => {
+            let list = [(0.0, -1.15), (1.1, 0.85), (-1.1, 0.85)];
+            canvas.draw(&Polygon::new(corners(&list), color.filled()))
+        }
+        Marker::Diamond => {
+            let list = [(0.0, -1.25), (1.25, 0.0), (0.0, 1.25), (-1.25, 0.0)];
+            canvas.draw(&Polygon::new(corners(&list), color.filled()))
+        }
+    }
+}
+
+/// Symbol of a legend entry.
+#[derive(Clone, Copy)]
+pub enum Symbol {
+    /// A curve.
+    Line(Paint),
+    /// A dashed line.
+    Dashed(Paint),
+    /// A marker.
+    Marker(Marker, Paint),
+    /// A marker on a curve.
+    MarkedLine(Marker, Paint),
+    /// A shaded interval.
+    Patch,
+}
+
+const SYMBOL_WIDTH: f64 = 22.0;
+const SYMBOL_GAP: f64 = 7.0;
+
+/// Draws legend entries in a row that starts at the left margin, centred at height `y` px.
+pub fn legend_row(canvas: &Canvas<'_>, y: f64, entries: &[(Symbol, String)]) -> Drawn {
+    let mut x = LEFT;
+    for (symbol, label) in entries {
+        legend_entry(canvas, (x, y), *symbol, label)?;
+        x += SYMBOL_WIDTH + SYMBOL_GAP + text_width(label, TEXT) + 18.0;
+    }
+    Ok(())
+}
+
+/// Draws one legend entry with its left end at a place in px.
+pub fn legend_entry(canvas: &Canvas<'_>, (x, y): (f64, f64), symbol: Symbol, label: &str) -> Drawn {
+    let centre = (px(x + 0.5 * SYMBOL_WIDTH), px(y));
+    let stroke = |from: f64, to: f64, style: ShapeStyle| {
+        canvas.draw(&PathElement::new(vec![(px(x + from), px(y)), (px(x + to), px(y))], style))
+    };
+    match symbol {
+        Symbol::Line(color) => stroke(0.0, SYMBOL_WIDTH, line(color, 2.0))?,
+        Symbol::Dashed(color) => {
+            for k in 0..3 {
+                stroke(8.0 * f64::from(k), 8.0 * f64::from(k) + 5.0, line(color, 1.2))?;
+            }
+        }
+        Symbol::Marker(shape, color) => marker(canvas, shape, centre, 5.0, color)?,
+        Symbol::MarkedLine(shape, color) => {
+            stroke(-3.0, SYMBOL_WIDTH + 3.0, line(color, CURVE))?;
+            marker(canvas, shape, centre, 5.0, color)?;
+        }
+        Symbol::Patch => {
+            let corners = [(px(x), px(y - 6.0)), (px(x + SYMBOL_WIDTH), px(y + 6.0))];
+            canvas.draw(&Rectangle::new(corners, SHADE.filled()))?;
+            canvas.draw(&Rectangle::new(corners, line(FAINT, 0.6)))?;
+        }
+    }
+    let style = text(TEXT, INK, HPos::Left, VPos::Center);
+    canvas.draw(&Text::new(label.to_owned(), (px(x + SYMBOL_WIDTH + SYMBOL_GAP), px(y)), style))
+}

@@ -1,0 +1,106 @@
+//! The summary that `run` prints.
+
+use crate::run::Run;
+use crate::summary::{Statistics, Summary};
+use crate::table::{self, Align, grouped, number, rounded};
+use std::path::Path;
+
+/// Rows of the table: name, value, deviation, unit, remark.
+struct Rows(Vec<Vec<String>>);
+
+impl Rows {
+    /// A mean with its deviation in another unit, `scale` of it per SI unit.
+    fn spread(&mut self, name: &str, s: Option<&Statistics>, scale: f64, unit: &str, remark: &str) {
+        if let Some(s) = s {
+            let deviation = format!("± {}", number(s.deviation * scale));
+            self.add(name, number(s.mean * scale), &deviation, unit, remark);
+        }
+    }
+
+    fn add(&mut self, name: &str, value: String, deviation: &str, unit: &str, remark: &str) {
+        self.0.push([name, &value, deviation, unit, remark].map(str::to_owned).to_vec());
+    }
+}
+
+/// Title, table of means and deviations, and what was done.
+pub fn text(run: &Run, summary: &Summary, folder: &Path) -> String {
+    let w = &summary.window;
+    let mut text = format!("{}\n", summary.title);
+    text.push_str(&format!(
+        "mean ± standard deviation from {} s to {} s ({} records)\n\n",
+        rounded(w.from_s),
+        rounded(w.to_s),
+        w.records
+    ));
+    for line in table::lines(&results(summary).0, &[Align::Left, Align::Right]) {
+        text.push_str(&format!("  {line}\n"));
+    }
+    text.push('\n');
+    for line in table::lines(&effort(run, summary, folder), &[Align::Left]) {
+        text.push_str(&format!("  {line}\n"));
+    }
+    text
+}
+
+fn results(summary: &Summary) -> Rows {
+    let mut rows = Rows(Vec::new());
+    let of = |name: &str| summary.of(name);
+    if summary.of("cage.y_ratio").is_some() {
+        rows.spread("cage centre y", of("cage.y_ratio"), 1.0, "of guide clearance", "");
+        rows.spread("cage centre z", of("cage.z_ratio"), 1.0, "of guide clearance", "");
+        rows.spread("cage eccentricity", of("cage.eccentricity"), 1.0, "of guide clearance", "");
+    } else {
+        rows.spread("cage centre y", of("cage.y"), 1e3, "mm", "");
+        rows.spread("cage centre z", of("cage.z"), 1e3, "mm", "");
+    }
+    let frequency = summary.cage_frequency_hz.map(|f| format!("{} Hz", number(f))).unwrap_or_default();
+    rows.spread("cage speed", of("cage.speed"), 1.0, "rad/s", &frequency);
+    rows.spread("cage slip", of("cage.slip"), 100.0, "%", "");
+    if let Some(slip) = &summary.max_roller_slip {
+        let place = format!("roller {} at {} s", slip.roller, rounded(slip.time_s));
+        rows.add("largest roller slip", number(100.0 * slip.value), "", "%", &place);
+    }
+    if let Some(forces) = &summary.pocket_forces {
+        let remark = "mean over time, all rollers together";
+        rows.add("pocket force, driving", number(forces.driving_n), "", "N", remark);
+        rows.add("pocket force, braking", number(forces.braking_n), "", "N", remark);
+    }
+    rows.spread("drag torque", of("inner_ring.drag_torque"), 1.0, "N m", "on the inner ring");
+    rows.spread("inner ring y", of("inner_ring.y"), 1e6, "um", "");
+    rows.spread("inner ring z", of("inner_ring.z"), 1e6, "um", "");
+    rows
+}
+
+fn effort(run: &Run, summary: &Summary, folder: &Path) -> Vec<Vec<String>> {
+    let i = &summary.integration;
+    let steps = if i.smallest_step_s == i.largest_step_s {
+        format!("{} of {} s", grouped(i.steps), number(i.largest_step_s))
+    } else {
+        format!(
+            "{} of {} s to {} s, {} rejected",
+            grouped(i.steps),
+            number(i.smallest_step_s),
+            number(i.largest_step_s),
+            grouped(i.rejected)
+        )
+    };
+    let time = format!(
+        "{} s simulated in {} s wall time (ratio {})",
+        rounded(summary.simulated_time_s),
+        number(summary.wall_time_s),
+        number(summary.simulated_over_wall)
+    );
+    let mut rows = vec![
+        ("method", i.method.replace('_', "-")),
+        ("steps", steps),
+        ("force evaluations", grouped(i.evaluations)),
+        ("time", time),
+    ];
+    if run.interrupted {
+        rows.push(("ended", "interrupted, results are incomplete".to_owned()));
+    } else if run.failure.is_some() {
+        rows.push(("ended", "failed, results are incomplete".to_owned()));
+    }
+    rows.push(("files", format!("{}: {}", folder.display(), summary.files.join(", "))));
+    rows.into_iter().map(|(name, value)| vec![name.to_owned(), value]).collect()
+}

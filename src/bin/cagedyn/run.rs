@@ -1,0 +1,153 @@
+//! The command `run`, and the simulation of one scene that `cases` shares with it.
+
+use crate::summary::Summary;
+use crate::terminal::{self, INTERRUPTED, Progress};
+use crate::{RunArgs, output, report};
+use cagedyn::model::Channel;
+use cagedyn::sim::RunStatistics;
+use cagedyn::{Error, Model, Recording, Result, Scene, Sim, Status};
+use std::fs;
+use std::path::Path;
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Length of the window over which results are averaged and details are shown, s.
+const WINDOW: f64 = 0.1;
+/// Share of the run that the window covers at most: what comes before is the start.
+const LARGEST_WINDOW_SHARE: f64 = 1.0 / 3.0;
+
+/// A run that has ended: by itself, by Ctrl-C or by a failure.
+pub struct Run {
+    /// Title for tables and pictures.
+    pub title: String,
+    /// The compiled scene.
+    pub model: Arc<Model>,
+    /// What was recorded.
+    pub recording: Recording,
+    /// The columns of the recording.
+    pub channels: Vec<Channel>,
+    /// Counts.
+    pub statistics: RunStatistics,
+    /// Simulated time, s.
+    pub time: f64,
+    /// Wall time of the simulation, s.
+    pub wall: f64,
+    /// Whether Ctrl-C ended it.
+    pub interrupted: bool,
+    /// The failure that ended it.
+    pub failure: Option<Error>,
+}
+
+impl Run {
+    /// Values of a channel, if the scene has it.
+    pub fn column(&self, name: &str) -> Option<&[f64]> {
+        let index = self.channels.iter().position(|c| c.name == name)?;
+        Some(self.recording.columns.get(index)?.as_slice())
+    }
+
+    /// Start of the averaging window, s: the last 0.1 s, or the last third of a shorter run.
+    pub fn window_start(&self) -> f64 {
+        self.last(WINDOW.min(LARGEST_WINDOW_SHARE * self.end()))
+    }
+
+    /// Start of the last `length` seconds, at least zero. A little earlier, so that round-off loses no record.
+    pub fn last(&self, length: f64) -> f64 {
+        (self.end() - length - 1e-6 * self.interval()).max(0.0)
+    }
+
+    /// Time between records, s.
+    pub fn interval(&self) -> f64 {
+        self.model.scene().record.interval
+    }
+
+    /// Time of the last record, s.
+    pub fn end(&self) -> f64 {
+        self.recording.times.last().copied().unwrap_or(0.0)
+    }
+
+    /// Number of rollers.
+    pub fn roller_count(&self) -> usize {
+        self.model.layout().count
+    }
+}
+
+/// Runs a scene, writes the results and prints the summary.
+///
+/// # Errors
+/// A scene or folder that cannot be used. A failure during the run is printed here, after the results so far.
+pub fn command(args: &RunArgs) -> Result<ExitCode> {
+    let text = read(&args.scene)?;
+    let scene = Scene::from_json_with(&text, args.sets.pairs()).map_err(|e| in_file(&args.scene, e))?;
+    terminal::listen_for_interrupt()?;
+    make_folder(&args.out)?;
+    let run = simulate(scene, args.until, &stem(&args.scene), "run").map_err(|e| in_file(&args.scene, e))?;
+    let set = args.sets.pairs().map(|(path, value)| format!("{path}={value}")).collect();
+    let mut summary = Summary::new(&run, &args.scene, None, set);
+    output::write(&run, &mut summary, &args.out)?;
+    terminal::print(&report::text(&run, &summary, &args.out))?;
+    if let Some(failure) = &run.failure {
+        terminal::complain(failure);
+        return Ok(ExitCode::FAILURE);
+    }
+    Ok(if run.interrupted { ExitCode::from(INTERRUPTED) } else { ExitCode::SUCCESS })
+}
+
+/// Simulates a scene until its end, or until `until` seconds. Only what prevents the start is an error.
+///
+/// # Errors
+/// As [`Model::new`] and [`Sim::new`].
+pub fn simulate(mut scene: Scene, until: Option<f64>, fallback_title: &str, label: &str) -> Result<Run> {
+    if let Some(until) = until {
+        scene.record.duration = until;
+    }
+    let (duration, interval) = (scene.record.duration, scene.record.interval);
+    let title = scene.title.clone().unwrap_or_else(|| fallback_title.to_owned());
+    let model = Arc::new(Model::new(scene)?);
+    let mut sim = Sim::new(model.clone())?;
+    let progress = Progress::new(label, duration);
+    let mut recording = Recording::default();
+    let started = Instant::now();
+    let ended = recording.run(&mut sim, duration, interval, |t| {
+        progress.at(t);
+        !terminal::stop_requested()
+    });
+    let wall = started.elapsed().as_secs_f64();
+    Ok(Run {
+        title,
+        channels: sim.channels().to_vec(),
+        statistics: sim.statistics(),
+        time: sim.time(),
+        wall,
+        interrupted: terminal::stop_requested() && sim.time() < duration - interval,
+        failure: ended.err(),
+        model,
+        recording,
+    })
+}
+
+/// The text of a file.
+///
+/// # Errors
+/// [`Status::File`].
+pub fn read(path: &Path) -> Result<String> {
+    fs::read_to_string(path).map_err(|e| Error::new(Status::File, format!("{}: {e}", path.display())))
+}
+
+/// Makes a folder and those above it.
+///
+/// # Errors
+/// [`Status::File`].
+pub fn make_folder(path: &Path) -> Result<()> {
+    fs::create_dir_all(path).map_err(|e| Error::new(Status::File, format!("{}: {e}", path.display())))
+}
+
+/// The failure with the name of the file that caused it in front.
+pub fn in_file(path: &Path, e: Error) -> Error {
+    Error::new(e.status, format!("{}: {}", path.display(), e.message))
+}
+
+/// File name without folder and ending, for files without a title.
+pub fn stem(path: &Path) -> String {
+    path.file_stem().map_or_else(|| "scene".to_owned(), |s| s.to_string_lossy().into_owned())
+}

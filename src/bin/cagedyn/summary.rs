@@ -1,0 +1,249 @@
+//! Results of a run in numbers, as written to `summary.json`.
+
+use crate::run::Run;
+use cagedyn::model::Channel;
+use cagedyn::scene::Method;
+use cagedyn::{Recording, Spread};
+use serde::{Serialize, Serializer};
+use std::f64::consts::TAU;
+use std::path::Path;
+
+/// All results. The names of the fields are those in the file.
+#[derive(Serialize)]
+pub struct Summary {
+    /// Title.
+    pub title: String,
+    /// Scene file.
+    pub scene: String,
+    /// Name of the case, in a case set.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub case: Option<String>,
+    /// Values that replaced those of the scene, as `path=value`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub set: Vec<String>,
+    /// Version of the library.
+    pub version: &'static str,
+    /// Whether Ctrl-C ended the run.
+    pub interrupted: bool,
+    /// Why the run failed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error: Option<String>,
+    /// Simulated time, s.
+    pub simulated_time_s: f64,
+    /// Wall time of the simulation, s.
+    pub wall_time_s: f64,
+    /// Simulated time over wall time.
+    pub simulated_over_wall: f64,
+    /// Number of states.
+    pub states: States,
+    /// Steps.
+    pub integration: Integration,
+    /// Averaging window.
+    pub window: Window,
+    /// Rotation frequency of the cage in the window, Hz.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cage_frequency_hz: Option<f64>,
+    /// Largest slip of any roller in the window.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_roller_slip: Option<RollerSlip>,
+    /// Forces between rollers and pockets in the window.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pocket_forces: Option<PocketForces>,
+    /// Statistics over the window by channel.
+    #[serde(serialize_with = "as_map")]
+    pub statistics: Vec<(String, Statistics)>,
+    /// Files written, relative to the folder of this one.
+    pub files: Vec<String>,
+}
+
+/// Number of states.
+#[derive(Serialize)]
+pub struct States {
+    /// Positions.
+    pub positions: usize,
+    /// Velocities.
+    pub velocities: usize,
+}
+
+/// Counts of the integration.
+#[derive(Serialize)]
+pub struct Integration {
+    /// Method, as in the scene.
+    pub method: &'static str,
+    /// Accepted steps.
+    pub steps: u64,
+    /// Steps rejected by the error estimate.
+    pub rejected: u64,
+    /// Steps abandoned because forces were undefined.
+    pub faults: u64,
+    /// Jumps and kinks of inputs.
+    pub events: u64,
+    /// Smallest step, s.
+    pub smallest_step_s: f64,
+    /// Largest step, s.
+    pub largest_step_s: f64,
+    /// Force evaluations.
+    pub evaluations: u64,
+}
+
+/// Averaging window.
+#[derive(Serialize)]
+pub struct Window {
+    /// First record, s.
+    pub from_s: f64,
+    /// Last record, s.
+    pub to_s: f64,
+    /// Number of records.
+    pub records: usize,
+}
+
+/// The largest slip of any roller.
+#[derive(Serialize)]
+pub struct RollerSlip {
+    /// Slip: 1 - spin speed over the spin without slip.
+    pub value: f64,
+    /// Roller.
+    pub roller: usize,
+    /// Time, s.
+    pub time_s: f64,
+}
+
+/// Circumferential forces of all rollers on the cage together, as means over time.
+#[derive(Serialize)]
+pub struct PocketForces {
+    /// Sum of those that drive the cage, N.
+    pub driving_n: f64,
+    /// Sum of those that brake the cage, N; positive.
+    pub braking_n: f64,
+    /// Largest single force on the cage, driving or braking, N.
+    pub largest_n: f64,
+}
+
+/// Statistics of one channel.
+#[derive(Serialize)]
+pub struct Statistics {
+    /// Unit; "1" for ratios.
+    pub unit: &'static str,
+    /// Mean.
+    pub mean: f64,
+    /// Standard deviation.
+    pub deviation: f64,
+    /// Smallest value.
+    pub min: f64,
+    /// Largest value.
+    pub max: f64,
+    /// Fifth percentile.
+    pub p05: f64,
+    /// 95th percentile.
+    pub p95: f64,
+}
+
+impl Summary {
+    /// Results of a run; `scene` is the file it came from.
+    pub fn new(run: &Run, scene: &Path, case: Option<&str>, set: Vec<String>) -> Self {
+        let from = run.window_start();
+        let statistics = key_statistics(&run.channels, &run.recording, from);
+        let mean = |name: &str| statistics.iter().find(|(n, _)| n == name).map(|(_, s)| s.mean);
+        let layout = run.model.layout();
+        Self {
+            title: run.title.clone(),
+            scene: scene.display().to_string(),
+            case: case.map(str::to_owned),
+            set,
+            version: env!("CARGO_PKG_VERSION"),
+            interrupted: run.interrupted,
+            error: run.failure.as_ref().map(|e| e.message.clone()),
+            simulated_time_s: run.time,
+            wall_time_s: run.wall,
+            simulated_over_wall: if run.wall > 0.0 { run.time / run.wall } else { 0.0 },
+            states: States { positions: layout.positions(), velocities: layout.velocities() },
+            integration: integration(run),
+            window: window(&run.recording, from),
+            cage_frequency_hz: mean("cage.speed").map(|speed| speed.abs() / TAU),
+            max_roller_slip: max_roller_slip(run, from),
+            pocket_forces: pocket_forces(run, from),
+            statistics,
+            files: Vec::new(),
+        }
+    }
+
+    /// Statistics of a channel, if it has any.
+    pub fn of(&self, channel: &str) -> Option<&Statistics> {
+        self.statistics.iter().find(|(name, _)| name == channel).map(|(_, s)| s)
+    }
+}
+
+/// Statistics of every channel of cage, guide and rings, and of the slip of every roller.
+fn key_statistics(channels: &[Channel], recording: &Recording, from: f64) -> Vec<(String, Statistics)> {
+    let key = |name: &str| !name.starts_with("roller[") || name.ends_with("].slip");
+    let columns = channels.iter().enumerate().filter(|(_, c)| key(&c.name));
+    columns
+        .filter_map(|(i, c)| Some((c.name.clone(), Statistics::new(c.unit, recording.spread(i, from)?))))
+        .collect()
+}
+
+impl Statistics {
+    fn new(unit: &'static str, s: Spread) -> Self {
+        let Spread { mean, deviation, min, max, p05, p95 } = s;
+        Self { unit, mean, deviation, min, max, p05, p95 }
+    }
+}
+
+fn integration(run: &Run) -> Integration {
+    let driver = &run.statistics.driver;
+    let method = match run.model.scene().solver.method {
+        Method::Leapfrog(_) => "leapfrog",
+        Method::DormandPrince(_) => "dormand_prince",
+    };
+    Integration {
+        method,
+        steps: driver.steps,
+        rejected: driver.rejected,
+        faults: driver.faults,
+        events: driver.events,
+        smallest_step_s: driver.smallest_step,
+        largest_step_s: driver.largest_step,
+        evaluations: run.statistics.evaluations,
+    }
+}
+
+fn window(recording: &Recording, from: f64) -> Window {
+    let times = recording.times.get(recording.index_at(from)..).unwrap_or_default();
+    Window {
+        from_s: times.first().copied().unwrap_or(0.0),
+        to_s: times.last().copied().unwrap_or(0.0),
+        records: times.len(),
+    }
+}
+
+/// The columns `roller[j].field` of all rollers from time `from` on.
+fn roller_columns<'a>(run: &'a Run, field: &str, from: f64) -> Vec<&'a [f64]> {
+    let first = run.recording.index_at(from);
+    let column = |j: usize| run.column(&format!("roller[{j}].{field}"))?.get(first..);
+    (0..run.roller_count()).filter_map(column).collect()
+}
+
+fn max_roller_slip(run: &Run, from: f64) -> Option<RollerSlip> {
+    let times = run.recording.times.get(run.recording.index_at(from)..)?;
+    let columns = roller_columns(run, "slip", from);
+    let all =
+        columns.iter().enumerate().flat_map(|(j, c)| c.iter().zip(times).map(move |(s, t)| (j, *s, *t)));
+    let (roller, value, time_s) = all.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some(RollerSlip { value, roller, time_s })
+}
+
+fn pocket_forces(run: &Run, from: f64) -> Option<PocketForces> {
+    let columns = roller_columns(run, "pocket_force", from);
+    let records = columns.first()?.len().max(1) as f64;
+    let all = || columns.iter().flat_map(|c| c.iter().copied());
+    Some(PocketForces {
+        driving_n: all().map(|f| f.max(0.0)).sum::<f64>() / records,
+        braking_n: all().map(|f| (-f).max(0.0)).sum::<f64>() / records,
+        largest_n: all().map(f64::abs).fold(0.0, f64::max),
+    })
+}
+
+/// Writes the pairs as a map that keeps their order.
+fn as_map<S: Serializer>(pairs: &[(String, Statistics)], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(pairs.iter().map(|(name, s)| (name, s)))
+}

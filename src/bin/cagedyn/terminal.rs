@@ -1,0 +1,90 @@
+//! Standard output and error, the progress bar and Ctrl-C.
+
+use cagedyn::{Error, Result, Status};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::{self, ErrorKind, IsTerminal, Write};
+use std::sync::OnceLock;
+use std::time::{Duration, Instant};
+
+/// Exit code of a run that Ctrl-C ended, as shells use it for an interrupt signal.
+pub const INTERRUPTED: u8 = 130;
+
+/// Ticks of the progress bar per second of simulated time; fine enough for the shortest useful run.
+const TICKS_PER_SECOND: f64 = 1e6;
+
+/// A second signal sooner than this is taken for a copy of the first: some programs signal both the process and its
+/// group.
+const SAME_SIGNAL: Duration = Duration::from_millis(300);
+
+static STOP: OnceLock<Instant> = OnceLock::new();
+
+/// Whether Ctrl-C was pressed.
+pub fn stop_requested() -> bool {
+    STOP.get().is_some()
+}
+
+/// From now on the first Ctrl-C asks the run to end and keep its results; the second ends the program at once.
+///
+/// # Errors
+/// [`Status::Internal`] when the system refuses the handler.
+pub fn listen_for_interrupt() -> Result<()> {
+    let handler = || {
+        if STOP.get_or_init(Instant::now).elapsed() > SAME_SIGNAL {
+            std::process::exit(i32::from(INTERRUPTED));
+        }
+    };
+    ctrlc::set_handler(handler).map_err(|e| Error::new(Status::Internal, format!("Ctrl-C handler: {e}")))
+}
+
+/// Prints text to standard output. A reader that closed the pipe early is no failure.
+///
+/// # Errors
+/// [`Status::File`] when standard output cannot be written.
+pub fn print(text: &str) -> Result<()> {
+    let mut out = io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(e) if e.kind() != ErrorKind::BrokenPipe => {
+            Err(Error::new(Status::File, format!("standard output: {e}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Prints an error as one line on standard error.
+pub fn complain(error: &Error) {
+    // Nothing is left to tell if standard error itself is closed.
+    let _ = writeln!(io::stderr(), "cagedyn: {error}");
+}
+
+/// Progress of one run over simulated time; visible only if standard error is a terminal.
+pub struct Progress {
+    bar: ProgressBar,
+}
+
+impl Progress {
+    /// A bar for a run of `duration` seconds with a short label.
+    pub fn new(label: &str, duration: f64) -> Self {
+        if !io::stderr().is_terminal() {
+            return Self { bar: ProgressBar::hidden() };
+        }
+        let bar = ProgressBar::new((duration * TICKS_PER_SECOND) as u64);
+        let template = "{prefix} [{bar:40}] {percent:>3}% {msg} (eta {eta})";
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            bar.set_style(style.progress_chars("=> "));
+        }
+        bar.set_prefix(label.to_owned());
+        Self { bar }
+    }
+
+    /// Moves the bar to simulated time `t` in s.
+    pub fn at(&self, t: f64) {
+        self.bar.set_position((t * TICKS_PER_SECOND) as u64);
+        self.bar.set_message(format!("{t:.4} s"));
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
+    }
+}
