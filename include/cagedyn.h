@@ -312,8 +312,11 @@ int64_t cagedyn_statistic_count(void);
 // (of all forces), events, smallest_step and largest_step (s). "" for other numbers. Static text.
 const char *cagedyn_statistic_name(int64_t index);
 
-// Writes the counts since creation, reset or restore (length: statistic count).
-int32_t cagedyn_sim_statistics(const cagedyn_sim *sim, double *out, int64_t length);
+// Writes the counts since creation or reset; a restored simulation goes on from the saved ones (length: statistic
+// count).
+int32_t cagedyn_sim_statistics(const cagedyn_sim *sim,
+                               double *out,
+                               int64_t length);
 
 // Creates a model from the JSON text of a scene. Returns NULL on failure. Free it with cagedyn_model_free().
 cagedyn_model *cagedyn_model_from_json(const char *json);
@@ -512,8 +515,11 @@ int64_t cagedyn_statistic_count(void);
 // (of all forces), events, smallest_step and largest_step (s). "" for other numbers. Static text.
 const char *cagedyn_statistic_name(int64_t index);
 
-// Writes the counts since creation, reset or restore (length: statistic count).
-int32_t cagedyn_sim_statistics(const cagedyn_sim *sim, double *out, int64_t length);
+// Writes the counts since creation or reset; a restored simulation goes on from the saved ones (length: statistic
+// count).
+int32_t cagedyn_sim_statistics(const cagedyn_sim *sim,
+                               double *out,
+                               int64_t length);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -65,8 +65,8 @@ impl System for Oscillator {
     fn damped_blocks(&self) -> usize {
         1
     }
-    fn damped_block(&self, _: usize) -> [usize; 3] {
-        [0, 1, 2]
+    fn damped_block(&self, _: usize) -> [Option<usize>; 3] {
+        [Some(0), None, Some(2)]
     }
     fn damping(&self, h: f64, blocks: &mut [DampingBlock]) {
         let full = Matrix3::from_diagonal(&Vector3::new(2.0 * self.zeta, 0.0, self.rate));

@@ -303,3 +303,98 @@ fn an_undamped_frictionless_bearing_keeps_its_energy() {
         assert!((now - before).abs() < 1e-5 * elastic, "{now} {before} (elastic {elastic})");
     }
 }
+
+#[test]
+fn after_a_failed_advance_time_state_and_outputs_are_those_before() {
+    for method in [r#""leapfrog": {}"#, r#""dormand_prince": {"tolerance": 1e-6}"#] {
+        let solver = format!(r#"{{"method": {{{method}}}, "max_steps": 100}}"#);
+        let mut s = sim(&[("solver", &solver)]);
+        s.advance_to(0.1e-3).unwrap();
+        let mut before = vec![0.0; s.channels().len()];
+        s.outputs(&mut before).unwrap();
+        let state = bits(s.state());
+        assert_eq!(s.advance_to(1.0).unwrap_err().status, Status::TooManySteps);
+        s.step(0.0).unwrap();
+        let mut after = before.clone();
+        s.outputs(&mut after).unwrap();
+        assert_eq!((s.time(), bits(s.state())), (0.1e-3, state));
+        assert_eq!(bits(&before), bits(&after));
+        s.step(0.1e-3).unwrap();
+        assert!(s.state()[..4].iter().all(|x| x.abs() < 1e-4), "{:?}", &s.state()[..4]);
+    }
+}
+
+#[test]
+fn a_refused_state_leaves_the_outputs_alone() {
+    let mut s = sim(&[]);
+    s.advance_to(1e-3).unwrap();
+    let mut before = vec![0.0; s.channels().len()];
+    s.outputs(&mut before).unwrap();
+    for (i, value) in [(2, 1e-3), (5, 1.0), (5, -1e300), (0, 1e300), (2, -1e200)] {
+        let mut state = s.state().to_vec();
+        state[i] = value;
+        assert_eq!(s.set_state(1e-3, &state).unwrap_err().status, Status::BadState, "{i}");
+        let mut after = vec![0.0; before.len()];
+        s.outputs(&mut after).unwrap();
+        assert_eq!(bits(&before), bits(&after), "{i}");
+    }
+}
+
+#[test]
+fn no_number_in_a_snapshot_can_hang_or_break_a_run() {
+    for method in [r#""leapfrog": {}"#, r#""dormand_prince": {"tolerance": 1e-5}"#] {
+        let solver = format!(r#"{{"method": {{{method}}}, "max_steps": 2000}}"#);
+        let mut s = sim(&[("solver", &solver)]);
+        s.advance_to(0.2e-3).unwrap();
+        let good = s.save();
+        let mut refused = 0;
+        for i in 0..good.len() {
+            for value in [0.0, -1.0, 0.3, 7.0, 1e300, -1e300, 5e-324] {
+                let mut damaged = good.clone();
+                damaged[i] = value;
+                if s.restore(&damaged).is_err() {
+                    refused += 1;
+                    continue;
+                }
+                // What is accepted goes forward or fails with a message; it never goes back or hangs.
+                let time = s.time();
+                match s.step(1e-6) {
+                    Ok(()) => assert!(s.time() >= time),
+                    Err(e) => assert!(!e.message.is_empty()),
+                }
+            }
+        }
+        assert!(refused > 100, "{refused}");
+        s.restore(&good).unwrap();
+        s.step(1e-4).unwrap();
+    }
+}
+
+#[test]
+fn times_too_large_for_a_step_are_refused() {
+    let mut s = sim(&[]);
+    let state = s.state().to_vec();
+    assert_eq!(s.set_state(1e12, &state).unwrap_err().status, Status::BadValue);
+    assert_eq!(s.advance_to(1e7).unwrap_err().status, Status::BadValue);
+    s.set_state(9.9e5, &state).unwrap();
+    s.step(1e-4).unwrap();
+}
+
+#[test]
+fn stiff_support_and_light_rings_get_the_step_they_need() {
+    let mut s = sim(&[("inner_ring.motion.free.support_damping", "1e9")]);
+    s.advance_to(2e-3).unwrap();
+    assert!(s.nominal_step() > 4e-6);
+    let light = sim(&[("inner_ring.motion.free.mass", "0.02")]);
+    assert!(light.nominal_step() < 0.5 * s.nominal_step(), "{}", light.nominal_step());
+}
+
+#[test]
+fn recordings_refuse_intervals_that_never_end() {
+    let mut s = sim(&[]);
+    for interval in [0.0, -1.0, f64::NAN, 1e-300] {
+        let mut recording = cagedyn::Recording::default();
+        let e = recording.run(&mut s, 1e-3, interval, |_| true).unwrap_err();
+        assert_eq!(e.status, Status::BadValue, "{interval}");
+    }
+}

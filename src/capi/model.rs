@@ -59,13 +59,19 @@ fn create(build: impl FnOnce() -> Result<Model>) -> *mut cagedyn_model {
 }
 
 /// Length of one list of a model.
-fn length(model: *const cagedyn_model, list: impl FnOnce(&cagedyn_model) -> &Vec<Item>) -> i64 {
-    // SAFETY: the caller passes a live handle or NULL.
+///
+/// # Safety
+/// `model` is NULL or a live handle.
+unsafe fn length(model: *const cagedyn_model, list: impl FnOnce(&cagedyn_model) -> &Vec<Item>) -> i64 {
+    // SAFETY: see above.
     count(|| unsafe { shared("model", model) }.map(|m| list(m).len()))
 }
 
 /// One text of an item of a list, or "" with the error stored.
-fn item(
+///
+/// # Safety
+/// `model` is NULL or a live handle.
+unsafe fn item(
     model: *const cagedyn_model,
     i: i64,
     list: impl FnOnce(&cagedyn_model) -> &Vec<Item>,
@@ -74,7 +80,7 @@ fn item(
     guard(
         |_| EMPTY.as_ptr(),
         || {
-            // SAFETY: the caller passes a live handle or NULL.
+            // SAFETY: see above.
             let items = list(unsafe { shared("model", model) }?);
             let i = index("index", i, items.len())?;
             Ok(field(&items[i]).as_ptr())
@@ -83,13 +89,16 @@ fn item(
 }
 
 /// Index of the item of this name, or a negative status code.
-fn find(
+///
+/// # Safety
+/// `model` is NULL or a live handle, `name` NULL or a NUL-terminated text.
+unsafe fn find(
     model: *const cagedyn_model,
     name: *const c_char,
     list: impl FnOnce(&cagedyn_model) -> &Vec<Item>,
 ) -> i64 {
     count(|| {
-        // SAFETY: the caller passes a live handle or NULL, and a NUL-terminated text or NULL.
+        // SAFETY: see above.
         let (items, name) = unsafe { (list(shared("model", model)?), text("name", name)?) };
         let found = items.iter().position(|item| item.name.to_bytes() == name.as_bytes());
         found.ok_or_else(|| Error::new(Status::UnknownName, format!("name: there is no '{name}'")))
@@ -201,7 +210,8 @@ pub unsafe extern "C" fn cagedyn_model_velocity_count(model: *const cagedyn_mode
 /// `model` is NULL or a live handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_model_state_count(model: *const cagedyn_model) -> i64 {
-    length(model, |m| &m.states)
+    // SAFETY: see above.
+    unsafe { length(model, |m| &m.states) }
 }
 
 /// Name of a state; "" on failure. Lives as long as the model.
@@ -210,7 +220,8 @@ pub unsafe extern "C" fn cagedyn_model_state_count(model: *const cagedyn_model) 
 /// `model` is NULL or a live handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_model_state_name(model: *const cagedyn_model, index: i64) -> *const c_char {
-    item(model, index, |m| &m.states, |item| &item.name)
+    // SAFETY: see above.
+    unsafe { item(model, index, |m| &m.states, |item| &item.name) }
 }
 
 /// SI unit ("1" for ratios) of a state; "" on failure. Lives as long as the model.
@@ -219,7 +230,8 @@ pub unsafe extern "C" fn cagedyn_model_state_name(model: *const cagedyn_model, i
 /// `model` is NULL or a live handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_model_state_unit(model: *const cagedyn_model, index: i64) -> *const c_char {
-    item(model, index, |m| &m.states, |item| &item.unit)
+    // SAFETY: see above.
+    unsafe { item(model, index, |m| &m.states, |item| &item.unit) }
 }
 
 /// Meaning of a state; "" on failure. Lives as long as the model.
@@ -231,7 +243,8 @@ pub unsafe extern "C" fn cagedyn_model_state_description(
     model: *const cagedyn_model,
     index: i64,
 ) -> *const c_char {
-    item(model, index, |m| &m.states, |item| &item.description)
+    // SAFETY: see above.
+    unsafe { item(model, index, |m| &m.states, |item| &item.description) }
 }
 
 /// Index of the state of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
@@ -240,7 +253,8 @@ pub unsafe extern "C" fn cagedyn_model_state_description(
 /// `model` is NULL or a live handle, `name` NULL or a NUL-terminated text.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_model_find_state(model: *const cagedyn_model, name: *const c_char) -> i64 {
-    find(model, name, |m| &m.states)
+    // SAFETY: see above.
+    unsafe { find(model, name, |m| &m.states) }
 }
 
 /// Number of inputs. Negative status code on failure.
@@ -249,7 +263,8 @@ pub unsafe extern "C" fn cagedyn_model_find_state(model: *const cagedyn_model, n
 /// `model` is NULL or a live handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_model_input_count(model: *const cagedyn_model) -> i64 {
-    length(model, |m| &m.inputs)
+    // SAFETY: see above.
+    unsafe { length(model, |m| &m.inputs) }
 }
 
 /// Name of an input; "" on failure. Lives as long as the model.
@@ -258,7 +273,8 @@ pub unsafe extern "C" fn cagedyn_model_input_count(model: *const cagedyn_model) 
 /// `model` is NULL or a live handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_model_input_name(model: *const cagedyn_model, index: i64) -> *const c_char {
-    item(model, index, |m| &m.inputs, |item| &item.name)
+    // SAFETY: see above.
+    unsafe { item(model, index, |m| &m.inputs, |item| &item.name) }
 }
 
 /// SI unit ("1" for ratios) of an input; "" on failure. Lives as long as the model.
@@ -267,7 +283,8 @@ pub unsafe extern "C" fn cagedyn_model_input_name(model: *const cagedyn_model, i
 /// `model` is NULL or a live handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_model_input_unit(model: *const cagedyn_model, index: i64) -> *const c_char {
-    item(model, index, |m| &m.inputs, |item| &item.unit)
+    // SAFETY: see above.
+    unsafe { item(model, index, |m| &m.inputs, |item| &item.unit) }
 }
 
 /// Meaning of an input; "" on failure. Lives as long as the model.
@@ -279,7 +296,8 @@ pub unsafe extern "C" fn cagedyn_model_input_description(
     model: *const cagedyn_model,
     index: i64,
 ) -> *const c_char {
-    item(model, index, |m| &m.inputs, |item| &item.description)
+    // SAFETY: see above.
+    unsafe { item(model, index, |m| &m.inputs, |item| &item.description) }
 }
 
 /// Index of the input of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
@@ -288,7 +306,8 @@ pub unsafe extern "C" fn cagedyn_model_input_description(
 /// `model` is NULL or a live handle, `name` NULL or a NUL-terminated text.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_model_find_input(model: *const cagedyn_model, name: *const c_char) -> i64 {
-    find(model, name, |m| &m.inputs)
+    // SAFETY: see above.
+    unsafe { find(model, name, |m| &m.inputs) }
 }
 
 /// Number of outputs. Negative status code on failure.
@@ -297,7 +316,8 @@ pub unsafe extern "C" fn cagedyn_model_find_input(model: *const cagedyn_model, n
 /// `model` is NULL or a live handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_model_output_count(model: *const cagedyn_model) -> i64 {
-    length(model, |m| &m.outputs)
+    // SAFETY: see above.
+    unsafe { length(model, |m| &m.outputs) }
 }
 
 /// Name of an output; "" on failure. Lives as long as the model.
@@ -306,7 +326,8 @@ pub unsafe extern "C" fn cagedyn_model_output_count(model: *const cagedyn_model)
 /// `model` is NULL or a live handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_model_output_name(model: *const cagedyn_model, index: i64) -> *const c_char {
-    item(model, index, |m| &m.outputs, |item| &item.name)
+    // SAFETY: see above.
+    unsafe { item(model, index, |m| &m.outputs, |item| &item.name) }
 }
 
 /// SI unit ("1" for ratios) of an output; "" on failure. Lives as long as the model.
@@ -315,7 +336,8 @@ pub unsafe extern "C" fn cagedyn_model_output_name(model: *const cagedyn_model, 
 /// `model` is NULL or a live handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_model_output_unit(model: *const cagedyn_model, index: i64) -> *const c_char {
-    item(model, index, |m| &m.outputs, |item| &item.unit)
+    // SAFETY: see above.
+    unsafe { item(model, index, |m| &m.outputs, |item| &item.unit) }
 }
 
 /// Meaning of an output; "" on failure. Lives as long as the model.
@@ -327,7 +349,8 @@ pub unsafe extern "C" fn cagedyn_model_output_description(
     model: *const cagedyn_model,
     index: i64,
 ) -> *const c_char {
-    item(model, index, |m| &m.outputs, |item| &item.description)
+    // SAFETY: see above.
+    unsafe { item(model, index, |m| &m.outputs, |item| &item.description) }
 }
 
 /// Index of the output of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
@@ -336,7 +359,8 @@ pub unsafe extern "C" fn cagedyn_model_output_description(
 /// `model` is NULL or a live handle, `name` NULL or a NUL-terminated text.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_model_find_output(model: *const cagedyn_model, name: *const c_char) -> i64 {
-    find(model, name, |m| &m.outputs)
+    // SAFETY: see above.
+    unsafe { find(model, name, |m| &m.outputs) }
 }
 
 /// Number of contacts: rows of cagedyn_sim_contact_forces(). Negative status code on failure.
@@ -345,7 +369,8 @@ pub unsafe extern "C" fn cagedyn_model_find_output(model: *const cagedyn_model, 
 /// `model` is NULL or a live handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_model_contact_count(model: *const cagedyn_model) -> i64 {
-    length(model, |m| &m.contacts)
+    // SAFETY: see above.
+    unsafe { length(model, |m| &m.contacts) }
 }
 
 /// Name of a contact that can exist; "" on failure. Lives as long as the model.
@@ -357,7 +382,8 @@ pub unsafe extern "C" fn cagedyn_model_contact_name(
     model: *const cagedyn_model,
     index: i64,
 ) -> *const c_char {
-    item(model, index, |m| &m.contacts, |item| &item.name)
+    // SAFETY: see above.
+    unsafe { item(model, index, |m| &m.contacts, |item| &item.name) }
 }
 
 /// Index of the contact that can exist of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
@@ -366,7 +392,8 @@ pub unsafe extern "C" fn cagedyn_model_contact_name(
 /// `model` is NULL or a live handle, `name` NULL or a NUL-terminated text.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_model_find_contact(model: *const cagedyn_model, name: *const c_char) -> i64 {
-    find(model, name, |m| &m.contacts)
+    // SAFETY: see above.
+    unsafe { find(model, name, |m| &m.contacts) }
 }
 
 /// Number of contact quantities: columns of cagedyn_sim_contact_forces(). Negative status code on failure.
@@ -375,7 +402,8 @@ pub unsafe extern "C" fn cagedyn_model_find_contact(model: *const cagedyn_model,
 /// `model` is NULL or a live handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_model_contact_quantity_count(model: *const cagedyn_model) -> i64 {
-    length(model, |m| &m.quantities)
+    // SAFETY: see above.
+    unsafe { length(model, |m| &m.quantities) }
 }
 
 /// Name of a contact quantity; "" on failure. Lives as long as the model.
@@ -387,7 +415,8 @@ pub unsafe extern "C" fn cagedyn_model_contact_quantity_name(
     model: *const cagedyn_model,
     index: i64,
 ) -> *const c_char {
-    item(model, index, |m| &m.quantities, |item| &item.name)
+    // SAFETY: see above.
+    unsafe { item(model, index, |m| &m.quantities, |item| &item.name) }
 }
 
 /// SI unit ("1" for ratios) of a contact quantity; "" on failure. Lives as long as the model.
@@ -399,7 +428,8 @@ pub unsafe extern "C" fn cagedyn_model_contact_quantity_unit(
     model: *const cagedyn_model,
     index: i64,
 ) -> *const c_char {
-    item(model, index, |m| &m.quantities, |item| &item.unit)
+    // SAFETY: see above.
+    unsafe { item(model, index, |m| &m.quantities, |item| &item.unit) }
 }
 
 /// Meaning of a contact quantity; "" on failure. Lives as long as the model.
@@ -411,7 +441,8 @@ pub unsafe extern "C" fn cagedyn_model_contact_quantity_description(
     model: *const cagedyn_model,
     index: i64,
 ) -> *const c_char {
-    item(model, index, |m| &m.quantities, |item| &item.description)
+    // SAFETY: see above.
+    unsafe { item(model, index, |m| &m.quantities, |item| &item.description) }
 }
 
 /// Index of the contact quantity of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
@@ -423,7 +454,8 @@ pub unsafe extern "C" fn cagedyn_model_find_contact_quantity(
     model: *const cagedyn_model,
     name: *const c_char,
 ) -> i64 {
-    find(model, name, |m| &m.quantities)
+    // SAFETY: see above.
+    unsafe { find(model, name, |m| &m.quantities) }
 }
 
 /// Number of bodies: blocks of cagedyn_sim_body_forces(). Negative status code on failure.
@@ -432,7 +464,8 @@ pub unsafe extern "C" fn cagedyn_model_find_contact_quantity(
 /// `model` is NULL or a live handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_model_body_count(model: *const cagedyn_model) -> i64 {
-    length(model, |m| &m.bodies)
+    // SAFETY: see above.
+    unsafe { length(model, |m| &m.bodies) }
 }
 
 /// Name of a body; "" on failure. Lives as long as the model.
@@ -441,7 +474,8 @@ pub unsafe extern "C" fn cagedyn_model_body_count(model: *const cagedyn_model) -
 /// `model` is NULL or a live handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_model_body_name(model: *const cagedyn_model, index: i64) -> *const c_char {
-    item(model, index, |m| &m.bodies, |item| &item.name)
+    // SAFETY: see above.
+    unsafe { item(model, index, |m| &m.bodies, |item| &item.name) }
 }
 
 /// Index of the body of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
@@ -450,7 +484,8 @@ pub unsafe extern "C" fn cagedyn_model_body_name(model: *const cagedyn_model, in
 /// `model` is NULL or a live handle, `name` NULL or a NUL-terminated text.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_model_find_body(model: *const cagedyn_model, name: *const c_char) -> i64 {
-    find(model, name, |m| &m.bodies)
+    // SAFETY: see above.
+    unsafe { find(model, name, |m| &m.bodies) }
 }
 
 /// Number of force sources: rows of a block of cagedyn_sim_body_forces(). Negative status code on failure.
@@ -459,7 +494,8 @@ pub unsafe extern "C" fn cagedyn_model_find_body(model: *const cagedyn_model, na
 /// `model` is NULL or a live handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_model_force_source_count(model: *const cagedyn_model) -> i64 {
-    length(model, |m| &m.sources)
+    // SAFETY: see above.
+    unsafe { length(model, |m| &m.sources) }
 }
 
 /// Name of a force source; "" on failure. Lives as long as the model.
@@ -471,7 +507,8 @@ pub unsafe extern "C" fn cagedyn_model_force_source_name(
     model: *const cagedyn_model,
     index: i64,
 ) -> *const c_char {
-    item(model, index, |m| &m.sources, |item| &item.name)
+    // SAFETY: see above.
+    unsafe { item(model, index, |m| &m.sources, |item| &item.name) }
 }
 
 /// Index of the force source of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
@@ -483,5 +520,6 @@ pub unsafe extern "C" fn cagedyn_model_find_force_source(
     model: *const cagedyn_model,
     name: *const c_char,
 ) -> i64 {
-    find(model, name, |m| &m.sources)
+    // SAFETY: see above.
+    unsafe { find(model, name, |m| &m.sources) }
 }

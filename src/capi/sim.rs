@@ -338,7 +338,8 @@ pub extern "C" fn cagedyn_statistic_name(index: i64) -> *const c_char {
     name.unwrap_or("\0").as_ptr().cast()
 }
 
-/// Writes the counts since creation, reset or restore (length: statistic count).
+/// Writes the counts since creation or reset; a restored simulation goes on from the saved ones (length: statistic
+/// count).
 ///
 /// # Safety
 /// `sim` is NULL or a live handle, `out` NULL or an array of `length` numbers.

@@ -108,7 +108,7 @@ impl<S: System> Stepper<S> for DormandPrince {
             let weighted = |w: &[f64; 7]| -> f64 { self.k.iter().zip(w).map(|(k, w)| w * k[i]).sum() };
             let scaled = (h * weighted(&E) / self.tolerance[i]).abs();
             // f64::max would drop a NaN.
-            error = if scaled <= error { error } else { scaled };
+            error = if error.is_nan() || scaled <= error { error } else { scaled };
             let change = self.trial[i] - self.state[i];
             let bend = h * self.k[0][i] - change;
             let [d0, d1, d2, d3, d4] = &mut self.trial_dense;

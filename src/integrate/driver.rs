@@ -19,7 +19,7 @@ pub struct Limits {
     pub max_steps: u64,
 }
 
-/// Counts since the last start.
+/// Counts of a driver.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Statistics {
     /// Accepted steps.
@@ -142,6 +142,11 @@ impl<S: System> Driver<S> {
         Ok(())
     }
 
+    /// Whether time `t` (s) lies within the last step.
+    pub fn covers(&self, t: f64) -> bool {
+        self.from <= t && t <= self.to
+    }
+
     /// State at time `t` within the last step (s).
     pub fn state_at(&self, t: f64, out: &mut [f64]) {
         if t >= self.to || self.to <= self.from {
@@ -160,6 +165,10 @@ impl<S: System> Driver<S> {
             }
             *attempts += 1;
             let plan = self.plan(system);
+            if plan.end <= self.to {
+                // The step is lost in the round-off of the time.
+                return Err(Failure::StepTooSmall { time: self.to, step: plan.h, fault: last_fault });
+            }
             match self.stepper.attempt(system, self.to, plan.h, plan.t_last) {
                 Ok(Some(error)) if error <= 1.0 => {
                     let order = self.stepper.control_order();
@@ -242,20 +251,23 @@ impl<S: System> Driver<S> {
         self.stepper.save(out);
     }
 
-    /// Takes back what [`Driver::save`] wrote; `None` if it does not fit, and the driver must be started again.
+    /// Takes back what [`Driver::save`] wrote; `None` if it does not fit or cannot be, and the driver must then be
+    /// started again.
     pub fn load(&mut self, from: &mut Reader<'_>) -> Option<()> {
+        let largest = self.limits.nominal_step.max(self.limits.max_step);
         self.from = from.number()?;
-        self.to = from.number()?;
-        self.next_step = from.number()?;
-        self.control = PiController { last_error: from.number()?, after_rejection: from.count()? == 1 };
-        self.needs_refresh = from.count()? == 1;
+        self.to = from.number().filter(|to| *to >= self.from)?;
+        self.next_step = from.number().filter(|h| *h > 0.0 && *h <= largest)?;
+        let last_error = from.number().filter(|e| *e > 0.0)?;
+        self.control = PiController { last_error, after_rejection: from.flag()? };
+        self.needs_refresh = from.flag()?;
         self.statistics = Statistics {
             steps: from.count()?,
             rejected: from.count()?,
             faults: from.count()?,
             events: from.count()?,
-            smallest_step: from.number()?,
-            largest_step: from.number()?,
+            smallest_step: from.number().filter(|h| *h >= 0.0)?,
+            largest_step: from.number().filter(|h| *h >= 0.0)?,
         };
         self.stepper.load(from)
     }

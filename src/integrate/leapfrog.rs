@@ -4,7 +4,7 @@
 //! q_half = q + h/2 v
 //! v*     = v + h/2 a_previous             (velocities with a position; the others keep v)
 //! a      = accelerations(t + h/2, q_half, v*)
-//! (I + h D_i) dv = h (a + D (v* - v))     (per triple of coupled velocities; D damping, D_i its implicit share)
+//! (I + h D_i) dv = h (a + D (v* - v))     (per group of coupled velocities; D damping, D_i its implicit share)
 //! v_new  = v + dv,   q_new = q_half + h/2 v_new
 //! ```
 //!
@@ -79,16 +79,17 @@ impl<S: System> Stepper<S> for Leapfrog {
         system.damping(h, &mut self.blocks);
         for (b, damping) in self.blocks.iter().enumerate() {
             let at = system.damped_block(b);
-            let known = Vector3::from_fn(|k, _| self.a[at[k]]);
-            let predicted = Vector3::from_fn(|k, _| self.predicted[at[k]] - v[at[k]]);
+            let known = Vector3::from_fn(|k, _| at[k].map_or(0.0, |i| self.a[i]));
+            let predicted = Vector3::from_fn(|k, _| at[k].map_or(0.0, |i| self.predicted[i] - v[i]));
             let matrix = Matrix3::identity() + damping.implicit * h;
             let solution = matrix.lu().solve(&(known + damping.full * predicted));
-            let solution = solution.ok_or_else(|| system.not_finite(at[0]))?;
-            for k in 0..3 {
-                if !solution[k].is_finite() {
-                    return Err(system.not_finite(at[k]));
+            let first = at.iter().flatten().next().copied().unwrap_or(0);
+            let solution = solution.ok_or_else(|| system.not_finite(first))?;
+            for (i, a) in at.iter().zip(solution.iter()).filter_map(|(i, a)| i.map(|i| (i, *a))) {
+                if !a.is_finite() {
+                    return Err(system.not_finite(i));
                 }
-                self.trial_a[at[k]] = solution[k];
+                self.trial_a[i] = a;
             }
         }
         for i in 0..v_trial.len() {

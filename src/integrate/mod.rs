@@ -33,15 +33,15 @@ pub trait System {
     fn not_finite(&self, velocity: usize) -> Self::Fault;
     /// The first time after `t` at which the accelerations jump or kink by themselves; infinity if there is none.
     fn next_event(&self, t: f64) -> f64;
-    /// Number of velocity triples with implicit damping.
+    /// Number of groups of up to three velocities with implicit damping.
     fn damped_blocks(&self) -> usize;
-    /// Velocity indices of such a triple.
-    fn damped_block(&self, i: usize) -> [usize; 3];
-    /// Damping within each triple at the last evaluated state, for a step of size `h` in s.
+    /// Velocity indices of such a group; `None` for an unused place.
+    fn damped_block(&self, i: usize) -> [Option<usize>; 3];
+    /// Damping within each group at the last evaluated state, for a step of size `h` in s.
     fn damping(&self, h: f64, blocks: &mut [DampingBlock]);
 }
 
-/// -da/dv of three coupled velocities, or a positive approximation of it, 1/s.
+/// -da/dv of up to three coupled velocities (zero in unused places), or a positive approximation of it, 1/s.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DampingBlock {
     /// D, all of it.

@@ -25,6 +25,11 @@ impl<'a> Reader<'a> {
         (x >= 0.0 && x.fract() == 0.0 && x < 9e15).then_some(x as u64)
     }
 
+    /// The next number if it is 0 or 1.
+    pub fn flag(&mut self) -> Option<bool> {
+        self.count().filter(|n| *n <= 1).map(|n| n == 1)
+    }
+
     /// Fills `out` with the next numbers.
     pub fn fill(&mut self, out: &mut [f64]) -> Option<()> {
         let (head, rest) = self.rest.split_at_checked(out.len())?;

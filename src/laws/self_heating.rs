@@ -9,15 +9,18 @@
 //! Mean rise across the film plus Jaeger's flash rise with equal surface temperatures. The paper (NTN, text after
 //! Eq. 8) only says that the rise must be iterated; this closure is an assumption of the library.
 //!
-//! `dT - A S(dT)` is increasing and concave, so Newton's method from dT = 0 approaches its only root from below.
+//! S falls with dT, so `dT - A S(dT)` increases and has one root between 0 and A S(0). Newton's method from dT = 0
+//! finds it in 2 to 6 steps; where S turns from elastic to viscous it can swing to and fro, and bisection takes over.
 //! The last Newton step is done in the law's own number type: with dual numbers it is the implicit-function rule.
 
 use super::traction::{MeanShear, ShearState};
 use crate::scalar::Real;
 use std::f64::consts::PI;
 
-/// Newton steps after which the iteration counts as failed; 2 to 6 are usual.
-const MAX_ITERATIONS: usize = 60;
+/// Newton steps before bisection takes over.
+const NEWTON_STEPS: usize = 12;
+/// Steps after which the iteration counts as failed.
+const MAX_ITERATIONS: usize = 120;
 /// Relative accuracy of dT at which Newton stops; the last step squares it.
 const TOLERANCE: f64 = 1e-7;
 
@@ -63,12 +66,25 @@ impl SelfHeating {
             elastic_slope: shear.elastic_slope.value(),
         };
         let (a, beta) = (rise_per_stress.value(), self.temperature_viscosity);
+        let (mut low, mut high) = (0.0, f64::INFINITY);
         let mut rise = 0.0;
         let mut converged = false;
-        for _ in 0..MAX_ITERATIONS {
-            let step = newton_step(plain.mean_shear(beta * rise), a, beta, rise);
-            rise += step;
-            if step.abs() <= TOLERANCE * rise.abs() {
+        for i in 0..MAX_ITERATIONS {
+            let shear = plain.mean_shear(beta * rise);
+            if i == 0 {
+                high = a * shear.stress;
+            }
+            if a * shear.stress >= rise {
+                low = rise;
+            } else {
+                high = rise;
+            }
+            let newton = rise + newton_step(shear, a, beta, rise);
+            let inside = low <= newton && newton <= high && i < NEWTON_STEPS;
+            let next = if inside { newton } else { 0.5 * (low + high) };
+            let change = (next - rise).abs();
+            rise = next;
+            if change <= TOLERANCE * rise {
                 converged = true;
                 break;
             }
@@ -142,6 +158,30 @@ mod tests {
                 (solve(du + h, 6e8).temperature_rise - solve(du - h, 6e8).temperature_rise) / (2.0 * h);
             assert!((d.stress.eps[0] / slope - 1.0).abs() < 1e-6, "{} {slope}", d.stress.eps[0]);
             assert!((d.temperature_rise.eps[0] / rise - 1.0).abs() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn converges_where_newton_alone_swings_between_elastic_and_viscous() {
+        let law = SelfHeating {
+            temperature_viscosity: 0.04,
+            conductivity: 0.13,
+            eyring_stress: 5e6,
+            thermal_product_1: STEEL,
+            thermal_product_2: STEEL,
+        };
+        for ln_rate_scale in [-5.0, 0.0, 5.0, 15.0, 25.0, 40.0] {
+            for elastic_slope in [1e-3, 0.1, 2.0, 10.0, 50.0] {
+                for a in [1e-3, 1.0, 30.0, 250.0, 2000.0] {
+                    let shear = ShearState { ln_rate_scale, slip: 1.0, elastic_slope };
+                    let x = law.solve(&shear, a);
+                    let residual = x.temperature_rise - a * x.stress;
+                    assert!(
+                        residual.abs() <= 1e-6 * x.temperature_rise,
+                        "{ln_rate_scale} {elastic_slope} {a}: {x:?}"
+                    );
+                }
+            }
         }
     }
 

@@ -3,6 +3,9 @@
 use super::forces::{CAGE_BODY, FILM_THICKNESS, Forces, GUIDE, INNER, NORMAL_FORCE, OUTER, POCKET};
 use super::{Model, Workspace};
 
+/// A ring slower than this stands still for the slip channels, rad/s.
+const STANDSTILL: f64 = 1e-9;
+
 /// What a channel shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Source {
@@ -121,7 +124,7 @@ impl Model {
         let contact = |j: usize, k: usize| &forces.contacts[self.contacts_per_roller() * j + k];
         // Without rotation there is no kinematic speed to compare with, and slip is reported as zero.
         let slip = |speed: f64, ratio: f64| {
-            if ring_speed == 0.0 { 0.0 } else { 1.0 - speed / (ratio * ring_speed) }
+            if ring_speed.abs() < STANDSTILL { 0.0 } else { 1.0 - speed / (ratio * ring_speed) }
         };
         match channel.source {
             Source::CageY => cage(0),

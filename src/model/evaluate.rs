@@ -3,7 +3,7 @@
 //! Three passes: find the contacts that touch and write their motions into one contiguous list per law; run each
 //! law over its list; collect the forces on the bodies. A contact that is apart costs its distance check.
 
-use super::{InputValues, Model, PocketLaws, RingBody};
+use super::{Fault, InputValues, Model, PocketLaws, RingBody};
 use crate::contact::pocket::{CageMotion, Pillar, PillarContact, PocketMotion};
 use crate::contact::raceway::{RingMotion, RollerMotion};
 use crate::contact::{PairFrame, Wrench, guide, rotate};
@@ -15,28 +15,8 @@ use nalgebra::{Matrix3, Vector3};
 
 /// A roller this far from the pitch circle, in pitch radii, has left the bearing.
 const LOST_ROLLER: f64 = 0.25;
-
-/// Why forces cannot be computed at a state.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Fault {
-    /// The film between cage and guide is gone.
-    NoGuideFilm {
-        /// Smallest film thickness, m.
-        minimum_film: f64,
-    },
-    /// A roller has left the space between the rings.
-    LostRoller {
-        /// Number of the roller.
-        roller: usize,
-        /// Offset from the pitch circle, m.
-        radial_offset: f64,
-    },
-    /// An acceleration is not a finite number.
-    NotFinite {
-        /// Index of the velocity whose rate it is.
-        velocity: usize,
-    },
-}
+/// A ring or cage this far from the centre, in pitch radii, has left the bearing.
+const LOST_BODY: f64 = 1.0;
 
 /// The touching contacts of one law. Capacity is fixed at creation, so filling it does not allocate.
 #[derive(Clone, Debug)]
@@ -170,6 +150,9 @@ impl Model {
     ///
     /// # Errors
     /// A [`Fault`] when forces are undefined at this state; `a` is then meaningless.
+    ///
+    /// # Panics
+    /// When a slice is shorter than its shape, or `ws` was made for another model.
     pub fn accelerations(
         &self,
         inputs: InputValues,
@@ -207,6 +190,13 @@ impl Model {
         ws.wall.clear();
         ws.edge.clear();
         let (ring_position, ring_velocity) = self.ring_motion(q, v);
+        let reach = LOST_BODY * self.geometry.pitch_radius;
+        if ring_position[0].hypot(ring_position[1]) > reach {
+            return Err(Fault::LostRing);
+        }
+        if self.layout.cage.is_some_and(|c| q[c].hypot(q[c + 1]) > reach) {
+            return Err(Fault::LostCage);
+        }
         for j in 0..self.layout.count {
             let i = self.layout.roller(j);
             let motion = RollerMotion {
@@ -364,9 +354,18 @@ impl Model {
             block.implicit = inverse * block.implicit * speed;
         }
     }
-}
 
-impl Model {
+    /// Damping of a free ring by its support, over (y, z).
+    pub(crate) fn ring_damping(&self, h: f64) -> DampingBlock {
+        let mut block = DampingBlock::default();
+        if let RingBody::Free { mass, damping } = self.ring {
+            let rate = damping / mass;
+            block.full = Matrix3::from_diagonal(&Vector3::new(rate, rate, 0.0));
+            block.implicit = block.full * implicit_share(h * rate);
+        }
+        block
+    }
+
     /// Damping of the cage by its guide film at the last evaluated state, over (y, z, angle), exact by dual numbers.
     /// Zero without a film.
     pub(crate) fn cage_damping(&self, ws: &Workspace, h: f64) -> DampingBlock {

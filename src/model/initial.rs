@@ -9,6 +9,8 @@ use std::f64::consts::TAU;
 
 /// Steps for the equilibrium of the ring; about twenty are usual.
 const MAX_ITERATIONS: usize = 500;
+/// Accepted residual force in N, far below any load of interest.
+const NEGLIGIBLE_FORCE: f64 = 1e-9;
 /// Accepted residual force relative to the load.
 const TOLERANCE: f64 = 1e-10;
 
@@ -68,7 +70,7 @@ impl Model {
         let mut parameter = size / reach;
         for _ in 0..MAX_ITERATIONS {
             let residual = here.force[0].hypot(here.force[1]);
-            if residual <= TOLERANCE * size {
+            if residual <= TOLERANCE * size + NEGLIGIBLE_FORCE {
                 return Ok(x);
             }
             let [kyy, kyz, kzz] = here.stiffness;

@@ -4,6 +4,7 @@
 mod channels;
 mod compile;
 mod evaluate;
+mod fault;
 mod forces;
 mod initial;
 mod inputs;
@@ -11,7 +12,8 @@ mod layout;
 mod names;
 
 pub use channels::Channel;
-pub use evaluate::{Fault, Workspace};
+pub use evaluate::Workspace;
+pub use fault::Fault;
 pub use forces::{BodyForces, CONTACT_QUANTITIES, ContactForces, FORCE_SOURCES, Forces, Quantity};
 pub use inputs::{HostInputs, INPUTS, Input, InputValues};
 pub use layout::Layout;
@@ -28,7 +30,7 @@ use inputs::InputSignals;
 
 /// Ratio of velocity to position scale in the error control, 1/s: slow against contact vibration (2e5 1/s), fast
 /// against the cage (1e2 1/s).
-pub(crate) const RATE_SCALE: f64 = 1e4;
+const RATE_SCALE: f64 = 1e4;
 
 /// The inner ring.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -151,7 +153,7 @@ impl Model {
     }
 
     /// Highest contact frequency in rad/s at the largest load of the scene: of a roller between two loaded raceways,
-    /// or of the cage between all its rollers if it is so light.
+    /// or, if one is so light, of the ring on half of the rollers or the cage between all of them.
     pub fn highest_frequency(&self) -> f64 {
         let [speed, y, z] = self.inputs.signals.each_ref().map(|s| s.largest());
         let ring_mass = match self.ring {
@@ -167,16 +169,41 @@ impl Model {
         let q = per_roller * (y.hypot(z) + weight) + centrifugal + preload + 1.0;
         let stiffness = self.inner.elastic.stiffness_at_load(q) + self.outer.elastic.stiffness_at_load(q);
         let roller = stiffness / self.roller_mass;
+        let ring = match self.ring {
+            RingBody::Fixed(_) => 0.0,
+            RingBody::Free { mass, .. } => {
+                self.inner.elastic.stiffness_at_load(q) * 0.5 * (self.layout.count as f64).max(2.0) / mass
+            }
+        };
         let cage = self.cage.as_ref().map_or(0.0, |cage| {
             let pockets = cage.pocket.map_or(0.0, |p| p.wall.elastic.stiffness_at_load(q));
             let lever = self.geometry.pitch_radius;
             pockets * self.layout.count as f64 * (1.0 / cage.mass + lever * lever / cage.inertia)
         });
-        roller.max(cage).sqrt()
+        roller.max(ring).max(cage).sqrt()
     }
 
     /// Whether the raceway contacts are damped.
     pub fn damped(&self) -> bool {
         self.inner.damping.is_some()
+    }
+
+    /// What counts as one unit of error for every state: the reference length for positions, divided by a radius
+    /// for angles, times 1e4 1/s for velocities.
+    pub fn state_scales(&self) -> Vec<f64> {
+        let length = self.reference_length();
+        let (pitch, radius) = (self.geometry.pitch_radius, self.geometry.roller_radius);
+        let layout = self.layout();
+        let mut positions = vec![length; layout.positions()];
+        if let Some(c) = layout.cage {
+            positions[c + 2] = length / pitch;
+        }
+        for j in 0..layout.count {
+            positions[layout.roller(j) + 1] = length / pitch;
+        }
+        let mut scales = positions.clone();
+        scales.extend(positions.iter().map(|x| x * RATE_SCALE));
+        scales.extend(std::iter::repeat_n(length / radius * RATE_SCALE, layout.count));
+        scales
     }
 }

@@ -85,23 +85,35 @@ impl System for Bearing {
         self.model.next_event(t, &self.host)
     }
 
+    /// Rollers, then the ring and the cage, whichever exist.
     fn damped_blocks(&self) -> usize {
         let layout = self.model.layout();
-        layout.count + usize::from(layout.cage.is_some())
+        layout.count + usize::from(layout.ring.is_some()) + usize::from(layout.cage.is_some())
     }
 
-    fn damped_block(&self, i: usize) -> [usize; 3] {
+    fn damped_block(&self, i: usize) -> [Option<usize>; 3] {
         let layout = self.model.layout();
-        match layout.cage {
-            Some(c) if i == layout.count => [c, c + 1, c + 2],
-            _ => [layout.roller(i), layout.roller(i) + 1, layout.spin(i)],
+        if i < layout.count {
+            return [Some(layout.roller(i)), Some(layout.roller(i) + 1), Some(layout.spin(i))];
+        }
+        match (layout.ring, layout.cage) {
+            (Some(ring), _) if i == layout.count => [Some(ring), Some(ring + 1), None],
+            (_, Some(cage)) => [Some(cage), Some(cage + 1), Some(cage + 2)],
+            _ => [None; 3],
         }
     }
 
     fn damping(&self, h: f64, blocks: &mut [DampingBlock]) {
-        let (rollers, cage) = blocks.split_at_mut(self.model.layout().count);
+        let layout = self.model.layout();
+        let (rollers, others) = blocks.split_at_mut(layout.count);
         self.model.roller_damping(&self.workspace, rollers);
-        if let Some(cage) = cage.first_mut() {
+        let mut others = others.iter_mut();
+        if layout.ring.is_some()
+            && let Some(ring) = others.next()
+        {
+            *ring = self.model.ring_damping(h);
+        }
+        if let Some(cage) = others.next() {
             *cage = self.model.cage_damping(&self.workspace, h);
         }
     }

@@ -8,11 +8,13 @@ pub use recording::{Recording, Spread};
 
 use crate::error::{Error, Result, Status};
 use crate::integrate::{DormandPrince, Driver, Failure, Leapfrog, Limits, Statistics, Stepper};
-use crate::model::{Channel, Fault, Forces, Model, RATE_SCALE};
+use crate::model::{Channel, Fault, Forces, Model};
 use crate::scene::Method;
 use bearing::Bearing;
 use std::sync::Arc;
 
+/// Largest simulated time, s: beyond it a step of a nanosecond is lost in round-off.
+const MAX_TIME: f64 = 1e6;
 /// Largest step of methods with error control, s: a tenth of a millisecond still sees every roller pass.
 const MAX_STEP: f64 = 1e-4;
 /// First step of methods with error control in units of 1/(highest frequency).
@@ -42,8 +44,9 @@ pub struct Sim {
     channels: Arc<[Channel]>,
     forces: Forces,
     accelerations: Vec<f64>,
-    /// Whether `forces` belongs to the current state.
+    /// Whether `forces` and the workspace belong to the current state.
     forces_current: bool,
+    fingerprint: [f64; 2],
 }
 
 impl Sim {
@@ -58,6 +61,7 @@ impl Sim {
         let driver = Driver::new(stepper(&model, &bearing), limits(&model));
         let mut sim = Self {
             channels: model.channels().into(),
+            fingerprint: snapshot::fingerprint(&model),
             accelerations: vec![0.0; model.layout().velocities()],
             bearing,
             driver,
@@ -94,8 +98,9 @@ impl Sim {
     pub fn set_state(&mut self, time: f64, state: &[f64]) -> Result<()> {
         check_time("time", time)?;
         self.check_state(state)?;
-        let mut rates = vec![0.0; self.accelerations.len()];
-        self.bearing.accelerations_at(time, state, &mut rates).map_err(|f| self.bad_state(time, f))?;
+        self.forces_current = false;
+        let evaluated = self.bearing.accelerations_at(time, state, &mut self.accelerations);
+        evaluated.map_err(|f| self.bad_state(time, f))?;
         self.time = time;
         self.state.copy_from_slice(state);
         self.restart();
@@ -156,10 +161,14 @@ impl Sim {
             let text = format!("t: {t:?} s is before the current time {:?} s", self.time);
             return Err(Error::new(Status::BadValue, text));
         }
-        self.driver.advance(&mut self.bearing, t).map_err(|f| self.failure(f))?;
+        self.forces_current = false;
+        if let Err(failure) = self.driver.advance(&mut self.bearing, t) {
+            // The driver may have run past the present time before it failed.
+            self.restart();
+            return Err(self.failure(failure));
+        }
         self.time = t;
         self.driver.state_at(t, &mut self.state);
-        self.forces_current = false;
         Ok(())
     }
 
@@ -248,7 +257,7 @@ impl Sim {
         limits(self.model()).nominal_step
     }
 
-    /// Counts since creation, reset or restore.
+    /// Counts since creation or reset; a restored simulation goes on from the saved counts.
     pub fn statistics(&self) -> RunStatistics {
         RunStatistics { driver: *self.driver.statistics(), evaluations: self.bearing.evaluations() }
     }
@@ -288,9 +297,8 @@ impl Sim {
                 let why = fault.map_or("the error estimate stays above the tolerance".to_owned(), |f| {
                     self.model().describe(f)
                 });
-                let min = self.model().scene().solver.min_step;
                 let text = format!(
-                    "at t = {time:?} s: a step of {step:e} s would be needed, at least {min:e} s is allowed: {why}"
+                    "at t = {time:?} s: a step of {step:e} s would be needed, which is too small: {why}"
                 );
                 Error::new(Status::StepTooSmall, text)
             }
@@ -303,10 +311,10 @@ impl Sim {
 }
 
 fn check_time(what: &str, t: f64) -> Result<()> {
-    if t.is_finite() && t >= 0.0 {
+    if (0.0..=MAX_TIME).contains(&t) {
         return Ok(());
     }
-    Err(Error::new(Status::BadValue, format!("{what}: {t} s is not a finite number >= 0")))
+    Err(Error::new(Status::BadValue, format!("{what}: {t} s is not within 0 to {MAX_TIME:e} s")))
 }
 
 fn wrong_size(what: &str, given: usize, expected: usize) -> Error {
@@ -343,44 +351,5 @@ fn limits(model: &Model) -> Limits {
         min_step: solver.min_step,
         max_step: MAX_STEP.max(solver.min_step),
         max_steps: solver.max_steps,
-    }
-}
-
-impl Model {
-    /// What counts as one unit of error for every state: the reference length for positions, divided by a radius
-    /// for angles, times 1e4 1/s for velocities.
-    pub fn state_scales(&self) -> Vec<f64> {
-        let length = self.reference_length();
-        let (pitch, radius) = (self.pitch_radius(), self.scene().rollers.radius);
-        let layout = self.layout();
-        let mut positions = vec![length; layout.positions()];
-        if let Some(c) = layout.cage {
-            positions[c + 2] = length / pitch;
-        }
-        for j in 0..layout.count {
-            positions[layout.roller(j) + 1] = length / pitch;
-        }
-        let mut scales = positions.clone();
-        scales.extend(positions.iter().map(|x| x * RATE_SCALE));
-        scales.extend(std::iter::repeat_n(length / radius * RATE_SCALE, layout.count));
-        scales
-    }
-
-    /// A fault in words.
-    pub fn describe(&self, fault: Fault) -> String {
-        match fault {
-            Fault::NoGuideFilm { minimum_film } => {
-                format!("no film between cage and guide (smallest thickness {minimum_film:e} m, must be > 0)")
-            }
-            Fault::LostRoller { roller, radial_offset } => {
-                format!("roller[{roller}] has left the bearing (radial offset {radial_offset:e} m)")
-            }
-            Fault::NotFinite { velocity } => {
-                let index = self.layout().positions() + velocity;
-                let infos = self.state_infos();
-                let name = infos.get(index).map_or("?", |info| info.name.as_str());
-                format!("the rate of {name} is not a finite number")
-            }
-        }
     }
 }

@@ -1,7 +1,10 @@
 //! Outputs recorded on a fixed time grid, and their statistics.
 
 use super::Sim;
-use crate::error::Result;
+use crate::error::{Error, Result, Status};
+
+/// Largest number of records of one run.
+const MAX_RECORDS: f64 = 1e8;
 
 /// Output channels over time.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -34,7 +37,8 @@ impl Recording {
     /// `keep_going` is called with the time after every record and ends the run by returning false.
     ///
     /// # Errors
-    /// As [`Sim::advance_to`]; what was recorded before is kept in `self`.
+    /// [`Status::BadValue`] for an interval that is not positive or gives too many records, and as
+    /// [`Sim::advance_to`]; what was recorded before is kept in `self`.
     pub fn run(
         &mut self,
         sim: &mut Sim,
@@ -43,10 +47,17 @@ impl Recording {
         mut keep_going: impl FnMut(f64) -> bool,
     ) -> Result<()> {
         let start = sim.time();
+        let records = (until - start) / interval;
+        if !(interval > 0.0 && records <= MAX_RECORDS) {
+            let text = format!(
+                "interval: {interval:?} s from {start:?} s to {until:?} s is not 1 to {MAX_RECORDS:e} records"
+            );
+            return Err(Error::new(Status::BadValue, text));
+        }
         self.columns.resize(sim.channels().len(), Vec::new());
         let mut row = vec![0.0; self.columns.len()];
         // Records at multiples of the interval, without adding up its round-off.
-        let last = ((until - start) / interval * (1.0 + 1e-12)).floor() as u64;
+        let last = (records * (1.0 + 1e-12)).floor() as u64;
         for i in 0..=last {
             sim.advance_to((start + i as f64 * interval).min(until))?;
             sim.outputs(&mut row)?;

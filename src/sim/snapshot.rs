@@ -3,7 +3,7 @@
 use super::Sim;
 use crate::error::{Error, Result, Status};
 use crate::integrate::Reader;
-use crate::model::{HostInputs, INPUTS};
+use crate::model::{HostInputs, INPUTS, Model};
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// First number of a snapshot; changes when its content changes.
@@ -13,7 +13,7 @@ impl Sim {
     /// Everything the future of this simulation depends on, for the same model in the same build of the library.
     pub fn save(&self) -> Vec<f64> {
         let mut out = vec![FORMAT];
-        out.extend(self.fingerprint());
+        out.extend(self.fingerprint);
         out.extend([self.time, self.bearing.evaluations() as f64]);
         for input in self.bearing.host() {
             out.extend([f64::from(u8::from(input.is_some())), input.unwrap_or(0.0)]);
@@ -41,7 +41,7 @@ impl Sim {
         if let Some(i) = snapshot.iter().position(|x| !x.is_finite()) {
             return Err(bad(&format!("item {i} is {}, not a finite number", snapshot[i])));
         }
-        let head = 1 + self.fingerprint().len();
+        let head = 1 + self.fingerprint.len();
         if snapshot[..head] != before[..head] {
             return Err(bad("made from another scene or by another version of the library"));
         }
@@ -54,17 +54,21 @@ impl Sim {
     }
 
     fn load(&mut self, snapshot: &[f64]) -> Option<()> {
-        let mut from = Reader::new(snapshot.get(1 + self.fingerprint().len()..)?);
+        let mut from = Reader::new(snapshot.get(1 + self.fingerprint.len()..)?);
         let time = from.number().filter(|t| *t >= 0.0)?;
         let evaluations = from.count()?;
         let mut host: HostInputs = [None; INPUTS];
         for input in &mut host {
-            let (set, value) = (from.count()?, from.number()?);
-            *input = (set == 1).then_some(value);
+            let (set, value) = (from.flag()?, from.number()?);
+            *input = set.then_some(value);
         }
-        from.fill(&mut self.state)?;
+        let mut state = vec![0.0; self.state.len()];
+        from.fill(&mut state)?;
         self.driver.load(&mut from)?;
-        if !from.finished() {
+        // The state must be the one that the driver's last step gives at this time.
+        self.driver.covers(time).then_some(())?;
+        self.driver.state_at(time, &mut self.state);
+        if !from.finished() || self.state != state {
             return None;
         }
         self.time = time;
@@ -73,13 +77,13 @@ impl Sim {
         self.forces_current = false;
         Some(())
     }
+}
 
-    /// Scene and library version, hashed into two numbers that fit exactly into f64.
-    fn fingerprint(&self) -> [f64; 2] {
-        let mut hasher = DefaultHasher::new();
-        env!("CARGO_PKG_VERSION").hash(&mut hasher);
-        self.model().scene().to_json().hash(&mut hasher);
-        let bits = hasher.finish();
-        [(bits >> 32) as f64, (bits & 0xffff_ffff) as f64]
-    }
+/// Scene and library version, hashed into two numbers that fit exactly into f64.
+pub(super) fn fingerprint(model: &Model) -> [f64; 2] {
+    let mut hasher = DefaultHasher::new();
+    env!("CARGO_PKG_VERSION").hash(&mut hasher);
+    model.scene().to_json().hash(&mut hasher);
+    let bits = hasher.finish();
+    [(bits >> 32) as f64, (bits & 0xffff_ffff) as f64]
 }

@@ -1,0 +1,51 @@
+//! States at which forces are undefined.
+
+use super::Model;
+
+/// Why forces cannot be computed at a state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Fault {
+    /// The film between cage and guide is gone.
+    NoGuideFilm {
+        /// Smallest film thickness, m.
+        minimum_film: f64,
+    },
+    /// A roller has left the space between the rings.
+    LostRoller {
+        /// Number of the roller.
+        roller: usize,
+        /// Offset from the pitch circle, m.
+        radial_offset: f64,
+    },
+    /// The inner ring has left the bearing.
+    LostRing,
+    /// The cage has left the bearing.
+    LostCage,
+    /// An acceleration is not a finite number.
+    NotFinite {
+        /// Index of the velocity whose rate it is.
+        velocity: usize,
+    },
+}
+
+impl Model {
+    /// A fault in words.
+    pub fn describe(&self, fault: Fault) -> String {
+        match fault {
+            Fault::NoGuideFilm { minimum_film } => {
+                format!("no film between cage and guide (smallest thickness {minimum_film:e} m, must be > 0)")
+            }
+            Fault::LostRoller { roller, radial_offset } => {
+                format!("roller[{roller}] has left the bearing (radial offset {radial_offset:e} m)")
+            }
+            Fault::LostRing => "the inner ring has left the bearing".to_owned(),
+            Fault::LostCage => "the cage has left the bearing".to_owned(),
+            Fault::NotFinite { velocity } => {
+                let index = self.layout().positions() + velocity;
+                let infos = self.state_infos();
+                let name = infos.get(index).map_or("?", |info| info.name.as_str());
+                format!("the rate of {name} is not a finite number")
+            }
+        }
+    }
+}
