@@ -108,20 +108,20 @@ mod tests {
     use crate::scalar::Dual;
 
     const STEEL: f64 = 46.0 * 7830.0 * 460.0;
+    const LAW: SelfHeating = SelfHeating {
+        temperature_viscosity: 0.04,
+        conductivity: 0.13,
+        eyring_stress: 5e6,
+        thermal_product_1: STEEL,
+        thermal_product_2: STEEL,
+    };
 
     fn solve<T: Real>(du: T, pressure: f64) -> HeatedShear<T> {
-        let law = SelfHeating {
-            temperature_viscosity: 0.04,
-            conductivity: 0.13,
-            eyring_stress: 5e6,
-            thermal_product_1: STEEL,
-            thermal_product_2: STEEL,
-        };
         let t = Traction::new(0.06, 2e-8, 5e6, 3e8);
         let (h, b, u) = (T::constant(6e-7), T::constant(8e-5), T::constant(6.0));
         let shear = t.shear_state(T::constant(pressure), h, b, u, du);
-        let a = law.rise_per_stress(du, h, b, u, u);
-        law.solve(&shear, a)
+        let a = LAW.rise_per_stress(du, h, b, u, u);
+        LAW.solve(&shear, a)
     }
 
     #[test]
@@ -129,14 +129,7 @@ mod tests {
         for pressure in [1e6, 3e8, 1e9, 3e9] {
             for du in [1e-12, 1e-4, 0.05, 2.0, 30.0] {
                 let x = solve(du, pressure);
-                let law_a = SelfHeating {
-                    temperature_viscosity: 0.04,
-                    conductivity: 0.13,
-                    eyring_stress: 5e6,
-                    thermal_product_1: STEEL,
-                    thermal_product_2: STEEL,
-                }
-                .rise_per_stress(du, 6e-7, 8e-5, 6.0, 6.0);
+                let law_a = LAW.rise_per_stress(du, 6e-7, 8e-5, 6.0, 6.0);
                 let residual = x.temperature_rise - law_a * x.stress;
                 assert!(x.temperature_rise >= 0.0);
                 assert!(
@@ -163,18 +156,11 @@ mod tests {
 
     #[test]
     fn converges_where_newton_alone_swings_between_elastic_and_viscous() {
-        let law = SelfHeating {
-            temperature_viscosity: 0.04,
-            conductivity: 0.13,
-            eyring_stress: 5e6,
-            thermal_product_1: STEEL,
-            thermal_product_2: STEEL,
-        };
         for ln_rate_scale in [-5.0, 0.0, 5.0, 15.0, 25.0, 40.0] {
             for elastic_slope in [1e-3, 0.1, 2.0, 10.0, 50.0] {
                 for a in [1e-3, 1.0, 30.0, 250.0, 2000.0] {
                     let shear = ShearState { ln_rate_scale, slip: 1.0, elastic_slope };
-                    let x = law.solve(&shear, a);
+                    let x = LAW.solve(&shear, a);
                     let residual = x.temperature_rise - a * x.stress;
                     assert!(
                         residual.abs() <= 1e-6 * x.temperature_rise,

@@ -2,6 +2,7 @@
 
 use super::Sim;
 use crate::error::{Error, Result, Status};
+use serde::Serialize;
 
 /// Largest number of records of one run.
 const MAX_RECORDS: f64 = 1e8;
@@ -16,7 +17,7 @@ pub struct Recording {
 }
 
 /// Mean and spread of a channel over a window of time.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
     /// Mean.
     pub mean: f64,

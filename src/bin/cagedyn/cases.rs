@@ -130,8 +130,8 @@ fn print_row(row: &[String], widths: &[usize]) -> Result<()> {
 
 fn row(done: &Done<'_>) -> [String; COLUMNS.len()] {
     let s = &done.summary;
-    let mean = |name: &str| s.of(name).map_or("-".to_owned(), |s| format!("{:.4}", s.mean));
-    let deviation = |name: &str| s.of(name).map_or("-".to_owned(), |s| format!("{:.4}", s.deviation));
+    let mean = |name: &str| s.of(name).map_or("-".to_owned(), |s| format!("{:.4}", s.spread.mean));
+    let deviation = |name: &str| s.of(name).map_or("-".to_owned(), |s| format!("{:.4}", s.spread.deviation));
     [
         done.case.name.clone(),
         mean("cage.y_ratio"),
@@ -176,8 +176,8 @@ fn csv_rows(done: &[Done<'_>]) -> Vec<Vec<String>> {
         let mut row = vec![d.case.name.clone(), rounded(d.speed).to_string()];
         for name in &channels {
             let of = s.of(name);
-            row.push(of.map_or(String::new(), |s| format!("{:?}", s.mean)));
-            row.push(of.map_or(String::new(), |s| format!("{:?}", s.deviation)));
+            row.push(of.map_or(String::new(), |s| format!("{:?}", s.spread.mean)));
+            row.push(of.map_or(String::new(), |s| format!("{:?}", s.spread.deviation)));
         }
         row.push(s.max_roller_slip.as_ref().map_or(String::new(), |slip| format!("{:?}", slip.value)));
         row.push(format!("{:?}", s.simulated_time_s));
@@ -224,7 +224,7 @@ fn labels(groups: &[Group<'_>]) -> Vec<String> {
 }
 
 fn point(d: &Done<'_>) -> Option<Point> {
-    let centre = (d.summary.of("cage.y_ratio")?.mean, d.summary.of("cage.z_ratio")?.mean);
+    let centre = (d.summary.of("cage.y_ratio")?.spread.mean, d.summary.of("cage.z_ratio")?.spread.mean);
     Some(Point { speed: d.speed, centre })
 }
 

@@ -12,8 +12,8 @@ impl Rows {
     /// A mean with its deviation in another unit, `scale` of it per SI unit.
     fn spread(&mut self, name: &str, s: Option<&Statistics>, scale: f64, unit: &str, remark: &str) {
         if let Some(s) = s {
-            let deviation = format!("± {}", number(s.deviation * scale));
-            self.add(name, number(s.mean * scale), &deviation, unit, remark);
+            let deviation = format!("± {}", number(s.spread.deviation * scale));
+            self.add(name, number(s.spread.mean * scale), &deviation, unit, remark);
         }
     }
 

@@ -124,18 +124,9 @@ pub struct PocketForces {
 pub struct Statistics {
     /// Unit; "1" for ratios.
     pub unit: &'static str,
-    /// Mean.
-    pub mean: f64,
-    /// Standard deviation.
-    pub deviation: f64,
-    /// Smallest value.
-    pub min: f64,
-    /// Largest value.
-    pub max: f64,
-    /// Fifth percentile.
-    pub p05: f64,
-    /// 95th percentile.
-    pub p95: f64,
+    /// Mean, deviation and percentiles.
+    #[serde(flatten)]
+    pub spread: Spread,
 }
 
 impl Summary {
@@ -143,7 +134,7 @@ impl Summary {
     pub fn new(run: &Run, scene: &Path, case: Option<&str>, set: Vec<String>) -> Self {
         let from = run.window_start();
         let statistics = key_statistics(&run.channels, &run.recording, from);
-        let mean = |name: &str| statistics.iter().find(|(n, _)| n == name).map(|(_, s)| s.mean);
+        let mean = |name: &str| statistics.iter().find(|(n, _)| n == name).map(|(_, s)| s.spread.mean);
         let layout = run.model.layout();
         Self {
             title: run.title.clone(),
@@ -178,15 +169,10 @@ fn key_statistics(channels: &[Channel], recording: &Recording, from: f64) -> Vec
     let key = |name: &str| !name.starts_with("roller[") || name.ends_with("].slip");
     let columns = channels.iter().enumerate().filter(|(_, c)| key(&c.name));
     columns
-        .filter_map(|(i, c)| Some((c.name.clone(), Statistics::new(c.unit, recording.spread(i, from)?))))
+        .filter_map(|(i, c)| {
+            Some((c.name.clone(), Statistics { unit: c.unit, spread: recording.spread(i, from)? }))
+        })
         .collect()
-}
-
-impl Statistics {
-    fn new(unit: &'static str, s: Spread) -> Self {
-        let Spread { mean, deviation, min, max, p05, p95 } = s;
-        Self { unit, mean, deviation, min, max, p05, p95 }
-    }
 }
 
 fn integration(run: &Run) -> Integration {

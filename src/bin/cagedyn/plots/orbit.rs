@@ -13,7 +13,7 @@ const SIDE: f64 = 560.0;
 /// The picture, if the cage is guided.
 pub fn cage_orbit(run: &Run, summary: &Summary) -> Option<Result<String>> {
     let (y, z) = (run.column("cage.y_ratio")?, run.column("cage.z_ratio")?);
-    let mean = (summary.of("cage.y_ratio")?.mean, summary.of("cage.z_ratio")?.mean);
+    let mean = (summary.of("cage.y_ratio")?.spread.mean, summary.of("cage.z_ratio")?.spread.mean);
     let points: Vec<(f64, f64)> = y.iter().copied().zip(z.iter().copied()).collect();
     let from = run.recording.index_at(run.window_start());
     Some(draw(&run.title, &points, from, mean))

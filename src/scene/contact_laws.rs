@@ -1,0 +1,121 @@
+//! Optional laws of line contacts in a scene.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Laws of the contacts between rollers and raceways.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Raceways {
+    /// Laws besides elasticity. Normal forces follow Palmgren's line contact.
+    #[serde(default)]
+    pub contact: ContactLaws,
+    /// Rolling resistance of the film (Zhou and Hoeprich). Absent: off.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rolling_resistance: Option<RollingResistance>,
+}
+
+/// Optional laws of a line contact.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ContactLaws {
+    /// Damping of the normal motion. Absent: elastic impacts.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub damping: Option<ContactDamping>,
+    /// Film thickness law. Absent: no film; then neither traction nor boundary friction.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub film: Option<FilmLaw>,
+    /// Thermal correction of the film thickness. Absent: isothermal.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thermal_correction: Option<ThermalCorrection>,
+    /// Traction of the full film. Absent: frictionless film.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub traction: Option<TractionLaw>,
+    /// Self-heating of the traction film. Absent: traction at inlet temperature.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub self_heating: Option<SelfHeating>,
+    /// Friction of mixed and boundary lubrication. Absent: full film at any thickness.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub boundary_friction: Option<BoundaryFriction>,
+}
+
+/// Normal damping proportional to contact stiffness.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ContactDamping {
+    /// Ratio of damping to stiffness tau_c, s.
+    pub relaxation_time: f64,
+    /// Approach at which half of the damping is active, m.
+    pub softening_depth: f64,
+}
+
+/// Film thickness law.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum FilmLaw {
+    /// Central film thickness of Pan and Hamrock (1989).
+    PanHamrock,
+}
+
+/// Thermal correction of the film thickness.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ThermalCorrection {
+    /// Ghosh and Pandey (1998).
+    GhoshPandey,
+    /// Gupta's form, the one of the rolling resistance.
+    Gupta,
+}
+
+/// Traction law of the full film.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum TractionLaw {
+    /// Simplified equations of Muraki and Kimura (1983).
+    MurakiKimura,
+}
+
+/// Self-heating model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SelfHeating {
+    /// Mean rise across the film plus flash rise of both surfaces.
+    FilmAndFlash,
+}
+
+/// Friction in mixed and boundary lubrication.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BoundaryFriction {
+    /// Boundary friction coefficient mu_bd.
+    pub coefficient: f64,
+    /// Slip speed v_s of the transition through zero, m/s.
+    pub transition_speed: f64,
+    /// Composite roughness sigma, m.
+    pub roughness: f64,
+    /// Largest film ratio of boundary lubrication L_bd.
+    pub lambda_boundary: f64,
+    /// Smallest film ratio of full-film lubrication L_hd.
+    pub lambda_full: f64,
+}
+
+/// Rolling resistance and the contacts in which it acts.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RollingResistance {
+    /// Contacts in which it acts.
+    pub extent: Extent,
+}
+
+/// Contacts with rolling resistance.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Extent {
+    /// All contacts, also those that carry only the centrifugal force of the roller.
+    All,
+    /// Loaded contacts: fades in between the threshold and twice the threshold.
+    Loaded {
+        /// Contact load below which there is no rolling resistance, N.
+        threshold: f64,
+    },
+}

@@ -1,0 +1,87 @@
+//! Start, integration and records of a scene.
+
+use super::PlaneVector;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Start of the run. Rollers start at kinematic speeds in the centres of their pockets.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Initial {
+    /// Where the inner ring and the rollers start.
+    #[serde(default)]
+    pub inner_ring: RingStart,
+    /// Angle of the first roller, rad.
+    #[serde(default)]
+    pub first_roller_angle: f64,
+    /// Centre of the cage, m.
+    #[serde(default)]
+    pub cage: PlaneVector,
+}
+
+/// Start of the inner ring and the radial position of the rollers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum RingStart {
+    /// Ring centred (a fixed ring: at its place), rollers on the pitch circle; the load drops a free ring through
+    /// the clearance.
+    #[default]
+    Centred,
+    /// Static equilibrium of ring and rollers under the load, the weight of the ring and centrifugal force.
+    Equilibrium,
+}
+
+/// Integration method and limits.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Solver {
+    /// Method.
+    pub method: Method,
+    /// Smallest step size, s; a run that needs less fails.
+    pub min_step: f64,
+    /// Largest number of attempted steps in one advance.
+    pub max_steps: u64,
+}
+
+impl Default for Solver {
+    fn default() -> Self {
+        Self { method: Method::Leapfrog(Leapfrog { step: None }), min_step: 1e-12, max_steps: 200_000_000 }
+    }
+}
+
+/// Integration method.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Method {
+    /// Semi-implicit leapfrog of fixed step: one force evaluation per step; the choice for statistics of long runs.
+    Leapfrog(Leapfrog),
+    /// Dormand-Prince 5(4) with error control: the choice for accurate trajectories.
+    DormandPrince(DormandPrince),
+}
+
+/// Parameters of the leapfrog.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Leapfrog {
+    /// Step size, s. Absent: chosen from the highest contact frequency of the model.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub step: Option<f64>,
+}
+
+/// Parameters of the Dormand-Prince method.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DormandPrince {
+    /// Local error in units of the model's reference clearance (see docs/model.md); 1e-5 suits most scenes.
+    pub tolerance: f64,
+}
+
+/// Length of the run and times of the records.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Record {
+    /// Simulated time, s.
+    pub duration: f64,
+    /// Time between records, s. It does not influence the steps.
+    pub interval: f64,
+}
