@@ -28,6 +28,7 @@ fmt:
 
 lint:
 	$(CARGO) clippy --locked --all-targets -- -D warnings
+	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --locked --no-deps --quiet
 
 unit:
 	CAGEDYN_REQUIRE_VALGRIND=1 $(CARGO) test --locked

@@ -1,7 +1,7 @@
 //! The C ABI: `include/cagedyn.h` is generated from this folder.
 //!
 //! The only place with `unsafe` code. Every function checks its arguments, catches panics and stores errors per
-//! thread (see [`guard`]); all work happens in the safe library.
+//! thread (see `guard.rs`); all work happens in the safe library.
 
 #![allow(unsafe_code)]
 

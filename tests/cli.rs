@@ -1,0 +1,167 @@
+//! The command line program: files, exit codes, messages, interruption.
+#![cfg(feature = "cli")]
+
+use std::path::Path;
+use std::process::{Command, Output};
+use std::time::{Duration, Instant};
+
+fn cagedyn() -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_cagedyn"));
+    command.current_dir(env!("CARGO_MANIFEST_DIR"));
+    command
+}
+
+fn run(arguments: &[&str]) -> Output {
+    cagedyn().args(arguments).output().expect("the program starts")
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+fn json(path: &Path) -> serde_json::Value {
+    let content = std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    serde_json::from_str(&content).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+}
+
+#[test]
+fn run_writes_table_summary_and_pictures() {
+    let dir = tempfile::tempdir().expect("a directory");
+    let out = dir.path().join("deep/out");
+    let arguments = ["run", "scenes/nu2310.json", "--until", "0.02", "--out", &out.to_string_lossy()];
+    let output = run(&arguments);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert!(text(&output.stderr).is_empty(), "no progress bar in a pipe: {}", text(&output.stderr));
+    assert!(text(&output.stdout).contains("cage centre y"));
+
+    let table = std::fs::read_to_string(out.join("timeseries.csv")).expect("a table");
+    assert!(table.starts_with("time [s],cage.y [m],"), "{}", &table[..60]);
+    assert_eq!(table.lines().count(), 1 + 41);
+    let columns = table.lines().next().map_or(0, |line| line.split(',').count());
+    assert!(table.lines().all(|line| line.split(',').count() == columns));
+
+    let summary = json(&out.join("summary.json"));
+    assert_eq!(summary["simulated_time_s"], 0.02);
+    assert_eq!(summary["interrupted"], false);
+    assert!(summary["statistics"]["cage.y_ratio"]["mean"].is_number(), "{summary}");
+    for picture in ["cage_orbit", "cage_position", "roller_history", "cage_spectrum"] {
+        let svg = std::fs::read_to_string(out.join(format!("{picture}.svg"))).expect(picture);
+        assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"), "{picture}");
+        assert!(svg.contains("NU2310") && !svg.contains("NaN"), "{picture}");
+    }
+}
+
+#[test]
+fn overrides_reach_the_run() {
+    let dir = tempfile::tempdir().expect("a directory");
+    let out = dir.path().to_string_lossy().into_owned();
+    let sets = ["--set", "cage=null", "--set", "title=bare", "--set", "record.duration=1e-3"];
+    let mut arguments = vec!["run", "scenes/nu2310.json", "--out", &out];
+    arguments.extend(sets);
+    let output = run(&arguments);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let summary = json(&dir.path().join("summary.json"));
+    assert_eq!((&summary["title"], &summary["simulated_time_s"]), (&"bare".into(), &1e-3.into()));
+    assert!(!dir.path().join("cage_orbit.svg").exists(), "there is no cage to draw");
+}
+
+#[test]
+fn mistakes_are_one_line_and_exit_with_1() {
+    let dir = tempfile::tempdir().expect("a directory");
+    let out = dir.path().join("out").to_string_lossy().into_owned();
+    for (arguments, expected) in [
+        (vec!["run", "no/such.json", "--out", &out], "no/such.json"),
+        (vec!["run", "README.md", "--out", &out], "README.md"),
+        (vec!["run", "scenes/nu2310.json", "--out", &out, "--set", "rollers.radius=7.5"], "rollers.radius"),
+        (vec!["run", "scenes/nu2310.json", "--out", &out, "--set", "wheels.count=7"], "wheels"),
+        (vec!["info", "scenes/nu2310.json", "--set", "cage.guide=7"], "cage.guide"),
+        (vec!["cases", "scenes/nu2310.json", "--out", &out], "scenes/nu2310.json"),
+        (vec!["run", "scenes/nu2310.json", "--out", "README.md/x", "--until", "1e-3"], "README.md/x"),
+    ] {
+        let output = run(&arguments);
+        let message = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{arguments:?}: {message}");
+        assert!(message.starts_with("cagedyn: ") && message.contains(expected), "{arguments:?}: {message}");
+        assert_eq!(message.trim_end().lines().count(), 1, "{message}");
+    }
+    assert_eq!(run(&["walk"]).status.code(), Some(2));
+}
+
+#[test]
+fn a_run_that_fails_keeps_what_it_computed() {
+    let dir = tempfile::tempdir().expect("a directory");
+    let out = dir.path().to_string_lossy().into_owned();
+    let output = run(&[
+        "run",
+        "scenes/nu2310.json",
+        "--out",
+        &out,
+        "--set",
+        "inner_ring.motion.free.load.z={\"step\":{\"before\":-4900,\"after\":9e8,\"time\":0.01}}",
+        "--set",
+        "solver={\"method\":{\"leapfrog\":{\"step\":4e-6}},\"min_step\":1e-7}",
+    ]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(text(&output.stderr).contains("at t = "), "{}", text(&output.stderr));
+    let table = std::fs::read_to_string(dir.path().join("timeseries.csv")).expect("a table");
+    assert!(table.lines().count() >= 20, "{}", table.lines().count());
+    assert!(json(&dir.path().join("summary.json"))["error"].is_string());
+}
+
+#[test]
+fn interruption_keeps_what_was_computed() {
+    let dir = tempfile::tempdir().expect("a directory");
+    let mut child = cagedyn()
+        .args(["run", "scenes/nu2310.json", "--until", "500", "--out"])
+        .arg(dir.path())
+        .stdout(std::process::Stdio::null())
+        .stderr(std::process::Stdio::null())
+        .spawn()
+        .expect("the program starts");
+    std::thread::sleep(Duration::from_millis(1500));
+    let signalled = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(signalled.is_ok_and(|s| s.success()));
+    let start = Instant::now();
+    let status = loop {
+        if let Some(status) = child.try_wait().expect("a status") {
+            break status;
+        }
+        if start.elapsed() > Duration::from_secs(60) {
+            let _ = child.kill();
+            panic!("the program ignored the interruption");
+        }
+        std::thread::sleep(Duration::from_millis(20));
+    };
+    assert_eq!(status.code(), Some(130));
+    assert_eq!(json(&dir.path().join("summary.json"))["interrupted"], true);
+    let table = std::fs::read_to_string(dir.path().join("timeseries.csv")).expect("a table");
+    assert!(table.lines().count() > 10);
+}
+
+#[test]
+fn case_sets_give_one_folder_per_case_and_a_comparison() {
+    let dir = tempfile::tempdir().expect("a directory");
+    let out = dir.path().to_string_lossy().into_owned();
+    let output = run(&["cases", "scenes/nu2310_fig9.cases.json", "--until", "2e-3", "--out", &out]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert!(dir.path().join("40um-4900N-3000rpm/summary.json").exists());
+    let table = std::fs::read_to_string(dir.path().join("cases.csv")).expect("a table");
+    assert_eq!(table.lines().count(), 13);
+    assert!(dir.path().join("cage_positions.svg").exists());
+}
+
+#[test]
+fn info_and_schema_print_what_they_promise() {
+    let info = text(&run(&["info", "scenes/nu2310.json"]).stdout);
+    for expected in
+        ["70: 29 positions, 41 velocities", "raceways.rolling_resistance", "roundness", "cage.y_ratio"]
+    {
+        assert!(info.contains(expected), "{expected} in {info}");
+    }
+    for (kind, file) in [("scene", "scene.schema.json"), ("cases", "cases.schema.json")] {
+        let printed: serde_json::Value =
+            serde_json::from_slice(&run(&["schema", kind]).stdout).expect("a JSON Schema");
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("schemas").join(file);
+        assert_eq!(printed, json(&path));
+    }
+}
