@@ -1,6 +1,7 @@
 # make test      everything that CI runs: formatting, lints, all tests
 # make run       the NU2310 example, results in out/
 # make cases     the twelve NU2310 cases, results in out/cases/
+# make example   the C example, compiled and run, table in out/
 # make pictures  the pictures of the README
 # make bench     time of a force evaluation and of a step
 # make header    writes include/cagedyn.h and schemas/ anew after a change
@@ -11,7 +12,7 @@ DESTDIR ?=
 VERSION := $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -n 1)
 CARGO ?= cargo
 
-.PHONY: test tools fmt lint unit run cases pictures bench header install clean
+.PHONY: test tools fmt lint unit run cases pictures example bench header install clean
 
 test: tools fmt lint unit
 
@@ -43,6 +44,14 @@ pictures:
 	$(CARGO) run --release --locked -- run scenes/nu2310.json --out out
 	mkdir -p docs/images
 	cp out/cage_orbit.svg out/roller_history.svg docs/images/
+
+example:
+	$(CARGO) build --release --locked
+	ln -sf libcagedyn.so target/release/libcagedyn.so.0
+	mkdir -p out
+	$(CC) -std=c99 -Wall -Wextra -Wpedantic -Iinclude examples/nu2310.c -o out/nu2310 \
+		-Ltarget/release -lcagedyn -Wl,-rpath,$(CURDIR)/target/release
+	./out/nu2310 scenes/nu2310.json out/nu2310.csv
 
 bench:
 	$(CARGO) bench --locked

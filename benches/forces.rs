@@ -16,14 +16,14 @@ fn developed(overrides: &[(&str, &str)]) -> Option<Sim> {
 }
 
 fn benches(c: &mut Criterion) {
-    let gravity_only: [(&str, &str); 5] = [
+    let elastic_only: [(&str, &str); 5] = [
         ("raceways.contact", "{}"),
         ("raceways.rolling_resistance", "null"),
         ("cage.pocket", "null"),
         ("cage.guide", "null"),
         ("lubricant", "null"),
     ];
-    for (name, overrides) in [("full", &[][..]), ("elastic", &gravity_only[..])] {
+    for (name, overrides) in [("full", &[][..]), ("elastic", &elastic_only[..])] {
         let Some(mut sim) = developed(overrides) else { continue };
         let state = sim.state().to_vec();
         let mut rate = vec![0.0; state.len()];

@@ -1,9 +1,9 @@
 /* A cylindrical roller bearing from C: read a scene, set a state, look at the forces, run, write a table.
  *
- *   cc -std=c99 -Iinclude examples/nu2310.c -Ltarget/release -lcagedyn -lm -o nu2310
- *   LD_LIBRARY_PATH=target/release ./nu2310 scenes/nu2310.json nu2310.csv
+ * `make example` compiles and runs it. With an installed library:
  *
- * (The program looks for libcagedyn.so.0: `make install`, or a link of that name beside libcagedyn.so.)
+ *   cc -std=c99 nu2310.c $(pkg-config --cflags --libs cagedyn) -o nu2310
+ *   ./nu2310 scenes/nu2310.json nu2310.csv
  */
 #include <stdio.h>
 #include <stdlib.h>

@@ -119,7 +119,7 @@ fn interruption_keeps_what_was_computed() {
         .spawn()
         .expect("the program starts");
     std::thread::sleep(Duration::from_millis(1500));
-    let signalled = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    let signalled = Command::new("sh").args(["-c", &format!("kill -INT {}", child.id())]).status();
     assert!(signalled.is_ok_and(|s| s.success()));
     let start = Instant::now();
     let status = loop {

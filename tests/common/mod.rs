@@ -1,7 +1,12 @@
-//! Helpers shared by the integration tests: scenes of the repository with changes, and random numbers.
+//! Helpers shared by the integration tests: scenes of the repository with changes, and random numbers; bearings in
+//! given states, their force reports and a contact law to compare with in the submodules.
 
 // Every test file compiles this module for itself and uses only a part of it.
 #![allow(dead_code)]
+
+pub mod bench;
+pub mod palmgren;
+pub mod reports;
 
 use serde_json::Value;
 use std::path::{Path, PathBuf};
