@@ -18,9 +18,9 @@ fn sources_have_the_expected_names() {
 /// Centres of the bodies in the order of force reports.
 fn centres(b: &Bearing, s: &State) -> Vec<[f64; 2]> {
     let mut list = vec![[0.0; 2], s.ring, [s.cage[0], s.cage[1]]];
-    list.extend(s.rollers.iter().map(|r| {
-        let radius = b.pitch + r.offset;
-        [radius * r.angle.cos(), radius * r.angle.sin()]
+    list.extend(s.rollers.iter().enumerate().map(|(j, r)| {
+        let (radius, angle) = (b.pitch + r.offset, b.reference(j) + r.travel);
+        [radius * angle.cos(), radius * angle.sin()]
     }));
     list
 }
@@ -118,7 +118,7 @@ fn accelerations_are_forces_over_inertia() {
         for (j, roller) in state.rollers.iter().enumerate() {
             let body = &forces.bodies[CAGE + 1 + j];
             let r = b.pitch + roller.offset;
-            let (sin, cos) = roller.angle.sin_cos();
+            let (sin, cos) = (b.reference(j) + roller.travel).sin_cos();
             let radial = a[5 + 2 * j] - r * roller.orbit_speed.powi(2);
             let around = r * a[6 + 2 * j] + 2.0 * roller.radial_speed * roller.orbit_speed;
             let centrifugal = r * roller.orbit_speed.powi(2);

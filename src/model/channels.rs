@@ -142,7 +142,7 @@ impl Model {
             Source::RingZ => self.ring_motion(q, v).0[1],
             Source::DragTorque => -direction * forces.bodies[1][INNER][2],
             Source::OuterRingTorque => forces.bodies[0][OUTER][2] + forces.bodies[0][GUIDE][2],
-            Source::RollerAngle(j) => q[self.layout.roller(j) + 1],
+            Source::RollerAngle(j) => self.azimuth(q, j),
             Source::RollerSlip(j) => slip(v[self.layout.spin(j)], self.spin_ratio()),
             Source::PocketPosition(j) => direction * ws.rollers[j].pocket_offset[1],
             Source::PocketForce(j) => {

@@ -216,10 +216,7 @@ pub fn compile(scene: Scene) -> Result<Model> {
                 None => None,
                 Some(guide) => Some(Builder { scene: &scene, path: "cage" }.guide(guide)?),
             };
-            let pocket_angles = (0..count)
-                .map(|j| scene.initial.first_roller_angle + TAU * j as f64 / count as f64)
-                .collect();
-            Some(CageBody { mass: cage.mass, inertia: cage.inertia, pocket, pocket_angles, guide })
+            Some(CageBody { mass: cage.mass, inertia: cage.inertia, pocket, guide })
         }
     };
 
@@ -232,9 +229,12 @@ pub fn compile(scene: Scene) -> Result<Model> {
     };
     let zero = Signal::Constant(0.0);
     let (load_y, load_z) = load.map_or((zero.clone(), zero), |l| (l.y, l.z));
+    let reference_angles =
+        (0..count).map(|j| scene.initial.first_roller_angle + TAU * j as f64 / count as f64).collect();
     let layout = Layout::new(matches!(ring, RingBody::Free { .. }), cage.is_some(), count);
     Ok(Model {
         layout,
+        reference_angles,
         geometry,
         roller_mass: scene.rollers.mass,
         roller_inertia: scene.rollers.inertia,

@@ -208,7 +208,7 @@ impl Model {
             if motion.radial_offset.abs() > LOST_ROLLER * self.geometry.pitch_radius {
                 return Err(Fault::LostRoller { roller: j, radial_offset: motion.radial_offset });
             }
-            let (sin, cos) = q[i + 1].sin_cos();
+            let (sin, cos) = (self.reference_angles[j] + q[i + 1]).sin_cos();
             let mut site = RollerSite { motion, sin, cos, pocket_offset: [0.0; 2] };
 
             if touching(motion.radial_offset - self.geometry.gap) {
@@ -225,7 +225,7 @@ impl Model {
             if let (Some(cage), Some(c)) = (&self.cage, self.layout.cage)
                 && let Some(pocket) = &cage.pocket
             {
-                let lead = (q[i + 1] - (q[c + 2] + cage.pocket_angles[j])).sin_cos();
+                let lead = (q[i + 1] - q[c + 2]).sin_cos();
                 let position = rotate(site.to_local([q[c], q[c + 1]]), lead.0, lead.1);
                 site.pocket_offset = pocket.geometry.offset(motion.radial_offset, lead, position);
                 if !pocket.geometry.apart(site.pocket_offset) {

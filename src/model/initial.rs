@@ -5,7 +5,6 @@ use crate::contact::raceway::{RingMotion, RollerMotion};
 use crate::contact::rotate;
 use crate::error::{Error, Result, Status};
 use crate::scene::RingStart;
-use std::f64::consts::TAU;
 
 /// Steps for the equilibrium of the ring; about twenty are usual.
 const MAX_ITERATIONS: usize = 500;
@@ -27,11 +26,10 @@ impl Model {
         let orbit = self.orbit_ratio() * inputs.ring_speed;
         let cage = self.scene.initial.cage;
         for j in 0..layout.count {
-            let pocket = self.scene.initial.first_roller_angle + TAU * j as f64 / layout.count as f64;
-            let (sin, cos) = pocket.sin_cos();
+            let (sin, cos) = self.reference_angles[j].sin_cos();
             // The pocket of a cage off centre lies beside its angle.
             let beside = cage.z * cos - cage.y * sin;
-            q[layout.roller(j) + 1] = pocket + (beside / self.geometry.pitch_radius).asin();
+            q[layout.roller(j) + 1] = (beside / self.geometry.pitch_radius).asin();
             v[layout.roller(j) + 1] = orbit;
             v[layout.spin(j)] = self.spin_ratio() * inputs.ring_speed;
         }
@@ -49,12 +47,17 @@ impl Model {
             q[i] = ring[0];
             q[i + 1] = ring[1];
             for j in 0..layout.count {
-                let (sin, cos) = q[layout.roller(j) + 1].sin_cos();
+                let (sin, cos) = self.azimuth(q, j).sin_cos();
                 let local = rotate(ring, -sin, cos);
                 q[layout.roller(j)] = self.roller_balance(local, centrifugal).radial_offset;
             }
         }
         Ok(state)
+    }
+
+    /// Angle of roller `j` about the bearing, rad.
+    pub(super) fn azimuth(&self, q: &[f64], j: usize) -> f64 {
+        self.reference_angles[j] + q[self.layout.roller(j) + 1]
     }
 
     /// Position of the ring, m, at which the rollers carry `load` (N): the minimum of the potential energy, found by
@@ -99,7 +102,7 @@ impl Model {
         let mut sum =
             RingBalance { energy: -(load[0] * x[0] + load[1] * x[1]), force: load, stiffness: [0.0; 3] };
         for j in 0..self.layout.count {
-            let (sin, cos) = q[self.layout.roller(j) + 1].sin_cos();
+            let (sin, cos) = self.azimuth(q, j).sin_cos();
             let roller = self.roller_balance(rotate(x, -sin, cos), centrifugal);
             let [ny, nz] = rotate(roller.normal, sin, cos);
             sum.energy += roller.energy;

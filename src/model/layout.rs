@@ -1,12 +1,15 @@
 //! Order of the coordinates in the state vector.
 //!
 //! ```text
-//! q = [ring y, z] [cage y, z, angle] [roller 0: rho, psi] [roller 1: rho, psi] ...
+//! q = [ring y, z] [cage y, z, angle] [roller 0: rho, travel] [roller 1: rho, travel] ...
 //! v = the rates of q in the same order, then [spin speed of roller 0] [of roller 1] ...
 //! ```
 //!
 //! Blocks in brackets exist only if the scene has them: a fixed ring and an absent cage add nothing. The spin angle
 //! of a roller enters no force, so only its speed is a state. The rate of position `i` is velocity `i`.
+//!
+//! The travel of a roller and the angle of the cage both count from the start, so the place of a roller in its pocket
+//! is their difference and does not depend on where in the bearing it is.
 
 /// Places of the bodies in `q` and `v`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,7 +47,7 @@ impl Layout {
         self.positions() + self.velocities()
     }
 
-    /// Index of rho (and of its rate in `v`) of roller `j`; psi follows.
+    /// Index of rho (and of its rate in `v`) of roller `j`; the travel follows.
     pub fn roller(&self, j: usize) -> usize {
         self.rollers + 2 * j
     }

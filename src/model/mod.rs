@@ -47,8 +47,6 @@ struct CageBody {
     mass: f64,
     inertia: f64,
     pocket: Option<PocketLaws>,
-    /// Angle of each pocket centre in the cage, rad.
-    pocket_angles: Vec<f64>,
     guide: Option<ShortBearing>,
 }
 
@@ -66,6 +64,8 @@ struct PocketLaws {
 pub struct Model {
     scene: Scene,
     layout: Layout,
+    /// Angle from which the travel of each roller counts, and of its pocket in the cage, rad.
+    reference_angles: Vec<f64>,
     geometry: RacewayGeometry,
     roller_mass: f64,
     roller_inertia: f64,

@@ -5,7 +5,7 @@ use super::{Input, Model};
 /// Name, unit and meaning of a state or an input.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StateInfo {
-    /// Name, for example `roller[3].orbit_angle`.
+    /// Name, for example `roller[3].orbit_travel`.
     pub name: String,
     /// SI unit; "1" for ratios.
     pub unit: &'static str,
@@ -52,9 +52,9 @@ impl Model {
             let name = |field: &str| format!("roller[{j}].{field}");
             q.push(StateInfo::new(name("radial_offset"), "m", "distance outside the pitch circle"));
             q.push(StateInfo::new(
-                name("orbit_angle"),
+                name("orbit_travel"),
                 "rad",
-                "angle of the centre about the outer ring centre",
+                "orbit angle travelled from the centred place of its pocket at the start",
             ));
             v.push(StateInfo::new(name("radial_speed"), "m/s", "rate of the radial offset"));
             v.push(StateInfo::new(name("orbit_speed"), "rad/s", "rate of the orbit angle"));

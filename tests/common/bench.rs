@@ -87,10 +87,18 @@ pub struct State {
 #[derive(Clone, Copy, Debug)]
 pub struct Roller {
     pub offset: f64,
-    pub angle: f64,
+    /// Orbit angle travelled from the reference angle of the roller, rad.
+    pub travel: f64,
     pub radial_speed: f64,
     pub orbit_speed: f64,
     pub spin: f64,
+}
+
+impl Bearing {
+    /// Angle from which the travel of roller `j` counts, rad.
+    pub fn reference(&self, j: usize) -> f64 {
+        self.first_angle + TAU * j as f64 / self.count() as f64
+    }
 }
 
 impl State {
@@ -98,7 +106,7 @@ impl State {
         let mut x = Vec::new();
         x.extend(self.ring);
         x.extend(self.cage);
-        x.extend(self.rollers.iter().flat_map(|r| [r.offset, r.angle]));
+        x.extend(self.rollers.iter().flat_map(|r| [r.offset, r.travel]));
         x.extend(self.ring_velocity);
         x.extend(self.cage_velocity);
         x.extend(self.rollers.iter().flat_map(|r| [r.radial_speed, r.orbit_speed]));
@@ -111,9 +119,9 @@ impl State {
         let model = b.sim.model();
         let speed = model.inputs_at(0.0, &Default::default()).ring_speed;
         let n = b.count();
-        let roller = |j: usize| Roller {
+        let roller = |_| Roller {
             offset: 0.0,
-            angle: b.first_angle + TAU * j as f64 / n as f64,
+            travel: 0.0,
             radial_speed: 0.0,
             orbit_speed: model.orbit_ratio() * speed,
             spin: model.spin_ratio() * speed,
@@ -129,16 +137,16 @@ impl State {
 
     /// Puts roller `j` at the given circumferential offset from the centre of its pocket.
     pub fn put_in_pocket(&mut self, b: &Bearing, j: usize, circumferential: f64) {
-        let pocket = b.first_angle + TAU * j as f64 / b.count() as f64 + self.cage[2];
+        let pocket = b.reference(j) + self.cage[2];
         let along = -self.cage[0] * pocket.sin() + self.cage[1] * pocket.cos();
         let r = b.pitch + self.rollers[j].offset;
-        self.rollers[j].angle = pocket + ((circumferential + along) / r).asin();
+        self.rollers[j].travel = self.cage[2] + ((circumferential + along) / r).asin();
     }
 
     /// Radial position of roller `j` in its pocket.
     fn radial_in_pocket(&self, b: &Bearing, j: usize) -> f64 {
-        let pocket = b.first_angle + TAU * j as f64 / b.count() as f64 + self.cage[2];
-        let lead = self.rollers[j].angle - pocket;
+        let pocket = b.reference(j) + self.cage[2];
+        let lead = self.rollers[j].travel - self.cage[2];
         let across = self.cage[0] * pocket.cos() + self.cage[1] * pocket.sin();
         (b.pitch + self.rollers[j].offset) * lead.cos() - b.pitch - across
     }
@@ -152,9 +160,9 @@ impl State {
     /// As [`State::random`] with one or two pocket contacts, and these at least `margin` (m) from first touch as
     /// far as that can be chosen.
     ///
-    /// Pocket angles of several rad are rounded to 1e-15 rad, which moves a pocket by 4e-17 m and every force of
-    /// 1 kN in it by 2e-8 N; at first touch, where damping sets in over nanometres, by far more. Tests that express
-    /// one state by different angles keep that below what they look for.
+    /// Angles of a rad are rounded to 1e-16 rad, which moves a pocket by 4e-18 m and every force of 1 kN in it by
+    /// 2e-9 N; at first touch, where damping sets in over nanometres, by far more. Tests that express one state by
+    /// different angles keep that below what they look for.
     pub fn random_beyond(margin: f64, b: &Bearing, r: &mut Random) -> Self {
         let mut s = Self::kinematic(b);
         let n = b.count();
@@ -166,13 +174,12 @@ impl State {
         s.cage_velocity = [r.around_zero(0.1), r.around_zero(0.1), s.cage_velocity[2] * r.within(0.98, 1.02)];
         // Often towards or away from a roller, and often far out, so that rollers reach both edges at once.
         let j = r.index(n);
-        let aligned =
-            b.first_angle + TAU * j as f64 / n as f64 + s.cage[2] + if r.chance(0.5) { PI } else { 0.0 };
+        let aligned = b.reference(j) + s.cage[2] + if r.chance(0.5) { PI } else { 0.0 };
         let direction = if r.chance(0.5) { aligned } else { r.around_zero(PI) };
         let eccentricity = if r.chance(0.3) { 0.95 } else { 0.95 * r.unit() } * b.guide;
         (s.cage[0], s.cage[1]) = (eccentricity * direction.cos(), eccentricity * direction.sin());
         for j in 0..n {
-            let angle = b.first_angle + TAU * j as f64 / n as f64 + s.cage[2];
+            let angle = b.reference(j) + s.cage[2];
             let towards = s.ring[0] * angle.cos() + s.ring[1] * angle.sin();
             s.rollers[j].offset = r.within(towards - b.gap - 5e-6, b.gap + 5e-6);
             s.rollers[j].radial_speed = r.around_zero(0.02);
