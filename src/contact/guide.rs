@@ -4,12 +4,12 @@
 //! in addition the moment of the force about the ring centre. Global frame (y, z).
 
 use super::Wrench;
-use crate::laws::short_bearing::FilmForce;
+use crate::laws::journal::FilmForce;
 use crate::scalar::Real;
 
 /// Wrenches on the cage and on the guide ring for a cage centre at `position`, m.
 pub fn wrenches<T: Real>(film: &FilmForce<T>, position: [T; 2]) -> [Wrench<T>; 2] {
-    let f = film.force;
+    let f = film.force();
     let carried = position[0] * f[1] - position[1] * f[0];
     [
         Wrench { force: f, moment: film.moment },

@@ -5,6 +5,7 @@
 //! also gives its exact derivatives.
 
 pub mod film_thickness;
+pub mod journal;
 pub mod line_contact;
 pub mod lubrication_regime;
 pub mod normal_contact;

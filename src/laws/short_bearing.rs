@@ -1,21 +1,23 @@
-//! Film force of a cage guided by a ring: short journal bearing with squeeze and roundness.
+//! Film force of a filled guide clearance: short journal bearing with squeeze and roundness.
 //!
 //! ```text
 //! h(th) = c - (y cos th + z sin th) - Sum_{n>=2} a_n cos(n (th - psi) + b_n)
-//! g(th) = (1/h^3) [(w/2) dh/dth + dh/dt],   kept only where g < 0 (Guembel)
+//! g(th) = (1/h^3) [((w_1 + w_2)/2) dh/dth + dh/dt],   kept only where g < 0 (Guembel)
 //! (F_y, F_z) = 2 eta0 R l^3 Int g (cos th, sin th) dth                          (two lands of width l)
-//! M = -4 pi eta0 w R^3 l / (c sqrt(1 - eps^2))
+//! M = -4 pi eta0 (w_1 - w_2) R^3 l / (c sqrt(1 - eps^2))
 //! ```
 //!
-//! c radial clearance, (y, z) centre of the cage in the ring, w and psi speed and angle of the cage, ring at rest,
-//! dh/dt with the roundness profile turning with the cage. Valid for l/(2R) up to about 0.25, laminar isoviscous
-//! film. The moment uses the full film although the pressure is cut, as the paper does. Source: NTN Eq. 13-21.
+//! c radial clearance, (y, z) centre of the journal in the bush, w_1 and w_2 speeds of journal and bush, psi angle of
+//! the profile, dh/dt with the profile turning. Valid for l/(2R) up to about 0.25, laminar isoviscous
+//! film. The moment uses the full film although the pressure is cut, as the paper does. Source: NTN Eq. 13-21, there
+//! for a bush at rest.
 //!
 //! With Sommerfeld's substitution cos b = (cos g + eps)/(1 + eps cos g) the integrals of a round cage are
 //! elementary, so its force is exact. With roundness the same substitution places the quadrature nodes where the
 //! film is thin, and a panel in which g changes sign ends there. Two changes within one panel go unseen; panels are
 //! narrow enough that this costs less than 1e-3 of the force, and usually 1e-9.
 
+use super::journal::{FilmForce, Harmonic, JournalMotion, NoFilm};
 use crate::scalar::Real;
 use std::f64::consts::{PI, TAU};
 
@@ -23,23 +25,12 @@ use std::f64::consts::{PI, TAU};
 /// thin for the closed form, whose terms then cancel.
 const THINNEST_FILM: f64 = 1e-6;
 
-/// One harmonic of the cage profile: radius deviation `amplitude * cos(order * angle + phase)`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Harmonic {
-    /// n >= 2.
-    pub order: u32,
-    /// a_n, m.
-    pub amplitude: f64,
-    /// b_n, rad.
-    pub phase: f64,
-}
-
-/// Short journal bearing between cage and guide ring.
+/// Short journal bearing with two lands.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShortBearing {
     /// eta0, Pa s.
     pub viscosity: f64,
-    /// R, radius of the guided cage surface, m.
+    /// R, radius of the journal, m.
     pub radius: f64,
     /// c, radial clearance, m.
     pub clearance: f64,
@@ -47,39 +38,8 @@ pub struct ShortBearing {
     pub land_width: f64,
     /// Whether dh/dt is included.
     pub squeeze: bool,
-    /// Roundness of the cage; empty for a round one.
+    /// Roundness; empty for round surfaces.
     pub roundness: Vec<Harmonic>,
-}
-
-/// Motion of the cage in the ring.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct JournalMotion<T> {
-    /// Centre position y, z, m.
-    pub position: [T; 2],
-    /// Centre velocity, m/s.
-    pub velocity: [T; 2],
-    /// Cage angle psi, rad.
-    pub angle: T,
-    /// Cage speed w, rad/s.
-    pub speed: T,
-}
-
-/// Film force on the cage.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FilmForce<T> {
-    /// F_y, F_z, N.
-    pub force: [T; 2],
-    /// Moment about the cage centre, N m.
-    pub moment: T,
-    /// Smallest film thickness, m.
-    pub minimum_film: T,
-}
-
-/// The film is gone somewhere: the cage touches or overlaps the ring.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct NoFilm {
-    /// Smallest film thickness found, m; zero, negative or NaN.
-    pub minimum_film: f64,
 }
 
 /// Eccentricity in polar form; the direction is arbitrary (+y) when the cage is centred.
@@ -89,7 +49,7 @@ struct Eccentricity<T> {
 }
 
 impl ShortBearing {
-    /// Film force on the cage, or [`NoFilm`] where h <= 0.
+    /// Film force on the journal, or [`NoFilm`] where h <= 0.
     pub fn force<T: Real>(&self, m: &JournalMotion<T>) -> Result<FilmForce<T>, NoFilm> {
         let e = self.eccentricity(m);
         let film = (-e.ratio + 1.0) * self.clearance;
@@ -104,8 +64,8 @@ impl ShortBearing {
             self.profile_force(m, &e)?
         };
         let scale = -4.0 * PI * self.viscosity * self.radius.powi(3) * self.land_width / self.clearance;
-        let moment = m.speed * scale / one_minus_square(e.ratio).sqrt();
-        Ok(FilmForce { force, moment, minimum_film })
+        let moment = (m.journal_speed - m.bush_speed) * scale / one_minus_square(e.ratio).sqrt();
+        Ok(FilmForce { pressure: force, shear: [T::constant(0.0); 2], moment, minimum_film })
     }
 
     fn eccentricity<T: Real>(&self, m: &JournalMotion<T>) -> Eccentricity<T> {
@@ -128,7 +88,7 @@ impl ShortBearing {
     /// is negative on a half circle whose ends are mapped by Sommerfeld's substitution.
     fn round_force<T: Real>(&self, m: &JournalMotion<T>, e: &Eccentricity<T>) -> [T; 2] {
         let [dy, dz] = e.direction;
-        let (mut a, mut b) = (m.speed * e.ratio * 0.5, T::constant(0.0));
+        let (mut a, mut b) = ((m.journal_speed + m.bush_speed) * e.ratio * 0.5, T::constant(0.0));
         if self.squeeze {
             let [vy, vz] = m.velocity;
             a -= (vz * dy - vy * dz) / self.clearance;
@@ -177,8 +137,10 @@ impl ShortBearing {
         let plain = JournalMotion {
             position: m.position.map(Real::value),
             velocity: m.velocity.map(Real::value),
-            angle: m.angle.value(),
-            speed: m.speed.value(),
+            journal_speed: m.journal_speed.value(),
+            bush_speed: m.bush_speed.value(),
+            profile_angle: m.profile_angle.value(),
+            profile_speed: m.profile_speed.value(),
         };
         let plain_e = Eccentricity { ratio: e.ratio.value(), direction: e.direction.map(Real::value) };
         let rate = |gamma: f64| self.profile_node(&plain, &plain_e, gamma).rate;
@@ -235,15 +197,15 @@ impl ShortBearing {
         let mut film = -(y * cos_t + z * sin_t) + self.clearance;
         let mut slope = y * sin_t - z * cos_t;
         let mut time_rate = -(m.velocity[0] * cos_t + m.velocity[1] * sin_t);
-        let angle = sin_t.atan2(cos_t) - m.angle;
+        let angle = sin_t.atan2(cos_t) - m.profile_angle;
         for a in &self.roundness {
             let n = f64::from(a.order);
             let (s, c) = (angle * n + a.phase).sin_cos();
             film -= c * a.amplitude;
             slope += s * (a.amplitude * n);
-            time_rate -= s * (a.amplitude * n) * m.speed;
+            time_rate -= s * (a.amplitude * n) * m.profile_speed;
         }
-        let mut rate = m.speed * slope * 0.5;
+        let mut rate = (m.journal_speed + m.bush_speed) * slope * 0.5;
         if self.squeeze {
             rate += time_rate;
         }
@@ -303,13 +265,20 @@ mod tests {
     }
 
     fn motion(position: [f64; 2], velocity: [f64; 2], speed: f64) -> JournalMotion<f64> {
-        JournalMotion { position, velocity, angle: 0.3, speed }
+        JournalMotion {
+            position,
+            velocity,
+            journal_speed: speed,
+            bush_speed: 0.0,
+            profile_angle: 0.3,
+            profile_speed: speed,
+        }
     }
 
     /// Force of one land in units of eta R l^3 w / c^2, along and across the eccentricity (+y).
     fn ocvirk(eps: f64) -> [f64; 2] {
         let b = bearing();
-        let f = b.force(&motion([eps * b.clearance, 0.0], [0.0; 2], 100.0)).unwrap().force;
+        let f = b.force(&motion([eps * b.clearance, 0.0], [0.0; 2], 100.0)).unwrap().force();
         let scale = b.viscosity * b.radius * b.land_width.powi(3) * 100.0 / b.clearance.powi(2);
         f.map(|f| f / 2.0 / scale)
     }
@@ -337,7 +306,7 @@ mod tests {
         for (eps, factor) in [(0.2, -2.770609), (0.5, -9.115731), (0.8, -91.765030)] {
             let b = bearing();
             let speed = 0.01;
-            let f = b.force(&motion([eps * b.clearance, 0.0], [speed, 0.0], 0.0)).unwrap().force;
+            let f = b.force(&motion([eps * b.clearance, 0.0], [speed, 0.0], 0.0)).unwrap().force();
             let scale = 2.0 * b.viscosity * b.radius * b.land_width.powi(3) * speed / b.clearance.powi(3);
             assert!((f[0] / scale / factor - 1.0).abs() < 1e-6, "{} {factor}", f[0] / scale);
             assert!(f[1].abs() < 1e-12 * f[0].abs());
@@ -348,7 +317,7 @@ mod tests {
     fn half_speed_whirl_has_no_pressure() {
         let b = bearing();
         let e = 0.6 * b.clearance;
-        let whirl = |rate: f64| b.force(&motion([e, 0.0], [0.0, e * rate], -100.0)).unwrap().force;
+        let whirl = |rate: f64| b.force(&motion([e, 0.0], [0.0, e * rate], -100.0)).unwrap().force();
         let at_rest = whirl(0.0);
         let half = whirl(-50.0);
         assert!(half[0].hypot(half[1]) < 1e-12 * at_rest[0].hypot(at_rest[1]));
@@ -365,12 +334,12 @@ mod tests {
             let mut rate = -m.velocity[0] * c - m.velocity[1] * s;
             for a in &b.roundness {
                 let n = f64::from(a.order);
-                let p = n * (th - m.angle) + a.phase;
+                let p = n * (th - m.profile_angle) + a.phase;
                 h -= a.amplitude * p.cos();
                 slope += a.amplitude * n * p.sin();
-                rate -= a.amplitude * n * m.speed * p.sin();
+                rate -= a.amplitude * n * m.profile_speed * p.sin();
             }
-            let g = (0.5 * m.speed * slope + rate) / h.powi(3);
+            let g = (0.5 * (m.journal_speed + m.bush_speed) * slope + rate) / h.powi(3);
             if g < 0.0 {
                 sum[0] += g * c;
                 sum[1] += g * s;
@@ -383,16 +352,18 @@ mod tests {
     fn general_motion_matches_brute_force() {
         let mut b = bearing();
         let c = b.clearance;
+        let both_turn = |m: JournalMotion<f64>| JournalMotion { bush_speed: 80.0, ..m };
         let motions = [
             motion([0.3 * c, -0.5 * c], [0.01, 0.02], -127.0),
             motion([-0.6 * c, 0.25 * c], [-0.002, 0.001], -127.0),
             motion([0.0, 0.0], [0.01, -0.03], 50.0),
             motion([0.1 * c, 0.9 * c], [0.0, 0.05], 300.0),
             motion([0.5 * c, 0.1 * c], [0.02, -0.04], 0.0),
+            both_turn(motion([0.5 * c, 0.1 * c], [0.02, -0.04], 30.0)),
         ];
         let compare = |b: &ShortBearing, tolerance: f64| {
             for m in &motions {
-                let (f, x) = (b.force(m).unwrap().force, brute_force(b, m, 1_000_000));
+                let (f, x) = (b.force(m).unwrap().force(), brute_force(b, m, 1_000_000));
                 let size = x[0].hypot(x[1]);
                 let error = (f[0] - x[0]).hypot(f[1] - x[1]) / size;
                 assert!(error < tolerance, "{m:?}: {f:?} {x:?}");
@@ -408,7 +379,7 @@ mod tests {
         b.roundness = vec![Harmonic { order: 3, amplitude: 1e-15, phase: 0.0 }];
         let round = bearing();
         for m in &motions {
-            let (f, x) = (b.force(m).unwrap().force, round.force(m).unwrap().force);
+            let (f, x) = (b.force(m).unwrap().force(), round.force(m).unwrap().force());
             assert!((f[0] - x[0]).hypot(f[1] - x[1]) < 1e-8 * x[0].hypot(x[1]));
         }
     }
@@ -419,33 +390,38 @@ mod tests {
         let c = b.clearance;
         for profile in [vec![], vec![Harmonic { order: 3, amplitude: 5e-6, phase: 1.0 }]] {
             b.roundness = profile;
-            let x = [0.4 * c, -0.3 * c, 0.01, 0.005, 0.7, -120.0];
-            let build = |x: [f64; 6]| JournalMotion {
+            let x = [0.4 * c, -0.3 * c, 0.01, 0.005, 0.7, -120.0, 35.0];
+            let build = |x: [f64; 7]| JournalMotion {
                 position: [x[0], x[1]],
                 velocity: [x[2], x[3]],
-                angle: x[4],
-                speed: x[5],
+                profile_angle: x[4],
+                profile_speed: x[5],
+                journal_speed: x[5],
+                bush_speed: x[6],
             };
-            let d: Vec<Dual<6>> = (0..6).map(|i| Dual::variable(x[i], i)).collect();
+            let d: Vec<Dual<7>> = (0..7).map(|i| Dual::variable(x[i], i)).collect();
             let exact = b
                 .force(&JournalMotion {
                     position: [d[0], d[1]],
                     velocity: [d[2], d[3]],
-                    angle: d[4],
-                    speed: d[5],
+                    profile_angle: d[4],
+                    profile_speed: d[5],
+                    journal_speed: d[5],
+                    bush_speed: d[6],
                 })
-                .unwrap();
-            for i in 0..6 {
-                let h = [1e-9, 1e-9, 1e-6, 1e-6, 1e-4, 1e-3][i];
+                .unwrap()
+                .force();
+            for i in 0..7 {
+                let h = [1e-9, 1e-9, 1e-6, 1e-6, 1e-4, 1e-3, 1e-3][i];
                 let (mut lo, mut hi) = (x, x);
                 lo[i] -= h;
                 hi[i] += h;
-                let (lo, hi) = (b.force(&build(lo)).unwrap(), b.force(&build(hi)).unwrap());
+                let (lo, hi) = (b.force(&build(lo)).unwrap().force(), b.force(&build(hi)).unwrap().force());
                 for k in 0..2 {
-                    let difference = (hi.force[k] - lo.force[k]) / (2.0 * h);
-                    let error = (exact.force[k].eps[i] - difference).abs();
-                    let scale = difference.abs() + 1e-7 * exact.force[k].re.abs() / h;
-                    assert!(error < 1e-4 * scale, "{k} {i}: {} {difference}", exact.force[k].eps[i]);
+                    let difference = (hi[k] - lo[k]) / (2.0 * h);
+                    let error = (exact[k].eps[i] - difference).abs();
+                    let scale = difference.abs() + 1e-7 * exact[k].re.abs() / h;
+                    assert!(error < 1e-4 * scale, "{k} {i}: {} {difference}", exact[k].eps[i]);
                 }
             }
         }
@@ -460,13 +436,16 @@ mod tests {
         b.roundness = vec![Harmonic { order: 2, amplitude: 1e-4, phase: 0.0 }];
         assert!(b.force(&motion([0.6 * b.clearance, 0.0], [0.0; 2], 1.0)).is_err());
         // The bulge turned away from the narrow side leaves a film.
-        let turned = JournalMotion { angle: PI / 2.0, ..motion([0.6 * b.clearance, 0.0], [0.0; 2], 1.0) };
+        let turned =
+            JournalMotion { profile_angle: PI / 2.0, ..motion([0.6 * b.clearance, 0.0], [0.0; 2], 1.0) };
         assert!(b.force(&turned).is_ok());
     }
 
     #[test]
     fn friction_moment_opposes_rotation() {
         let b = bearing();
+        let together = JournalMotion { bush_speed: 100.0, ..motion([0.0; 2], [0.0; 2], 100.0) };
+        assert_eq!(b.force(&together).unwrap().moment, 0.0);
         let m = b.force(&motion([0.5 * b.clearance, 0.0], [0.0; 2], 100.0)).unwrap().moment;
         let petroff =
             -4.0 * PI * b.viscosity * 100.0 * b.radius.powi(3) * b.land_width / b.clearance / 0.75f64.sqrt();

@@ -8,8 +8,8 @@ use crate::contact::pocket::{CageMotion, Pillar, PillarContact, PocketMotion};
 use crate::contact::raceway::{RingMotion, RollerMotion};
 use crate::contact::{PairFrame, Wrench, guide, rotate};
 use crate::integrate::{DampingBlock, implicit_share};
+use crate::laws::journal::{FilmForce, JournalMotion};
 use crate::laws::line_contact::{ContactMotion, LineContactForce};
-use crate::laws::short_bearing::{FilmForce, JournalMotion};
 use crate::scalar::{Dual, Real};
 use nalgebra::{Matrix3, Vector3};
 
@@ -133,7 +133,14 @@ impl Workspace {
             wall: Batch::with_capacity(pockets),
             edge: Batch::with_capacity(pockets),
             guide: None,
-            journal: JournalMotion { position: [0.0; 2], velocity: [0.0; 2], angle: 0.0, speed: 0.0 },
+            journal: JournalMotion {
+                position: [0.0; 2],
+                velocity: [0.0; 2],
+                journal_speed: 0.0,
+                bush_speed: 0.0,
+                profile_angle: 0.0,
+                profile_speed: 0.0,
+            },
             inputs: InputValues::default(),
             on_roller: vec![Wrench::default(); n],
         }
@@ -264,8 +271,10 @@ impl Model {
             ws.journal = JournalMotion {
                 position: [q[c], q[c + 1]],
                 velocity: [v[c], v[c + 1]],
-                angle: q[c + 2],
-                speed: v[c + 2],
+                journal_speed: v[c + 2],
+                bush_speed: 0.0,
+                profile_angle: q[c + 2],
+                profile_speed: v[c + 2],
             };
             let film = bearing.force(&ws.journal);
             ws.guide = Some(film.map_err(|e| Fault::NoGuideFilm { minimum_film: e.minimum_film })?);
@@ -376,13 +385,16 @@ impl Model {
         let motion = JournalMotion {
             position: m.position.map(Dual::<3>::constant),
             velocity: [Dual::variable(m.velocity[0], 0), Dual::variable(m.velocity[1], 1)],
-            angle: Dual::constant(m.angle),
-            speed: Dual::variable(m.speed, 2),
+            journal_speed: Dual::variable(m.journal_speed, 2),
+            bush_speed: Dual::constant(0.0),
+            profile_angle: Dual::constant(m.profile_angle),
+            profile_speed: Dual::variable(m.profile_speed, 2),
         };
         let Ok(film) = bearing.force(&motion) else { return block };
+        let force = film.force();
         for k in 0..3 {
-            block.full[(0, k)] = -film.force[0].eps[k] / cage.mass;
-            block.full[(1, k)] = -film.force[1].eps[k] / cage.mass;
+            block.full[(0, k)] = -force[0].eps[k] / cage.mass;
+            block.full[(1, k)] = -force[1].eps[k] / cage.mass;
             block.full[(2, k)] = -film.moment.eps[k] / cage.inertia;
         }
         block.implicit = block.full * implicit_share(h * block.full.diagonal().amax());
