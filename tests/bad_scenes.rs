@@ -137,7 +137,7 @@ fn syntax() -> Vec<Row> {
 }
 
 fn fields_and_types() -> Vec<Row> {
-    let pocket = "cage.pocket.contact.boundary_friction";
+    let pocket = "cage.pocket.lubricated_cylinder.contact.boundary_friction";
     vec![
         json_row(
             "unknown field at the top",
@@ -155,9 +155,9 @@ fn fields_and_types() -> Vec<Row> {
         ),
         json_row(
             "unknown field four levels deep",
-            "cage.pocket.contact.boundary_friction.mu",
+            "cage.pocket.lubricated_cylinder.contact.boundary_friction.mu",
             json!(0.1),
-            "cage.pocket.contact.boundary_friction.mu",
+            "cage.pocket.lubricated_cylinder.contact.boundary_friction.mu",
             &["unknown field `mu`", "`coefficient`"],
         ),
         json_row("unknown field in a vector", "gravity.x", json!(0.0), "gravity.x", &["unknown field `x`"]),
@@ -220,9 +220,9 @@ fn fields_and_types() -> Vec<Row> {
         ),
         json_row(
             "unknown thermal correction",
-            "cage.pocket.contact.thermal_correction",
+            "cage.pocket.lubricated_cylinder.contact.thermal_correction",
             json!("Gupta"),
-            "cage.pocket.contact.thermal_correction",
+            "cage.pocket.lubricated_cylinder.contact.thermal_correction",
             &["unknown variant", "gupta"],
         ),
         json_row(
@@ -278,9 +278,9 @@ fn fields_and_types() -> Vec<Row> {
         json_row("number for a block", "cage.pocket", json!(0.15), "cage.pocket", &["0.15"]),
         json_row(
             "array for a number",
-            "lubricant.viscosity",
+            "lubricant.viscosity.constant",
             json!([0.06]),
-            "lubricant.viscosity",
+            "lubricant.viscosity.constant",
             &["sequence"],
         ),
         json_row("array for a vector", "gravity", json!([0.0, -9.80665]), "gravity", &["sequence"]),
@@ -294,9 +294,9 @@ fn fields_and_types() -> Vec<Row> {
         json_row("true for a law", "raceways.contact.film", json!(true), "raceways.contact.film", &["line"]),
         json_row(
             "number for a flag",
-            "cage.guide.short_bearing.squeeze",
+            "cage.guide.film.short_bearing.squeeze",
             json!(1),
-            "cage.guide.short_bearing.squeeze",
+            "cage.guide.film.short_bearing.squeeze",
             &["bool"],
         ),
         json_row("null for a number", "rollers.mass", Value::Null, "rollers.mass", &["null"]),
@@ -331,21 +331,21 @@ fn fields_and_types() -> Vec<Row> {
         ),
         missing(
             "friction constant missing",
-            "cage.pocket.contact.boundary_friction.roughness",
+            "cage.pocket.lubricated_cylinder.contact.boundary_friction.roughness",
             pocket,
             &["missing field `roughness`"],
         ),
         missing(
             "land width missing",
-            "cage.guide.short_bearing.land_width",
+            "cage.guide.film.short_bearing.land_width",
             "cage.guide.short_bearing",
             &["missing field `land_width`"],
         ),
         json_row(
             "roundness phase missing",
-            "cage.guide.short_bearing.roundness",
+            "cage.guide.roundness",
             json!([{"order": 2, "amplitude": 0.0, "phase": 0.0}, {"order": 3, "amplitude": 0.0}]),
-            "cage.guide.short_bearing.roundness.1",
+            "cage.guide.roundness.1",
             &["missing field `phase`"],
         ),
     ]
@@ -364,7 +364,7 @@ fn ranges_and_units() -> Vec<Row> {
         value_row("format of a case set", "schema", json!("cagedyn.cases/1"), &["cagedyn.cases/1"]),
         value_row(
             "guide clearance in mm",
-            "cage.guide.short_bearing.diametral_clearance",
+            "cage.guide.diametral_clearance",
             json!(0.445),
             &["0.445 m", "1e-2 m", "milli"],
         ),
@@ -394,7 +394,7 @@ fn ranges_and_units() -> Vec<Row> {
         ),
         value_row(
             "viscosity in uPa s",
-            "lubricant.viscosity",
+            "lubricant.viscosity.constant",
             json!(60_000),
             &["60000.0 Pa s", "1e-5 to 1e3", "micro"],
         ),
@@ -417,11 +417,16 @@ fn ranges_and_units() -> Vec<Row> {
         ),
         value_row(
             "pocket clearance in mm",
-            "cage.pocket.radial_clearance",
+            "cage.pocket.lubricated_cylinder.radial_clearance",
             json!(0.15),
             &["0.15 m", "milli"],
         ),
-        value_row("pocket angle in degrees", "cage.pocket.half_angle", json!(25), &["25.0 rad"]),
+        value_row(
+            "pocket angle in degrees",
+            "cage.pocket.lubricated_cylinder.half_angle",
+            json!(25),
+            &["25.0 rad"],
+        ),
         value_row(
             "roughness in um",
             "raceways.contact.boundary_friction.roughness",
@@ -449,7 +454,7 @@ fn ranges_and_units() -> Vec<Row> {
         ),
         value_row("huge load", "inner_ring.motion.free.load.z.constant", json!(-4.9e12), &["N"]),
         value_row("huge gravity", "gravity.z", json!(-1e5), &["m/s^2"]),
-        value_row("negative viscosity", "lubricant.viscosity", json!(-0.06), &["-0.06 Pa s"]),
+        value_row("negative viscosity", "lubricant.viscosity.constant", json!(-0.06), &["-0.06 Pa s"]),
         value_row("zero conductivity", "lubricant.conductivity", json!(0), &["W/(m K)"]),
         value_row(
             "huge temperature-viscosity coefficient",
@@ -476,11 +481,16 @@ fn ranges_and_units() -> Vec<Row> {
         ),
         value_row(
             "zero softening depth",
-            "cage.pocket.contact.damping.softening_depth",
+            "cage.pocket.lubricated_cylinder.contact.damping.softening_depth",
             json!(0),
             &["0.0 m"],
         ),
-        value_row("negative friction", "cage.pocket.edge_friction.coefficient", json!(-0.1), &["-0.1"]),
+        value_row(
+            "negative friction",
+            "cage.pocket.lubricated_cylinder.edge_friction.coefficient",
+            json!(-0.1),
+            &["-0.1"],
+        ),
         value_row(
             "zero transition speed",
             "raceways.contact.boundary_friction.transition_speed",
@@ -499,16 +509,26 @@ fn ranges_and_units() -> Vec<Row> {
             "raceways.rolling_resistance.extent.loaded.threshold",
             &["0.0 N"],
         ),
-        value_row("blend beyond the wall", "cage.pocket.edge_blend", json!(0.5), &["0.5 rad"]),
-        value_row("negative blend", "cage.pocket.edge_blend", json!(-0.01), &["-0.01 rad"]),
-        value_row("wall of half a turn", "cage.pocket.half_angle", json!(1.6), &["1.6 rad"]),
-        value_row("zero land width", "cage.guide.short_bearing.land_width", json!(0), &["0.0 m"]),
         value_row(
-            "guide far from the bearing",
-            "cage.guide.short_bearing.guide_radius",
-            json!(0.1),
-            &["0.1 m"],
+            "blend beyond the wall",
+            "cage.pocket.lubricated_cylinder.edge_blend",
+            json!(0.5),
+            &["0.5 rad"],
         ),
+        value_row(
+            "negative blend",
+            "cage.pocket.lubricated_cylinder.edge_blend",
+            json!(-0.01),
+            &["-0.01 rad"],
+        ),
+        value_row(
+            "wall of half a turn",
+            "cage.pocket.lubricated_cylinder.half_angle",
+            json!(1.6),
+            &["1.6 rad"],
+        ),
+        value_row("zero land width", "cage.guide.film.short_bearing.land_width", json!(0), &["0.0 m"]),
+        value_row("guide far from the bearing", "cage.guide.guide_radius", json!(0.1), &["0.1 m"]),
         value_row(
             "first roller angle in degrees of many turns",
             "initial.first_roller_angle",
@@ -583,8 +603,8 @@ fn geometry_and_references() -> Vec<Row> {
         value_row("preload of a millimetre", inner, json!(-1e-3), &["-0.001 m", "-2e-4"]),
         scene_row(
             "overlapping pockets",
-            vec![("cage.pocket.radial_clearance", json!(9e-3))],
-            "cage.pocket.radial_clearance",
+            vec![("cage.pocket.lubricated_cylinder.radial_clearance", json!(9e-3))],
+            "cage.pocket.lubricated_cylinder.radial_clearance",
             &["12 pockets", "overlap"],
         ),
         value_row(
@@ -604,53 +624,47 @@ fn geometry_and_references() -> Vec<Row> {
         scene_row("no materials", vec![("materials", json!({}))], "rollers.material", &["'steel'"]),
         value_row(
             "guide clearance too large",
-            "cage.guide.short_bearing.diametral_clearance",
+            "cage.guide.diametral_clearance",
             json!(9e-3),
             &["0.009 m", "a tenth of the guide radius"],
         ),
         scene_row(
             "roundness closes the film",
             vec![(
-                "cage.guide.short_bearing.roundness",
+                "cage.guide.roundness",
                 json!([{"order": 2, "amplitude": 1.5e-4, "phase": 0.0}, {"order": 3, "amplitude": -1e-4, "phase": 0.0}]),
             )],
-            "cage.guide.short_bearing.roundness",
+            "cage.guide.roundness",
             &["close the radial clearance", "0.0002225 m"],
         ),
         scene_row(
             "roundness amplitude in mm",
-            vec![(
-                "cage.guide.short_bearing.roundness",
-                json!([{"order": 2, "amplitude": 0.02, "phase": 0.0}]),
-            )],
-            "cage.guide.short_bearing.roundness.0.amplitude",
+            vec![("cage.guide.roundness", json!([{"order": 2, "amplitude": 0.02, "phase": 0.0}]))],
+            "cage.guide.roundness.0.amplitude",
             &["0.02 m", "milli"],
         ),
         scene_row(
             "roundness of order one",
             vec![(
-                "cage.guide.short_bearing.roundness",
+                "cage.guide.roundness",
                 json!([{"order": 2, "amplitude": 1e-6, "phase": 0.0}, {"order": 1, "amplitude": 1e-6, "phase": 0.0}]),
             )],
-            "cage.guide.short_bearing.roundness.1.order",
+            "cage.guide.roundness.1.order",
             &["1 is not within 2 to 200", "eccentricity"],
         ),
         scene_row(
             "roundness of high order",
-            vec![(
-                "cage.guide.short_bearing.roundness",
-                json!([{"order": 201, "amplitude": 1e-6, "phase": 0.0}]),
-            )],
-            "cage.guide.short_bearing.roundness.0.order",
+            vec![("cage.guide.roundness", json!([{"order": 201, "amplitude": 1e-6, "phase": 0.0}]))],
+            "cage.guide.roundness.0.order",
             &["201"],
         ),
         scene_row(
             "65 harmonics",
             vec![(
-                "cage.guide.short_bearing.roundness",
+                "cage.guide.roundness",
                 json!(vec![json!({"order": 2, "amplitude": 1e-8, "phase": 0.0}); 65]),
             )],
-            "cage.guide.short_bearing.roundness",
+            "cage.guide.roundness",
             &["65 harmonics", "64"],
         ),
         scene_row(
@@ -663,10 +677,7 @@ fn geometry_and_references() -> Vec<Row> {
             "cage starts within the roundness",
             vec![
                 ("initial.cage", json!({"y": 2e-4, "z": 0.0})),
-                (
-                    "cage.guide.short_bearing.roundness",
-                    json!([{"order": 2, "amplitude": 3e-5, "phase": 0.0}]),
-                ),
+                ("cage.guide.roundness", json!([{"order": 2, "amplitude": 3e-5, "phase": 0.0}])),
             ],
             "initial.cage",
             &["no film"],
@@ -774,19 +785,27 @@ fn laws() -> Vec<Row> {
     let null = || Value::Null;
     let lubricant = "lubricant";
     // Only the law in question asks for the constant.
-    let guide_only = vec![(lubricant, null()), ("raceways", json!({})), ("cage.pocket.contact", json!({}))];
+    let guide_only = vec![
+        (lubricant, null()),
+        ("raceways", json!({})),
+        ("cage.pocket.lubricated_cylinder.contact", json!({})),
+    ];
     let rolling_only = |missing: &'static str| {
         vec![
             (missing, null()),
             ("raceways", json!({"rolling_resistance": {"extent": "all"}})),
-            ("cage.pocket.contact", json!({})),
+            ("cage.pocket.lubricated_cylinder.contact", json!({})),
         ]
     };
     let raceway_law = |missing: &'static str, contact: Value| {
-        vec![(missing, null()), ("raceways", json!({"contact": contact})), ("cage.pocket.contact", json!({}))]
+        vec![
+            (missing, null()),
+            ("raceways", json!({"contact": contact})),
+            ("cage.pocket.lubricated_cylinder.contact", json!({})),
+        ]
     };
     let pocket_law = |missing: &'static str, contact: Value| {
-        vec![(missing, null()), ("raceways", json!({})), ("cage.pocket.contact", contact)]
+        vec![(missing, null()), ("raceways", json!({})), ("cage.pocket.lubricated_cylinder.contact", contact)]
     };
     let film = || json!({"film": "pan_hamrock"});
     let corrected = || json!({"film": "pan_hamrock", "thermal_correction": "gupta"});
@@ -881,19 +900,19 @@ fn laws() -> Vec<Row> {
             "self-heating without brass's constants",
             pocket_law("materials.brass.thermal", heated()),
             "materials.brass.thermal",
-            &["cage.pocket.contact.self_heating needs it"],
+            &["cage.pocket.lubricated_cylinder.contact.self_heating needs it"],
         ),
         scene_row(
             "pocket film without lubricant",
             pocket_law(lubricant, film()),
             lubricant,
-            &["cage.pocket.contact.film"],
+            &["cage.pocket.lubricated_cylinder.contact.film"],
         ),
         scene_row(
             "pocket traction without Eyring stress",
             pocket_law("lubricant.eyring_stress", traction()),
             "lubricant.eyring_stress",
-            &["cage.pocket.contact.traction needs it"],
+            &["cage.pocket.lubricated_cylinder.contact.traction needs it"],
         ),
         scene_row(
             "traction without film",
@@ -903,8 +922,8 @@ fn laws() -> Vec<Row> {
         ),
         scene_row(
             "correction without film",
-            vec![("cage.pocket.contact", json!({"thermal_correction": "gupta"}))],
-            "cage.pocket.contact.thermal_correction",
+            vec![("cage.pocket.lubricated_cylinder.contact", json!({"thermal_correction": "gupta"}))],
+            "cage.pocket.lubricated_cylinder.contact.thermal_correction",
             &["needs 'film'"],
         ),
         scene_row(

@@ -129,7 +129,8 @@ fn in_pocket(b: &Bearing, base: &State, radial: f64, circumferential: f64) -> St
 #[test]
 fn forces_start_continuously_in_the_pocket() {
     for (name, scene) in scenes() {
-        let mut b = Bearing::new(with(&scene, &[("cage.pocket.edge_blend", json!(0.02))]));
+        let mut b =
+            Bearing::new(with(&scene, &[("cage.pocket.lubricated_cylinder.edge_blend", json!(0.02))]));
         let base = moving_roller(&b);
         let [clearance, half_angle] = b.pocket;
         for pillar in [1.0, -1.0] {
@@ -171,7 +172,8 @@ fn across_the_wall(b: &Bearing, pillar: f64) -> impl Fn(f64) -> State + use<> {
 #[test]
 fn forces_are_continuous_across_the_edges_of_the_pocket() {
     for (name, scene) in scenes() {
-        let mut b = Bearing::new(with(&scene, &[("cage.pocket.edge_blend", json!(0.02))]));
+        let mut b =
+            Bearing::new(with(&scene, &[("cage.pocket.lubricated_cylinder.edge_blend", json!(0.02))]));
         for pillar in [1.0, -1.0] {
             let path = across_the_wall(&b, pillar);
             assert_continuous(&format!("{name}: pillar {pillar}"), &mut b, path);
@@ -181,7 +183,7 @@ fn forces_are_continuous_across_the_edges_of_the_pocket() {
 
 #[test]
 fn without_blend_the_friction_jumps_at_the_edges_of_the_pocket() {
-    let mut b = Bearing::new(example_with(&[("cage.pocket.edge_blend", json!(0.0))]));
+    let mut b = Bearing::new(example_with(&[("cage.pocket.lubricated_cylinder.edge_blend", json!(0.0))]));
     for pillar in [1.0, -1.0] {
         let path = across_the_wall(&b, pillar);
         let jump = largest_jump(&mut b, path);

@@ -138,7 +138,10 @@ fn contact_laws_of_the_raceways_vanish_alone() {
 
 #[test]
 fn without_damping_the_elastic_force_remains() {
-    let off = [("raceways.contact.damping", Value::Null), ("cage.pocket.contact.damping", Value::Null)];
+    let off = [
+        ("raceways.contact.damping", Value::Null),
+        ("cage.pocket.lubricated_cylinder.contact.damping", Value::Null),
+    ];
     switched_off(&off, &[], &[GUIDE, GRAVITY, LOAD, SUPPORT], |_, b, _| {
         for (i, contact) in b.contacts.iter().enumerate() {
             let mate = if i % 4 < 2 { STEEL } else { BRASS };
@@ -151,7 +154,7 @@ fn without_damping_the_elastic_force_remains() {
 
 #[test]
 fn edge_friction_vanishes_alone() {
-    let off = [("cage.pocket.edge_friction", Value::Null)];
+    let off = [("cage.pocket.lubricated_cylinder.edge_friction", Value::Null)];
     let edges = std::cell::Cell::new(0);
     switched_off(&off, &[], &all_but(POCKET), |a, b, _| {
         for (one, other) in a.contacts.iter().zip(&b.contacts) {
@@ -169,7 +172,7 @@ fn edge_friction_vanishes_alone() {
 #[test]
 fn without_squeeze_the_guide_force_ignores_the_velocity_of_the_cage() {
     for squeeze in [true, false] {
-        let mut b = Bearing::new(example_with(&[("cage.guide.short_bearing.squeeze", json!(squeeze))]));
+        let mut b = Bearing::new(example_with(&[("cage.guide.film.short_bearing.squeeze", json!(squeeze))]));
         let mut random = Random::new(7);
         for _ in 0..STATES_PER_SCENE {
             let moving = State::random(&b, &mut random);

@@ -85,14 +85,14 @@ fn turned_scene(scene: &Value, angle: f64) -> Vec<(&'static str, Value)> {
     let [gravity_y, gravity_z] = turn("/gravity/y", "/gravity/z");
     let [load_y, load_z] = turn(&format!("{load}/y/constant"), &format!("{load}/z/constant"));
     let first = number(scene, "/initial/first_roller_angle") + angle;
-    let mut roundness = scene["cage"]["guide"]["short_bearing"]["roundness"].clone();
+    let mut roundness = scene["cage"]["guide"]["roundness"].clone();
     for harmonic in roundness.as_array_mut().into_iter().flatten() {
         // cos(n (th - angle - psi) + b)
         harmonic["phase"] = json!(number(harmonic, "/phase") - number(harmonic, "/order") * angle);
     }
     vec![
         ("initial.first_roller_angle", json!(first)),
-        ("cage.guide.short_bearing.roundness", if roundness.is_null() { json!([]) } else { roundness }),
+        ("cage.guide.roundness", if roundness.is_null() { json!([]) } else { roundness }),
         ("gravity.y", gravity_y),
         ("gravity.z", gravity_z),
         ("inner_ring.motion.free.load.y.constant", load_y),
@@ -125,7 +125,7 @@ fn turning_the_first_roller_is_turning_the_cage() {
         // The profile of the cage turns with its angle, not with the first roller.
         let mut plain = Bearing::new(with(
             &scene,
-            &[("cage.guide.short_bearing.roundness", json!([])), ("initial.first_roller_angle", json!(-PI))],
+            &[("cage.guide.roundness", json!([])), ("initial.first_roller_angle", json!(-PI))],
         ));
         let first = json!(plain.first_angle + angle);
         let mut turned = plain.changed(&[("initial.first_roller_angle", first)]);
@@ -156,11 +156,11 @@ fn a_mirrored_bearing_has_mirrored_forces() {
                 ("initial.first_roller_angle", json!(-PI - plain.first_angle)),
             ],
         );
-        if let Some(list) = scene.pointer("/cage/guide/short_bearing/roundness").and_then(Value::as_array) {
+        if let Some(list) = scene.pointer("/cage/guide/roundness").and_then(Value::as_array) {
             // cos(n (pi - th - psi) + b) = cos(n (th + psi) - b - n pi)
             for (k, harmonic) in list.iter().enumerate() {
                 let phase = -number(harmonic, "/phase") - number(harmonic, "/order") * PI;
-                set(&mut other, &format!("cage.guide.short_bearing.roundness.{k}.phase"), json!(phase));
+                set(&mut other, &format!("cage.guide.roundness.{k}.phase"), json!(phase));
             }
         }
         let mut mirrored = Bearing::new(other);

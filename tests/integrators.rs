@@ -68,7 +68,7 @@ impl System for Oscillator {
     fn damped_block(&self, _: usize) -> [Option<usize>; 3] {
         [Some(0), None, Some(2)]
     }
-    fn damping(&self, h: f64, blocks: &mut [DampingBlock]) {
+    fn damping(&self, h: f64, _: &[f64], _: &[f64], blocks: &mut [DampingBlock]) {
         let full = Matrix3::from_diagonal(&Vector3::new(2.0 * self.zeta, 0.0, self.rate));
         let share = implicit_share(h * full.diagonal().amax());
         blocks[0] = DampingBlock { full, implicit: full * share };

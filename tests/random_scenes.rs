@@ -87,10 +87,10 @@ fn cage(count: u32, radius: f64, outer: f64) -> impl Strategy<Value = (Value, f6
     let pocket = (magnitude(0.002, 0.8), 0.1..1.4f64, 0.0..0.1f64, any::<bool>(), contact_laws()).prop_map(
         move |(share, half_angle, blend, friction, contact)| {
             let friction = friction.then(|| json!({"coefficient": 0.1, "transition_speed": 0.02}));
-            json!({
+            json!({"lubricated_cylinder": {
                 "radial_clearance": (share * free).min(0.05 * radius), "half_angle": half_angle,
                 "edge_blend": blend, "edge_friction": friction, "contact": contact
-            })
+            }})
         },
     );
     let guide = (magnitude(2e-3, 2e-2), any::<bool>(), proptest::option::of((2..9u32, -0.3..0.3f64)))
@@ -100,18 +100,19 @@ fn cage(count: u32, radius: f64, outer: f64) -> impl Strategy<Value = (Value, f6
                 .map(|(order, a)| json!({"order": order, "amplitude": 0.5 * a * clearance, "phase": 1.0}))
                 .into_iter()
                 .collect();
-            json!({"short_bearing": {
-                "guide_radius": pitch + 0.5 * radius, "diametral_clearance": clearance,
-                "land_width": 0.1 * pitch, "squeeze": squeeze, "roundness": roundness
-            }})
+            json!({
+                "guide_radius": pitch + 0.5 * radius, "diametral_clearance": clearance, "roundness": roundness,
+                "film": {"short_bearing": {"land_width": 0.1 * pitch, "squeeze": squeeze}}
+            })
         });
     let parts = (proptest::option::weighted(0.8, pocket), proptest::option::weighted(0.7, guide));
     (parts, magnitude(0.01, 3.0), 0.0..0.6f64, 0..5).prop_map(
         move |((pocket, guide), mass, start, absent)| {
-            let clearance =
-                |guide: &Value| 0.5 * guide["short_bearing"]["diametral_clearance"].as_f64().unwrap();
+            let clearance = |guide: &Value| 0.5 * guide["diametral_clearance"].as_f64().unwrap();
             // The cage may start anywhere that leaves room for the rollers in its pockets.
-            let room = pocket.as_ref().map_or(f64::INFINITY, |p| p["radial_clearance"].as_f64().unwrap());
+            let room = pocket
+                .as_ref()
+                .map_or(f64::INFINITY, |p| p["lubricated_cylinder"]["radial_clearance"].as_f64().unwrap());
             let start = guide.as_ref().map_or(0.0, |guide| start * clearance(guide).min(room));
             let cage = json!({
                 "mass": mass, "inertia": 0.9 * mass * pitch * pitch, "material": "brass",
@@ -170,7 +171,7 @@ fn scene() -> impl Strategy<Value = Value> {
             let mut scene = example();
             scene["title"] = json!("random");
             scene["gravity"] = if weight { scene["gravity"].take() } else { Value::Null };
-            scene["lubricant"]["viscosity"] = json!(viscosity);
+            scene["lubricant"]["viscosity"] = json!({"constant": viscosity});
             scene["rollers"] = json!({
                 "count": count, "radius": radius, "effective_length": 2.4 * radius, "mass": mass,
                 "inertia": 0.5 * mass * radius * radius, "material": "steel"

@@ -168,7 +168,7 @@ fn a_scene_survives_writing_and_reading() {
                 ),
             ],
         ),
-        ("roundness", &[("cage.guide.short_bearing.roundness", roundness)]),
+        ("roundness", &[("cage.guide.roundness", roundness)]),
         (
             "loaded contacts",
             &[
@@ -206,7 +206,11 @@ fn what_the_schema_refuses_the_library_refuses() {
     let rows: [(&str, &str, Value); 15] = [
         ("unknown field at the top", "speed", json!(1.0)),
         ("unknown field in a block", "rollers.diameter", json!(15e-3)),
-        ("unknown field in a law", "cage.pocket.contact.boundary_friction.mu", json!(0.1)),
+        (
+            "unknown field in a law",
+            "cage.pocket.lubricated_cylinder.contact.boundary_friction.mu",
+            json!(0.1),
+        ),
         ("unknown field in a vector", "gravity.x", json!(0.0)),
         ("unknown field in a signal", "inner_ring.speed.unit", json!("rpm")),
         ("unknown field in a material", "materials.steel.name", json!("steel")),

@@ -8,11 +8,13 @@
 //! centre of body 2 along -n. All tangential forces act there or through the centres, so forces and moments of a
 //! pair balance to round-off.
 
+pub mod cylinder_pocket;
 pub mod guide;
+pub mod plane_pocket;
 pub mod pocket;
 pub mod raceway;
 
-use crate::laws::line_contact::LineContactForce;
+use crate::laws::contact_pair::ContactForce;
 use crate::scalar::Real;
 
 /// Force and moment about the body's own centre.
@@ -45,14 +47,14 @@ impl<T: Real> PairFrame<T> {
     ///
     /// They are 2 R_e F/R of each body (NTN Eq. 12) with the actual arms for the radii, which differ from the
     /// nominal ones by the elastic approach and make the balance exact.
-    pub fn film_pressure_forces(&self, f: &LineContactForce<T>) -> [T; 2] {
+    pub fn film_pressure_forces(&self, f: &ContactForce<T>) -> [T; 2] {
         let drive = -(f.rolling_resistance * 2.0);
         let distance = self.arm_1 + self.arm_2;
         [drive * self.arm_2 / distance, drive * self.arm_1 / distance]
     }
 
     /// Wrenches on body 1 and body 2 for the forces of a line contact.
-    pub fn wrenches(&self, f: &LineContactForce<T>) -> [Wrench<T>; 2] {
+    pub fn wrenches(&self, f: &ContactForce<T>) -> [Wrench<T>; 2] {
         let [n, t] = [self.normal, self.tangent()];
         let [pressure_1, pressure_2] = self.film_pressure_forces(f);
         let (surface_1, surface_2) = (f.friction + f.rolling_resistance, f.rolling_resistance - f.friction);

@@ -1,39 +1,22 @@
-//! Roller in its cage pocket: two pillars, each a cylindrical wall that ends in two edges.
+//! Rolling element in its cage pocket: where it is and how it moves there, whatever the shape of the pocket.
 //!
-//! ```text
-//! wall   |phi| <= phi_p : delta = |d| - (R_p - R_b),        n along d
-//! edge   |phi| >  phi_p : delta = R_b - |d - R_p e(phi_p)|, n from the roller centre to the edge
-//! ```
-//!
-//! d is the roller centre relative to the pocket centre, phi its angle from the circumferential direction of the
-//! pillar. delta and n are continuous at phi_p. The wall carries the lubricated line contact; an edge carries the
-//! normal force and boundary friction only. The friction coefficient goes from one to the other over the last
-//! `edge_blend` of the wall (an assumption; 0 leaves the jump). Source: NTN section 3.2 and Fig. 2.
-//!
-//! The two pillars are evaluated separately, so a roller pushed radially can rest on both. The contact point is fixed
-//! in the pocket: u1 is the sliding speed of the roller surface, u2 = 0.
+//! Each pocket has two pillars, which are evaluated separately, so an element can rest on both. The contact point is
+//! fixed in the pocket: u1 is the sliding speed of the element's surface, u2 = 0.
 //!
 //! Local frame: (radial, circumferential) at the pocket centre, turning with the cage.
 
-use super::{PairFrame, rotate};
-use crate::laws::line_contact::ContactMotion;
-use crate::scalar::{Real, smoothstep};
-
 use super::raceway::RollerMotion;
+use super::{PairFrame, rotate};
+use crate::laws::contact_pair::ContactMotion;
+use crate::scalar::Real;
 
-/// Shape of the pockets.
+/// Place of the pockets in the cage and size of the elements.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PocketGeometry {
+pub struct PocketPlace {
     /// Radius of the circle of pocket centres, m.
     pub pitch_radius: f64,
     /// R_b, m.
-    pub roller_radius: f64,
-    /// R_p - R_b, m.
-    pub clearance: f64,
-    /// phi_p, half angle of the wall, rad.
-    pub half_angle: f64,
-    /// Angle before the edge over which friction changes, rad.
-    pub edge_blend: f64,
+    pub element_radius: f64,
 }
 
 /// A pillar of the pocket.
@@ -43,6 +26,16 @@ pub enum Pillar {
     Front,
     /// On the side of falling angle.
     Back,
+}
+
+impl Pillar {
+    /// +1 for the front, -1 for the back: the side of the circumferential direction.
+    pub fn sign(self) -> f64 {
+        match self {
+            Pillar::Front => 1.0,
+            Pillar::Back => -1.0,
+        }
+    }
 }
 
 /// Motion of the cage with its vectors in the pocket frame.
@@ -72,25 +65,19 @@ pub struct PocketMotion<T> {
 pub struct PillarContact<T> {
     /// Motion for the contact law.
     pub motion: ContactMotion<T>,
-    /// n and the arm on the roller; `arm_2` is not used, the cage moment follows from [`PocketGeometry::lever`].
+    /// n and the arm on the roller; `arm_2` is not used, the cage moment follows from [`PocketPlace::lever`].
     pub frame: PairFrame<T>,
     /// Share of edge friction: 0 on the wall, 1 on an edge.
     pub edge_share: T,
 }
 
-impl PocketGeometry {
+impl PocketPlace {
     /// d in m for a roller at `lead` rad ahead of its pocket; `(sin, cos)` are those of `lead`.
     pub fn offset<T: Real>(&self, radial_offset: T, (sin, cos): (T, T), cage: [T; 2]) -> [T; 2] {
         let r = radial_offset + self.pitch_radius;
         // 1 - cos without cancellation for the small leads of a roller in its pocket.
         let versine = if cos.value() > 0.0 { sin * sin / (cos + 1.0) } else { -cos + 1.0 };
         [radial_offset - r * versine - cage[0], r * sin - cage[1]]
-    }
-
-    /// True when no pillar can touch a roller at `offset`.
-    pub fn apart<T: Real>(&self, offset: [T; 2]) -> bool {
-        let (a, b) = (offset[0].value(), offset[1].value());
-        a * a + b * b < self.clearance * self.clearance
     }
 
     /// Motion of the roller relative to the pocket.
@@ -114,60 +101,32 @@ impl PocketGeometry {
         }
     }
 
-    /// The contact with one pillar; `None` when they are apart.
-    pub fn pillar<T: Real>(&self, side: Pillar, m: &PocketMotion<T>) -> Option<PillarContact<T>> {
-        let sign = match side {
-            Pillar::Front => 1.0,
-            Pillar::Back => -1.0,
-        };
-        // Coordinates towards the pillar and radially outward.
-        let (towards, radial) = (m.offset[1] * sign, m.offset[0]);
-        let distance = (towards * towards + radial * radial).sqrt();
-        let angle = radial.atan2(towards);
-        let (delta, normal, edge_share) = if angle.value().abs() <= self.half_angle {
-            let share = if self.edge_blend > 0.0 {
-                smoothstep((angle.abs() + (self.edge_blend - self.half_angle)) / self.edge_blend)
-            } else {
-                T::constant(0.0)
-            };
-            (distance - self.clearance, [radial / distance, m.offset[1] / distance], share)
-        } else {
-            let pocket_radius = self.roller_radius + self.clearance;
-            let (sin, cos) = self.half_angle.sin_cos();
-            let edge = [pocket_radius * sin * angle.sign(), pocket_radius * cos];
-            let to_edge = [-radial + edge[0], -towards + edge[1]];
-            let reach = (to_edge[0] * to_edge[0] + to_edge[1] * to_edge[1]).sqrt();
-            // R_b - |d - R_p e| without the difference of two radii.
-            let inside = (radial * edge[0] + towards * edge[1]) * 2.0
-                - distance * distance
-                - self.clearance * (self.roller_radius + pocket_radius);
-            let delta = inside / (reach + self.roller_radius);
-            (delta, [to_edge[0] / reach, to_edge[1] / reach * sign], T::constant(1.0))
-        };
-        if delta.value() <= 0.0 {
-            return None;
-        }
-        let frame = PairFrame {
-            normal,
-            arm_1: T::constant(self.roller_radius),
-            arm_2: T::constant(self.roller_radius),
-        };
+    /// The contact at depth `delta` (m) in the direction `normal` from the element centre.
+    pub fn contact<T: Real>(
+        &self,
+        m: &PocketMotion<T>,
+        delta: T,
+        normal: [T; 2],
+        edge_share: T,
+    ) -> PillarContact<T> {
+        let arm = T::constant(self.element_radius);
+        let frame = PairFrame { normal, arm_1: arm, arm_2: arm };
         let tangent = frame.tangent();
-        let sliding = m.velocity[0] * tangent[0] + m.velocity[1] * tangent[1] + m.spin * self.roller_radius;
+        let sliding = m.velocity[0] * tangent[0] + m.velocity[1] * tangent[1] + m.spin * self.element_radius;
         let motion = ContactMotion {
             delta,
             delta_dot: m.velocity[0] * normal[0] + m.velocity[1] * normal[1],
             u1: sliding,
             u2: T::constant(0.0),
         };
-        Some(PillarContact { motion, frame, edge_share })
+        PillarContact { motion, frame, edge_share }
     }
 
     /// Contact point relative to the cage centre, m.
     pub fn lever<T: Real>(&self, offset: [T; 2], normal: [T; 2]) -> [T; 2] {
         [
-            offset[0] + self.pitch_radius + normal[0] * self.roller_radius,
-            offset[1] + normal[1] * self.roller_radius,
+            offset[0] + self.pitch_radius + normal[0] * self.element_radius,
+            offset[1] + normal[1] * self.element_radius,
         ]
     }
 }
@@ -176,81 +135,12 @@ impl PocketGeometry {
 mod tests {
     use super::*;
 
-    const P: PocketGeometry = PocketGeometry {
-        pitch_radius: 0.04,
-        roller_radius: 0.0075,
-        clearance: 0.15e-3,
-        half_angle: 0.436,
-        edge_blend: 0.02,
-    };
-
-    fn at(offset: [f64; 2]) -> PocketMotion<f64> {
-        PocketMotion { offset, velocity: [0.1, -0.2], spin: 800.0 }
-    }
-
-    #[test]
-    fn wall_contact_follows_the_gap() {
-        let c = P.pillar(Pillar::Front, &at([0.0, 0.151e-3])).unwrap();
-        assert!((c.motion.delta - 1e-6).abs() < 1e-18);
-        assert_eq!(c.frame.normal, [0.0, 1.0]);
-        assert_eq!(c.edge_share, 0.0);
-        assert_eq!(c.motion.delta_dot, -0.2);
-        // Front pillar: t points inwards, the surface slides with -v_r + R_b w.
-        assert!((c.motion.u1 - (-0.1 + 0.0075 * 800.0)).abs() < 1e-14);
-        assert!(P.pillar(Pillar::Back, &at([0.0, 0.151e-3])).is_none());
-        let back = P.pillar(Pillar::Back, &at([0.0, -0.152e-3])).unwrap();
-        assert!((back.motion.delta - 2e-6).abs() < 1e-18);
-        assert_eq!(back.frame.normal, [0.0, -1.0]);
-    }
-
-    #[test]
-    fn approach_and_normal_are_continuous_at_the_edges() {
-        let d = 0.155e-3;
-        for side in [Pillar::Front, Pillar::Back] {
-            let s = if side == Pillar::Front { 1.0 } else { -1.0 };
-            for edge in [P.half_angle, -P.half_angle] {
-                let get = |phi: f64| P.pillar(side, &at([d * phi.sin(), s * d * phi.cos()])).unwrap();
-                let (a, b) = (get(edge * (1.0 - 1e-9)), get(edge * (1.0 + 1e-9)));
-                assert!((a.motion.delta - b.motion.delta).abs() < 1e-15);
-                assert!((a.frame.normal[0] - b.frame.normal[0]).abs() < 1e-7);
-                assert!((a.frame.normal[1] - b.frame.normal[1]).abs() < 1e-7);
-                assert!((a.edge_share - 1.0).abs() < 1e-6 && b.edge_share == 1.0);
-            }
-        }
-    }
-
-    #[test]
-    fn a_roller_pushed_outwards_rests_on_both_pillars() {
-        // At d = clearance/sin(phi_p) (to first order) the edges are reached.
-        let d = 0.4e-3;
-        let (front, back) = (P.pillar(Pillar::Front, &at([d, 0.0])), P.pillar(Pillar::Back, &at([d, 0.0])));
-        let (front, back) = (front.unwrap(), back.unwrap());
-        assert!((front.motion.delta - back.motion.delta).abs() < 1e-18);
-        assert!((front.frame.normal[1] + back.frame.normal[1]).abs() < 1e-15);
-        assert!((front.frame.normal[0] - back.frame.normal[0]).abs() < 1e-15);
-        let expected = {
-            let (s, c) = P.half_angle.sin_cos();
-            let r = 0.00765;
-            0.0075 - (r * s - d).hypot(r * c)
-        };
-        assert!((front.motion.delta - expected).abs() < 1e-15);
-    }
-
-    #[test]
-    fn nothing_touches_within_the_clearance() {
-        for i in 0..100 {
-            let phi = i as f64 * 0.0628;
-            let m = at([0.1499e-3 * phi.sin(), 0.1499e-3 * phi.cos()]);
-            assert!(P.apart(m.offset));
-            assert!(P.pillar(Pillar::Front, &m).is_none() && P.pillar(Pillar::Back, &m).is_none());
-        }
-    }
-
     #[test]
     fn offset_is_exact_for_small_leads() {
+        let place = PocketPlace { pitch_radius: 0.04, element_radius: 0.0075 };
         let lead = 1e-4_f64;
         let cage = [1e-6, -2e-6];
-        let d = P.offset(3e-6, lead.sin_cos(), cage);
+        let d = place.offset(3e-6, lead.sin_cos(), cage);
         let r = 0.04 + 3e-6;
         assert!((d[1] - (r * lead.sin() + 2e-6)).abs() < 1e-20);
         let radial = 3e-6 - 2.0 * r * (lead / 2.0).sin().powi(2) - 1e-6;

@@ -16,7 +16,7 @@
 //! `u1 = arm_1 (w_b - phi_dot)`, `u2 = -arm_2 (w_r - phi_dot)`, phi_dot the turning rate of that line.
 
 use super::PairFrame;
-use crate::laws::line_contact::ContactMotion;
+use crate::laws::contact_pair::ContactMotion;
 use crate::scalar::Real;
 
 /// Motion of a roller in cylindrical coordinates.

@@ -76,7 +76,7 @@ impl<S: System> Stepper<S> for Leapfrog {
         self.predicted[nq..].copy_from_slice(&v[nq..]);
         system.accelerations((t + 0.5 * h).min(t_last), q_trial, &self.predicted, &mut self.a)?;
         self.trial_a.copy_from_slice(&self.a);
-        system.damping(h, &mut self.blocks);
+        system.damping(h, q_trial, &self.predicted, &mut self.blocks);
         for (b, damping) in self.blocks.iter().enumerate() {
             let at = system.damped_block(b);
             let known = Vector3::from_fn(|k, _| at[k].map_or(0.0, |i| self.a[i]));

@@ -37,8 +37,8 @@ pub trait System {
     fn damped_blocks(&self) -> usize;
     /// Velocity indices of such a group; `None` for an unused place.
     fn damped_block(&self, i: usize) -> [Option<usize>; 3];
-    /// Damping within each group at the last evaluated state, for a step of size `h` in s.
-    fn damping(&self, h: f64, blocks: &mut [DampingBlock]);
+    /// Damping within each group at the last evaluated state (`q`, `v`), for a step of size `h` in s.
+    fn damping(&self, h: f64, q: &[f64], v: &[f64], blocks: &mut [DampingBlock]);
 }
 
 /// -da/dv of up to three coupled velocities (zero in unused places), or a positive approximation of it, 1/s.

@@ -82,6 +82,11 @@ impl ThermalLoad {
         Self { factor: temperature_viscosity * viscosity / conductivity }
     }
 
+    /// With the viscosity times `ratio`.
+    pub fn scaled(&self, ratio: f64) -> Self {
+        Self { factor: self.factor * ratio }
+    }
+
     /// L_T at the rolling speed `speed` in m/s.
     pub fn parameter<T: Real>(&self, speed: T) -> T {
         speed * speed * self.factor
@@ -124,6 +129,15 @@ impl FilmThickness {
             effective_modulus: line.effective_modulus,
             thermal,
         }
+    }
+
+    /// The same law with the viscosity times `ratio` > 0.
+    pub fn with_viscosity_scaled(&self, ratio: f64) -> Self {
+        let thermal = self.thermal.map(|correction| match correction {
+            ThermalCorrection::GhoshPandey(load) => ThermalCorrection::GhoshPandey(load.scaled(ratio)),
+            ThermalCorrection::Gupta(load) => ThermalCorrection::Gupta(load.scaled(ratio)),
+        });
+        Self { speed_factor: self.speed_factor * ratio, thermal, ..*self }
     }
 
     /// Isothermal central film thickness in m under the load `q` > 0 (N) at the rolling speed `speed` (m/s).

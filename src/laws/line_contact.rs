@@ -8,6 +8,7 @@
 //! Each part is optional and costs one predictable branch when absent. Friction is F_T = mu Q against the slip
 //! (NTN Eq. 10).
 
+use super::contact_pair::{ContactForce, ContactMotion};
 use super::film_thickness::{Entrainment, FilmThickness};
 use super::lubrication_regime::LubricationRegime;
 use super::normal_contact::{ElasticLine, NormalDamping};
@@ -39,73 +40,25 @@ pub struct LineContact {
     pub rolling_resistance: Option<RollingResistance>,
 }
 
-/// Motion of a contact pair, as the laws see it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ContactMotion<T> {
-    /// Approach delta, m; positive in contact.
-    pub delta: T,
-    /// Approach speed, m/s.
-    pub delta_dot: T,
-    /// Surface speed of body 1 (the roller) relative to the contact point, m/s.
-    pub u1: T,
-    /// Surface speed of body 2 (the mate) relative to the contact point, m/s.
-    pub u2: T,
-}
-
-/// Everything a line contact computes. All zero when the surfaces are apart.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LineContactForce<T> {
-    /// Normal force Q, N.
-    pub normal: T,
-    /// Elastic stiffness dQ_el/d(delta), N/m.
-    pub stiffness: T,
-    /// Normal damping dQ/d(delta_dot), N s/m.
-    pub damping: T,
-    /// Central film thickness h_c, m.
-    pub film: T,
-    /// Film ratio Lambda.
-    pub film_ratio: T,
-    /// Temperature rise dT of the film, K.
-    pub temperature_rise: T,
-    /// Traction coefficient mu >= 0.
-    pub friction_coefficient: T,
-    /// Friction on body 1 along t, N; opposes u1 - u2.
-    pub friction: T,
-    /// |F_T|/|du|, N s/m: the secant slope of friction.
-    pub friction_secant: T,
-    /// Rolling resistance on each surface along t, N; opposes the rolling velocity.
-    pub rolling_resistance: T,
-}
-
-impl<T: Real> LineContactForce<T> {
-    /// The forces of two surfaces that do not touch.
-    pub fn apart() -> Self {
-        let zero = T::constant(0.0);
-        Self {
-            normal: zero,
-            stiffness: zero,
-            damping: zero,
-            film: zero,
-            film_ratio: zero,
-            temperature_rise: zero,
-            friction_coefficient: zero,
-            friction: zero,
-            friction_secant: zero,
-            rolling_resistance: zero,
-        }
-    }
-}
-
 impl LineContact {
+    /// The same contact with the lubricant's viscosity times `ratio` > 0.
+    pub fn with_viscosity_scaled(&self, ratio: f64) -> Self {
+        let mut scaled = *self;
+        scaled.film = self.film.map(|film| film.with_viscosity_scaled(ratio));
+        scaled.traction = self.traction.map(|traction| traction.with_viscosity_scaled(ratio));
+        scaled.rolling_resistance = self.rolling_resistance.map(|r| r.with_viscosity_scaled(ratio));
+        scaled
+    }
+
     /// Forces of the contact. `friction_blend` replaces the share `w` of the traction coefficient by a given one:
     /// mu (1 - w) + mu_given w; it serves pocket edges.
     pub fn force<T: Real>(
         &self,
         motion: &ContactMotion<T>,
         friction_blend: Option<(T, T)>,
-    ) -> LineContactForce<T> {
+    ) -> ContactForce<T> {
         let normal = self.elastic.normal_force(self.damping.as_ref(), motion.delta, motion.delta_dot);
-        let mut out = LineContactForce::apart();
+        let mut out = ContactForce::apart();
         if normal.force.value() == 0.0 {
             return out;
         }
@@ -155,7 +108,7 @@ impl LineContact {
         half_width: T,
         mean_pressure: T,
         entrainment: &Entrainment<T>,
-        out: &mut LineContactForce<T>,
+        out: &mut ContactForce<T>,
     ) -> T {
         let mut mu = T::constant(0.0);
         let boundary_share = self.regime.as_ref().map_or(T::constant(0.0), |regime| {
@@ -226,7 +179,7 @@ mod tests {
         }
     }
 
-    fn components<T: Real>(f: &LineContactForce<T>) -> [T; 3] {
+    fn components<T: Real>(f: &ContactForce<T>) -> [T; 3] {
         [f.normal, f.friction, f.rolling_resistance]
     }
 

@@ -4,13 +4,18 @@
 //! quantities are in SI units. Laws are generic over [`crate::scalar::Real`], so the code that gives a force
 //! also gives its exact derivatives.
 
+pub mod contact_pair;
 pub mod film_thickness;
+pub mod guide;
 pub mod journal;
 pub mod line_contact;
+pub mod lubricant_layer;
 pub mod lubrication_regime;
 pub mod normal_contact;
 pub mod rolling_resistance;
 pub mod self_heating;
 pub mod short_bearing;
+pub mod solid_contact;
 pub mod solid_friction;
 pub mod traction;
+pub mod walther;

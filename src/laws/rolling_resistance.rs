@@ -65,6 +65,11 @@ impl RollingResistance {
         }
     }
 
+    /// The same law with the viscosity times `ratio` > 0.
+    pub fn with_viscosity_scaled(&self, ratio: f64) -> Self {
+        Self { speed_factor: self.speed_factor * ratio, thermal: self.thermal.scaled(ratio), ..*self }
+    }
+
     /// F_EHLr >= 0 in N under the load `q` > 0 (N) and mean pressure (Pa).
     pub fn force<T: Real>(&self, q: T, mean_pressure: T, e: &Entrainment<T>) -> T {
         let share = match self.extent {

@@ -55,6 +55,11 @@ impl Traction {
         Self { ln_viscosity: viscosity.ln(), pressure_viscosity, eyring_stress, shear_modulus }
     }
 
+    /// The same law with the viscosity times `ratio` > 0.
+    pub fn with_viscosity_scaled(&self, ratio: f64) -> Self {
+        Self { ln_viscosity: self.ln_viscosity + ratio.ln(), ..*self }
+    }
+
     /// The shear state at mean pressure (Pa), film thickness (m), half width (m), rolling speed and slip (m/s).
     pub fn shear_state<T: Real>(
         &self,

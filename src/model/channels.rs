@@ -1,7 +1,8 @@
 //! Output channels: the named quantities that a run records.
 
 use super::forces::{CAGE_BODY, FILM_THICKNESS, Forces, GUIDE, INNER, NORMAL_FORCE, OUTER, POCKET};
-use super::{Model, Workspace};
+use super::{ElementKind, GuideReport, Input, InputValues, Model, Workspace};
+use crate::laws::guide::GuideFilm;
 
 /// A ring slower than this stands still for the slip channels, rad/s.
 const STANDSTILL: f64 = 1e-9;
@@ -16,15 +17,25 @@ enum Source {
     CageEccentricity,
     CageSpeed,
     CageSlip,
+    WhirlSpeed,
+    WhirlRadius,
+    TouchingElements,
     GuideY,
     GuideZ,
     GuideMoment,
     GuideFilm,
+    FilmShare,
+    /// Component of a guide force: which, along eps (0) or phi (1).
+    Guide(GuidePart, usize),
+    /// Sum of the pocket forces on the cage along eps (0) or phi (1).
+    PocketSum(usize),
+    PocketMoment,
+    Viscosity,
     RingY,
     RingZ,
     DragTorque,
     OuterRingTorque,
-    RollerAngle(usize),
+    OrbitAngle(usize),
     RollerSlip(usize),
     PocketPosition(usize),
     PocketForce(usize),
@@ -32,6 +43,14 @@ enum Source {
     OuterForce(usize),
     InnerFilm(usize),
     OuterFilm(usize),
+}
+
+/// Part of the guide force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum GuidePart {
+    Pressure,
+    Shear,
+    Solid,
 }
 
 /// A named output.
@@ -49,62 +68,102 @@ pub struct Channel {
 impl Model {
     /// The output channels of this scene.
     pub fn channels(&self) -> Vec<Channel> {
-        let mut list = Vec::new();
-        let mut add = |name: String, unit, description, source| {
-            list.push(Channel { name, unit, description, source });
-        };
-        if let Some(cage) = &self.cage {
-            add("cage.y".into(), "m", "cage centre to the right", Source::CageY);
-            add("cage.z".into(), "m", "cage centre upwards", Source::CageZ);
-            if cage.guide.is_some() {
-                add("cage.y_ratio".into(), "1", "cage.y over the radial guide clearance", Source::CageYRatio);
-                add("cage.z_ratio".into(), "1", "cage.z over the radial guide clearance", Source::CageZRatio);
-                let text = "distance of the cage centre from the centre over the radial guide clearance";
-                add("cage.eccentricity".into(), "1", text, Source::CageEccentricity);
+        let mut list = ChannelList(Vec::new());
+        self.add_cage_channels(&mut list);
+        if self.scene.inner_ring.is_some() {
+            list.add("inner_ring.y", "m", "inner ring centre to the right", Source::RingY);
+            list.add("inner_ring.z", "m", "inner ring centre upwards", Source::RingZ);
+            let text = "torque that keeps the inner ring turning, positive against rolling drag";
+            list.add("inner_ring.drag_torque", "N m", text, Source::DragTorque);
+        }
+        let text = "moment on the outer ring about its centre, positive counter-clockwise";
+        list.add("outer_ring.torque", "N m", text, Source::OuterRingTorque);
+        if self.inputs.oil.is_some() {
+            let text = "dynamic viscosity of the lubricant at its temperature";
+            list.add("lubricant.viscosity", "Pa s", text, Source::Viscosity);
+        }
+        for j in 0..self.elements.count {
+            self.add_element_channels(j, &mut list);
+        }
+        list.0
+    }
+
+    fn add_cage_channels(&self, list: &mut ChannelList) {
+        if self.cage.is_none() {
+            return;
+        }
+        list.add("cage.y", "m", "cage centre to the right", Source::CageY);
+        list.add("cage.z", "m", "cage centre upwards", Source::CageZ);
+        if self.laws.guide.is_some() {
+            list.add("cage.y_ratio", "1", "cage.y over the radial guide clearance", Source::CageYRatio);
+            list.add("cage.z_ratio", "1", "cage.z over the radial guide clearance", Source::CageZRatio);
+            let text = "distance of the cage centre from the guide centre over the radial guide clearance";
+            list.add("cage.eccentricity", "1", text, Source::CageEccentricity);
+        }
+        list.add("cage.speed", "rad/s", "rotation speed of the cage", Source::CageSpeed);
+        let text = "1 - cage speed over the speed without slip";
+        list.add("cage.slip", "1", text, Source::CageSlip);
+        let text = "speed of the cage centre about the guide centre, positive counter-clockwise";
+        list.add("cage.whirl_speed", "rad/s", text, Source::WhirlSpeed);
+        let text = "distance of the cage centre from the guide centre";
+        list.add("cage.whirl_radius", "m", text, Source::WhirlRadius);
+        if let Some(guide) = &self.laws.guide {
+            list.add("guide.force_y", "N", "guide force on the cage to the right", Source::GuideY);
+            list.add("guide.force_z", "N", "guide force on the cage upwards", Source::GuideZ);
+            list.add("guide.moment", "N m", "guide moment on the cage", Source::GuideMoment);
+            list.add("guide.minimum_film", "m", "smallest gap of the guide", Source::GuideFilm);
+            if guide.film.is_some() && guide.solid.is_some() {
+                let text = "share of the film in the guide force";
+                list.add("guide.film_share", "1", text, Source::FilmShare);
             }
-            add("cage.speed".into(), "rad/s", "rotation speed of the cage", Source::CageSpeed);
-            let text = "1 - cage speed over the speed without slip";
-            add("cage.slip".into(), "1", text, Source::CageSlip);
-            if cage.guide.is_some() {
-                add("guide.force_y".into(), "N", "guide force on the cage to the right", Source::GuideY);
-                add("guide.force_z".into(), "N", "guide force on the cage upwards", Source::GuideZ);
-                add("guide.moment".into(), "N m", "guide moment on the cage", Source::GuideMoment);
-                add(
-                    "guide.minimum_film".into(),
-                    "m",
-                    "smallest film thickness of the guide",
-                    Source::GuideFilm,
-                );
+            let layer = matches!(guide.film, Some(GuideFilm::LubricantLayer(_)));
+            for (part, name, present) in [
+                (GuidePart::Pressure, "pressure", guide.film.is_some()),
+                (GuidePart::Shear, "shear", layer),
+                (GuidePart::Solid, "solid", guide.solid.is_some()),
+            ] {
+                if present {
+                    let text = "guide force on the cage, along the line from guide to cage centre";
+                    list.add(&format!("guide.{name}_eps"), "N", text, Source::Guide(part, 0));
+                    let text = "guide force on the cage, across that line, positive counter-clockwise";
+                    list.add(&format!("guide.{name}_phi"), "N", text, Source::Guide(part, 1));
+                }
             }
         }
-        add("inner_ring.y".into(), "m", "inner ring centre to the right", Source::RingY);
-        add("inner_ring.z".into(), "m", "inner ring centre upwards", Source::RingZ);
-        let text = "torque that keeps the inner ring turning, positive against rolling drag";
-        add("inner_ring.drag_torque".into(), "N m", text, Source::DragTorque);
-        let text = "moment on the outer ring about its centre, positive counter-clockwise";
-        add("outer_ring.torque".into(), "N m", text, Source::OuterRingTorque);
-        let pockets = self.cage.as_ref().is_some_and(|c| c.pocket.is_some());
-        let films = self.outer.film.is_some();
-        for j in 0..self.layout.count {
-            let mut add = |field: &str, unit, description, source| {
-                add(format!("roller[{j}].{field}"), unit, description, source);
-            };
-            add("orbit_angle", "rad", "angle of the roller about the bearing", Source::RollerAngle(j));
+        if self.laws.pocket.is_some() {
+            let text = "all pocket forces on the cage, along the line from guide to cage centre";
+            list.add("pocket.force_eps", "N", text, Source::PocketSum(0));
+            let text = "all pocket forces on the cage, across that line, positive counter-clockwise";
+            list.add("pocket.force_phi", "N", text, Source::PocketSum(1));
+            list.add("pocket.moment", "N m", "all pocket moments on the cage", Source::PocketMoment);
+            let text = "number of elements that touch the cage";
+            list.add("pocket.touching_elements", "1", text, Source::TouchingElements);
+        }
+    }
+
+    fn add_element_channels(&self, j: usize, list: &mut ChannelList) {
+        let kind = self.element_kind();
+        let mut add = |field: &str, unit, text, source| {
+            list.add(&format!("{kind}[{j}].{field}"), unit, text, source);
+        };
+        add("orbit_angle", "rad", "angle of the element about the bearing", Source::OrbitAngle(j));
+        if self.has_rollers() {
             add("slip", "1", "1 - spin speed over the spin without slip", Source::RollerSlip(j));
-            if pockets {
-                let text = "distance ahead of the pocket centre in the direction of rotation";
-                add("pocket_position", "m", text, Source::PocketPosition(j));
-                let text = "circumferential force on the cage, positive when it drives the cage";
-                add("pocket_force", "N", text, Source::PocketForce(j));
-            }
+        }
+        if self.laws.pocket.is_some() {
+            let text = "distance ahead of the pocket centre in the direction of rotation";
+            add("pocket_position", "m", text, Source::PocketPosition(j));
+            let text = "circumferential force on the cage, positive when it drives the cage";
+            add("pocket_force", "N", text, Source::PocketForce(j));
+        }
+        if let Some(raceways) = &self.laws.raceways {
             add("inner_force", "N", "normal force on the inner raceway", Source::InnerForce(j));
             add("outer_force", "N", "normal force on the outer raceway", Source::OuterForce(j));
-            if films {
+            if raceways.outer.film.is_some() {
                 add("inner_film", "m", "central film thickness on the inner raceway", Source::InnerFilm(j));
                 add("outer_film", "m", "central film thickness on the outer raceway", Source::OuterFilm(j));
             }
         }
-        list
     }
 
     /// Value of one channel after an evaluation at (`q`, `v`) that was reported into `forces`.
@@ -116,43 +175,108 @@ impl Model {
         ws: &Workspace,
         forces: &Forces,
     ) -> f64 {
-        let ring_speed = ws.inputs.ring_speed;
-        let direction = if ring_speed < 0.0 { -1.0 } else { 1.0 };
+        let inputs = &ws.inputs;
+        let [orbit, spin] = self.kinematic_speeds(inputs);
+        let turning = if self.has_rollers() { inputs.of(Input::RingSpeed) } else { orbit };
+        let direction = if turning < 0.0 { -1.0 } else { 1.0 };
         let cage = |k: usize| self.layout.cage.map_or(0.0, |c| q[c + k]);
+        let cage_speed = || self.layout.cage.map_or(0.0, |c| v[c + 2]);
         let clearance = self.guide_clearance().unwrap_or(f64::INFINITY);
         let guide = |k: usize| forces.bodies[CAGE_BODY][GUIDE][k];
-        let contact = |j: usize, k: usize| &forces.contacts[self.contacts_per_roller() * j + k];
+        let contact = |j: usize, k: usize| &forces.contacts[self.contacts_per_element() * j + k];
         // Without rotation there is no kinematic speed to compare with, and slip is reported as zero.
-        let slip = |speed: f64, ratio: f64| {
-            if ring_speed.abs() < STANDSTILL { 0.0 } else { 1.0 - speed / (ratio * ring_speed) }
+        let slip = |speed: f64, without_slip: f64| {
+            if turning.abs() < STANDSTILL { 0.0 } else { 1.0 - speed / without_slip }
         };
         match channel.source {
             Source::CageY => cage(0),
             Source::CageZ => cage(1),
             Source::CageYRatio => cage(0) / clearance,
             Source::CageZRatio => cage(1) / clearance,
-            Source::CageEccentricity => cage(0).hypot(cage(1)) / clearance,
-            Source::CageSpeed => self.layout.cage.map_or(0.0, |c| v[c + 2]),
-            Source::CageSlip => slip(self.layout.cage.map_or(0.0, |c| v[c + 2]), self.orbit_ratio()),
+            Source::CageEccentricity => forces.guide.radius() / clearance,
+            Source::CageSpeed => cage_speed(),
+            Source::CageSlip => slip(cage_speed(), orbit),
+            Source::WhirlSpeed => forces.guide.whirl_speed(),
+            Source::WhirlRadius => forces.guide.radius(),
+            Source::TouchingElements => self.touching_elements(ws) as f64,
             Source::GuideY => guide(0),
             Source::GuideZ => guide(1),
             Source::GuideMoment => guide(2),
-            Source::GuideFilm => forces.guide_film,
+            Source::GuideFilm => forces.guide.minimum_film,
+            Source::FilmShare => forces.guide.film_share,
+            Source::Guide(part, k) => {
+                let force = match part {
+                    GuidePart::Pressure => forces.guide.pressure,
+                    GuidePart::Shear => forces.guide.shear,
+                    GuidePart::Solid => forces.guide.solid,
+                };
+                forces.guide.along(force)[k]
+            }
+            Source::PocketSum(k) => {
+                let [y, z, _] = forces.bodies[CAGE_BODY][POCKET];
+                forces.guide.along([y, z])[k]
+            }
+            Source::PocketMoment => forces.bodies[CAGE_BODY][POCKET][2],
+            Source::Viscosity => self.viscosity(inputs).unwrap_or(f64::NAN),
             Source::RingY => self.ring_motion(q, v).0[0],
             Source::RingZ => self.ring_motion(q, v).0[1],
-            Source::DragTorque => -direction * forces.bodies[1][INNER][2],
+            Source::DragTorque => -direction * (forces.bodies[1][INNER][2] + forces.bodies[1][GUIDE][2]),
             Source::OuterRingTorque => forces.bodies[0][OUTER][2] + forces.bodies[0][GUIDE][2],
-            Source::RollerAngle(j) => self.azimuth(q, j),
-            Source::RollerSlip(j) => slip(v[self.layout.spin(j)], self.spin_ratio()),
-            Source::PocketPosition(j) => direction * ws.rollers[j].pocket_offset[1],
+            Source::OrbitAngle(j) => match self.elements.kind {
+                ElementKind::Rollers(_) => self.azimuth(q, j),
+                ElementKind::Kinematic(_) => self.elements.reference_angles[j] + inputs.orbit_travel,
+            },
+            Source::RollerSlip(j) => slip(v[self.layout.spin(j)], spin),
+            Source::PocketPosition(j) => direction * ws.elements[j].pocket_offset[1],
             Source::PocketForce(j) => {
-                let [y, z, _] = forces.bodies[self.roller_body(j)][POCKET];
-                -direction * ws.rollers[j].to_local([y, z])[1]
+                let [y, z, _] = forces.bodies[self.element_body(j)][POCKET];
+                -direction * ws.elements[j].to_local([y, z])[1]
             }
             Source::InnerForce(j) => contact(j, 1)[NORMAL_FORCE],
             Source::OuterForce(j) => contact(j, 0)[NORMAL_FORCE],
             Source::InnerFilm(j) => contact(j, 1)[FILM_THICKNESS],
             Source::OuterFilm(j) => contact(j, 0)[FILM_THICKNESS],
         }
+    }
+
+    /// Viscosity of the lubricant in Pa s at these inputs, if it follows the temperature.
+    pub fn viscosity(&self, inputs: &InputValues) -> Option<f64> {
+        self.inputs.oil.map(|oil| oil.law.viscosity(inputs.of(Input::Temperature)))
+    }
+
+    /// Number of elements with a force on the cage.
+    fn touching_elements(&self, ws: &Workspace) -> usize {
+        let touches = |j: usize| ws.pocket_contacts().any(|c| c.element == j && c.force.normal > 0.0);
+        (0..self.elements.count).filter(|&j| touches(j)).count()
+    }
+}
+
+/// Channels in the making.
+struct ChannelList(Vec<Channel>);
+
+impl ChannelList {
+    fn add(&mut self, name: &str, unit: &'static str, description: &'static str, source: Source) {
+        self.0.push(Channel { name: name.to_owned(), unit, description, source });
+    }
+}
+
+impl GuideReport {
+    /// Distance of the cage centre from the guide centre, m.
+    fn radius(&self) -> f64 {
+        self.offset[0].hypot(self.offset[1])
+    }
+
+    /// Angular speed of the cage centre about the guide centre, rad/s; zero in the centre.
+    fn whirl_speed(&self) -> f64 {
+        let [y, z] = self.offset;
+        let square = y * y + z * z;
+        if square > 0.0 { (y * self.velocity[1] - z * self.velocity[0]) / square } else { 0.0 }
+    }
+
+    /// Components of a vector along and across the line from guide to cage centre; (y, z) itself in the centre.
+    fn along(&self, [fy, fz]: [f64; 2]) -> [f64; 2] {
+        let radius = self.radius();
+        let [dy, dz] = if radius > 0.0 { self.offset.map(|x| x / radius) } else { [1.0, 0.0] };
+        [fy * dy + fz * dz, fz * dy - fy * dz]
     }
 }

@@ -1,250 +1,157 @@
-//! From the scene to laws and constants. A law is built only if the scene asks for it.
+//! From the scene to bodies, coordinates and inputs.
 
-use super::{CageBody, Model, PocketLaws, RingBody};
-use crate::contact::pocket::PocketGeometry;
+use super::compile_laws::compile_laws;
+use super::inputs::{Input, InputSignals, InputSource, Oil, Orbit};
+use super::{CageBody, ElementKind, ElementSet, KinematicSet, Layout, Model, RingBody, RollerSet};
+use crate::contact::guide::GuideSide;
 use crate::contact::raceway::RacewayGeometry;
 use crate::error::Result;
-use crate::laws::film_thickness::{FilmThickness, ThermalCorrection, ThermalLoad};
-use crate::laws::journal::Harmonic;
-use crate::laws::line_contact::LineContact;
-use crate::laws::lubrication_regime::LubricationRegime;
-use crate::laws::normal_contact::{ElasticLine, NormalDamping, effective_modulus};
-use crate::laws::rolling_resistance::{Extent, RollingResistance};
-use crate::laws::self_heating::SelfHeating;
-use crate::laws::short_bearing::ShortBearing;
-use crate::laws::solid_friction::SolidFriction;
-use crate::laws::traction::Traction;
-use crate::model::inputs::InputSignals;
-use crate::model::layout::Layout;
-use crate::scene::{self, Cage, ContactLaws, Guide, Lubricant, Material, Pocket, RingMotion, Scene, Signal};
-use crate::scene::{bad_scene, needed};
+use crate::laws::walther::Walther;
+use crate::scene::{Cage, ElementMotion, GuideRing, RingMotion, Scene, Signal, SignalIntegral};
+use crate::scene::{Temperature, Viscosity, bad_scene, interpolate};
 use std::f64::consts::TAU;
 
-/// The parts of the scene that several laws need, with the path of the law being built.
-struct Builder<'a> {
-    scene: &'a Scene,
-    path: &'a str,
-}
-
-impl Builder<'_> {
-    fn lubricant(&self, by: &str) -> Result<&Lubricant> {
-        self.scene
-            .lubricant
-            .as_ref()
-            .ok_or_else(|| bad_scene("lubricant", format!("missing; {} needs it", self.law(by))))
-    }
-
-    fn law(&self, field: &str) -> String {
-        format!("{}.{field}", self.path)
-    }
-
-    fn pressure_viscosity(&self, by: &str) -> Result<f64> {
-        needed("lubricant.pressure_viscosity", self.lubricant(by)?.pressure_viscosity, &self.law(by))
-    }
-
-    fn temperature_viscosity(&self, by: &str) -> Result<f64> {
-        needed("lubricant.temperature_viscosity", self.lubricant(by)?.temperature_viscosity, &self.law(by))
-    }
-
-    fn conductivity(&self, by: &str) -> Result<f64> {
-        needed("lubricant.conductivity", self.lubricant(by)?.conductivity, &self.law(by))
-    }
-
-    fn eyring_stress(&self, by: &str) -> Result<f64> {
-        needed("lubricant.eyring_stress", self.lubricant(by)?.eyring_stress, &self.law(by))
-    }
-
-    fn thermal_load(&self, by: &str) -> Result<ThermalLoad> {
-        let viscosity = self.lubricant(by)?.viscosity;
-        Ok(ThermalLoad::new(self.temperature_viscosity(by)?, viscosity, self.conductivity(by)?))
-    }
-
-    fn material(&self, path: &str, name: &str) -> Result<&Material> {
-        self.scene
-            .materials
-            .get(name)
-            .ok_or_else(|| bad_scene(path, format!("'{name}' is not one of the materials")))
-    }
-
-    /// k rho c of a material.
-    fn thermal_product(&self, name: &str, by: &str) -> Result<f64> {
-        let path = format!("materials.{name}.thermal");
-        let t = self.material(&path, name)?.thermal.as_ref();
-        let t = t.ok_or_else(|| bad_scene(&path, format!("missing; {} needs it", self.law(by))))?;
-        Ok(t.conductivity * t.density * t.specific_heat)
-    }
-
-    /// A contact between a roller and a mate of the given material.
-    fn line_contact(&self, laws: &ContactLaws, mate: &str, equivalent_radius: f64) -> Result<LineContact> {
-        let rollers = &self.scene.rollers;
-        let (a, b) = (self.material("rollers.material", &rollers.material)?, self.material(self.path, mate)?);
-        let modulus = effective_modulus(a.young_modulus, a.poisson_ratio, b.young_modulus, b.poisson_ratio);
-        let elastic = ElasticLine::new(modulus, equivalent_radius, rollers.effective_length);
-        let thermal = match laws.thermal_correction {
-            None => None,
-            Some(kind) => {
-                let load = self.thermal_load("thermal_correction")?;
-                Some(match kind {
-                    scene::ThermalCorrection::GhoshPandey => ThermalCorrection::GhoshPandey(load),
-                    scene::ThermalCorrection::Gupta => ThermalCorrection::Gupta(load),
-                })
-            }
-        };
-        let film = match laws.film {
-            None => None,
-            Some(scene::FilmLaw::PanHamrock) => {
-                let viscosity = self.lubricant("film")?.viscosity;
-                Some(FilmThickness::new(&elastic, viscosity, self.pressure_viscosity("film")?, thermal))
-            }
-        };
-        let traction = match laws.traction {
-            None => None,
-            Some(scene::TractionLaw::MurakiKimura) => {
-                let lubricant = self.lubricant("traction")?;
-                let path = "lubricant.shear_modulus";
-                Some(Traction::new(
-                    lubricant.viscosity,
-                    self.pressure_viscosity("traction")?,
-                    self.eyring_stress("traction")?,
-                    needed(path, lubricant.shear_modulus, &self.law("traction"))?,
-                ))
-            }
-        };
-        let self_heating = match laws.self_heating {
-            None => None,
-            Some(scene::SelfHeating::FilmAndFlash) => Some(SelfHeating {
-                temperature_viscosity: self.temperature_viscosity("self_heating")?,
-                conductivity: self.conductivity("self_heating")?,
-                eyring_stress: self.eyring_stress("self_heating")?,
-                thermal_product_1: self.thermal_product(&rollers.material, "self_heating")?,
-                thermal_product_2: self.thermal_product(mate, "self_heating")?,
-            }),
-        };
-        let damping = laws.damping.as_ref().map(|d| NormalDamping {
-            relaxation_time: d.relaxation_time,
-            softening_depth: d.softening_depth,
-        });
-        let regime = laws.boundary_friction.as_ref().map(|b| LubricationRegime {
-            boundary: SolidFriction { coefficient: b.coefficient, transition_speed: b.transition_speed },
-            lambda_boundary: b.lambda_boundary,
-            lambda_full: b.lambda_full,
-            roughness: b.roughness,
-        });
-        Ok(LineContact { elastic, damping, film, traction, self_heating, regime, rolling_resistance: None })
-    }
-
-    fn raceway(&self, mate: &str, equivalent_radius: f64) -> Result<LineContact> {
-        let mut law = self.line_contact(&self.scene.raceways.contact, mate, equivalent_radius)?;
-        if let Some(rolling) = &self.scene.raceways.rolling_resistance {
-            let extent = match rolling.extent {
-                scene::Extent::All => Extent::All,
-                scene::Extent::Loaded { threshold } => Extent::Loaded { threshold },
-            };
-            let builder = Builder { path: "raceways", ..*self };
-            let by = "rolling_resistance";
-            law.rolling_resistance = Some(RollingResistance::new(
-                &law.elastic,
-                builder.lubricant(by)?.viscosity,
-                builder.pressure_viscosity(by)?,
-                builder.thermal_load(by)?,
-                extent,
-            ));
-        }
-        Ok(law)
-    }
-
-    fn pocket(&self, cage: &Cage, pocket: &Pocket, pitch_radius: f64) -> Result<PocketLaws> {
-        let roller_radius = self.scene.rollers.radius;
-        let geometry = PocketGeometry {
-            pitch_radius,
-            roller_radius,
-            clearance: pocket.radial_clearance,
-            half_angle: pocket.half_angle,
-            edge_blend: pocket.edge_blend,
-        };
-        let pocket_radius = roller_radius + pocket.radial_clearance;
-        let equivalent_radius = roller_radius * pocket_radius / pocket.radial_clearance;
-        let wall = self.line_contact(&pocket.contact, &cage.material, equivalent_radius)?;
-        let edge = LineContact { film: None, traction: None, self_heating: None, regime: None, ..wall };
-        let edge_friction = pocket.edge_friction.as_ref().map_or(
-            SolidFriction { coefficient: 0.0, transition_speed: 1.0 },
-            |f| SolidFriction { coefficient: f.coefficient, transition_speed: f.transition_speed },
-        );
-        Ok(PocketLaws { geometry, wall, edge, edge_friction })
-    }
-
-    fn guide(&self, guide: &Guide) -> Result<ShortBearing> {
-        let Guide::ShortBearing(g) = guide;
-        let clearance = g.diametral_clearance / 2.0;
-        Ok(ShortBearing {
-            viscosity: self.lubricant("guide")?.viscosity,
-            radius: g.guide_radius - clearance,
-            clearance,
-            land_width: g.land_width,
-            squeeze: g.squeeze,
-            roundness: g
-                .roundness
-                .iter()
-                .map(|a| Harmonic { order: a.order, amplitude: a.amplitude, phase: a.phase })
-                .collect(),
-        })
-    }
-}
-
 /// Builds the model of a checked scene.
-pub fn compile(scene: Scene) -> Result<Model> {
-    let count = scene.rollers.count as usize;
-    let radius = scene.rollers.radius;
-    let outer_radius = scene.outer_ring.raceway_radius;
-    let inner_radius = outer_radius - 2.0 * radius - scene.inner_ring.radial_clearance / 2.0;
-    let geometry = RacewayGeometry::new(outer_radius, radius, scene.inner_ring.radial_clearance);
-
-    let raceways = Builder { scene: &scene, path: "raceways.contact" };
-    let outer = raceways.raceway(&scene.outer_ring.material, 1.0 / (1.0 / radius - 1.0 / outer_radius))?;
-    let inner = raceways.raceway(&scene.inner_ring.material, 1.0 / (1.0 / radius + 1.0 / inner_radius))?;
-
-    let cage = match &scene.cage {
-        None => None,
-        Some(cage) => {
-            let pocket = match &cage.pocket {
-                None => None,
-                Some(pocket) => {
-                    let builder = Builder { scene: &scene, path: "cage.pocket.contact" };
-                    Some(builder.pocket(cage, pocket, geometry.pitch_radius)?)
-                }
-            };
-            let guide = match &cage.guide {
-                None => None,
-                Some(guide) => Some(Builder { scene: &scene, path: "cage" }.guide(guide)?),
-            };
-            Some(CageBody { mass: cage.mass, inertia: cage.inertia, pocket, guide })
+pub(super) fn compile(scene: Scene) -> Result<Model> {
+    let elements = elements(&scene);
+    let ring = match scene.inner_ring.as_ref().map(|ring| &ring.motion) {
+        None => RingBody::Fixed([0.0; 2]),
+        Some(RingMotion::Fixed(position)) => RingBody::Fixed([position.y, position.z]),
+        Some(RingMotion::Free(free)) => {
+            RingBody::Free { mass: free.mass, damping: free.support_damping.unwrap_or(0.0) }
         }
     };
-
-    let (ring, load) = match &scene.inner_ring.motion {
-        RingMotion::Fixed(position) => (RingBody::Fixed([position.y, position.z]), None),
-        RingMotion::Free(free) => {
-            let damping = free.support_damping.unwrap_or(0.0);
-            (RingBody::Free { mass: free.mass, damping }, free.load.clone())
-        }
+    let (geometry, rollers) = match &elements.kind {
+        ElementKind::Rollers(rollers) => (Some(&rollers.geometry), elements.count),
+        ElementKind::Kinematic(_) => (None, 0),
     };
-    let zero = Signal::Constant(0.0);
-    let (load_y, load_z) = load.map_or((zero.clone(), zero), |l| (l.y, l.z));
-    let reference_angles =
-        (0..count).map(|j| scene.initial.first_roller_angle + TAU * j as f64 / count as f64).collect();
-    let layout = Layout::new(matches!(ring, RingBody::Free { .. }), cage.is_some(), count);
+    let inputs = inputs(&scene)?;
+    let viscosity = match (&inputs.oil, scene.lubricant.as_ref().map(|l| &l.viscosity)) {
+        (Some(oil), _) => Some(oil.built_at.1),
+        (None, Some(Viscosity::Constant(value))) => Some(*value),
+        _ => None,
+    };
     Ok(Model {
-        layout,
-        reference_angles,
-        geometry,
-        roller_mass: scene.rollers.mass,
-        roller_inertia: scene.rollers.inertia,
+        layout: Layout::new(matches!(ring, RingBody::Free { .. }), scene.cage.is_some(), rollers),
+        laws: compile_laws(&scene, viscosity, geometry)?,
+        elements,
         gravity: scene.gravity.map_or([0.0; 2], |g| [g.y, g.z]),
-        outer,
-        inner,
         ring,
-        cage,
-        inputs: InputSignals { signals: [scene.inner_ring.speed.clone(), load_y, load_z] },
+        cage: scene.cage.as_ref().map(cage),
+        inputs,
         scene,
     })
+}
+
+fn elements(scene: &Scene) -> ElementSet {
+    let count = scene.element_count() as usize;
+    let radius = scene.element_radius();
+    let reference_angles: Vec<f64> =
+        (0..count).map(|j| scene.initial.first_roller_angle + TAU * j as f64 / count as f64).collect();
+    let kind = match &scene.rollers {
+        Some(rollers) => {
+            let outer = scene.outer_ring.as_ref().map_or(0.0, |ring| ring.raceway_radius);
+            let clearance = scene.inner_ring.as_ref().and_then(|ring| ring.radial_clearance).unwrap_or(0.0);
+            let geometry = RacewayGeometry::new(outer, radius, clearance);
+            ElementKind::Rollers(RollerSet { geometry, mass: rollers.mass, inertia: rollers.inertia })
+        }
+        None => ElementKind::Kinematic(KinematicSet {
+            directions: reference_angles.iter().map(|angle| [angle.cos(), angle.sin()]).collect(),
+        }),
+    };
+    ElementSet { count, radius, pitch_radius: scene.pitch_radius(), reference_angles, kind }
+}
+
+fn cage(cage: &Cage) -> CageBody {
+    let guided_by_inner_ring = cage.guide.as_ref().is_some_and(|guide| guide.ring == GuideRing::InnerRing);
+    CageBody {
+        mass: cage.mass,
+        inertia: cage.inertia,
+        mass_eccentricity: cage.mass_eccentricity.map(|u| [u.y, u.z]),
+        guide_side: if guided_by_inner_ring { GuideSide::CageOutside } else { GuideSide::CageInside },
+        guided_by_inner_ring,
+        loaded: cage.load.is_some(),
+    }
+}
+
+/// The inputs in the order of [`Input`].
+fn inputs(scene: &Scene) -> Result<InputSignals> {
+    let mut list = Vec::new();
+    let mut add = |input: Input, signal: &Signal| list.push((input, InputSource::Time(signal.clone())));
+    if let Some(ring) = &scene.inner_ring {
+        add(Input::RingSpeed, &ring.speed);
+        if let RingMotion::Free(free) = &ring.motion {
+            let none = Signal::Constant(0.0);
+            let (y, z) = free.load.as_ref().map_or((&none, &none), |load| (&load.y, &load.z));
+            add(Input::LoadY, y);
+            add(Input::LoadZ, z);
+        }
+    }
+    if let Some(load) = scene.cage.as_ref().and_then(|cage| cage.load.as_ref()) {
+        add(Input::CageForceY, &load.force_y);
+        add(Input::CageForceZ, &load.force_z);
+        add(Input::CageTorque, &load.torque);
+    }
+    let mut orbit = None;
+    if let Some(elements) = &scene.kinematic_elements {
+        match &elements.motion {
+            ElementMotion::Prescribed { orbit_speed, spin_speed } => {
+                add(Input::OrbitSpeed, orbit_speed);
+                add(Input::SpinSpeed, spin_speed);
+                let integral = SignalIntegral::new(orbit_speed);
+                orbit =
+                    Some(Orbit { drive: Input::OrbitSpeed, orbit_ratio: 1.0, spin_ratio: None, integral });
+            }
+            ElementMotion::Rolling { contact_angle } => {
+                let speed =
+                    scene.inner_ring.as_ref().map_or(Signal::Constant(0.0), |ring| ring.speed.clone());
+                orbit = Some(rolling(elements.radius / elements.pitch_radius, *contact_angle, &speed));
+            }
+        }
+    }
+    let oil = match scene.lubricant.as_ref().map(|lubricant| &lubricant.viscosity) {
+        Some(Viscosity::Walther(walther)) => {
+            let point = |p: crate::scene::ViscosityPoint| (p.temperature, p.kinematic_viscosity);
+            let law = Walther::new(point(walther.cold), point(walther.hot), walther.density);
+            let (source, at_start) = match &walther.temperature {
+                Temperature::OverTime(signal) => (InputSource::Time(signal.clone()), signal.at(0.0)),
+                Temperature::OverSpeed { speed, temperature } => {
+                    let ring = scene.inner_ring.as_ref().ok_or_else(|| {
+                        bad_scene(
+                            "inner_ring",
+                            "missing; lubricant.viscosity.walther.temperature needs its speed",
+                        )
+                    })?;
+                    let at_start = interpolate(speed, temperature, ring.speed.at(0.0).abs());
+                    (InputSource::RingSpeed(speed.clone(), temperature.clone()), at_start)
+                }
+            };
+            list.push((Input::Temperature, source));
+            let viscosity = law.viscosity(at_start);
+            if viscosity.is_nan() {
+                let text = format!("the oil has no viscosity at {at_start:?} K, too far from its two points");
+                return Err(bad_scene("lubricant.viscosity.walther.temperature", text));
+            }
+            Some(Oil { law, built_at: (at_start, viscosity) })
+        }
+        _ => None,
+    };
+    Ok(InputSignals { list, orbit, oil })
+}
+
+/// Elements that roll without slip on both rings, the outer one at rest; `radius_ratio` is element over pitch radius.
+///
+/// The spin is the component along the bearing axis of the rotation about the axis across the contact line, and the
+/// rotation of that axis with the orbit.
+fn rolling(radius_ratio: f64, contact_angle: f64, ring_speed: &Signal) -> Orbit {
+    let cos = contact_angle.cos();
+    let gamma = radius_ratio * cos;
+    let orbit_ratio = 0.5 * (1.0 - gamma);
+    let spin_ratio = orbit_ratio - 0.5 / radius_ratio * (1.0 - gamma * gamma) * cos;
+    Orbit {
+        drive: Input::RingSpeed,
+        orbit_ratio,
+        spin_ratio: Some(spin_ratio),
+        integral: SignalIntegral::new(ring_speed),
+    }
 }

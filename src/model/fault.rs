@@ -10,6 +10,11 @@ pub enum Fault {
         /// Smallest film thickness, m.
         minimum_film: f64,
     },
+    /// The lubricant has no viscosity at its temperature.
+    NoViscosity {
+        /// K.
+        temperature: f64,
+    },
     /// A roller has left the space between the rings.
     LostRoller {
         /// Number of the roller.
@@ -34,6 +39,9 @@ impl Model {
         match fault {
             Fault::NoGuideFilm { minimum_film } => {
                 format!("no film between cage and guide (smallest thickness {minimum_film:e} m, must be > 0)")
+            }
+            Fault::NoViscosity { temperature } => {
+                format!("the lubricant has no viscosity at its temperature {temperature:?} K")
             }
             Fault::LostRoller { roller, radial_offset } => {
                 format!("roller[{roller}] has left the bearing (radial offset {radial_offset:e} m)")

@@ -1,9 +1,10 @@
 //! Force report: every contact and every contribution to every body at one state.
 
-use super::evaluate::{Loaded, Workspace, pocket_wrenches};
-use super::{Model, RingBody};
+use super::evaluate::pocket_wrenches;
+use super::workspace::{Loaded, Workspace};
+use super::{ElementKind, Input, Model, RingBody};
+use crate::contact::Wrench;
 use crate::contact::pocket::Pillar;
-use crate::contact::{Wrench, guide};
 
 /// Name, unit and meaning of a reported quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,7 +58,7 @@ const GRAVITY: usize = 4;
 const LOAD: usize = 5;
 const SUPPORT: usize = 6;
 
-/// Forces on one body by source: (F_y in N, F_z in N, moment about its own centre in N m).
+/// Forces on one body by source: (F_y in N, F_z in N, moment about its own geometric centre in N m).
 pub type BodyForces = [[f64; 3]; FORCE_SOURCES.len()];
 
 /// All forces at one state.
@@ -69,39 +70,59 @@ pub struct Forces {
     pub bodies: Vec<BodyForces>,
     /// Acceleration of every velocity state, m/s^2 or rad/s^2.
     pub accelerations: Vec<f64>,
-    /// Smallest film thickness of the cage guide, m; zero without a guide film.
-    pub guide_film: f64,
+    /// The guide of the cage; all zero without one.
+    pub guide: GuideReport,
+}
+
+/// Forces of the guide on the cage (y, z) in N, and its film.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct GuideReport {
+    /// Film pressure.
+    pub pressure: [f64; 2],
+    /// Film shear.
+    pub shear: [f64; 2],
+    /// Solid contact.
+    pub solid: [f64; 2],
+    /// Share of the film: 1 for a film alone, 0 for a solid contact alone.
+    pub film_share: f64,
+    /// Smallest gap, m.
+    pub minimum_film: f64,
+    /// Cage centre relative to the centre of the guiding ring, m, and its velocity, m/s.
+    pub offset: [f64; 2],
+    /// See `offset`.
+    pub velocity: [f64; 2],
 }
 
 impl Model {
     /// Writes the results of the last evaluation at (`q`, `v`) into `out`.
     pub(crate) fn report(&self, q: &[f64], v: &[f64], ws: &Workspace, a: &[f64], out: &mut Forces) {
-        let per_roller = self.contacts_per_roller();
+        let per_element = self.contacts_per_element();
         out.contacts.clear();
-        out.contacts.resize(per_roller * self.layout.count, ContactForces::default());
+        out.contacts.resize(per_element * self.elements.count, ContactForces::default());
         out.bodies.clear();
         out.bodies.resize(self.body_count(), BodyForces::default());
         out.accelerations.clear();
         out.accelerations.extend_from_slice(a);
-        out.guide_film = ws.guide.map_or(0.0, |film| film.minimum_film);
+        out.guide = GuideReport::default();
         for contact in ws.outer.iter() {
-            out.contacts[per_roller * contact.roller] = quantities(&contact);
+            out.contacts[per_element * contact.element] = quantities(&contact);
             self.report_raceway(OUTER, 0, &contact, ws, out);
         }
         for contact in ws.inner.iter() {
-            out.contacts[per_roller * contact.roller + 1] = quantities(&contact);
+            out.contacts[per_element * contact.element + 1] = quantities(&contact);
             self.report_raceway(INNER, 1, &contact, ws, out);
         }
-        for contact in ws.wall.iter().chain(ws.edge.iter()) {
+        let first = self.pocket_contact_offset();
+        for contact in ws.pocket_contacts() {
             let pillar = match contact.site.pillar {
-                Pillar::Front => 2,
-                Pillar::Back => 3,
+                Pillar::Front => first,
+                Pillar::Back => first + 1,
             };
-            out.contacts[per_roller * contact.roller + pillar] = quantities(&contact);
-            let site = &ws.rollers[contact.roller];
-            let (on_roller, on_cage) = pocket_wrenches(&contact, site);
-            let on_roller = Wrench { force: site.to_global(on_roller.force), ..on_roller };
-            add(&mut out.bodies[self.roller_body(contact.roller)][POCKET], &on_roller);
+            out.contacts[per_element * contact.element + pillar] = quantities(&contact);
+            let site = &ws.elements[contact.element];
+            let (on_element, on_cage) = pocket_wrenches(&contact, site);
+            let on_element = Wrench { force: site.to_global(on_element.force), ..on_element };
+            add(&mut out.bodies[self.element_body(contact.element)][POCKET], &on_element);
             add(&mut out.bodies[CAGE_BODY][POCKET], &on_cage);
         }
         self.report_guide_and_external(q, v, ws, out);
@@ -115,43 +136,60 @@ impl Model {
         ws: &Workspace,
         out: &mut Forces,
     ) {
-        let site = &ws.rollers[contact.roller];
+        let site = &ws.elements[contact.element];
         let [on_roller, on_mate] = contact
             .frame
             .wrenches(contact.force)
             .map(|w| Wrench { force: site.to_global(w.force), moment: w.moment });
-        add(&mut out.bodies[self.roller_body(contact.roller)][source], &on_roller);
+        add(&mut out.bodies[self.element_body(contact.element)][source], &on_roller);
         add(&mut out.bodies[mate][source], &on_mate);
     }
 
     fn report_guide_and_external(&self, q: &[f64], v: &[f64], ws: &Workspace, out: &mut Forces) {
         let weight = |mass: f64| [mass * self.gravity[0], mass * self.gravity[1], 0.0];
         if let (Some(cage), Some(c)) = (&self.cage, self.layout.cage) {
-            if let Some(film) = &ws.guide {
-                let [on_cage, on_ring] = guide::wrenches(film, [q[c], q[c + 1]]);
+            if let (Some(force), Some(motion)) = (&ws.guide, &ws.journal) {
+                let [on_cage, on_ring] = cage.guide_side.wrenches(force, motion);
                 add(&mut out.bodies[CAGE_BODY][GUIDE], &on_cage);
-                add(&mut out.bodies[0][GUIDE], &on_ring);
+                add(&mut out.bodies[usize::from(cage.guided_by_inner_ring)][GUIDE], &on_ring);
+                let on_cage = cage.guide_side.on_cage(force, motion);
+                out.guide.pressure = on_cage.pressure;
+                out.guide.shear = on_cage.shear;
+                out.guide.solid = on_cage.solid;
+                out.guide.film_share = on_cage.film_share;
+                out.guide.minimum_film = on_cage.minimum_film;
             }
-            out.bodies[CAGE_BODY][GRAVITY] = weight(cage.mass);
+            let [body, ring] = self.guide_bodies(q, v, &ws.inputs);
+            out.guide.offset = std::array::from_fn(|k| body.position[k] - ring.position[k]);
+            out.guide.velocity = std::array::from_fn(|k| body.velocity[k] - ring.velocity[k]);
+            let [y, z, _] = weight(cage.mass);
+            let [uy, uz] = cage.mass_offset(q[c + 2]).unwrap_or_default();
+            out.bodies[CAGE_BODY][GRAVITY] = [y, z, uy * z - uz * y];
+            if cage.loaded {
+                let load = [Input::CageForceY, Input::CageForceZ, Input::CageTorque];
+                out.bodies[CAGE_BODY][LOAD] = load.map(|input| ws.inputs.of(input));
+            }
         }
         if let RingBody::Free { mass, damping } = self.ring {
             let (_, velocity) = self.ring_motion(q, v);
             out.bodies[1][GRAVITY] = weight(mass);
-            out.bodies[1][LOAD] = [ws.inputs.load[0], ws.inputs.load[1], 0.0];
+            out.bodies[1][LOAD] = [ws.inputs.of(Input::LoadY), ws.inputs.of(Input::LoadZ), 0.0];
             out.bodies[1][SUPPORT] = [-damping * velocity[0], -damping * velocity[1], 0.0];
         }
-        for j in 0..self.layout.count {
-            out.bodies[self.roller_body(j)][GRAVITY] = weight(self.roller_mass);
+        if let ElementKind::Rollers(rollers) = &self.elements.kind {
+            for j in 0..self.layout.count {
+                out.bodies[self.element_body(j)][GRAVITY] = weight(rollers.mass);
+            }
         }
     }
 
     /// Number of bodies in a force report.
     pub fn body_count(&self) -> usize {
-        2 + usize::from(self.cage.is_some()) + self.layout.count
+        2 + usize::from(self.cage.is_some()) + self.elements.count
     }
 
-    /// Index of a roller among the bodies of a force report.
-    pub(super) fn roller_body(&self, j: usize) -> usize {
+    /// Index of an element among the bodies of a force report.
+    pub(super) fn element_body(&self, j: usize) -> usize {
         2 + usize::from(self.cage.is_some()) + j
     }
 }

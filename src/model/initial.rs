@@ -1,7 +1,8 @@
 //! Start of a run: kinematic speeds, and on request the static equilibrium of ring and rollers.
 
-use super::{HostInputs, Model, RingBody};
-use crate::contact::raceway::{RingMotion, RollerMotion};
+use super::laws::RacewayLaws;
+use super::{ElementKind, HostInputs, Input, Model, RingBody};
+use crate::contact::raceway::{RacewayGeometry, RingMotion, RollerMotion};
 use crate::contact::rotate;
 use crate::error::{Error, Result, Status};
 use crate::scene::RingStart;
@@ -23,33 +24,41 @@ impl Model {
         let layout = &self.layout;
         let mut state = vec![0.0; layout.states()];
         let (q, v) = state.split_at_mut(layout.positions());
-        let orbit = self.orbit_ratio() * inputs.ring_speed;
-        let cage = self.scene.initial.cage;
-        for j in 0..layout.count {
-            let (sin, cos) = self.reference_angles[j].sin_cos();
-            // The pocket of a cage off centre lies beside its angle.
-            let beside = cage.z * cos - cage.y * sin;
-            q[layout.roller(j) + 1] = (beside / self.geometry.pitch_radius).asin();
-            v[layout.roller(j) + 1] = orbit;
-            v[layout.spin(j)] = self.spin_ratio() * inputs.ring_speed;
-        }
+        let [orbit, spin] = self.kinematic_speeds(&inputs);
+        let start = &self.scene.initial;
         if let Some(c) = layout.cage {
-            q[c] = cage.y;
-            q[c + 1] = cage.z;
-            v[c + 2] = orbit;
+            q[c] = start.cage.y;
+            q[c + 1] = start.cage.z;
+            v[c] = start.cage_velocity.y;
+            v[c + 1] = start.cage_velocity.z;
+            v[c + 2] = start.cage_speed.unwrap_or(orbit);
         }
-        if self.scene.initial.inner_ring == RingStart::Equilibrium
+        let ElementKind::Rollers(rollers) = &self.elements.kind else { return Ok(state) };
+        for j in 0..layout.count {
+            let (sin, cos) = self.elements.reference_angles[j].sin_cos();
+            // The pocket of a cage off centre lies beside its angle.
+            let beside = start.cage.z * cos - start.cage.y * sin;
+            q[layout.roller(j) + 1] = (beside / rollers.geometry.pitch_radius).asin();
+            v[layout.roller(j) + 1] = orbit;
+            v[layout.spin(j)] = spin;
+        }
+        if start.inner_ring == RingStart::Equilibrium
             && let (Some(i), RingBody::Free { mass, .. }) = (layout.ring, self.ring)
+            && let Some(laws) = &self.laws.raceways
         {
-            let load = [inputs.load[0] + mass * self.gravity[0], inputs.load[1] + mass * self.gravity[1]];
-            let centrifugal = self.roller_mass * self.geometry.pitch_radius * orbit * orbit;
-            let ring = self.equilibrium(q, load, centrifugal)?;
+            let load = [
+                inputs.of(Input::LoadY) + mass * self.gravity[0],
+                inputs.of(Input::LoadZ) + mass * self.gravity[1],
+            ];
+            let centrifugal = rollers.mass * rollers.geometry.pitch_radius * orbit * orbit;
+            let still = StillBearing { model: self, geometry: &rollers.geometry, laws, q, centrifugal };
+            let ring = still.equilibrium(load)?;
+            let offsets: Vec<f64> =
+                (0..layout.count).map(|j| still.roller(j, ring).0.radial_offset).collect();
             q[i] = ring[0];
             q[i + 1] = ring[1];
-            for j in 0..layout.count {
-                let (sin, cos) = self.azimuth(q, j).sin_cos();
-                let local = rotate(ring, -sin, cos);
-                q[layout.roller(j)] = self.roller_balance(local, centrifugal).radial_offset;
+            for (j, offset) in offsets.into_iter().enumerate() {
+                q[layout.roller(j)] = offset;
             }
         }
         Ok(state)
@@ -57,19 +66,31 @@ impl Model {
 
     /// Angle of roller `j` about the bearing, rad.
     pub(super) fn azimuth(&self, q: &[f64], j: usize) -> f64 {
-        self.reference_angles[j] + q[self.layout.roller(j) + 1]
+        self.elements.reference_angles[j] + q[self.layout.roller(j) + 1]
     }
+}
 
+/// The rollers of a bearing in which nothing moves but for the centrifugal force.
+struct StillBearing<'a> {
+    model: &'a Model,
+    geometry: &'a RacewayGeometry,
+    laws: &'a RacewayLaws,
+    q: &'a [f64],
+    /// On each roller, N.
+    centrifugal: f64,
+}
+
+impl StillBearing<'_> {
     /// Position of the ring, m, at which the rollers carry `load` (N): the minimum of the potential energy, found by
     /// Newton steps whose length a Levenberg-Marquardt parameter controls.
-    fn equilibrium(&self, q: &[f64], load: [f64; 2], centrifugal: f64) -> Result<[f64; 2]> {
+    fn equilibrium(&self, load: [f64; 2]) -> Result<[f64; 2]> {
         let size = load[0].hypot(load[1]);
         if size == 0.0 {
             return Ok([0.0; 2]);
         }
-        let reach = (2.0 * self.geometry.gap).max(0.0) + 2.0 * self.inner.elastic.approach(size);
+        let reach = (2.0 * self.geometry.gap).max(0.0) + 2.0 * self.laws.inner.elastic.approach(size);
         let mut x = [0.0; 2];
-        let mut here = self.ring_balance(q, x, load, centrifugal);
+        let mut here = self.ring_balance(x, load);
         let mut parameter = size / reach;
         for _ in 0..MAX_ITERATIONS {
             let residual = here.force[0].hypot(here.force[1]);
@@ -82,7 +103,7 @@ impl Model {
             let [fy, fz] = here.force;
             let trial =
                 [x[0] + (kzz * fy - kyz * fz) / determinant, x[1] + (kyy * fz - kyz * fy) / determinant];
-            let there = self.ring_balance(q, trial, load, centrifugal);
+            let there = self.ring_balance(trial, load);
             // Close to the minimum the energy drowns in round-off, and the force alone tells progress.
             let better = there.energy < here.energy || there.force[0].hypot(there.force[1]) < 0.5 * residual;
             if better {
@@ -98,12 +119,11 @@ impl Model {
     }
 
     /// Energy, force and stiffness of the ring at `x` under `load` and all rollers.
-    fn ring_balance(&self, q: &[f64], x: [f64; 2], load: [f64; 2], centrifugal: f64) -> RingBalance {
+    fn ring_balance(&self, x: [f64; 2], load: [f64; 2]) -> RingBalance {
         let mut sum =
             RingBalance { energy: -(load[0] * x[0] + load[1] * x[1]), force: load, stiffness: [0.0; 3] };
-        for j in 0..self.layout.count {
-            let (sin, cos) = self.azimuth(q, j).sin_cos();
-            let roller = self.roller_balance(rotate(x, -sin, cos), centrifugal);
+        for j in 0..self.model.layout.count {
+            let (roller, (sin, cos)) = self.roller(j, x);
             let [ny, nz] = rotate(roller.normal, sin, cos);
             sum.energy += roller.energy;
             sum.force[0] += roller.load * ny;
@@ -115,10 +135,16 @@ impl Model {
         sum
     }
 
+    /// Equilibrium of roller `j` with the ring at `x` in m, and sine and cosine of its azimuth.
+    fn roller(&self, j: usize, x: [f64; 2]) -> (RollerBalance, (f64, f64)) {
+        let (sin, cos) = self.model.azimuth(self.q, j).sin_cos();
+        (self.roller_balance(rotate(x, -sin, cos)), (sin, cos))
+    }
+
     /// Radial equilibrium of a roller, with the ring centre at `ring` (m) in the roller's local frame.
-    fn roller_balance(&self, ring: [f64; 2], centrifugal: f64) -> RollerBalance {
-        let (outer, inner) = (&self.outer.elastic, &self.inner.elastic);
-        let g = &self.geometry;
+    fn roller_balance(&self, ring: [f64; 2]) -> RollerBalance {
+        let (outer, inner) = (&self.laws.outer.elastic, &self.laws.inner.elastic);
+        let (g, centrifugal) = (self.geometry, self.centrifugal);
         // The outward force of the roller falls with its offset: bisection between resting outside and squeezed in.
         let state = |offset: f64| {
             let still =

@@ -1,9 +1,11 @@
-//! Inputs of the model: quantities that follow the scene's functions of time unless the host takes them over.
+//! Inputs of the model: quantities that follow the scene's functions of time unless the host takes them over, and
+//! what follows from them: the prescribed motion of kinematic elements.
 
-use crate::scene::Signal;
+use crate::laws::walther::Walther;
+use crate::scene::{Signal, SignalIntegral, interpolate};
 
 /// Number of inputs a model can have.
-pub const INPUTS: usize = 3;
+pub const INPUTS: usize = 9;
 
 /// An input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,42 +16,144 @@ pub enum Input {
     LoadY = 1,
     /// External load on the inner ring upwards, N.
     LoadZ = 2,
+    /// External force on the cage to the right, N.
+    CageForceY = 3,
+    /// External force on the cage upwards, N.
+    CageForceZ = 4,
+    /// External torque on the cage, N m.
+    CageTorque = 5,
+    /// Orbit speed of kinematic elements, rad/s.
+    OrbitSpeed = 6,
+    /// Spin speed of kinematic elements, rad/s.
+    SpinSpeed = 7,
+    /// Temperature of the lubricant, K.
+    Temperature = 8,
 }
 
-impl Input {
-    /// All inputs; a fixed ring has only the first.
-    pub const ALL: [Input; INPUTS] = [Input::RingSpeed, Input::LoadY, Input::LoadZ];
-}
-
-/// Values of the inputs at one instant.
+/// Values of the inputs at one instant, and what follows from them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct InputValues {
-    /// Rotation speed of the inner ring, rad/s.
-    pub ring_speed: f64,
-    /// External load on the inner ring (y, z), N.
-    pub load: [f64; 2],
+    /// Values by [`Input`]; zero for inputs that the model does not have. Orbit and spin speed are those of rolling
+    /// where the scene asks for it.
+    pub values: [f64; INPUTS],
+    /// Orbit angle that kinematic elements have travelled since the start, rad.
+    pub orbit_travel: f64,
 }
 
-/// Values set by the host; `None` follows the scene.
-pub type HostInputs = [Option<f64>; INPUTS];
+impl InputValues {
+    /// Value of one input.
+    pub fn of(&self, input: Input) -> f64 {
+        self.values[input as usize]
+    }
+}
 
-/// Functions of time of the scene.
+/// Values set by the host.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct HostInputs {
+    /// By [`Input`]; `None` follows the scene.
+    pub values: [Option<f64>; INPUTS],
+    /// Time (s) and orbit travel (rad) from which the travel of kinematic elements counts on.
+    pub anchor: [f64; 2],
+}
+
+/// Where the value of an input comes from when the host does not set it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct InputSignals {
-    /// Ring speed, load y, load z.
-    pub signals: [Signal; INPUTS],
+pub(super) enum InputSource {
+    /// A function of time.
+    Time(Signal),
+    /// Points (rad/s, unit of the input) over the magnitude of the ring speed.
+    RingSpeed(Vec<f64>, Vec<f64>),
+}
+
+/// Prescribed orbit of kinematic elements.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Orbit {
+    /// The input that drives the orbit, and orbit speed per unit of it.
+    pub(super) drive: Input,
+    pub(super) orbit_ratio: f64,
+    /// Spin speed per unit of the drive; `None` if it is an input of its own.
+    pub(super) spin_ratio: Option<f64>,
+    pub(super) integral: SignalIntegral,
+}
+
+/// Viscosity that follows the temperature.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Oil {
+    pub(super) law: Walther,
+    /// Temperature (K) and viscosity (Pa s) that the laws were built with.
+    pub(super) built_at: (f64, f64),
+}
+
+/// The inputs that a scene has.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct InputSignals {
+    /// In the order of [`Input`]; the ring speed comes first where it exists.
+    pub(super) list: Vec<(Input, InputSource)>,
+    pub(super) orbit: Option<Orbit>,
+    /// Oil whose viscosity follows the temperature.
+    pub(super) oil: Option<Oil>,
 }
 
 impl InputSignals {
     /// Values at time `t` in s.
-    pub fn at(&self, t: f64, host: &HostInputs) -> InputValues {
-        let value = |i: Input| host[i as usize].unwrap_or_else(|| self.signals[i as usize].at(t));
-        InputValues { ring_speed: value(Input::RingSpeed), load: [value(Input::LoadY), value(Input::LoadZ)] }
+    pub(super) fn at(&self, t: f64, host: &HostInputs) -> InputValues {
+        let mut now = InputValues::default();
+        for (input, source) in &self.list {
+            let i = *input as usize;
+            now.values[i] = match (host.values[i], source) {
+                (Some(value), _) => value,
+                (None, InputSource::Time(signal)) => signal.at(t),
+                (None, InputSource::RingSpeed(speed, value)) => {
+                    interpolate(speed, value, now.of(Input::RingSpeed).abs())
+                }
+            };
+        }
+        if let Some(orbit) = &self.orbit {
+            let drive = now.of(orbit.drive);
+            now.values[Input::OrbitSpeed as usize] = orbit.orbit_ratio * drive;
+            if let Some(ratio) = orbit.spin_ratio {
+                now.values[Input::SpinSpeed as usize] = ratio * drive;
+            }
+            now.orbit_travel = orbit.travel(t, host);
+        }
+        now
     }
 
     /// The first jump or kink after `t`, s.
-    pub fn next_event(&self, t: f64, host: &HostInputs) -> f64 {
-        let followed = self.signals.iter().zip(host).filter(|(_, host)| host.is_none());
-        followed.map(|(signal, _)| signal.next_event(t)).fold(f64::INFINITY, f64::min)
+    pub(super) fn next_event(&self, t: f64, host: &HostInputs) -> f64 {
+        let followed = self.list.iter().filter(|(input, _)| host.values[*input as usize].is_none());
+        followed
+            .map(|(_, source)| match source {
+                InputSource::Time(signal) => signal.next_event(t),
+                InputSource::RingSpeed(..) => f64::INFINITY,
+            })
+            .fold(f64::INFINITY, f64::min)
+    }
+
+    /// Sets or releases an input at time `t` in s. The elements stay where they are.
+    pub(super) fn set(&self, host: &mut HostInputs, t: f64, input: Input, value: Option<f64>) {
+        if let Some(orbit) = &self.orbit {
+            host.anchor = [t, orbit.travel(t, host)];
+        }
+        host.values[input as usize] = value;
+    }
+
+    /// Largest magnitude of an input by the scene; zero for one it does not have.
+    pub(super) fn largest(&self, input: Input) -> f64 {
+        self.list.iter().find(|(i, _)| *i == input).map_or(0.0, |(_, source)| match source {
+            InputSource::Time(signal) => signal.largest(),
+            InputSource::RingSpeed(_, value) => value.iter().fold(0.0, |m, v| m.max(v.abs())),
+        })
+    }
+}
+
+impl Orbit {
+    fn travel(&self, t: f64, host: &HostInputs) -> f64 {
+        let [since, before] = host.anchor;
+        let turned = match host.values[self.drive as usize] {
+            Some(speed) => speed * (t - since),
+            None => self.integral.at(t) - self.integral.at(since),
+        };
+        before + self.orbit_ratio * turned
     }
 }

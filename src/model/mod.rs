@@ -3,34 +3,37 @@
 
 mod channels;
 mod compile;
+mod compile_laws;
+mod damping;
 mod evaluate;
 mod fault;
 mod forces;
 mod initial;
 mod inputs;
+mod laws;
 mod layout;
+mod locate;
 mod names;
+mod scales;
+mod workspace;
 
 pub use channels::Channel;
-pub use evaluate::Workspace;
 pub use fault::Fault;
-pub use forces::{BodyForces, CONTACT_QUANTITIES, ContactForces, FORCE_SOURCES, Forces, Quantity};
+pub use forces::{
+    BodyForces, CONTACT_QUANTITIES, ContactForces, FORCE_SOURCES, Forces, GuideReport, Quantity,
+};
 pub use inputs::{HostInputs, INPUTS, Input, InputValues};
+pub use laws::{LAWS, LawCounts};
 pub use layout::Layout;
 pub use names::StateInfo;
+pub use workspace::Workspace;
 
-use crate::contact::pocket::PocketGeometry;
+use crate::contact::guide::GuideSide;
 use crate::contact::raceway::RacewayGeometry;
 use crate::error::Result;
-use crate::laws::line_contact::LineContact;
-use crate::laws::short_bearing::ShortBearing;
-use crate::laws::solid_friction::SolidFriction;
 use crate::scene::Scene;
 use inputs::InputSignals;
-
-/// Ratio of velocity to position scale in the error control, 1/s: slow against contact vibration (2e5 1/s), fast
-/// against the cage (1e2 1/s).
-const RATE_SCALE: f64 = 1e4;
+use laws::Laws;
 
 /// The inner ring.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,22 +44,51 @@ enum RingBody {
     Free { mass: f64, damping: f64 },
 }
 
-/// The cage and its contacts.
+/// The rolling elements.
+#[derive(Clone, Debug, PartialEq)]
+struct ElementSet {
+    count: usize,
+    /// Radius of one, m.
+    radius: f64,
+    /// Radius of the circle of their centres, m.
+    pitch_radius: f64,
+    /// Angle from which the travel of each element counts, and of its pocket in the cage, rad.
+    reference_angles: Vec<f64>,
+    kind: ElementKind,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum ElementKind {
+    Rollers(RollerSet),
+    Kinematic(KinematicSet),
+}
+
+/// Rollers with states of their own.
+#[derive(Clone, Debug, PartialEq)]
+struct RollerSet {
+    geometry: RacewayGeometry,
+    mass: f64,
+    inertia: f64,
+}
+
+/// Elements with prescribed motion.
+#[derive(Clone, Debug, PartialEq)]
+struct KinematicSet {
+    /// Cosine and sine of the reference angles.
+    directions: Vec<[f64; 2]>,
+}
+
+/// The cage.
 #[derive(Clone, Debug, PartialEq)]
 struct CageBody {
     mass: f64,
     inertia: f64,
-    pocket: Option<PocketLaws>,
-    guide: Option<ShortBearing>,
-}
-
-/// Laws of the pocket contacts.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct PocketLaws {
-    geometry: PocketGeometry,
-    wall: LineContact,
-    edge: LineContact,
-    edge_friction: SolidFriction,
+    /// Centre of mass in the axes of the cage, m.
+    mass_eccentricity: Option<[f64; 2]>,
+    guide_side: GuideSide,
+    guided_by_inner_ring: bool,
+    /// Whether external force and torque are inputs.
+    loaded: bool,
 }
 
 /// A compiled scene.
@@ -64,16 +96,11 @@ struct PocketLaws {
 pub struct Model {
     scene: Scene,
     layout: Layout,
-    /// Angle from which the travel of each roller counts, and of its pocket in the cage, rad.
-    reference_angles: Vec<f64>,
-    geometry: RacewayGeometry,
-    roller_mass: f64,
-    roller_inertia: f64,
+    elements: ElementSet,
     gravity: [f64; 2],
-    outer: LineContact,
-    inner: LineContact,
     ring: RingBody,
     cage: Option<CageBody>,
+    laws: Laws,
     inputs: InputSignals,
 }
 
@@ -105,9 +132,14 @@ impl Model {
         &self.layout
     }
 
-    /// Number of inputs: ring speed, and the two load components if the ring is free.
+    /// The inputs of this scene, in the order of their indices.
+    pub fn input_list(&self) -> impl ExactSizeIterator<Item = Input> {
+        self.inputs.list.iter().map(|(input, _)| *input)
+    }
+
+    /// Number of inputs.
     pub fn input_count(&self) -> usize {
-        if self.layout.ring.is_some() { INPUTS } else { 1 }
+        self.inputs.list.len()
     }
 
     /// Values of the inputs at time `t` in s.
@@ -115,95 +147,66 @@ impl Model {
         self.inputs.at(t, host)
     }
 
+    /// Sets an input at time `t` (s) to `value`, or lets it follow the scene again with `None`.
+    pub fn set_input(&self, host: &mut HostInputs, t: f64, input: Input, value: Option<f64>) {
+        self.inputs.set(host, t, input, value);
+    }
+
     /// The first jump or kink of an input after `t`, s; infinity if there is none.
     pub fn next_event(&self, t: f64, host: &HostInputs) -> f64 {
         self.inputs.next_event(t, host)
     }
 
-    /// Radial guide clearance in m, if the cage is guided.
-    pub fn guide_clearance(&self) -> Option<f64> {
-        self.cage.as_ref()?.guide.as_ref().map(|g| g.clearance)
+    /// Number of rolling elements, whether they have states or not.
+    pub fn element_count(&self) -> usize {
+        self.elements.count
     }
 
-    /// Length in m that errors are measured by: the guide clearance, else the pocket clearance, else 0.1 mm.
-    pub fn reference_length(&self) -> f64 {
-        let pocket = || self.cage.as_ref().and_then(|c| c.pocket.as_ref()).map(|p| p.geometry.clearance);
-        self.guide_clearance().or_else(pocket).unwrap_or(1e-4)
+    /// Whether the elements move freely and are rollers; otherwise their motion is prescribed.
+    pub fn has_rollers(&self) -> bool {
+        matches!(self.elements.kind, ElementKind::Rollers(_))
     }
 
     /// Radius of the pitch circle, m.
     pub fn pitch_radius(&self) -> f64 {
-        self.geometry.pitch_radius
+        self.elements.pitch_radius
     }
 
-    /// Radius of the inner raceway, m.
-    pub fn inner_raceway_radius(&self) -> f64 {
-        self.geometry.pitch_radius - self.geometry.roller_radius - self.geometry.gap
+    /// Radius of the inner raceway in m, where there are rollers.
+    pub fn inner_raceway_radius(&self) -> Option<f64> {
+        match &self.elements.kind {
+            ElementKind::Rollers(rollers) => {
+                let g = &rollers.geometry;
+                Some(g.pitch_radius - g.roller_radius - g.gap)
+            }
+            ElementKind::Kinematic(_) => None,
+        }
+    }
+
+    /// Orbit and spin speed of the elements without slip at these inputs, rad/s: of rollers that touch both raceways,
+    /// or as prescribed.
+    pub fn kinematic_speeds(&self, inputs: &InputValues) -> [f64; 2] {
+        match &self.elements.kind {
+            ElementKind::Kinematic(_) => [inputs.of(Input::OrbitSpeed), inputs.of(Input::SpinSpeed)],
+            ElementKind::Rollers(rollers) => {
+                let orbit = rollers.orbit_ratio() * inputs.of(Input::RingSpeed);
+                let spin_ratio =
+                    -rollers.orbit_ratio() * rollers.outer_centre_radius() / self.elements.radius;
+                [orbit, spin_ratio * inputs.of(Input::RingSpeed)]
+            }
+        }
+    }
+}
+
+impl RollerSet {
+    /// Radius of the circle of the centres of rollers that touch the outer raceway, m.
+    fn outer_centre_radius(&self) -> f64 {
+        self.geometry.pitch_radius + self.geometry.gap
     }
 
     /// Orbit speed per ring speed of a roller that touches both raceways and does not slip: R_i/(2 (R_o - R_b)).
-    pub fn orbit_ratio(&self) -> f64 {
-        self.inner_raceway_radius() / (2.0 * (self.geometry.pitch_radius + self.geometry.gap))
-    }
-
-    /// Spin speed per ring speed of such a roller.
-    pub fn spin_ratio(&self) -> f64 {
+    fn orbit_ratio(&self) -> f64 {
         let g = &self.geometry;
-        -self.orbit_ratio() * (g.pitch_radius + g.gap) / g.roller_radius
-    }
-
-    /// Highest contact frequency in rad/s at the largest load of the scene: of a roller between two loaded raceways,
-    /// or, if one is so light, of the ring on half of the rollers or the cage between all of them.
-    pub fn highest_frequency(&self) -> f64 {
-        let [speed, y, z] = self.inputs.signals.each_ref().map(|s| s.largest());
-        let ring_mass = match self.ring {
-            RingBody::Fixed(_) => 0.0,
-            RingBody::Free { mass, .. } => mass,
-        };
-        let weight = ring_mass * self.gravity[0].hypot(self.gravity[1]);
-        let orbit = speed * self.orbit_ratio();
-        let centrifugal = self.roller_mass * self.geometry.pitch_radius * orbit * orbit;
-        let preload = self.inner.elastic.load(-self.geometry.gap);
-        // 4.1 F/Z is the largest roller load of a line contact bearing without clearance; 1 N keeps it positive.
-        let per_roller = 4.1 / (self.layout.count as f64).max(4.1);
-        let q = per_roller * (y.hypot(z) + weight) + centrifugal + preload + 1.0;
-        let stiffness = self.inner.elastic.stiffness_at_load(q) + self.outer.elastic.stiffness_at_load(q);
-        let roller = stiffness / self.roller_mass;
-        let ring = match self.ring {
-            RingBody::Fixed(_) => 0.0,
-            RingBody::Free { mass, .. } => {
-                self.inner.elastic.stiffness_at_load(q) * 0.5 * (self.layout.count as f64).max(2.0) / mass
-            }
-        };
-        let cage = self.cage.as_ref().map_or(0.0, |cage| {
-            let pockets = cage.pocket.map_or(0.0, |p| p.wall.elastic.stiffness_at_load(q));
-            let lever = self.geometry.pitch_radius;
-            pockets * self.layout.count as f64 * (1.0 / cage.mass + lever * lever / cage.inertia)
-        });
-        roller.max(ring).max(cage).sqrt()
-    }
-
-    /// Whether the raceway contacts are damped.
-    pub fn damped(&self) -> bool {
-        self.inner.damping.is_some()
-    }
-
-    /// What counts as one unit of error for every state: the reference length for positions, divided by a radius
-    /// for angles, times 1e4 1/s for velocities.
-    pub fn state_scales(&self) -> Vec<f64> {
-        let length = self.reference_length();
-        let (pitch, radius) = (self.geometry.pitch_radius, self.geometry.roller_radius);
-        let layout = self.layout();
-        let mut positions = vec![length; layout.positions()];
-        if let Some(c) = layout.cage {
-            positions[c + 2] = length / pitch;
-        }
-        for j in 0..layout.count {
-            positions[layout.roller(j) + 1] = length / pitch;
-        }
-        let mut scales = positions.clone();
-        scales.extend(positions.iter().map(|x| x * RATE_SCALE));
-        scales.extend(std::iter::repeat_n(length / radius * RATE_SCALE, layout.count));
-        scales
+        (g.pitch_radius - g.roller_radius - g.gap) / (2.0 * self.outer_centre_radius())
     }
 }

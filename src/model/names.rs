@@ -1,6 +1,8 @@
 //! Names of bodies, states, inputs and contacts.
 
+use super::laws::{PocketLaws, line_contact_parts};
 use super::{Input, Model};
+use crate::laws::line_contact::LineContact;
 
 /// Name, unit and meaning of a state or an input.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -26,8 +28,14 @@ impl Model {
         if self.cage.is_some() {
             names.push("cage".to_owned());
         }
-        names.extend((0..self.layout.count).map(|j| format!("roller[{j}]")));
+        let kind = self.element_kind();
+        names.extend((0..self.elements.count).map(|j| format!("{kind}[{j}]")));
         names
+    }
+
+    /// What the elements are called in names.
+    pub fn element_kind(&self) -> &'static str {
+        if self.has_rollers() { "roller" } else { "element" }
     }
 
     /// The state vector: positions, then velocities.
@@ -72,9 +80,7 @@ impl Model {
 
     /// The inputs.
     pub fn input_infos(&self) -> Vec<StateInfo> {
-        Input::ALL
-            .into_iter()
-            .take(self.input_count())
+        self.input_list()
             .map(|input| match input {
                 Input::RingSpeed => {
                     StateInfo::new("inner_ring.speed", "rad/s", "rotation speed of the inner ring")
@@ -83,20 +89,88 @@ impl Model {
                     StateInfo::new("load.y", "N", "external load on the inner ring, to the right")
                 }
                 Input::LoadZ => StateInfo::new("load.z", "N", "external load on the inner ring, upwards"),
+                Input::CageForceY => {
+                    StateInfo::new("cage.force_y", "N", "external force on the cage, to the right")
+                }
+                Input::CageForceZ => {
+                    StateInfo::new("cage.force_z", "N", "external force on the cage, upwards")
+                }
+                Input::CageTorque => StateInfo::new("cage.torque", "N m", "external torque on the cage"),
+                Input::OrbitSpeed => {
+                    StateInfo::new("elements.orbit_speed", "rad/s", "orbit speed of the rolling elements")
+                }
+                Input::SpinSpeed => {
+                    StateInfo::new("elements.spin_speed", "rad/s", "spin speed of the rolling elements")
+                }
+                Input::Temperature => {
+                    StateInfo::new("lubricant.temperature", "K", "temperature of the lubricant")
+                }
             })
             .collect()
     }
 
-    /// Contacts per roller in force reports: two raceways and, if the scene has pockets, two pillars.
-    pub(super) fn contacts_per_roller(&self) -> usize {
-        if self.cage.as_ref().is_some_and(|c| c.pocket.is_some()) { 4 } else { 2 }
+    /// Contacts per element in force reports.
+    pub(super) fn contacts_per_element(&self) -> usize {
+        self.pocket_contact_offset() + if self.laws.pocket.is_some() { 2 } else { 0 }
+    }
+
+    /// Place of the first pocket contact among those of an element: after the raceways, if there are any.
+    pub(super) fn pocket_contact_offset(&self) -> usize {
+        if self.laws.raceways.is_some() { 2 } else { 0 }
     }
 
     /// Names of all contacts that can exist, in the order of force reports.
     pub fn contact_names(&self) -> Vec<String> {
-        let kinds = ["outer_raceway", "inner_raceway", "pocket_front", "pocket_back"];
-        let kinds = &kinds[..self.contacts_per_roller()];
-        (0..self.layout.count).flat_map(|j| kinds.iter().map(move |k| format!("roller[{j}].{k}"))).collect()
+        let mut kinds = Vec::new();
+        if self.laws.raceways.is_some() {
+            kinds.extend(["outer_raceway", "inner_raceway"]);
+        }
+        if self.laws.pocket.is_some() {
+            kinds.extend(["pocket_front", "pocket_back"]);
+        }
+        let element = self.element_kind();
+        (0..self.elements.count)
+            .flat_map(|j| kinds.iter().map(move |kind| format!("{element}[{j}].{kind}")))
+            .collect()
+    }
+
+    /// The laws that this scene uses, each with the largest number of contacts it can act in.
+    pub fn laws_in_use(&self) -> Vec<(&'static str, usize)> {
+        let n = self.elements.count;
+        let mut list = Vec::new();
+        let mut largest = |contact: &LineContact, contacts: usize| {
+            for (name, present) in line_contact_parts(contact) {
+                let known = list.iter_mut().find(|(known, _)| *known == name);
+                match known {
+                    Some((_, sum)) if present => *sum += contacts,
+                    None if present => list.push((name, contacts)),
+                    _ => {}
+                }
+            }
+        };
+        if let Some(raceways) = &self.laws.raceways {
+            largest(&raceways.outer, n);
+            largest(&raceways.inner, n);
+        }
+        if let Some(PocketLaws::Cylinder(pocket)) = &self.laws.pocket {
+            largest(&pocket.wall, 2 * n);
+        }
+        let mut laws = Vec::new();
+        if self.laws.raceways.is_some() {
+            laws.extend([("outer_raceway", n), ("inner_raceway", n)]);
+        }
+        match &self.laws.pocket {
+            None => {}
+            Some(PocketLaws::Cylinder(_)) => laws.extend([("pocket_wall", 2 * n), ("pocket_edge", 2 * n)]),
+            Some(PocketLaws::Plane(_)) => laws.push(("pocket_plane", 2 * n)),
+        }
+        laws.extend(list);
+        if let Some(guide) = &self.laws.guide {
+            laws.extend(guide.film.as_ref().map(|_| ("guide_film", 1)));
+            laws.extend(guide.solid.as_ref().map(|_| ("guide_solid", 1)));
+        }
+        laws.extend(self.inputs.oil.map(|_| ("viscosity_temperature", 1)));
+        laws
     }
 }
 

@@ -3,19 +3,23 @@
 //! What a scene does not write is not simulated. Every physical effect is an optional block of its own; the
 //! doc comments here are also the descriptions in the JSON Schema.
 
-mod bodies;
+mod cage;
 mod cases;
 mod check;
 mod contact_laws;
+mod elements;
+mod lubricant;
 mod overrides;
+mod rings;
 mod run;
 mod signal;
 mod strict;
 mod validate;
+mod validate_cage;
 
-pub use bodies::{
-    Cage, EdgeFriction, FreeRing, Guide, InnerRing, Load, OuterRing, Pocket, RingMotion, Rollers,
-    RoundnessHarmonic, ShortBearingGuide,
+pub use cage::{
+    Cage, CageLoad, CylinderPocket, FilmShare, Friction, Guide, GuideFilm, GuideRing, GuideSolid, LayerFilm,
+    PlanePocket, Pocket, RoundnessHarmonic, ShortBearingFilm, SolidContact,
 };
 pub use cases::{CASES_SCHEMA, Case, CaseSet};
 pub(crate) use check::{bad as bad_scene, needed};
@@ -23,9 +27,12 @@ pub use contact_laws::{
     BoundaryFriction, ContactDamping, ContactLaws, Extent, FilmLaw, Raceways, RollingResistance, SelfHeating,
     ThermalCorrection, TractionLaw,
 };
+pub use elements::{ElementMotion, KinematicElements, Rollers};
+pub use lubricant::{Lubricant, Temperature, Viscosity, ViscosityPoint, WaltherViscosity};
 pub use overrides::{parse_override, set_path};
+pub use rings::{FreeRing, InnerRing, Load, OuterRing, RingMotion};
 pub use run::{DormandPrince, Initial, Leapfrog, Method, Record, RingStart, Solver};
-pub use signal::Signal;
+pub use signal::{Signal, SignalIntegral, interpolate};
 
 use crate::error::{Error, Result, Status};
 use schemars::JsonSchema;
@@ -49,20 +56,27 @@ pub struct Scene {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gravity: Option<PlaneVector>,
     /// Materials by name.
-    #[serde(deserialize_with = "strict::map")]
+    #[serde(default, deserialize_with = "strict::map", skip_serializing_if = "BTreeMap::is_empty")]
     pub materials: BTreeMap<String, Material>,
     /// The lubricant. Needed by films, traction, rolling resistance and lubricated guides.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lubricant: Option<Lubricant>,
-    /// The cylindrical rollers.
-    pub rollers: Rollers,
-    /// The outer ring.
-    pub outer_ring: OuterRing,
-    /// The inner ring.
-    pub inner_ring: InnerRing,
-    /// Contacts between rollers and raceways.
-    pub raceways: Raceways,
-    /// The cage. Absent: rollers without a cage; they do not touch each other.
+    /// Cylindrical rollers that move freely. Either these or `kinematic_elements`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rollers: Option<Rollers>,
+    /// Rolling elements with prescribed motion. Either these or `rollers`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kinematic_elements: Option<KinematicElements>,
+    /// The outer ring. Needed by rollers.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub outer_ring: Option<OuterRing>,
+    /// The inner ring. Needed by rollers, by elements that roll on it and by a cage that it guides.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inner_ring: Option<InnerRing>,
+    /// Contacts between rollers and raceways. Needed by rollers.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub raceways: Option<Raceways>,
+    /// The cage. Absent: rollers without a cage; they do not touch each other. Needed by kinematic elements.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cage: Option<Cage>,
     /// Start of the run. Absent: everything centred, at kinematic speeds.
@@ -108,29 +122,6 @@ pub struct ThermalMaterial {
     pub density: f64,
     /// Specific heat capacity, J/(kg K).
     pub specific_heat: f64,
-}
-
-/// Lubricant at inlet temperature. Only the constants that the scene's laws use are needed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Lubricant {
-    /// Dynamic viscosity eta0 at inlet temperature and ambient pressure, Pa s.
-    pub viscosity: f64,
-    /// Pressure-viscosity coefficient alpha, 1/Pa. Needed by films, traction and rolling resistance.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub pressure_viscosity: Option<f64>,
-    /// Temperature-viscosity coefficient beta, 1/K. Needed by thermal corrections, self-heating, rolling resistance.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub temperature_viscosity: Option<f64>,
-    /// Thermal conductivity k', W/(m K). Needed by thermal corrections, self-heating, rolling resistance.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub conductivity: Option<f64>,
-    /// Characteristic (Eyring) stress tau0, Pa. Needed by traction.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub eyring_stress: Option<f64>,
-    /// Shear modulus G_l, Pa. Needed by traction.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub shear_modulus: Option<f64>,
 }
 
 impl Scene {

@@ -4,19 +4,25 @@ use super::PlaneVector;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Start of the run. Rollers start at kinematic speeds in the centres of their pockets.
+/// Start of the run. Rolling elements start at kinematic speeds in the centres of their pockets.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Initial {
-    /// Where the inner ring and the rollers start.
+    /// Where a free inner ring and the rollers start.
     #[serde(default)]
     pub inner_ring: RingStart,
-    /// Angle of the first roller, rad.
+    /// Angle of the first rolling element, rad.
     #[serde(default)]
     pub first_roller_angle: f64,
     /// Centre of the cage, m.
     #[serde(default)]
     pub cage: PlaneVector,
+    /// Velocity of the cage centre, m/s.
+    #[serde(default)]
+    pub cage_velocity: PlaneVector,
+    /// Rotation speed of the cage, rad/s. Absent: the orbit speed of the rolling elements.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cage_speed: Option<f64>,
 }
 
 /// Start of the inner ring and the radial position of the rollers.

@@ -5,27 +5,25 @@
 
 use super::check::{Range, bad, number, optional, range};
 use super::*;
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::PI;
 
-const RADIUS: Range = range(1e-4, 5.0, "m");
-const WIDTH: Range = range(1e-5, 5.0, "m");
+pub(super) const RADIUS: Range = range(1e-4, 5.0, "m");
+pub(super) const WIDTH: Range = range(1e-5, 5.0, "m");
 const ROLLER_CLEARANCE: Range = range(-2e-4, 2e-3, "m");
-const POCKET_CLEARANCE: Range = range(1e-7, 1e-2, "m");
-const GUIDE_CLEARANCE: Range = range(1e-6, 1e-2, "m");
-const POSITION: Range = range(-1e-2, 1e-2, "m");
-const MASS: Range = range(1e-7, 1e6, "kg");
-const INERTIA: Range = range(1e-15, 1e6, "kg m^2");
-const SPEED: Range = range(-1e5, 1e5, "rad/s");
-const FORCE: Range = range(-1e9, 1e9, "N");
+pub(super) const POSITION: Range = range(-1e-2, 1e-2, "m");
+pub(super) const MASS: Range = range(1e-7, 1e6, "kg");
+pub(super) const INERTIA: Range = range(1e-15, 1e6, "kg m^2");
+pub(super) const SPEED: Range = range(-1e5, 1e5, "rad/s");
+const VISCOSITY: Range = range(1e-5, 1e3, "Pa s");
+pub(super) const FORCE: Range = range(-1e9, 1e9, "N");
 const GRAVITY: Range = range(-1e4, 1e4, "m/s^2");
 const SUPPORT_DAMPING: Range = range(0.0, 1e9, "N s/m");
-const ANGLE: Range = range(-1e3, 1e3, "rad");
+pub(super) const ANGLE: Range = range(-1e3, 1e3, "rad");
 const TIME: Range = range(0.0, 1e6, "s");
-const COEFFICIENT: Range = range(0.0, 2.0, "");
-const TRANSITION_SPEED: Range = range(1e-6, 10.0, "m/s");
-const MAX_ROLLERS: u32 = 1000;
-const MAX_HARMONICS: usize = 64;
-const MAX_ORDER: u32 = 200;
+pub(super) const COEFFICIENT: Range = range(0.0, 2.0, "");
+pub(super) const TRANSITION_SPEED: Range = range(1e-6, 10.0, "m/s");
+const TEMPERATURE: Range = range(150.0, 1000.0, "K");
+const MAX_ELEMENTS: u32 = 1000;
 const MAX_POINTS: usize = 1_000_000;
 const MAX_RECORDS: f64 = 1e8;
 
@@ -47,14 +45,21 @@ impl Scene {
         if let Some(lubricant) = &self.lubricant {
             lubricant.validate()?;
         }
-        self.validate_bodies()?;
-        self.validate_geometry()?;
-        contact("raceways.contact", &self.raceways.contact)?;
-        if let Some(RollingResistance { extent: Extent::Loaded { threshold } }) =
-            self.raceways.rolling_resistance
-        {
-            let path = "raceways.rolling_resistance.extent.loaded.threshold";
-            number(path, threshold, range(1e-6, 1e9, "N"))?;
+        match (&self.rollers, &self.kinematic_elements) {
+            (Some(_), None) | (None, Some(_)) => {}
+            (None, None) => return Err(bad("rollers", "missing; give these or 'kinematic_elements'")),
+            (Some(_), Some(_)) => {
+                return Err(bad("kinematic_elements", "not allowed beside 'rollers'; remove one of them"));
+            }
+        }
+        if let Some(ring) = &self.inner_ring {
+            self.validate_inner_ring(ring)?;
+        }
+        if let Some(rollers) = &self.rollers {
+            self.validate_rollers(rollers)?;
+        }
+        if let Some(elements) = &self.kinematic_elements {
+            self.validate_kinematic(elements)?;
         }
         if let Some(cage) = &self.cage {
             self.validate_cage(cage)?;
@@ -62,25 +67,19 @@ impl Scene {
         self.validate_run()
     }
 
-    fn validate_bodies(&self) -> Result<()> {
-        let r = &self.rollers;
-        if !(1..=MAX_ROLLERS).contains(&r.count) {
-            return Err(bad("rollers.count", format!("{} is not within 1 to {MAX_ROLLERS}", r.count)));
-        }
-        number("rollers.radius", r.radius, RADIUS)?;
-        number("rollers.effective_length", r.effective_length, WIDTH)?;
-        number("rollers.mass", r.mass, MASS)?;
-        let ring = r.mass * r.radius * r.radius;
-        number("rollers.inertia", r.inertia, range(0.2 * ring, 1.1 * ring, "kg m^2"))?;
-        self.material_exists("rollers.material", &r.material)?;
-        number("outer_ring.raceway_radius", self.outer_ring.raceway_radius, RADIUS)?;
-        self.material_exists("outer_ring.material", &self.outer_ring.material)?;
-        let inner = &self.inner_ring;
-        number("inner_ring.radial_clearance", inner.radial_clearance, ROLLER_CLEARANCE)?;
-        self.material_exists("inner_ring.material", &inner.material)?;
+    fn validate_inner_ring(&self, inner: &InnerRing) -> Result<()> {
         signal("inner_ring.speed", &inner.speed, SPEED)?;
+        if let Some(clearance) = inner.radial_clearance {
+            number("inner_ring.radial_clearance", clearance, ROLLER_CLEARANCE)?;
+        }
+        if let Some(material) = &inner.material {
+            self.material_exists("inner_ring.material", material)?;
+        }
         match &inner.motion {
             RingMotion::Fixed(position) => vector("inner_ring.motion.fixed", position, POSITION),
+            RingMotion::Free(_) if self.rollers.is_none() => {
+                Err(bad("inner_ring.motion", "a free ring needs 'rollers' to carry it; write 'fixed'"))
+            }
             RingMotion::Free(ring) => {
                 number("inner_ring.motion.free.mass", ring.mass, MASS)?;
                 let path = "inner_ring.motion.free.support_damping";
@@ -94,32 +93,92 @@ impl Scene {
         }
     }
 
-    fn validate_geometry(&self) -> Result<()> {
-        let (outer, radius) = (self.outer_ring.raceway_radius, self.rollers.radius);
-        let clearance = self.inner_ring.radial_clearance;
-        if clearance > 0.2 * radius {
-            let text = format!("{clearance:?} m is more than a fifth of the roller radius {radius:?} m");
+    fn validate_rollers(&self, r: &Rollers) -> Result<()> {
+        count("rollers.count", r.count)?;
+        number("rollers.radius", r.radius, RADIUS)?;
+        number("rollers.effective_length", r.effective_length, WIDTH)?;
+        number("rollers.mass", r.mass, MASS)?;
+        let ring = r.mass * r.radius * r.radius;
+        number("rollers.inertia", r.inertia, range(0.2 * ring, 1.1 * ring, "kg m^2"))?;
+        self.material_exists("rollers.material", &r.material)?;
+        let missing = |path: &str| bad(path, "missing; 'rollers' need it");
+        let outer = self.outer_ring.as_ref().ok_or_else(|| missing("outer_ring"))?;
+        number("outer_ring.raceway_radius", outer.raceway_radius, RADIUS)?;
+        self.material_exists("outer_ring.material", &outer.material)?;
+        let inner = self.inner_ring.as_ref().ok_or_else(|| missing("inner_ring"))?;
+        let clearance = inner.radial_clearance.ok_or_else(|| missing("inner_ring.radial_clearance"))?;
+        inner.material.as_ref().ok_or_else(|| missing("inner_ring.material"))?;
+        if clearance > 0.2 * r.radius {
+            let text = format!("{clearance:?} m is more than a fifth of the roller radius {:?} m", r.radius);
             return Err(bad("inner_ring.radial_clearance", text));
         }
-        let inner = outer - 2.0 * radius - clearance / 2.0;
-        if inner < 0.1 * radius {
+        let inner_radius = outer.raceway_radius - 2.0 * r.radius - clearance / 2.0;
+        if inner_radius < 0.1 * r.radius {
             let text = format!(
-                "{outer:?} m leaves no room for the inner ring (its raceway radius would be {inner:?} m)"
+                "{:?} m leaves no room for the inner ring (its raceway radius would be {inner_radius:?} m)",
+                outer.raceway_radius
             );
             return Err(bad("outer_ring.raceway_radius", text));
         }
-        if self.initial.inner_ring == RingStart::Equilibrium
-            && matches!(self.inner_ring.motion, RingMotion::Fixed(_))
-        {
+        if self.initial.inner_ring == RingStart::Equilibrium && matches!(inner.motion, RingMotion::Fixed(_)) {
             let text = "'equilibrium' needs a free inner ring; write 'centred' for a fixed one";
             return Err(bad("initial.inner_ring", text));
         }
-        self.neighbours_apart("rollers.count", radius, "rollers")
+        let raceways = self.raceways.as_ref().ok_or_else(|| missing("raceways"))?;
+        contact("raceways.contact", &raceways.contact)?;
+        if let Some(RollingResistance { extent: Extent::Loaded { threshold } }) = raceways.rolling_resistance
+        {
+            let path = "raceways.rolling_resistance.extent.loaded.threshold";
+            number(path, threshold, range(1e-6, 1e9, "N"))?;
+        }
+        self.neighbours_apart("rollers.count", r.radius, "rollers")
+    }
+
+    fn validate_kinematic(&self, elements: &KinematicElements) -> Result<()> {
+        count("kinematic_elements.count", elements.count)?;
+        number("kinematic_elements.radius", elements.radius, RADIUS)?;
+        number("kinematic_elements.pitch_radius", elements.pitch_radius, RADIUS)?;
+        optional("kinematic_elements.effective_length", elements.effective_length, WIDTH)?;
+        if let Some(material) = &elements.material {
+            self.material_exists("kinematic_elements.material", material)?;
+        }
+        match &elements.motion {
+            ElementMotion::Rolling { contact_angle } => {
+                let path = "kinematic_elements.motion.rolling.contact_angle";
+                number(path, *contact_angle, range(-1.5, 1.5, "rad"))?;
+                if self.inner_ring.is_none() {
+                    return Err(bad(
+                        "inner_ring",
+                        "missing; kinematic_elements.motion.rolling needs its speed",
+                    ));
+                }
+            }
+            ElementMotion::Prescribed { orbit_speed, spin_speed } => {
+                let path = "kinematic_elements.motion.prescribed";
+                signal(&format!("{path}.orbit_speed"), orbit_speed, SPEED)?;
+                signal(&format!("{path}.spin_speed"), spin_speed, SPEED)?;
+            }
+        }
+        for (path, present) in
+            [("outer_ring", self.outer_ring.is_some()), ("raceways", self.raceways.is_some())]
+        {
+            if present {
+                let text = "not allowed beside 'kinematic_elements', which touch no raceway; remove it";
+                return Err(bad(path, text));
+            }
+        }
+        if self.initial.inner_ring == RingStart::Equilibrium {
+            return Err(bad("initial.inner_ring", "'equilibrium' needs 'rollers'; write 'centred'"));
+        }
+        if self.cage.is_none() {
+            return Err(bad("cage", "missing; beside 'kinematic_elements' nothing else can move"));
+        }
+        self.neighbours_apart("kinematic_elements.count", elements.radius, "elements")
     }
 
     /// Distance between neighbouring centres must exceed twice `radius`.
-    fn neighbours_apart(&self, path: &str, radius: f64, what: &str) -> Result<()> {
-        let count = self.rollers.count;
+    pub(super) fn neighbours_apart(&self, path: &str, radius: f64, what: &str) -> Result<()> {
+        let count = self.element_count();
         let spacing = 2.0 * self.pitch_radius() * (PI / f64::from(count)).sin();
         if count > 1 && spacing <= 2.0 * radius {
             let text = format!(
@@ -131,99 +190,40 @@ impl Scene {
         Ok(())
     }
 
-    /// Mean of the raceway radii, m.
+    /// Number of rolling elements.
+    pub fn element_count(&self) -> u32 {
+        let kinematic = self.kinematic_elements.as_ref().map_or(0, |e| e.count);
+        self.rollers.as_ref().map_or(kinematic, |r| r.count)
+    }
+
+    /// Radius of a rolling element, m.
+    pub fn element_radius(&self) -> f64 {
+        let kinematic = self.kinematic_elements.as_ref().map_or(0.0, |e| e.radius);
+        self.rollers.as_ref().map_or(kinematic, |r| r.radius)
+    }
+
+    /// Radius of the pitch circle, m; for rollers the mean of the raceway radii.
     pub fn pitch_radius(&self) -> f64 {
-        self.outer_ring.raceway_radius - self.rollers.radius - self.inner_ring.radial_clearance / 4.0
-    }
-
-    fn validate_cage(&self, cage: &Cage) -> Result<()> {
-        number("cage.mass", cage.mass, MASS)?;
-        number("cage.inertia", cage.inertia, INERTIA)?;
-        let ring = cage.mass * self.pitch_radius().powi(2);
-        number("cage.inertia", cage.inertia, range(0.05 * ring, 5.0 * ring, "kg m^2"))?;
-        self.material_exists("cage.material", &cage.material)?;
-        vector("initial.cage", &self.initial.cage, POSITION)?;
-        if let Some(pocket) = &cage.pocket {
-            self.validate_pocket(pocket)?;
+        if let Some(elements) = &self.kinematic_elements {
+            return elements.pitch_radius;
         }
-        if let Some(Guide::ShortBearing(guide)) = &cage.guide {
-            self.validate_short_bearing("cage.guide.short_bearing", guide)?;
-        }
-        Ok(())
-    }
-
-    fn validate_pocket(&self, pocket: &Pocket) -> Result<()> {
-        number("cage.pocket.radial_clearance", pocket.radial_clearance, POCKET_CLEARANCE)?;
-        number("cage.pocket.half_angle", pocket.half_angle, range(1e-3, FRAC_PI_2 - 1e-3, "rad"))?;
-        number("cage.pocket.edge_blend", pocket.edge_blend, range(0.0, pocket.half_angle, "rad"))?;
-        if let Some(friction) = &pocket.edge_friction {
-            let path = "cage.pocket.edge_friction";
-            number(&format!("{path}.coefficient"), friction.coefficient, COEFFICIENT)?;
-            number(&format!("{path}.transition_speed"), friction.transition_speed, TRANSITION_SPEED)?;
-        }
-        contact("cage.pocket.contact", &pocket.contact)?;
-        let radius = self.rollers.radius + pocket.radial_clearance;
-        // Rollers start beside each other in their pockets; radially, the edges must not reach into them.
-        let edge = radius * pocket.half_angle.sin();
-        let discriminant = edge * edge - (radius * radius - self.rollers.radius * self.rollers.radius);
-        let start = self.initial.cage.y.hypot(self.initial.cage.z);
-        if discriminant > 0.0 && start > edge - discriminant.sqrt() {
-            let text = format!(
-                "the centre {start:?} m off pushes pocket edges into rollers; at most {:e} m",
-                edge - discriminant.sqrt()
-            );
-            return Err(bad("initial.cage", text));
-        }
-        self.neighbours_apart("cage.pocket.radial_clearance", radius, "pockets")
-    }
-
-    fn validate_short_bearing(&self, path: &str, guide: &ShortBearingGuide) -> Result<()> {
-        let at = |field: &str| format!("{path}.{field}");
-        let outer = self.outer_ring.raceway_radius;
-        number(&at("guide_radius"), guide.guide_radius, range(0.5 * outer, 1.5 * outer, "m"))?;
-        number(&at("diametral_clearance"), guide.diametral_clearance, GUIDE_CLEARANCE)?;
-        if guide.diametral_clearance > 0.1 * guide.guide_radius {
-            let text = format!(
-                "{:?} m is more than a tenth of the guide radius {:?} m; the short bearing needs a thin film",
-                guide.diametral_clearance, guide.guide_radius
-            );
-            return Err(bad(&at("diametral_clearance"), text));
-        }
-        number(&at("land_width"), guide.land_width, WIDTH)?;
-        if guide.roundness.len() > MAX_HARMONICS {
-            let text = format!("{} harmonics, at most {MAX_HARMONICS}", guide.roundness.len());
-            return Err(bad(&at("roundness"), text));
-        }
-        let clearance = guide.diametral_clearance / 2.0;
-        for (i, a) in guide.roundness.iter().enumerate() {
-            let at = |field: &str| format!("{path}.roundness.{i}.{field}");
-            if !(2..=MAX_ORDER).contains(&a.order) {
-                let text = format!("{} is not within 2 to {MAX_ORDER} (order 1 is eccentricity)", a.order);
-                return Err(bad(&at("order"), text));
-            }
-            number(&at("amplitude"), a.amplitude, range(-clearance, clearance, "m"))?;
-            number(&at("phase"), a.phase, ANGLE)?;
-        }
-        let roundness: f64 = guide.roundness.iter().map(|a| a.amplitude.abs()).sum();
-        if roundness >= clearance {
-            let text = format!(
-                "the amplitudes add up to {roundness:?} m and close the radial clearance {clearance:?} m"
-            );
-            return Err(bad(&at("roundness"), text));
-        }
-        let start = self.initial.cage.y.hypot(self.initial.cage.z);
-        if start >= clearance - roundness {
-            let text = format!(
-                "the centre {start:?} m off leaves no film in the radial guide clearance of {clearance:?} m"
-            );
-            return Err(bad("initial.cage", text));
-        }
-        Ok(())
+        let outer = self.outer_ring.as_ref().map_or(0.0, |r| r.raceway_radius);
+        let clearance = self.inner_ring.as_ref().and_then(|r| r.radial_clearance).unwrap_or(0.0);
+        outer - self.element_radius() - clearance / 4.0
     }
 
     fn validate_run(&self) -> Result<()> {
-        if self.cage.is_none() && self.initial.cage != PlaneVector::default() {
-            return Err(bad("initial.cage", "there is no cage to place"));
+        if self.cage.is_none() {
+            let start = &self.initial;
+            for (field, given) in [
+                ("cage", start.cage != PlaneVector::default()),
+                ("cage_velocity", start.cage_velocity != PlaneVector::default()),
+                ("cage_speed", start.cage_speed.is_some()),
+            ] {
+                if given {
+                    return Err(bad(&format!("initial.{field}"), "there is no cage to place"));
+                }
+            }
         }
         number("initial.first_roller_angle", self.initial.first_roller_angle, ANGLE)?;
         number("solver.min_step", self.solver.min_step, range(1e-18, 1e-6, "s"))?;
@@ -250,7 +250,7 @@ impl Scene {
         Ok(())
     }
 
-    fn material_exists(&self, path: &str, name: &str) -> Result<()> {
+    pub(super) fn material_exists(&self, path: &str, name: &str) -> Result<()> {
         if self.materials.contains_key(name) {
             return Ok(());
         }
@@ -274,7 +274,10 @@ impl Material {
 
 impl Lubricant {
     fn validate(&self) -> Result<()> {
-        number("lubricant.viscosity", self.viscosity, range(1e-5, 1e3, "Pa s"))?;
+        match &self.viscosity {
+            Viscosity::Constant(value) => number("lubricant.viscosity.constant", *value, VISCOSITY)?,
+            Viscosity::Walther(walther) => walther.validate()?,
+        }
         for (name, value, allowed) in [
             ("pressure_viscosity", self.pressure_viscosity, range(1e-10, 1e-6, "1/Pa")),
             ("temperature_viscosity", self.temperature_viscosity, range(1e-4, 1.0, "1/K")),
@@ -288,12 +291,53 @@ impl Lubricant {
     }
 }
 
-fn vector(path: &str, v: &PlaneVector, allowed: Range) -> Result<()> {
+impl WaltherViscosity {
+    fn validate(&self) -> Result<()> {
+        let at = |field: &str| format!("lubricant.viscosity.walther.{field}");
+        for (name, point) in [("cold", &self.cold), ("hot", &self.hot)] {
+            number(&at(&format!("{name}.temperature")), point.temperature, TEMPERATURE)?;
+            // Walther's equation has log10(nu + 0.7), which must be positive.
+            let allowed = range(0.4e-6, 1.0, "m^2/s");
+            number(&at(&format!("{name}.kinematic_viscosity")), point.kinematic_viscosity, allowed)?;
+        }
+        let (cold, hot) = (&self.cold, &self.hot);
+        if hot.temperature <= cold.temperature || hot.kinematic_viscosity >= cold.kinematic_viscosity {
+            let text = format!(
+                "({:?} K, {:?} m^2/s) must be hotter and thinner than the cold point ({:?} K, {:?} m^2/s)",
+                hot.temperature, hot.kinematic_viscosity, cold.temperature, cold.kinematic_viscosity
+            );
+            return Err(bad(&at("hot"), text));
+        }
+        number(&at("density"), self.density, range(100.0, 2e4, "kg/m^3"))?;
+        match &self.temperature {
+            Temperature::OverTime(time) => signal(&at("temperature.over_time"), time, TEMPERATURE),
+            Temperature::OverSpeed { speed, temperature } => {
+                let path = at("temperature.over_speed");
+                table(
+                    &path,
+                    ("speed", speed, range(0.0, 1e5, "rad/s")),
+                    ("temperature", temperature, TEMPERATURE),
+                )
+            }
+        }
+    }
+}
+
+/// Checks both components of a vector.
+pub(super) fn vector(path: &str, v: &PlaneVector, allowed: Range) -> Result<()> {
     number(&format!("{path}.y"), v.y, allowed)?;
     number(&format!("{path}.z"), v.z, allowed)
 }
 
-fn contact(path: &str, laws: &ContactLaws) -> Result<()> {
+fn count(path: &str, n: u32) -> Result<()> {
+    if (1..=MAX_ELEMENTS).contains(&n) {
+        return Ok(());
+    }
+    Err(bad(path, format!("{n} is not within 1 to {MAX_ELEMENTS}")))
+}
+
+/// Checks the optional laws of a line contact.
+pub(super) fn contact(path: &str, laws: &ContactLaws) -> Result<()> {
     let at = |field: &str| format!("{path}.{field}");
     if let Some(d) = &laws.damping {
         number(&at("damping.relaxation_time"), d.relaxation_time, range(1e-12, 1e-3, "s"))?;
@@ -320,7 +364,8 @@ fn contact(path: &str, laws: &ContactLaws) -> Result<()> {
     Ok(())
 }
 
-fn signal(path: &str, s: &Signal, allowed: Range) -> Result<()> {
+/// Checks a function of time whose values must lie in `allowed`.
+pub(super) fn signal(path: &str, s: &Signal, allowed: Range) -> Result<()> {
     let at = |field: &str| format!("{path}.{field}");
     match s {
         Signal::Constant(value) => number(&at("constant"), *value, allowed),
@@ -345,24 +390,28 @@ fn signal(path: &str, s: &Signal, allowed: Range) -> Result<()> {
             number(&at("sine.frequency"), *frequency, range(0.0, 1e6, "Hz"))?;
             number(&at("sine.phase"), *phase, ANGLE)
         }
-        Signal::Table { time, value } => {
-            if time.is_empty() || time.len() > MAX_POINTS {
-                let text = format!("{} points, 1 to {MAX_POINTS} are allowed", time.len());
-                return Err(bad(&at("table.time"), text));
-            }
-            if time.len() != value.len() {
-                let text = format!("{} values for {} times", value.len(), time.len());
-                return Err(bad(&at("table.value"), text));
-            }
-            for (i, (t, v)) in time.iter().zip(value).enumerate() {
-                number(&at(&format!("table.time.{i}")), *t, TIME)?;
-                number(&at(&format!("table.value.{i}")), *v, allowed)?;
-                if i > 0 && *t <= time[i - 1] {
-                    let text = format!("{t:?} s is not after {:?} s", time[i - 1]);
-                    return Err(bad(&at(&format!("table.time.{i}")), text));
-                }
-            }
-            Ok(())
+        Signal::Table { time, value } => table(&at("table"), ("time", time, TIME), ("value", value, allowed)),
+    }
+}
+
+/// Checks two lists, each given with its name and range: equally long, the first in strictly growing order.
+fn table(path: &str, x: (&str, &[f64], Range), y: (&str, &[f64], Range)) -> Result<()> {
+    let at = |field: &str| format!("{path}.{field}");
+    if x.1.is_empty() || x.1.len() > MAX_POINTS {
+        return Err(bad(&at(x.0), format!("{} points, 1 to {MAX_POINTS} are allowed", x.1.len())));
+    }
+    if x.1.len() != y.1.len() {
+        return Err(bad(&at(y.0), format!("{} values for {} points", y.1.len(), x.1.len())));
+    }
+    for (i, (a, b)) in x.1.iter().zip(y.1).enumerate() {
+        number(&at(&format!("{}.{i}", x.0)), *a, x.2)?;
+        number(&at(&format!("{}.{i}", y.0)), *b, y.2)?;
+        if let Some(before) = i.checked_sub(1).map(|i| x.1[i])
+            && *a <= before
+        {
+            let text = format!("{a:?} {unit} is not after {before:?} {unit}", unit = x.2.unit);
+            return Err(bad(&at(&format!("{}.{i}", x.0)), text));
         }
     }
+    Ok(())
 }

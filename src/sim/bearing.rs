@@ -1,7 +1,7 @@
 //! The model as the integrator sees it: with its workspace, inputs and counts.
 
 use crate::integrate::{DampingBlock, System};
-use crate::model::{Channel, Fault, Forces, HostInputs, Model, Workspace};
+use crate::model::{Channel, Fault, Forces, HostInputs, Input, LawCounts, Model, Workspace};
 use std::sync::Arc;
 
 pub(super) struct Bearing {
@@ -9,12 +9,20 @@ pub(super) struct Bearing {
     workspace: Workspace,
     host: HostInputs,
     evaluations: u64,
+    /// Evaluations per law.
+    law_counts: LawCounts,
 }
 
 impl Bearing {
     pub(super) fn new(model: Arc<Model>) -> Self {
         let workspace = Workspace::new(&model);
-        Self { model, workspace, host: HostInputs::default(), evaluations: 0 }
+        Self {
+            model,
+            workspace,
+            host: HostInputs::default(),
+            evaluations: 0,
+            law_counts: LawCounts::default(),
+        }
     }
 
     pub(super) fn model(&self) -> &Arc<Model> {
@@ -29,24 +37,34 @@ impl Bearing {
         &mut self.host
     }
 
+    /// Sets or releases an input at time `t` in s.
+    pub(super) fn set_input(&mut self, t: f64, input: Input, value: Option<f64>) {
+        self.model.set_input(&mut self.host, t, input, value);
+    }
+
     pub(super) fn evaluations(&self) -> u64 {
         self.evaluations
     }
 
-    pub(super) fn set_evaluations(&mut self, evaluations: u64) {
+    pub(super) fn law_counts(&self) -> &LawCounts {
+        &self.law_counts
+    }
+
+    pub(super) fn set_counts(&mut self, evaluations: u64, law_counts: LawCounts) {
         self.evaluations = evaluations;
+        self.law_counts = law_counts;
     }
 
     pub(super) fn reset(&mut self) {
         self.host = HostInputs::default();
-        self.evaluations = 0;
+        self.set_counts(0, LawCounts::default());
     }
 
     /// Accelerations of a state vector; not counted as an evaluation of the integration.
     pub(super) fn accelerations_at(&mut self, t: f64, state: &[f64], a: &mut [f64]) -> Result<(), Fault> {
         let (q, v) = state.split_at(self.model.layout().positions());
         let inputs = self.model.inputs_at(t, &self.host);
-        self.model.accelerations(inputs, q, v, &mut self.workspace, a)
+        self.model.accelerations(&inputs, q, v, &mut self.workspace, a)
     }
 
     pub(super) fn report(&self, state: &[f64], a: &[f64], out: &mut Forces) {
@@ -74,7 +92,11 @@ impl System for Bearing {
     fn accelerations(&mut self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> Result<(), Fault> {
         self.evaluations += 1;
         let inputs = self.model.inputs_at(t, &self.host);
-        self.model.accelerations(inputs, q, v, &mut self.workspace, a)
+        let result = self.model.accelerations(&inputs, q, v, &mut self.workspace, a);
+        for (sum, n) in self.law_counts.iter_mut().zip(self.workspace.law_counts()) {
+            *sum += n;
+        }
+        result
     }
 
     fn not_finite(&self, velocity: usize) -> Fault {
@@ -103,18 +125,19 @@ impl System for Bearing {
         }
     }
 
-    fn damping(&self, h: f64, blocks: &mut [DampingBlock]) {
+    fn damping(&self, h: f64, q: &[f64], v: &[f64], blocks: &mut [DampingBlock]) {
         let layout = self.model.layout();
         let (rollers, others) = blocks.split_at_mut(layout.count);
         self.model.roller_damping(&self.workspace, rollers);
+        let cage = self.model.cage_damping(q, v, &self.workspace, h);
         let mut others = others.iter_mut();
         if layout.ring.is_some()
             && let Some(ring) = others.next()
         {
-            *ring = self.model.ring_damping(h);
+            *ring = self.model.ring_damping(&cage, h);
         }
-        if let Some(cage) = others.next() {
-            *cage = self.model.cage_damping(&self.workspace, h);
+        if let Some(block) = others.next() {
+            *block = cage;
         }
     }
 }

@@ -8,7 +8,7 @@ pub use recording::{Recording, Spread};
 
 use crate::error::{Error, Result, Status};
 use crate::integrate::{DormandPrince, Driver, Failure, Leapfrog, Limits, Statistics, Stepper};
-use crate::model::{Channel, Fault, Forces, Model};
+use crate::model::{Channel, Fault, Forces, Input, LawCounts, Model};
 use crate::scene::Method;
 use bearing::Bearing;
 use std::sync::Arc;
@@ -30,6 +30,8 @@ pub struct RunStatistics {
     pub driver: Statistics,
     /// Force evaluations of the integration.
     pub evaluations: u64,
+    /// Evaluations of each law in them, in the order of [`crate::model::LAWS`].
+    pub laws: LawCounts,
 }
 
 /// A simulation of one model.
@@ -191,9 +193,8 @@ impl Sim {
     /// # Errors
     /// [`Status::BadIndex`].
     pub fn input(&self, index: usize) -> Result<f64> {
-        self.check_input(index)?;
-        let values = self.model().inputs_at(self.time, self.bearing.host());
-        Ok([values.ring_speed, values.load[0], values.load[1]][index])
+        let input = self.check_input(index)?;
+        Ok(self.model().inputs_at(self.time, self.bearing.host()).of(input))
     }
 
     /// Holds input `index` at `value` from now on, instead of the scene's function of time.
@@ -201,11 +202,11 @@ impl Sim {
     /// # Errors
     /// [`Status::BadIndex`]; [`Status::BadValue`] if the value is not finite.
     pub fn set_input(&mut self, index: usize, value: f64) -> Result<()> {
-        self.check_input(index)?;
+        let input = self.check_input(index)?;
         if !value.is_finite() {
             return Err(Error::new(Status::BadValue, format!("value: {value} is not a finite number")));
         }
-        self.bearing.host_mut()[index] = Some(value);
+        self.bearing.set_input(self.time, input, Some(value));
         self.restart();
         Ok(())
     }
@@ -215,8 +216,8 @@ impl Sim {
     /// # Errors
     /// [`Status::BadIndex`].
     pub fn release_input(&mut self, index: usize) -> Result<()> {
-        self.check_input(index)?;
-        self.bearing.host_mut()[index] = None;
+        let input = self.check_input(index)?;
+        self.bearing.set_input(self.time, input, None);
         self.restart();
         Ok(())
     }
@@ -259,7 +260,11 @@ impl Sim {
 
     /// Counts since creation or reset; a restored simulation goes on from the saved counts.
     pub fn statistics(&self) -> RunStatistics {
-        RunStatistics { driver: *self.driver.statistics(), evaluations: self.bearing.evaluations() }
+        RunStatistics {
+            driver: *self.driver.statistics(),
+            evaluations: self.bearing.evaluations(),
+            laws: *self.bearing.law_counts(),
+        }
     }
 
     fn restart(&mut self) {
@@ -267,9 +272,9 @@ impl Sim {
         self.forces_current = false;
     }
 
-    fn check_input(&self, index: usize) -> Result<()> {
-        let count = self.model().input_count();
-        if index < count { Ok(()) } else { Err(bad_index("input", index, count)) }
+    fn check_input(&self, index: usize) -> Result<Input> {
+        let mut list = self.model().input_list();
+        list.nth(index).ok_or_else(|| bad_index("input", index, self.model().input_count()))
     }
 
     fn check_state(&self, state: &[f64]) -> Result<()> {

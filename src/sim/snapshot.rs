@@ -3,11 +3,11 @@
 use super::Sim;
 use crate::error::{Error, Result, Status};
 use crate::integrate::Reader;
-use crate::model::{HostInputs, INPUTS, Model};
+use crate::model::{HostInputs, LawCounts, Model};
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// First number of a snapshot; changes when its content changes.
-const FORMAT: f64 = 1.0;
+const FORMAT: f64 = 2.0;
 
 impl Sim {
     /// Everything the future of this simulation depends on, for the same model in the same build of the library.
@@ -15,9 +15,12 @@ impl Sim {
         let mut out = vec![FORMAT];
         out.extend(self.fingerprint);
         out.extend([self.time, self.bearing.evaluations() as f64]);
-        for input in self.bearing.host() {
+        out.extend(self.bearing.law_counts().iter().map(|n| *n as f64));
+        let host = self.bearing.host();
+        for input in host.values {
             out.extend([f64::from(u8::from(input.is_some())), input.unwrap_or(0.0)]);
         }
+        out.extend(host.anchor);
         out.extend_from_slice(&self.state);
         self.driver.save(&mut out);
         out
@@ -57,11 +60,16 @@ impl Sim {
         let mut from = Reader::new(snapshot.get(1 + self.fingerprint.len()..)?);
         let time = from.number().filter(|t| *t >= 0.0)?;
         let evaluations = from.count()?;
-        let mut host: HostInputs = [None; INPUTS];
-        for input in &mut host {
+        let mut law_counts = LawCounts::default();
+        for count in &mut law_counts {
+            *count = from.count()?;
+        }
+        let mut host = HostInputs::default();
+        for input in &mut host.values {
             let (set, value) = (from.flag()?, from.number()?);
             *input = set.then_some(value);
         }
+        from.fill(&mut host.anchor)?;
         let mut state = vec![0.0; self.state.len()];
         from.fill(&mut state)?;
         self.driver.load(&mut from)?;
@@ -73,7 +81,7 @@ impl Sim {
         }
         self.time = time;
         *self.bearing.host_mut() = host;
-        self.bearing.set_evaluations(evaluations);
+        self.bearing.set_counts(evaluations, law_counts);
         self.forces_current = false;
         Some(())
     }

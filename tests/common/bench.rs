@@ -2,6 +2,7 @@
 
 use super::{Random, example, example_with, with};
 use cagedyn::model::Forces;
+use cagedyn::scene::Pocket;
 use cagedyn::{Model, Scene, Sim};
 use serde_json::{Value, json};
 use std::f64::consts::{PI, TAU};
@@ -23,14 +24,17 @@ impl Bearing {
     pub fn new(scene: Value) -> Self {
         let checked = Scene::from_value(scene.clone()).unwrap_or_else(|e| panic!("{e}"));
         let sim = Sim::new(Arc::new(Model::new(checked.clone()).unwrap())).unwrap_or_else(|e| panic!("{e}"));
-        let pocket = checked.cage.as_ref().and_then(|c| c.pocket.as_ref());
+        let pocket = checked.cage.as_ref().and_then(|c| match c.pocket.as_ref()? {
+            Pocket::LubricatedCylinder(pocket) => Some([pocket.radial_clearance, pocket.half_angle]),
+            Pocket::SolidPlane(_) => None,
+        });
         Self {
             pitch: sim.model().pitch_radius(),
             guide: sim.model().guide_clearance().unwrap_or(0.0),
-            roller_radius: checked.rollers.radius,
-            gap: checked.inner_ring.radial_clearance / 4.0,
+            roller_radius: checked.element_radius(),
+            gap: checked.inner_ring.as_ref().and_then(|ring| ring.radial_clearance).unwrap() / 4.0,
             first_angle: checked.initial.first_roller_angle,
-            pocket: pocket.map_or([1.0, 1.0], |p| [p.radial_clearance, p.half_angle]),
+            pocket: pocket.unwrap_or([1.0, 1.0]),
             scene,
             sim,
         }
@@ -117,20 +121,14 @@ impl State {
     /// Everything at rest relative to kinematic motion, rollers on the pitch circle in the centres of their pockets.
     pub fn kinematic(b: &Bearing) -> Self {
         let model = b.sim.model();
-        let speed = model.inputs_at(0.0, &Default::default()).ring_speed;
+        let [orbit, spin] = model.kinematic_speeds(&model.inputs_at(0.0, &Default::default()));
         let n = b.count();
-        let roller = |_| Roller {
-            offset: 0.0,
-            travel: 0.0,
-            radial_speed: 0.0,
-            orbit_speed: model.orbit_ratio() * speed,
-            spin: model.spin_ratio() * speed,
-        };
+        let roller = |_| Roller { offset: 0.0, travel: 0.0, radial_speed: 0.0, orbit_speed: orbit, spin };
         Self {
             ring: [0.0; 2],
             ring_velocity: [0.0; 2],
             cage: [0.0; 3],
-            cage_velocity: [0.0, 0.0, model.orbit_ratio() * speed],
+            cage_velocity: [0.0, 0.0, orbit],
             rollers: (0..n).map(roller).collect(),
         }
     }
@@ -211,23 +209,23 @@ pub fn scenes() -> Vec<(&'static str, Value)> {
         (
             "tight cage",
             example_with(&[
-                ("cage.pocket.radial_clearance", json!(40e-6)),
-                ("cage.pocket.half_angle", json!(0.6)),
-                ("cage.pocket.edge_blend", json!(0.05)),
-                ("cage.guide.short_bearing.diametral_clearance", json!(152e-6)),
+                ("cage.pocket.lubricated_cylinder.radial_clearance", json!(40e-6)),
+                ("cage.pocket.lubricated_cylinder.half_angle", json!(0.6)),
+                ("cage.pocket.lubricated_cylinder.edge_blend", json!(0.05)),
+                ("cage.guide.diametral_clearance", json!(152e-6)),
                 ("inner_ring.radial_clearance", json!(20e-6)),
             ]),
         ),
         (
             "other options",
             example_with(&[
-                ("cage.guide.short_bearing.roundness", roundness),
-                ("cage.guide.short_bearing.squeeze", json!(false)),
+                ("cage.guide.roundness", roundness),
+                ("cage.guide.film.short_bearing.squeeze", json!(false)),
                 ("raceways.contact.thermal_correction", json!("gupta")),
                 ("raceways.contact.damping", Value::Null),
                 ("raceways.rolling_resistance.extent", json!({"loaded": {"threshold": 50.0}})),
-                ("cage.pocket.contact.self_heating", Value::Null),
-                ("cage.pocket.edge_blend", json!(0.0)),
+                ("cage.pocket.lubricated_cylinder.contact.self_heating", Value::Null),
+                ("cage.pocket.lubricated_cylinder.edge_blend", json!(0.0)),
                 ("rollers.count", json!(13)),
                 ("initial", json!({"first_roller_angle": 0.37})),
                 ("inner_ring.speed.constant", json!(900.0)),
@@ -239,10 +237,10 @@ pub fn scenes() -> Vec<(&'static str, Value)> {
             "rough and slow",
             example_with(&[
                 ("raceways.contact.boundary_friction.roughness", json!(2e-6)),
-                ("cage.pocket.contact.boundary_friction.roughness", json!(5e-6)),
+                ("cage.pocket.lubricated_cylinder.contact.boundary_friction.roughness", json!(5e-6)),
                 ("inner_ring.speed.constant", json!(-12.0)),
-                ("cage.pocket.radial_clearance", json!(60e-6)),
-                ("cage.guide.short_bearing.diametral_clearance", json!(240e-6)),
+                ("cage.pocket.lubricated_cylinder.radial_clearance", json!(60e-6)),
+                ("cage.guide.diametral_clearance", json!(240e-6)),
                 ("inner_ring.radial_clearance", json!(-4e-6)),
             ]),
         ),

@@ -6,6 +6,7 @@ use crate::summary::Summary;
 use crate::table::{self, Align, rounded};
 use crate::terminal::{self, INTERRUPTED};
 use crate::{CasesArgs, output};
+use cagedyn::model::{HostInputs, Input};
 use cagedyn::scene::{Case, CaseSet};
 use cagedyn::{Result, Scene};
 use serde_json::Value;
@@ -108,7 +109,7 @@ fn run_case<'a>(
 }
 
 fn speed_at_end(run: &Run) -> f64 {
-    run.model.inputs_at(run.time, &[None; 3]).ring_speed.abs() * 60.0 / TAU
+    run.model.inputs_at(run.time, &HostInputs::default()).of(Input::RingSpeed).abs() * 60.0 / TAU
 }
 
 fn report(args: &CasesArgs, case: &Case, e: &cagedyn::Error) {

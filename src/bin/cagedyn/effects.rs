@@ -1,7 +1,9 @@
 //! The optional physical effects of a scene: which it has, what each adds, which are absent.
 
 use cagedyn::Scene;
-use cagedyn::scene::{ContactLaws, Extent, Guide, RingMotion};
+use cagedyn::scene::{
+    ContactLaws, Extent, Guide, GuideFilm, GuideRing, Pocket, RingMotion, SolidContact, Viscosity,
+};
 
 /// An optional block of a scene.
 pub struct Effect {
@@ -19,14 +21,17 @@ pub fn effects(scene: &Scene) -> Vec<Effect> {
         scene.gravity.as_ref().map(|g| format!("weight of all bodies, ({}, {}) m/s^2", g.y, g.z)),
     );
     ring(scene, &mut list);
-    contact(&scene.raceways.contact, "raceways.contact", &mut list);
-    let resistance = scene.raceways.rolling_resistance.as_ref().map(|r| match r.extent {
-        Extent::All => "law: rolling resistance of the film in all raceway contacts".to_owned(),
-        Extent::Loaded { threshold } => {
-            format!("law: rolling resistance of the film in raceway contacts above {threshold} N")
-        }
-    });
-    list.add("raceways.rolling_resistance", resistance);
+    if let Some(raceways) = &scene.raceways {
+        contact(&raceways.contact, "raceways.contact", &mut list);
+        let resistance = raceways.rolling_resistance.as_ref().map(|r| match r.extent {
+            Extent::All => "law: rolling resistance of the film in all raceway contacts".to_owned(),
+            Extent::Loaded { threshold } => {
+                format!("law: rolling resistance of the film in raceway contacts above {threshold} N")
+            }
+        });
+        list.add("raceways.rolling_resistance", resistance);
+    }
+    lubricant(scene, &mut list);
     cage(scene, &mut list);
     list.0
 }
@@ -44,7 +49,10 @@ impl List {
 }
 
 fn ring(scene: &Scene, list: &mut List) {
-    let RingMotion::Free(ring) = &scene.inner_ring.motion else {
+    if scene.rollers.is_none() {
+        return;
+    }
+    let Some(RingMotion::Free(ring)) = scene.inner_ring.as_ref().map(|ring| &ring.motion) else {
         list.add("inner_ring.motion.free", None);
         return;
     };
@@ -81,30 +89,87 @@ fn cage(scene: &Scene, list: &mut List) {
         return;
     };
     list.add("cage", Some(format!("6 states: cage of {} kg moves and turns in the plane", cage.mass)));
-    match &cage.pocket {
+    let offset = cage.mass_eccentricity.map(|u| format!("inertia: centre of mass ({}, {}) m off", u.y, u.z));
+    list.add("cage.mass_eccentricity", offset);
+    list.flag("cage.load", cage.load.is_some(), "inputs: external force and torque on the cage");
+    pocket(cage.pocket.as_ref(), list);
+    guide(cage.guide.as_ref(), list);
+}
+
+fn lubricant(scene: &Scene, list: &mut List) {
+    if let Some(lubricant) = &scene.lubricant {
+        let heated = matches!(lubricant.viscosity, Viscosity::Walther(_));
+        list.flag("lubricant.viscosity.walther", heated, "law: viscosity follows the temperature");
+    }
+}
+
+fn pocket(pocket: Option<&Pocket>, list: &mut List) {
+    match pocket {
         None => list.add("cage.pocket", None),
-        Some(pocket) => {
+        Some(Pocket::LubricatedCylinder(pocket)) => {
+            let path = "cage.pocket.lubricated_cylinder";
             let clearance = 1e3 * pocket.radial_clearance;
-            let text = format!("2 contacts per roller, front and back; clearance {clearance} mm");
-            list.add("cage.pocket", Some(text));
+            let text =
+                format!("2 line contacts per element, front and back; radial clearance {clearance} mm");
+            list.add(path, Some(text));
             let friction = pocket.edge_friction.as_ref();
             let text = |mu: f64| format!("law: friction at the pocket edges, coefficient {mu}");
-            list.add("cage.pocket.edge_friction", friction.map(|f| text(f.coefficient)));
-            contact(&pocket.contact, "cage.pocket.contact", list);
+            list.add(format!("{path}.edge_friction"), friction.map(|f| text(f.coefficient)));
+            contact(&pocket.contact, &format!("{path}.contact"), list);
+        }
+        Some(Pocket::SolidPlane(pocket)) => {
+            let path = "cage.pocket.solid_plane";
+            let clearance = 1e3 * pocket.diametral_clearance;
+            let text = format!("2 solid contacts per element, front and back; clearance {clearance} mm");
+            list.add(path, Some(text));
+            solid(&pocket.contact, &format!("{path}.contact"), list);
         }
     }
-    let Some(Guide::ShortBearing(guide)) = &cage.guide else {
-        list.add("cage.guide.short_bearing", None);
+}
+
+fn solid(contact: &SolidContact, path: &str, list: &mut List) {
+    let damping = contact.damping;
+    let adds = (damping > 0.0).then(|| format!("law: damper of {damping} N s/m"));
+    list.add(format!("{path}.damping"), adds);
+    let friction = contact.friction.as_ref();
+    let text = |mu: f64| format!("law: solid friction, coefficient {mu}");
+    list.add(format!("{path}.friction"), friction.map(|f| text(f.coefficient)));
+}
+
+fn guide(guide: Option<&Guide>, list: &mut List) {
+    let Some(guide) = guide else {
+        list.add("cage.guide", None);
         return;
     };
-    let text = "force and moment: oil film of two lands between cage and outer ring";
-    list.flag("cage.guide.short_bearing", true, text);
-    list.flag(
-        "cage.guide.short_bearing.squeeze",
-        guide.squeeze,
-        "law: film squeezed by the motion of the cage",
-    );
+    let ring = match guide.ring {
+        GuideRing::OuterRing => "outer ring",
+        GuideRing::InnerRing => "inner ring",
+    };
+    match &guide.film {
+        None => list.add("cage.guide.film", None),
+        Some(GuideFilm::ShortBearing(film)) => {
+            let text = format!("force and moment: oil film of two lands between cage and {ring}");
+            list.add("cage.guide.film.short_bearing", Some(text));
+            let text = "law: film squeezed by the motion of the cage";
+            list.flag("cage.guide.film.short_bearing.squeeze", film.squeeze, text);
+        }
+        Some(GuideFilm::LubricantLayer(film)) => {
+            let thickness = 1e6 * film.thickness;
+            let text = format!("force and moment: layer of {thickness} um between cage and {ring}");
+            list.add("cage.guide.film.lubricant_layer", Some(text));
+            let text = "law: shear force of the pressure jump at the ends of the wet arc";
+            list.flag("cage.guide.film.lubricant_layer.edge_shear", film.edge_shear, text);
+        }
+    }
+    match &guide.solid {
+        None => list.add("cage.guide.solid", None),
+        Some(law) => {
+            let text = format!("force and moment: solid contact between cage and {ring}");
+            list.add("cage.guide.solid", Some(text));
+            solid(&law.contact, "cage.guide.solid.contact", list);
+        }
+    }
     let orders: Vec<String> = guide.roundness.iter().map(|h| h.order.to_string()).collect();
     let roundness = (!orders.is_empty()).then(|| format!("shape: cage with harmonics {}", orders.join(", ")));
-    list.add("cage.guide.short_bearing.roundness", roundness);
+    list.add("cage.guide.roundness", roundness);
 }

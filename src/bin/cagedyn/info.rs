@@ -4,7 +4,8 @@ use crate::effects::effects;
 use crate::run::{in_file, read, stem};
 use crate::table::{self, Align, number};
 use crate::{InfoArgs, terminal};
-use cagedyn::scene::{Method, RingMotion};
+use cagedyn::model::{HostInputs, Input};
+use cagedyn::scene::{ElementMotion, Method, RingMotion};
 use cagedyn::{Model, Result, Scene, Sim};
 use std::f64::consts::TAU;
 use std::process::ExitCode;
@@ -22,9 +23,10 @@ pub fn command(args: &InfoArgs) -> Result<ExitCode> {
     section(&mut text, "Bodies and states", bodies(&model));
     let (present, absent): (Vec<_>, Vec<_>) =
         effects(model.scene()).into_iter().partition(|e| e.adds.is_some());
-    let mut active = vec![row("roller and raceway contacts", contacts(&model))];
+    let mut active = vec![elements(&model)];
     active.extend(present.into_iter().map(|e| row(&e.path, e.adds.unwrap_or_default())));
     section(&mut text, "Active effects and what they add", active);
+    section(&mut text, "Laws in use, and the most contacts each can act in", laws(&model));
     section(&mut text, "Absent effects", absent.into_iter().map(|e| vec![e.path]).collect());
     section(&mut text, "Inputs", inputs(&model));
     section(&mut text, "Output channels", channels(&model));
@@ -50,16 +52,21 @@ fn row(name: &str, value: impl Into<String>) -> Vec<String> {
 
 fn bodies(model: &Model) -> Vec<Vec<String>> {
     let layout = model.layout();
-    let ring = match &model.scene().inner_ring.motion {
-        RingMotion::Fixed(at) => format!("held at ({}, {}) m, turns at its given speed", at.y, at.z),
-        RingMotion::Free(_) => "moves in the plane, turns at its given speed".to_owned(),
+    let ring = match model.scene().inner_ring.as_ref().map(|ring| &ring.motion) {
+        None => "does not turn".to_owned(),
+        Some(RingMotion::Fixed(at)) => format!("held at ({}, {}) m, turns at its given speed", at.y, at.z),
+        Some(RingMotion::Free(_)) => "moves in the plane, turns at its given speed".to_owned(),
     };
     let mut rows = vec![row("outer_ring", "fixed at the origin"), row("inner_ring", ring)];
     if layout.cage.is_some() {
         rows.push(row("cage", "moves and turns in the plane"));
     }
-    let rollers = "each: radial offset, orbit angle, their rates, spin speed";
-    rows.push(row(&indexed("roller", layout.count), rollers));
+    let text = if model.has_rollers() {
+        "each: radial offset, orbit travel, their rates, spin speed"
+    } else {
+        "prescribed orbit and spin, no states"
+    };
+    rows.push(row(&indexed(model.element_kind(), model.element_count()), text));
     let (q, v) = (layout.positions(), layout.velocities());
     rows.push(row("states", format!("{}: {q} positions, {v} velocities", layout.states())));
     rows
@@ -70,10 +77,26 @@ fn indexed(name: &str, count: usize) -> String {
     format!("{name}[0..{}]", count.saturating_sub(1))
 }
 
-fn contacts(model: &Model) -> String {
-    let count = model.layout().count;
-    let raceways = model.contact_names().iter().filter(|name| name.ends_with("_raceway")).count();
-    format!("{} states, {raceways} contacts: elastic line contact of Palmgren", 5 * count)
+fn elements(model: &Model) -> Vec<String> {
+    let count = model.element_count();
+    match model.scene().kinematic_elements.as_ref().map(|e| &e.motion) {
+        None => {
+            let text =
+                format!("{} states, {} contacts: elastic line contact of Palmgren", 5 * count, 2 * count);
+            row("rollers", text)
+        }
+        Some(ElementMotion::Rolling { contact_angle }) => {
+            let text = format!("no states: {count} elements roll at a contact angle of {contact_angle} rad");
+            row("kinematic_elements", text)
+        }
+        Some(ElementMotion::Prescribed { .. }) => {
+            row("kinematic_elements", format!("no states: {count} elements with given orbit and spin"))
+        }
+    }
+}
+
+fn laws(model: &Model) -> Vec<Vec<String>> {
+    model.laws_in_use().into_iter().map(|(name, contacts)| row(name, contacts.to_string())).collect()
 }
 
 fn inputs(model: &Model) -> Vec<Vec<String>> {
@@ -81,11 +104,12 @@ fn inputs(model: &Model) -> Vec<Vec<String>> {
     infos.into_iter().map(|i| vec![i.name, format!("[{}]", i.unit), i.description.to_owned()]).collect()
 }
 
-/// The channels; those that every roller has in one row.
+/// The channels; those that every element has in one row.
 fn channels(model: &Model) -> Vec<Vec<String>> {
-    let all = indexed("roller", model.layout().count);
+    let kind = model.element_kind();
+    let all = indexed(kind, model.element_count());
     let rows = model.channels().into_iter().filter_map(|channel| {
-        let name = match channel.name.strip_prefix("roller[") {
+        let name = match channel.name.strip_prefix(&format!("{kind}[")) {
             None => channel.name,
             Some(rest) => format!("{all}{}", rest.strip_prefix("0]")?),
         };
@@ -96,22 +120,30 @@ fn channels(model: &Model) -> Vec<Vec<String>> {
 
 fn geometry(model: &Model) -> Vec<Vec<String>> {
     let scene = model.scene();
-    let clearance = scene.inner_ring.radial_clearance;
-    let speed = model.inputs_at(0.0, &[None; 3]).ring_speed;
+    let inputs = model.inputs_at(0.0, &HostInputs::default());
     let turning = |w: f64| format!("{} rad/s ({} 1/min)", number(w), number(w * 60.0 / TAU));
+    let kind = model.element_kind();
     let mut rows = vec![
         row("pitch radius", format!("{:.4} mm", 1e3 * model.pitch_radius())),
-        row("outer raceway radius", format!("{:.4} mm", 1e3 * scene.outer_ring.raceway_radius)),
-        row("inner raceway radius", format!("{:.4} mm", 1e3 * model.inner_raceway_radius())),
-        row("roller radius", format!("{:.4} mm", 1e3 * scene.rollers.radius)),
-        row("radial internal clearance", format!("{} um", number(1e6 * clearance))),
+        row(&format!("{kind} radius"), format!("{:.4} mm", 1e3 * scene.element_radius())),
     ];
+    if let (Some(outer), Some(inner)) = (&scene.outer_ring, model.inner_raceway_radius()) {
+        rows.push(row("outer raceway radius", format!("{:.4} mm", 1e3 * outer.raceway_radius)));
+        rows.push(row("inner raceway radius", format!("{:.4} mm", 1e3 * inner)));
+    }
+    if let Some(clearance) = scene.inner_ring.as_ref().and_then(|ring| ring.radial_clearance) {
+        rows.push(row("radial internal clearance", format!("{} um", number(1e6 * clearance))));
+    }
     if let Some(guide) = model.guide_clearance() {
         rows.push(row("radial guide clearance", format!("{} um", number(1e6 * guide))));
     }
-    rows.push(row("inner ring speed at t = 0", turning(speed)));
-    rows.push(row("cage and orbit speed without slip", turning(speed * model.orbit_ratio())));
-    rows.push(row("roller spin speed without slip", turning(speed * model.spin_ratio())));
+    if let Some(viscosity) = model.viscosity(&inputs) {
+        rows.push(row("viscosity at t = 0", format!("{} Pa s", number(viscosity))));
+    }
+    let [orbit, spin] = model.kinematic_speeds(&inputs);
+    rows.push(row("inner ring speed at t = 0", turning(inputs.of(Input::RingSpeed))));
+    rows.push(row("cage and orbit speed without slip", turning(orbit)));
+    rows.push(row(&format!("{kind} spin speed without slip"), turning(spin)));
     let frequency = model.highest_frequency();
     let text = format!("{} rad/s ({} Hz)", number(frequency), number(frequency / TAU));
     rows.push(row("highest contact frequency", text));

@@ -32,8 +32,7 @@ pub fn roller_history(run: &Run) -> Option<Result<String>> {
         let column = run.column(&format!("roller[0].{field}"))?.get(from..)?;
         Some(column.iter().map(|x| x * scale).collect())
     };
-    let pocket = run.model.scene().cage.as_ref().and_then(|c| c.pocket.as_ref());
-    let bound = pocket.map(|p| 1e3 * p.radial_clearance);
+    let bound = run.model.pocket_clearance().map(|clearance| 1e3 * clearance);
     let strip = |name, color, values: Option<Vec<f64>>, bound| {
         values.map(|values| Strip { name, color, values, bound })
     };

@@ -1,0 +1,144 @@
+//! Cylindrical pocket: two pillars, each a cylindrical wall that ends in two edges.
+//!
+//! ```text
+//! wall   |phi| <= phi_p : delta = |d| - (R_p - R_b),        n along d
+//! edge   |phi| >  phi_p : delta = R_b - |d - R_p e(phi_p)|, n from the roller centre to the edge
+//! ```
+//!
+//! d is the roller centre relative to the pocket centre, phi its angle from the circumferential direction of the
+//! pillar. delta and n are continuous at phi_p. The wall carries the lubricated line contact; an edge carries the
+//! normal force and boundary friction only. The friction coefficient goes from one to the other over the last
+//! `edge_blend` of the wall (an assumption; 0 leaves the jump). Source: NTN section 3.2 and Fig. 2.
+//!
+//! Local frame: (radial, circumferential) at the pocket centre, turning with the cage.
+
+use super::pocket::{Pillar, PillarContact, PocketMotion, PocketPlace};
+use crate::scalar::{Real, smoothstep};
+
+/// Shape of the pockets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CylinderPocket {
+    /// Place and element size.
+    pub place: PocketPlace,
+    /// R_p - R_b, m.
+    pub clearance: f64,
+    /// phi_p, half angle of the wall, rad.
+    pub half_angle: f64,
+    /// Angle before the edge over which friction changes, rad.
+    pub edge_blend: f64,
+}
+
+impl CylinderPocket {
+    /// True when no pillar can touch a roller at `offset`.
+    pub fn apart<T: Real>(&self, offset: [T; 2]) -> bool {
+        let (a, b) = (offset[0].value(), offset[1].value());
+        a * a + b * b < self.clearance * self.clearance
+    }
+
+    /// The contact with one pillar; `None` when they are apart.
+    pub fn pillar<T: Real>(&self, side: Pillar, m: &PocketMotion<T>) -> Option<PillarContact<T>> {
+        let (sign, radius) = (side.sign(), self.place.element_radius);
+        // Coordinates towards the pillar and radially outward.
+        let (towards, radial) = (m.offset[1] * sign, m.offset[0]);
+        let distance = (towards * towards + radial * radial).sqrt();
+        let angle = radial.atan2(towards);
+        let (delta, normal, edge_share) = if angle.value().abs() <= self.half_angle {
+            let share = if self.edge_blend > 0.0 {
+                smoothstep((angle.abs() + (self.edge_blend - self.half_angle)) / self.edge_blend)
+            } else {
+                T::constant(0.0)
+            };
+            (distance - self.clearance, [radial / distance, m.offset[1] / distance], share)
+        } else {
+            let pocket_radius = radius + self.clearance;
+            let (sin, cos) = self.half_angle.sin_cos();
+            let edge = [pocket_radius * sin * angle.sign(), pocket_radius * cos];
+            let to_edge = [-radial + edge[0], -towards + edge[1]];
+            let reach = (to_edge[0] * to_edge[0] + to_edge[1] * to_edge[1]).sqrt();
+            // R_b - |d - R_p e| without the difference of two radii.
+            let inside = (radial * edge[0] + towards * edge[1]) * 2.0
+                - distance * distance
+                - self.clearance * (radius + pocket_radius);
+            let delta = inside / (reach + radius);
+            (delta, [to_edge[0] / reach, to_edge[1] / reach * sign], T::constant(1.0))
+        };
+        if delta.value() <= 0.0 {
+            return None;
+        }
+        Some(self.place.contact(m, delta, normal, edge_share))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const P: CylinderPocket = CylinderPocket {
+        place: PocketPlace { pitch_radius: 0.04, element_radius: 0.0075 },
+        clearance: 0.15e-3,
+        half_angle: 0.436,
+        edge_blend: 0.02,
+    };
+
+    fn at(offset: [f64; 2]) -> PocketMotion<f64> {
+        PocketMotion { offset, velocity: [0.1, -0.2], spin: 800.0 }
+    }
+
+    #[test]
+    fn wall_contact_follows_the_gap() {
+        let c = P.pillar(Pillar::Front, &at([0.0, 0.151e-3])).unwrap();
+        assert!((c.motion.delta - 1e-6).abs() < 1e-18);
+        assert_eq!(c.frame.normal, [0.0, 1.0]);
+        assert_eq!(c.edge_share, 0.0);
+        assert_eq!(c.motion.delta_dot, -0.2);
+        // Front pillar: t points inwards, the surface slides with -v_r + R_b w.
+        assert!((c.motion.u1 - (-0.1 + 0.0075 * 800.0)).abs() < 1e-14);
+        assert!(P.pillar(Pillar::Back, &at([0.0, 0.151e-3])).is_none());
+        let back = P.pillar(Pillar::Back, &at([0.0, -0.152e-3])).unwrap();
+        assert!((back.motion.delta - 2e-6).abs() < 1e-18);
+        assert_eq!(back.frame.normal, [0.0, -1.0]);
+    }
+
+    #[test]
+    fn approach_and_normal_are_continuous_at_the_edges() {
+        let d = 0.155e-3;
+        for side in [Pillar::Front, Pillar::Back] {
+            let s = if side == Pillar::Front { 1.0 } else { -1.0 };
+            for edge in [P.half_angle, -P.half_angle] {
+                let get = |phi: f64| P.pillar(side, &at([d * phi.sin(), s * d * phi.cos()])).unwrap();
+                let (a, b) = (get(edge * (1.0 - 1e-9)), get(edge * (1.0 + 1e-9)));
+                assert!((a.motion.delta - b.motion.delta).abs() < 1e-15);
+                assert!((a.frame.normal[0] - b.frame.normal[0]).abs() < 1e-7);
+                assert!((a.frame.normal[1] - b.frame.normal[1]).abs() < 1e-7);
+                assert!((a.edge_share - 1.0).abs() < 1e-6 && b.edge_share == 1.0);
+            }
+        }
+    }
+
+    #[test]
+    fn a_roller_pushed_outwards_rests_on_both_pillars() {
+        // At d = clearance/sin(phi_p) (to first order) the edges are reached.
+        let d = 0.4e-3;
+        let (front, back) = (P.pillar(Pillar::Front, &at([d, 0.0])), P.pillar(Pillar::Back, &at([d, 0.0])));
+        let (front, back) = (front.unwrap(), back.unwrap());
+        assert!((front.motion.delta - back.motion.delta).abs() < 1e-18);
+        assert!((front.frame.normal[1] + back.frame.normal[1]).abs() < 1e-15);
+        assert!((front.frame.normal[0] - back.frame.normal[0]).abs() < 1e-15);
+        let expected = {
+            let (s, c) = P.half_angle.sin_cos();
+            let r = 0.00765;
+            0.0075 - (r * s - d).hypot(r * c)
+        };
+        assert!((front.motion.delta - expected).abs() < 1e-15);
+    }
+
+    #[test]
+    fn nothing_touches_within_the_clearance() {
+        for i in 0..100 {
+            let phi = i as f64 * 0.0628;
+            let m = at([0.1499e-3 * phi.sin(), 0.1499e-3 * phi.cos()]);
+            assert!(P.apart(m.offset));
+            assert!(P.pillar(Pillar::Front, &m).is_none() && P.pillar(Pillar::Back, &m).is_none());
+        }
+    }
+}

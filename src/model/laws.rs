@@ -1,0 +1,112 @@
+//! The force laws of a model, and the names under which their evaluations are counted.
+
+use crate::contact::cylinder_pocket::CylinderPocket;
+use crate::contact::plane_pocket::PlanePocket;
+use crate::laws::guide::GuideLaw;
+use crate::laws::line_contact::LineContact;
+use crate::laws::solid_contact::SolidContact;
+use crate::laws::solid_friction::SolidFriction;
+
+/// All laws of a model; what the scene does not ask for is `None`.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Laws {
+    pub(super) raceways: Option<RacewayLaws>,
+    pub(super) pocket: Option<PocketLaws>,
+    pub(super) guide: Option<GuideLaw>,
+}
+
+/// Contacts of rollers with the rings.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct RacewayLaws {
+    pub(super) outer: LineContact,
+    pub(super) inner: LineContact,
+}
+
+/// Contacts of elements with their pockets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum PocketLaws {
+    Cylinder(CylinderLaws),
+    Plane(PlaneLaws),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct CylinderLaws {
+    pub(super) shape: CylinderPocket,
+    pub(super) wall: LineContact,
+    pub(super) edge: LineContact,
+    pub(super) edge_friction: SolidFriction,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct PlaneLaws {
+    pub(super) shape: PlanePocket,
+    pub(super) contact: SolidContact,
+}
+
+impl Laws {
+    /// Takes over the laws `from` with the lubricant's viscosity times `ratio`.
+    pub(super) fn scale_viscosity(&mut self, from: &Laws, ratio: f64) {
+        self.raceways = from.raceways.map(|r| RacewayLaws {
+            outer: r.outer.with_viscosity_scaled(ratio),
+            inner: r.inner.with_viscosity_scaled(ratio),
+        });
+        if let Some(PocketLaws::Cylinder(laws)) = &from.pocket {
+            let wall = laws.wall.with_viscosity_scaled(ratio);
+            self.pocket = Some(PocketLaws::Cylinder(CylinderLaws { wall, ..*laws }));
+        }
+        let films = (self.guide.as_mut(), from.guide.as_ref());
+        if let (Some(GuideLaw { film: Some(mine), .. }), Some(GuideLaw { film: Some(theirs), .. })) = films {
+            *mine.viscosity_mut() = theirs.viscosity() * ratio;
+        }
+    }
+}
+
+/// Laws whose evaluations are counted.
+pub const LAWS: [&str; 13] = [
+    "outer_raceway",
+    "inner_raceway",
+    "pocket_wall",
+    "pocket_edge",
+    "pocket_plane",
+    "film_thickness",
+    "traction",
+    "self_heating",
+    "lubrication_regime",
+    "rolling_resistance",
+    "guide_film",
+    "guide_solid",
+    "viscosity_temperature",
+];
+
+/// Counts by law, in the order of [`LAWS`].
+pub type LawCounts = [u64; LAWS.len()];
+
+pub(super) const OUTER_RACEWAY: usize = 0;
+pub(super) const INNER_RACEWAY: usize = 1;
+pub(super) const POCKET_WALL: usize = 2;
+pub(super) const POCKET_EDGE: usize = 3;
+pub(super) const POCKET_PLANE: usize = 4;
+/// The first of the laws that are parts of a line contact.
+const FIRST_PART: usize = 5;
+pub(super) const GUIDE_FILM: usize = 10;
+pub(super) const GUIDE_SOLID: usize = 11;
+pub(super) const VISCOSITY_TEMPERATURE: usize = 12;
+
+/// Adds `n` evaluations of a line contact and of the laws in it.
+pub(super) fn count_line_contacts(counts: &mut LawCounts, law: usize, contact: &LineContact, n: u64) {
+    counts[law] += n;
+    for (part, (_, present)) in (FIRST_PART..).zip(line_contact_parts(contact)) {
+        counts[part] += if present { n } else { 0 };
+    }
+}
+
+/// The optional laws in a line contact, in the order of [`LAWS`], and whether they are there.
+pub(super) fn line_contact_parts(contact: &LineContact) -> [(&'static str, bool); 5] {
+    [
+        ("film_thickness", contact.film.is_some()),
+        ("traction", contact.traction.is_some()),
+        ("self_heating", contact.self_heating.is_some()),
+        ("lubrication_regime", contact.regime.is_some()),
+        ("rolling_resistance", contact.rolling_resistance.is_some()),
+    ]
+}

@@ -1,0 +1,191 @@
+//! Memory of a force evaluation: the touching contacts of every law, gathered for it, and their forces.
+
+use super::laws::{LAWS, LawCounts, Laws, PocketLaws};
+use super::{InputValues, Model};
+use crate::contact::pocket::Pillar;
+use crate::contact::raceway::RollerMotion;
+use crate::contact::{PairFrame, Wrench, rotate};
+use crate::laws::contact_pair::{ContactForce, ContactMotion};
+use crate::laws::guide::GuideForce;
+use crate::laws::journal::JournalMotion;
+
+/// The touching contacts of one law. Capacity is fixed at creation, so filling it does not allocate.
+#[derive(Clone, Debug)]
+pub(super) struct Batch<S> {
+    pub(super) element: Vec<usize>,
+    pub(super) motion: Vec<ContactMotion<f64>>,
+    pub(super) frame: Vec<PairFrame<f64>>,
+    pub(super) site: Vec<S>,
+    pub(super) force: Vec<ContactForce<f64>>,
+}
+
+impl<S> Batch<S> {
+    fn with_capacity(n: usize) -> Self {
+        Self {
+            element: Vec::with_capacity(n),
+            motion: Vec::with_capacity(n),
+            frame: Vec::with_capacity(n),
+            site: Vec::with_capacity(n),
+            force: Vec::with_capacity(n),
+        }
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.element.clear();
+        self.motion.clear();
+        self.frame.clear();
+        self.site.clear();
+        self.force.clear();
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.element.len()
+    }
+
+    pub(super) fn push(
+        &mut self,
+        element: usize,
+        motion: ContactMotion<f64>,
+        frame: PairFrame<f64>,
+        site: S,
+    ) {
+        self.element.push(element);
+        self.motion.push(motion);
+        self.frame.push(frame);
+        self.site.push(site);
+    }
+
+    /// Contacts with their forces, in the order of the elements.
+    pub(super) fn iter(&self) -> impl Iterator<Item = Loaded<'_, S>> {
+        let kinematics = self.element.iter().zip(&self.motion).zip(&self.frame);
+        kinematics.zip(self.site.iter().zip(&self.force)).map(
+            |(((&element, motion), frame), (site, force))| Loaded { element, motion, frame, site, force },
+        )
+    }
+}
+
+/// One contact of a batch.
+pub(super) struct Loaded<'a, S> {
+    pub(super) element: usize,
+    pub(super) motion: &'a ContactMotion<f64>,
+    pub(super) frame: &'a PairFrame<f64>,
+    pub(super) site: &'a S,
+    pub(super) force: &'a ContactForce<f64>,
+}
+
+/// What a pocket contact needs besides its motion.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PocketSite {
+    pub(super) pillar: Pillar,
+    pub(super) edge_share: f64,
+    /// Contact point relative to the cage centre, pocket frame, m.
+    pub(super) lever: [f64; 2],
+}
+
+/// Motion of an element and the direction of its local frame.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ElementSite {
+    pub(super) motion: RollerMotion<f64>,
+    pub(super) sin: f64,
+    pub(super) cos: f64,
+    /// Sine and cosine of the angle by which the element leads its pocket; (0, 1) without pockets.
+    pub(super) lead: (f64, f64),
+    /// Element centre relative to its pocket, pocket frame, m; zero without pockets.
+    pub(super) pocket_offset: [f64; 2],
+}
+
+impl ElementSite {
+    /// A global vector in the element's local frame.
+    pub(super) fn to_local(self, v: [f64; 2]) -> [f64; 2] {
+        rotate(v, -self.sin, self.cos)
+    }
+
+    /// A local vector in the global frame.
+    pub(super) fn to_global(self, v: [f64; 2]) -> [f64; 2] {
+        rotate(v, self.sin, self.cos)
+    }
+}
+
+/// Memory of a force evaluation and its results. One per simulation; never shared.
+#[derive(Clone, Debug)]
+pub struct Workspace {
+    pub(super) elements: Vec<ElementSite>,
+    pub(super) outer: Batch<()>,
+    pub(super) inner: Batch<()>,
+    pub(super) wall: Batch<PocketSite>,
+    pub(super) edge: Batch<PocketSite>,
+    pub(super) plane: Batch<PocketSite>,
+    /// Force of the guide on its journal, and the motion it belongs to.
+    pub(super) guide: Option<GuideForce<f64>>,
+    pub(super) journal: Option<JournalMotion<f64>>,
+    pub(super) inputs: InputValues,
+    /// Contact forces on each roller, local frame; empty for kinematic elements.
+    pub(super) on_roller: Vec<Wrench<f64>>,
+    /// Evaluations per law in the last force evaluation.
+    pub(super) counts: LawCounts,
+    /// The laws at the present viscosity, where it follows the temperature.
+    pub(super) scaled: Option<Box<ScaledLaws>>,
+}
+
+/// Laws at the viscosity of one temperature.
+#[derive(Clone, Debug)]
+pub(super) struct ScaledLaws {
+    pub(super) laws: Laws,
+    /// K.
+    pub(super) temperature: f64,
+}
+
+impl Workspace {
+    /// Memory for evaluations of `model`.
+    pub fn new(model: &Model) -> Self {
+        let n = model.elements.count;
+        let rollers = model.layout.count;
+        let (cylinder, plane) = match &model.laws.pocket {
+            None => (0, 0),
+            Some(PocketLaws::Cylinder(_)) => (2 * n, 0),
+            Some(PocketLaws::Plane(_)) => (0, 2 * n),
+        };
+        Self {
+            elements: Vec::with_capacity(n),
+            outer: Batch::with_capacity(rollers),
+            inner: Batch::with_capacity(rollers),
+            wall: Batch::with_capacity(cylinder),
+            edge: Batch::with_capacity(cylinder),
+            plane: Batch::with_capacity(plane),
+            guide: None,
+            journal: None,
+            inputs: InputValues::default(),
+            on_roller: vec![Wrench::default(); rollers],
+            counts: [0; LAWS.len()],
+            scaled: model
+                .inputs
+                .oil
+                .map(|oil| Box::new(ScaledLaws { laws: model.laws.clone(), temperature: oil.built_at.0 })),
+        }
+    }
+
+    /// Number of contacts that touched in the last evaluation: raceways, pockets.
+    pub fn active_contacts(&self) -> [usize; 2] {
+        let pockets = self.wall.len() + self.edge.len() + self.plane.len();
+        [self.outer.len() + self.inner.len(), pockets]
+    }
+
+    /// Number of evaluations of each law in the last force evaluation, in the order of [`LAWS`].
+    pub fn law_counts(&self) -> &LawCounts {
+        &self.counts
+    }
+
+    /// All pocket contacts, in the order of the elements for each law.
+    pub(super) fn pocket_contacts(&self) -> impl Iterator<Item = Loaded<'_, PocketSite>> {
+        self.wall.iter().chain(self.edge.iter()).chain(self.plane.iter())
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.elements.clear();
+        self.outer.clear();
+        self.inner.clear();
+        self.wall.clear();
+        self.edge.clear();
+        self.plane.clear();
+    }
+}

@@ -1,0 +1,228 @@
+//! The cage of a scene, with its pockets and its guide.
+
+use super::{ContactLaws, PlaneVector, Signal};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The cage.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Cage {
+    /// Mass, kg.
+    pub mass: f64,
+    /// Moment of inertia about the centre of mass, kg m^2.
+    pub inertia: f64,
+    /// Name of the material. Needed by lubricated pockets.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
+    /// Static unbalance: the centre of mass seen from the geometric centre in the axes of the cage, which are y and z
+    /// at angle zero, m. Absent: balanced.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mass_eccentricity: Option<PlaneVector>,
+    /// External force through the geometric centre and torque over time. Absent: none, and no such inputs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub load: Option<CageLoad>,
+    /// Contacts between rolling elements and pockets. Absent: they do not touch.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pocket: Option<Pocket>,
+    /// Guidance by a ring. Absent: the cage is carried by the rolling elements alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub guide: Option<Guide>,
+}
+
+/// External force and torque on the cage over time; the host can take each of them over.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct CageLoad {
+    /// Force to the right, N.
+    pub force_y: Signal,
+    /// Force upwards, N.
+    pub force_z: Signal,
+    /// Torque, N m.
+    pub torque: Signal,
+}
+
+impl Default for CageLoad {
+    fn default() -> Self {
+        let none = Signal::Constant(0.0);
+        Self { force_y: none.clone(), force_z: none.clone(), torque: none }
+    }
+}
+
+/// Shape of the pockets and law of their contacts.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Pocket {
+    /// Cylindrical walls with edges and lubricated line contacts.
+    LubricatedCylinder(CylinderPocket),
+    /// Plane walls across the circumference with solid contacts.
+    SolidPlane(PlanePocket),
+}
+
+/// Cylindrical pockets.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CylinderPocket {
+    /// Radial clearance R_p - R_b between roller and pocket wall, m.
+    pub radial_clearance: f64,
+    /// Half angle phi_p of each wall about the circumferential direction, rad.
+    pub half_angle: f64,
+    /// Angle before the edge over which wall friction turns into edge friction, rad; 0 lets it jump.
+    pub edge_blend: f64,
+    /// Friction at the edges of the walls. Absent: frictionless edges.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub edge_friction: Option<Friction>,
+    /// Laws of the wall contact besides elasticity.
+    #[serde(default)]
+    pub contact: ContactLaws,
+}
+
+/// Pockets with plane walls.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PlanePocket {
+    /// Circumferential clearance c_p between both walls (diametral), m.
+    pub diametral_clearance: f64,
+    /// Contact between element and wall.
+    pub contact: SolidContact,
+}
+
+/// Spring and damper in parallel (Voigt), with friction.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SolidContact {
+    /// Stiffness k, N/m.
+    pub stiffness: f64,
+    /// Damping c, N s/m.
+    #[serde(default)]
+    pub damping: f64,
+    /// Depth delta_d over which the damper sets in, m; 0 lets it jump at touch-down.
+    #[serde(default = "default_softening_depth")]
+    pub softening_depth: f64,
+    /// Friction. Absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction: Option<Friction>,
+}
+
+fn default_softening_depth() -> f64 {
+    1e-6
+}
+
+/// Solid friction with a smooth transition through zero slip.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Friction {
+    /// Friction coefficient.
+    pub coefficient: f64,
+    /// Slip speed of the transition through zero, m/s.
+    pub transition_speed: f64,
+}
+
+/// Guidance of the cage by a ring. A film, a solid contact, or both with their shares.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Guide {
+    /// The ring that guides.
+    #[serde(default)]
+    pub ring: GuideRing,
+    /// Radius R_g of the guiding surface of that ring, m.
+    pub guide_radius: f64,
+    /// Guide clearance c_g (diametral), m.
+    pub diametral_clearance: f64,
+    /// Roundness of the guided surface of the cage. Absent: round. Needs a film.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub roundness: Vec<RoundnessHarmonic>,
+    /// Lubricant film. Absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub film: Option<GuideFilm>,
+    /// Solid contact. Absent: none; a film that is gone then ends the run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub solid: Option<GuideSolid>,
+    /// How film and solid contact share the load; needed if there are both, else not allowed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub film_share: Option<FilmShare>,
+}
+
+/// The ring that guides the cage.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum GuideRing {
+    /// The outer ring, at rest: the cage turns inside it.
+    #[default]
+    OuterRing,
+    /// The inner ring: the cage turns around it and feels its speed and motion.
+    InnerRing,
+}
+
+/// Lubricant film of the guide.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum GuideFilm {
+    /// The clearance is full of oil: short journal bearing with two lands.
+    ShortBearing(ShortBearingFilm),
+    /// A layer of grease or oil on one land that fills only the narrow part of the clearance.
+    LubricantLayer(LayerFilm),
+}
+
+/// Short journal bearing with two lands.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ShortBearingFilm {
+    /// Width of one of the two lands, m.
+    pub land_width: f64,
+    /// Whether the film is squeezed (dh/dt of the moving centre and of the turning roundness).
+    #[serde(default)]
+    pub squeeze: bool,
+}
+
+/// Lubricant layer of uniform thickness on one land. Needs the lubricant's pressure-viscosity coefficient.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LayerFilm {
+    /// Width L of the land, m.
+    pub land_width: f64,
+    /// Thickness h_L of the layer, m. More than the diametral clearance floods the guide.
+    pub thickness: f64,
+    /// Reduced pressure alpha q from which on the pressure follows its tangent and the viscosity stays constant.
+    #[serde(default = "default_pressure_cap")]
+    pub pressure_cap: f64,
+    /// Whether the pressure jump at the ends of the wet arc adds to the shear force.
+    #[serde(default)]
+    pub edge_shear: bool,
+}
+
+fn default_pressure_cap() -> f64 {
+    0.9
+}
+
+/// Solid contact of the guide.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GuideSolid {
+    /// Spring, damper and friction.
+    pub contact: SolidContact,
+    /// Film thickness h_a at which asperities begin to touch, m. Absent: three times the roughness of `film_share`,
+    /// or 0 without a film.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub asperity_height: Option<f64>,
+}
+
+/// Share of the film in the guide force: 1 - exp(-1.8 (h/roughness)^1.2), h smallest gap.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FilmShare {
+    /// Composite roughness sigma, m.
+    pub roughness: f64,
+}
+
+/// One harmonic of the cage roundness: radius deviation amplitude * cos(order * angle + phase).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RoundnessHarmonic {
+    /// Order n, at least 2.
+    pub order: u32,
+    /// Amplitude a_n, m.
+    pub amplitude: f64,
+    /// Phase b_n, rad.
+    pub phase: f64,
+}

@@ -1,0 +1,78 @@
+//! The lubricant of a scene: viscosity, and the constants of films and traction.
+
+use super::Signal;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Lubricant. Only the constants that the scene's laws use are needed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Lubricant {
+    /// Dynamic viscosity eta0 at ambient pressure.
+    pub viscosity: Viscosity,
+    /// Pressure-viscosity coefficient alpha, 1/Pa. Needed by contact films, traction, rolling resistance and lubricant
+    /// layers.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pressure_viscosity: Option<f64>,
+    /// Temperature-viscosity coefficient beta, 1/K. Needed by thermal corrections, self-heating, rolling resistance.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub temperature_viscosity: Option<f64>,
+    /// Thermal conductivity k', W/(m K). Needed by thermal corrections, self-heating, rolling resistance.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub conductivity: Option<f64>,
+    /// Characteristic (Eyring) stress tau0, Pa. Needed by traction.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub eyring_stress: Option<f64>,
+    /// Shear modulus G_l, Pa. Needed by traction.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shear_modulus: Option<f64>,
+}
+
+/// Viscosity at inlet temperature and ambient pressure.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Viscosity {
+    /// Dynamic viscosity, Pa s.
+    Constant(f64),
+    /// From temperature by Walther's equation (ASTM D341).
+    Walther(WaltherViscosity),
+}
+
+/// Viscosity from temperature: log10 log10(nu + 0.7) = A - B log10 T through two points, nu in mm^2/s, T in K.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WaltherViscosity {
+    /// First point.
+    pub cold: ViscosityPoint,
+    /// Second point, at a higher temperature.
+    pub hot: ViscosityPoint,
+    /// Density rho, kg/m^3: eta0 = nu rho.
+    pub density: f64,
+    /// Temperature of the lubricant.
+    pub temperature: Temperature,
+}
+
+/// Kinematic viscosity at one temperature.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ViscosityPoint {
+    /// Temperature, K.
+    pub temperature: f64,
+    /// Kinematic viscosity, m^2/s.
+    pub kinematic_viscosity: f64,
+}
+
+/// Temperature of the lubricant.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Temperature {
+    /// Function of time, K.
+    OverTime(Signal),
+    /// Linear between points of the speed of the inner ring, constant beyond the first and the last.
+    OverSpeed {
+        /// Magnitudes of the speed of the inner ring in strictly growing order, rad/s.
+        speed: Vec<f64>,
+        /// Temperatures at these speeds, K.
+        temperature: Vec<f64>,
+    },
+}

@@ -1,0 +1,73 @@
+//! Rings of a scene.
+
+use super::{PlaneVector, Signal};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The outer ring: fixed, centred at the origin.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct OuterRing {
+    /// Raceway radius R_o, m.
+    pub raceway_radius: f64,
+    /// Name of the material.
+    pub material: String,
+}
+
+/// The inner ring with its shaft.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct InnerRing {
+    /// Rotation speed over time, rad/s; negative is clockwise.
+    pub speed: Signal,
+    /// Motion of the ring centre. Absent: held at the origin.
+    #[serde(default)]
+    pub motion: RingMotion,
+    /// Radial internal clearance G_r (the diametral play), m; negative for preload. The raceway radius is
+    /// R_i = R_o - 2 R_b - G_r/2. Needed by rollers.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radial_clearance: Option<f64>,
+    /// Name of the material. Needed by rollers.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
+}
+
+/// Motion of the centre of the inner ring.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum RingMotion {
+    /// Held at this position, m.
+    Fixed(PlaneVector),
+    /// Free in the plane under load and contact forces. Needs rollers.
+    Free(FreeRing),
+}
+
+impl Default for RingMotion {
+    fn default() -> Self {
+        Self::Fixed(PlaneVector::default())
+    }
+}
+
+/// A ring that moves in the plane.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FreeRing {
+    /// Mass of the ring and what moves with it, kg.
+    pub mass: f64,
+    /// Linear damping of the ring support, N s/m. Absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub support_damping: Option<f64>,
+    /// External load on the ring, N. Absent: none, unless the host sets one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub load: Option<Load>,
+}
+
+/// External load over time.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Load {
+    /// Component to the right, N.
+    pub y: Signal,
+    /// Component upwards, N.
+    pub z: Signal,
+}

@@ -1,0 +1,184 @@
+//! Checks of the cage: its masses, its pockets and its guide.
+
+use super::check::{Range, bad, number, optional, range};
+use super::validate::*;
+use super::*;
+use std::f64::consts::FRAC_PI_2;
+
+const POCKET_CLEARANCE: Range = range(1e-7, 1e-2, "m");
+const GUIDE_CLEARANCE: Range = range(1e-6, 1e-2, "m");
+const VELOCITY: Range = range(-100.0, 100.0, "m/s");
+const TORQUE: Range = range(-1e9, 1e9, "N m");
+const MAX_HARMONICS: usize = 64;
+const MAX_ORDER: u32 = 200;
+
+impl Scene {
+    pub(super) fn validate_cage(&self, cage: &Cage) -> Result<()> {
+        number("cage.mass", cage.mass, MASS)?;
+        number("cage.inertia", cage.inertia, INERTIA)?;
+        let ring = cage.mass * self.pitch_radius().powi(2);
+        number("cage.inertia", cage.inertia, range(0.05 * ring, 5.0 * ring, "kg m^2"))?;
+        if let Some(material) = &cage.material {
+            self.material_exists("cage.material", material)?;
+        }
+        if let Some(offset) = &cage.mass_eccentricity {
+            let largest = 0.5 * self.pitch_radius();
+            vector("cage.mass_eccentricity", offset, range(-largest, largest, "m"))?;
+        }
+        if let Some(load) = &cage.load {
+            signal("cage.load.force_y", &load.force_y, FORCE)?;
+            signal("cage.load.force_z", &load.force_z, FORCE)?;
+            signal("cage.load.torque", &load.torque, TORQUE)?;
+        }
+        vector("initial.cage", &self.initial.cage, POSITION)?;
+        vector("initial.cage_velocity", &self.initial.cage_velocity, VELOCITY)?;
+        optional("initial.cage_speed", self.initial.cage_speed, SPEED)?;
+        match &cage.pocket {
+            None => {}
+            Some(Pocket::LubricatedCylinder(pocket)) => self.validate_cylinder_pocket(pocket)?,
+            Some(Pocket::SolidPlane(pocket)) => {
+                let path = "cage.pocket.solid_plane";
+                number(&format!("{path}.diametral_clearance"), pocket.diametral_clearance, POCKET_CLEARANCE)?;
+                solid(&format!("{path}.contact"), &pocket.contact)?;
+                let half_width = self.element_radius() + 0.5 * pocket.diametral_clearance;
+                self.neighbours_apart(&format!("{path}.diametral_clearance"), half_width, "pockets")?;
+            }
+        }
+        cage.guide.as_ref().map_or(Ok(()), |guide| self.validate_guide(guide))
+    }
+
+    fn validate_cylinder_pocket(&self, pocket: &CylinderPocket) -> Result<()> {
+        let at = |field: &str| format!("cage.pocket.lubricated_cylinder.{field}");
+        number(&at("radial_clearance"), pocket.radial_clearance, POCKET_CLEARANCE)?;
+        number(&at("half_angle"), pocket.half_angle, range(1e-3, FRAC_PI_2 - 1e-3, "rad"))?;
+        number(&at("edge_blend"), pocket.edge_blend, range(0.0, pocket.half_angle, "rad"))?;
+        if let Some(law) = &pocket.edge_friction {
+            friction(&at("edge_friction"), law)?;
+        }
+        contact(&at("contact"), &pocket.contact)?;
+        let element = self.element_radius();
+        let radius = element + pocket.radial_clearance;
+        // Elements start beside each other in their pockets; radially, the edges must not reach into them.
+        let edge = radius * pocket.half_angle.sin();
+        let discriminant = edge * edge - (radius * radius - element * element);
+        let start = self.initial.cage.y.hypot(self.initial.cage.z);
+        if discriminant > 0.0 && start > edge - discriminant.sqrt() {
+            let text = format!(
+                "the centre {start:?} m off pushes pocket edges into rollers; at most {:e} m",
+                edge - discriminant.sqrt()
+            );
+            return Err(bad("initial.cage", text));
+        }
+        self.neighbours_apart(&at("radial_clearance"), radius, "pockets")
+    }
+
+    fn validate_guide(&self, guide: &Guide) -> Result<()> {
+        let at = |field: &str| format!("cage.guide.{field}");
+        let pitch = self.pitch_radius();
+        number(&at("guide_radius"), guide.guide_radius, range(0.4 * pitch, 1.8 * pitch, "m"))?;
+        number(&at("diametral_clearance"), guide.diametral_clearance, GUIDE_CLEARANCE)?;
+        if guide.diametral_clearance > 0.1 * guide.guide_radius {
+            let text = format!(
+                "{:?} m is more than a tenth of the guide radius {:?} m; guide laws need a narrow gap",
+                guide.diametral_clearance, guide.guide_radius
+            );
+            return Err(bad(&at("diametral_clearance"), text));
+        }
+        if guide.ring == GuideRing::InnerRing && self.inner_ring.is_none() {
+            return Err(bad("inner_ring", "missing; cage.guide.ring needs it"));
+        }
+        match &guide.film {
+            None => {}
+            Some(GuideFilm::ShortBearing(film)) => {
+                number(&at("film.short_bearing.land_width"), film.land_width, WIDTH)?;
+            }
+            Some(GuideFilm::LubricantLayer(film)) => {
+                let at = |field: &str| at(&format!("film.lubricant_layer.{field}"));
+                number(&at("land_width"), film.land_width, WIDTH)?;
+                number(&at("thickness"), film.thickness, range(1e-8, 0.1, "m"))?;
+                number(&at("pressure_cap"), film.pressure_cap, range(0.1, 0.999, ""))?;
+            }
+        }
+        if let Some(law) = &guide.solid {
+            solid(&at("solid.contact"), &law.contact)?;
+            let allowed = range(0.0, 0.25 * guide.diametral_clearance, "m");
+            optional(&at("solid.asperity_height"), law.asperity_height, allowed)?;
+        }
+        match (&guide.film, &guide.solid, &guide.film_share) {
+            (None, None, _) => {
+                return Err(bad(
+                    "cage.guide",
+                    "guides by nothing: give 'film', 'solid' or both; or remove it",
+                ));
+            }
+            (Some(_), Some(_), None) => {
+                return Err(bad(&at("film_share"), "missing; a guide with film and solid contact needs it"));
+            }
+            (Some(_), Some(_), Some(share)) => {
+                let largest = guide.diametral_clearance / 12.0;
+                number(&at("film_share.roughness"), share.roughness, range(1e-9, largest, "m"))?;
+            }
+            (_, _, Some(_)) => {
+                return Err(bad(&at("film_share"), "needs both 'film' and 'solid' beside it"));
+            }
+            _ => {}
+        }
+        self.validate_gap(guide)
+    }
+
+    /// Roundness and start must leave a gap.
+    fn validate_gap(&self, guide: &Guide) -> Result<()> {
+        let path = "cage.guide.roundness";
+        if guide.roundness.len() > MAX_HARMONICS {
+            let text = format!("{} harmonics, at most {MAX_HARMONICS}", guide.roundness.len());
+            return Err(bad(path, text));
+        }
+        if guide.film.is_none() && !guide.roundness.is_empty() {
+            return Err(bad(path, "needs 'film' beside it"));
+        }
+        let clearance = guide.diametral_clearance / 2.0;
+        for (i, a) in guide.roundness.iter().enumerate() {
+            let at = |field: &str| format!("{path}.{i}.{field}");
+            if !(2..=MAX_ORDER).contains(&a.order) {
+                let text = format!("{} is not within 2 to {MAX_ORDER} (order 1 is eccentricity)", a.order);
+                return Err(bad(&at("order"), text));
+            }
+            number(&at("amplitude"), a.amplitude, range(-clearance, clearance, "m"))?;
+            number(&at("phase"), a.phase, ANGLE)?;
+        }
+        let roundness: f64 = guide.roundness.iter().map(|a| a.amplitude.abs()).sum();
+        if roundness >= clearance {
+            let text = format!(
+                "the amplitudes add up to {roundness:?} m and close the radial clearance {clearance:?} m"
+            );
+            return Err(bad(path, text));
+        }
+        let ring = match (guide.ring, self.inner_ring.as_ref().map(|r| &r.motion)) {
+            (GuideRing::InnerRing, Some(RingMotion::Fixed(position))) => *position,
+            _ => PlaneVector::default(),
+        };
+        let start = (self.initial.cage.y - ring.y).hypot(self.initial.cage.z - ring.z);
+        // A solid contact may start pressed, but not through the ring.
+        let room = if guide.solid.is_some() { 2.0 * clearance } else { clearance - roundness };
+        if start >= room {
+            let text = format!(
+                "the centre {start:?} m off leaves no room in the radial guide clearance of {clearance:?} m"
+            );
+            return Err(bad("initial.cage", text));
+        }
+        Ok(())
+    }
+}
+
+fn solid(path: &str, law: &SolidContact) -> Result<()> {
+    let at = |field: &str| format!("{path}.{field}");
+    number(&at("stiffness"), law.stiffness, range(1.0, 1e12, "N/m"))?;
+    number(&at("damping"), law.damping, range(0.0, 1e6, "N s/m"))?;
+    number(&at("softening_depth"), law.softening_depth, range(0.0, 1e-3, "m"))?;
+    law.friction.as_ref().map_or(Ok(()), |law| friction(&at("friction"), law))
+}
+
+fn friction(path: &str, law: &Friction) -> Result<()> {
+    number(&format!("{path}.coefficient"), law.coefficient, COEFFICIENT)?;
+    number(&format!("{path}.transition_speed"), law.transition_speed, TRANSITION_SPEED)
+}
