@@ -4,10 +4,13 @@
 //! quantities are in SI units. Laws are generic over [`crate::scalar::Real`], so the code that gives a force
 //! also gives its exact derivatives.
 
+pub mod barus_film;
 pub mod contact_pair;
 pub mod film_thickness;
 pub mod guide;
 pub mod journal;
+mod layer_gap;
+mod layer_quadrature;
 pub mod line_contact;
 pub mod lubricant_layer;
 pub mod lubrication_regime;
