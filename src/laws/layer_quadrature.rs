@@ -8,7 +8,7 @@
 
 use super::barus_film::BarusFilm;
 use super::layer_gap::{Gap, Place, change};
-use super::lubricant_layer::LubricantLayer;
+use super::lubricant_layer::{LubricantLayer, PressureShear};
 use crate::scalar::Real;
 use std::f64::consts::PI;
 
@@ -182,16 +182,19 @@ impl<'a, T: Real, G: Gap<T>, P: Gap<f64>> Integrator<'a, T, G, P> {
         if place.opening.value() < 0.0 {
             let mean = self.film.mean(self.peak(&place));
             let line = mean.pressure * weight * law.width;
-            // By parts, d(h t)/dtheta = slope t - h n takes the place of the pressure gradient.
-            along = along * mean.viscosity * weight + line * place.slope * 0.5;
-            let inward = line * place.film * 0.5;
+            along = along * mean.viscosity * weight;
             let [cos, sin] = place.normal;
             let [y, z] = &mut self.sums.pressure;
             *y -= line * cos * law.radius;
             *z -= line * sin * law.radius;
-            let [y, z] = &mut self.sums.shear;
-            *y -= inward * cos;
-            *z -= inward * sin;
+            if law.pressure_shear != PressureShear::Absent {
+                // By parts, d(h t)/dtheta = slope t - h n takes the place of the pressure gradient.
+                along += line * place.slope * 0.5;
+                let inward = line * place.film * 0.5;
+                let [y, z] = &mut self.sums.shear;
+                *y -= inward * cos;
+                *z -= inward * sin;
+            }
         } else {
             along = along * weight;
         }

@@ -39,6 +39,17 @@ const WIDEST: f64 = 0.3;
 /// Narrowest panel of a profile, rad; it bounds their number.
 const NARROWEST: f64 = 2e-3;
 
+/// Part of the pressure gradient in the shear stress.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PressureShear {
+    /// None: the stress of the sliding surfaces alone.
+    Absent,
+    /// The gradient within the wet arcs, but not across the jump of the pressure at their ends.
+    WithinArc,
+    /// The gradient with that jump. Only then does the film dissipate at every motion.
+    WithEdges,
+}
+
 /// Lubricant layer on the bush of a journal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LubricantLayer {
@@ -56,8 +67,8 @@ pub struct LubricantLayer {
     pub width: f64,
     /// h_L, thickness of the layer, m; a layer thicker than the widest gap floods it.
     pub thickness: f64,
-    /// Whether the shear stress includes the pressure gradient across the jump of the pressure at the ends of a wet arc.
-    pub edge_shear: bool,
+    /// What the pressure gradient adds to the shear stress.
+    pub pressure_shear: PressureShear,
     /// Roundness; empty for round surfaces.
     pub roundness: Vec<Harmonic>,
 }
@@ -126,7 +137,7 @@ impl LubricantLayer {
             }
         }
         film.piece(&arc, from, last, bound, CAP_SCAN);
-        if !self.edge_shear && !flooded {
+        if self.pressure_shear == PressureShear::WithinArc && !flooded {
             film.wet_end(arc.end, 1.0);
             film.wet_end(arc.start, -1.0);
         }
@@ -230,7 +241,7 @@ impl LubricantLayer {
             (false, true) => arc.start = edge(),
         }
         let (start, end) = (arc.start.value(), arc.end.value());
-        if !self.edge_shear && end > start {
+        if self.pressure_shear == PressureShear::WithinArc && end > start {
             if end < to {
                 film.wet_end(arc.end, 1.0);
             }
@@ -275,7 +286,7 @@ mod tests {
             clearance: 0.2135e-3,
             width: 8e-3,
             thickness: 80e-6,
-            edge_shear: false,
+            pressure_shear: PressureShear::WithinArc,
             roundness: Vec::new(),
         }
     }

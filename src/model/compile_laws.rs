@@ -10,7 +10,7 @@ use crate::laws::film_thickness::{FilmThickness, ThermalCorrection, ThermalLoad}
 use crate::laws::guide::{GuideFilm, GuideLaw, GuideSolid};
 use crate::laws::journal::Harmonic;
 use crate::laws::line_contact::LineContact;
-use crate::laws::lubricant_layer::LubricantLayer;
+use crate::laws::lubricant_layer::{LubricantLayer, PressureShear};
 use crate::laws::lubrication_regime::LubricationRegime;
 use crate::laws::normal_contact::{ElasticLine, NormalDamping, effective_modulus};
 use crate::laws::rolling_resistance::{Extent, RollingResistance};
@@ -286,7 +286,11 @@ impl Builder<'_> {
                 clearance,
                 width: film.land_width,
                 thickness: film.thickness,
-                edge_shear: film.edge_shear,
+                pressure_shear: match film.pressure_shear {
+                    scene::PressureShear::Absent => PressureShear::Absent,
+                    scene::PressureShear::WithinArc => PressureShear::WithinArc,
+                    scene::PressureShear::WithEdges => PressureShear::WithEdges,
+                },
                 roundness,
             })),
         };

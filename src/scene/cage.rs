@@ -186,9 +186,22 @@ pub struct LayerFilm {
     /// Reduced pressure alpha q from which on the pressure follows its tangent and the viscosity stays constant.
     #[serde(default = "default_pressure_cap")]
     pub pressure_cap: f64,
-    /// Whether the pressure jump at the ends of the wet arc adds to the shear force.
+    /// What the pressure gradient adds to the shear stress.
     #[serde(default)]
-    pub edge_shear: bool,
+    pub pressure_shear: PressureShear,
+}
+
+/// Part of the pressure gradient in the shear stress of a lubricant layer.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum PressureShear {
+    /// None: the stress of the sliding surfaces alone.
+    Absent,
+    /// The gradient within the wet arcs, not across the jump of the pressure at their ends.
+    #[default]
+    WithinArc,
+    /// The gradient with that jump.
+    WithEdges,
 }
 
 fn default_pressure_cap() -> f64 {

@@ -19,7 +19,7 @@ mod validate_cage;
 
 pub use cage::{
     Cage, CageLoad, CylinderPocket, FilmShare, Friction, Guide, GuideFilm, GuideRing, GuideSolid, LayerFilm,
-    PlanePocket, Pocket, RoundnessHarmonic, ShortBearingFilm, SolidContact,
+    PlanePocket, Pocket, PressureShear, RoundnessHarmonic, ShortBearingFilm, SolidContact,
 };
 pub use cases::{CASES_SCHEMA, Case, CaseSet};
 pub(crate) use check::{bad as bad_scene, needed};

@@ -2,7 +2,8 @@
 
 use cagedyn::Scene;
 use cagedyn::scene::{
-    ContactLaws, Extent, Guide, GuideFilm, GuideRing, Pocket, RingMotion, SolidContact, Viscosity,
+    ContactLaws, Extent, Guide, GuideFilm, GuideRing, Pocket, PressureShear, RingMotion, SolidContact,
+    Viscosity,
 };
 
 /// An optional block of a scene.
@@ -157,8 +158,9 @@ fn guide(guide: Option<&Guide>, list: &mut List) {
             let thickness = 1e6 * film.thickness;
             let text = format!("force and moment: layer of {thickness} um between cage and {ring}");
             list.add("cage.guide.film.lubricant_layer", Some(text));
-            let text = "law: shear force of the pressure jump at the ends of the wet arc";
-            list.flag("cage.guide.film.lubricant_layer.edge_shear", film.edge_shear, text);
+            let present = film.pressure_shear != PressureShear::Absent;
+            let text = "law: shear stress of the pressure gradient";
+            list.flag("cage.guide.film.lubricant_layer.pressure_shear", present, text);
         }
     }
     match &guide.solid {
