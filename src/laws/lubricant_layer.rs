@@ -277,6 +277,9 @@ mod tests {
     use super::*;
     use crate::scalar::Dual;
 
+    const SHEARS: [PressureShear; 3] =
+        [PressureShear::Absent, PressureShear::WithinArc, PressureShear::WithEdges];
+
     fn layer() -> LubricantLayer {
         LubricantLayer {
             viscosity: 0.0924,
@@ -361,8 +364,8 @@ mod tests {
             all(&dry) == [0.0; 5] && size(&wet) < 1e-3 && (dry.minimum_film - wet.minimum_film).abs() < 1e-14
         );
         // Flooding.
-        for edge_shear in [false, true] {
-            let at = |thickness| LubricantLayer { thickness, edge_shear, ..layer() }.force(&m).unwrap();
+        for pressure_shear in SHEARS {
+            let at = |thickness| LubricantLayer { thickness, pressure_shear, ..layer() }.force(&m).unwrap();
             let widest = l.clearance + 190e-6f64.hypot(20e-6);
             assert!(distance(&at(widest * (1.0 - 1e-12)), &at(widest * (1.0 + 1e-12))) < 1e-5);
         }
@@ -414,12 +417,13 @@ mod tests {
             roundness: vec![Harmonic { order: 3, amplitude: 1e-18, phase: 0.0 }],
             ..layer()
         };
-        for edge_shear in [false, true] {
+        for pressure_shear in SHEARS {
             for thickness in [80e-6, 1e-3] {
                 for (e, v) in [(134e-6, 0.0), (150e-6, -0.1), (200e-6, 0.01), (210e-6, 0.2)] {
                     let m = motion([0.6 * e, 0.8 * e], [v, 0.5 * v - 0.1], 142.5);
-                    let [a, b] = [&layer(), &rough]
-                        .map(|l| LubricantLayer { edge_shear, thickness, ..l.clone() }.force(&m).unwrap());
+                    let [a, b] = [&layer(), &rough].map(|l| {
+                        LubricantLayer { pressure_shear, thickness, ..l.clone() }.force(&m).unwrap()
+                    });
                     assert!(distance(&a, &b) < 1e-8, "{e} {v} {a:?} {b:?}");
                 }
             }
@@ -430,8 +434,8 @@ mod tests {
     fn derivatives_match_central_differences() {
         let profile = vec![Harmonic { order: 3, amplitude: 2e-6, phase: 1.0 }];
         for roundness in [vec![], profile] {
-            for edge_shear in [false, true] {
-                let l = LubricantLayer { roundness: roundness.clone(), edge_shear, ..layer() };
+            for pressure_shear in SHEARS {
+                let l = LubricantLayer { roundness: roundness.clone(), pressure_shear, ..layer() };
                 for (e, v) in [(160e-6, -0.05), (206e-6, 0.1)] {
                     let x = [0.6 * e, -0.8 * e, v, -1.1 * v, 0.7, 120.0, 35.0];
                     fn build<T: Real>(x: [T; 7]) -> JournalMotion<T> {
