@@ -318,6 +318,18 @@ int32_t cagedyn_sim_statistics(const cagedyn_sim *sim,
                                double *out,
                                int64_t length);
 
+// Number of force laws whose evaluations are counted.
+int64_t cagedyn_law_count(void);
+
+// Name of a force law, for example "guide_film"; "" for other numbers. Static text.
+const char *cagedyn_law_name(int64_t index);
+
+// Writes how often each force law was evaluated, once per contact, by the integration since creation or reset (length:
+// law count). Laws that the scene does not use stay at zero.
+int32_t cagedyn_sim_law_evaluations(const cagedyn_sim *sim,
+                                    double *out,
+                                    int64_t length);
+
 // Creates a model from the JSON text of a scene. Returns NULL on failure. Free it with cagedyn_model_free().
 cagedyn_model *cagedyn_model_from_json(const char *json);
 
@@ -520,6 +532,18 @@ const char *cagedyn_statistic_name(int64_t index);
 int32_t cagedyn_sim_statistics(const cagedyn_sim *sim,
                                double *out,
                                int64_t length);
+
+// Number of force laws whose evaluations are counted.
+int64_t cagedyn_law_count(void);
+
+// Name of a force law, for example "guide_film"; "" for other numbers. Static text.
+const char *cagedyn_law_name(int64_t index);
+
+// Writes how often each force law was evaluated, once per contact, by the integration since creation or reset (length:
+// law count). Laws that the scene does not use stay at zero.
+int32_t cagedyn_sim_law_evaluations(const cagedyn_sim *sim,
+                                    double *out,
+                                    int64_t length);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -4,6 +4,7 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+const NU2310: &str = "scenes/nu2310.json";
 const STRICT: [&str; 4] = ["-Wall", "-Wextra", "-Wpedantic", "-Werror"];
 
 fn root() -> &'static Path {
@@ -62,9 +63,9 @@ fn succeed(command: &mut Command) -> Output {
     output
 }
 
-fn run_c_test(source: &str) {
+fn run_c_test(source: &str, scene: &str) {
     let library = library();
-    let scene = root().join("scenes/nu2310.json");
+    let scene = root().join(scene);
     let program = compile(Path::new(source), "c11", library.path());
     succeed(Command::new(&program).arg(&scene));
     if Command::new("valgrind").arg("--version").output().is_ok() {
@@ -78,22 +79,27 @@ fn run_c_test(source: &str) {
 
 #[test]
 fn c_model() {
-    run_c_test("ctests/test_model.c");
+    run_c_test("ctests/test_model.c", NU2310);
 }
 
 #[test]
 fn c_sim() {
-    run_c_test("ctests/test_sim.c");
+    run_c_test("ctests/test_sim.c", NU2310);
 }
 
 #[test]
 fn c_errors() {
-    run_c_test("ctests/test_errors.c");
+    run_c_test("ctests/test_errors.c", NU2310);
+}
+
+#[test]
+fn c_guide() {
+    run_c_test("ctests/test_guide.c", "scenes/grease_guide.json");
 }
 
 #[test]
 fn c_threads() {
-    run_c_test("ctests/test_threads.c");
+    run_c_test("ctests/test_threads.c", NU2310);
 }
 
 #[test]
@@ -139,5 +145,5 @@ fn library_has_its_soname_and_exports_only_the_api() {
         assert!(header.contains(&format!("{name}(")), "{name} is exported but not in the header");
         count += 1;
     }
-    assert!(count >= 55, "{count} functions exported");
+    assert!(count >= 58, "{count} functions exported");
 }

@@ -1,10 +1,13 @@
 //! Simulations in C.
 
-use super::guard::{check_array, count, exclusive, guard, index, read_array, shared, status, write_array};
+use super::guard::{
+    EMPTY, check_array, count, exclusive, guard, index, read_array, shared, status, write_array,
+};
 use super::model::cagedyn_model;
 use crate::error::Result;
+use crate::model::LAWS;
 use crate::sim::Sim;
-use std::ffi::c_char;
+use std::ffi::{CStr, c_char};
 
 /// A running simulation. May be used by one thread at a time.
 #[allow(non_camel_case_types)]
@@ -24,6 +27,23 @@ const STATISTICS: [&str; 7] = [
     "events\0",
     "smallest_step\0",
     "largest_step\0",
+];
+
+/// Names of [`LAWS`], NUL-terminated.
+const LAW_NAMES: [&CStr; LAWS.len()] = [
+    c"outer_raceway",
+    c"inner_raceway",
+    c"pocket_wall",
+    c"pocket_edge",
+    c"pocket_plane",
+    c"film_thickness",
+    c"traction",
+    c"self_heating",
+    c"lubrication_regime",
+    c"rolling_resistance",
+    c"guide_film",
+    c"guide_solid",
+    c"viscosity_temperature",
 ];
 
 /// Runs `entry` on a simulation that it may change.
@@ -356,4 +376,45 @@ pub unsafe extern "C" fn cagedyn_sim_statistics(sim: *const cagedyn_sim, out: *m
         // SAFETY: see above.
         unsafe { write_array("out", &values, out, length) }
     })
+}
+
+/// Number of force laws whose evaluations are counted.
+#[unsafe(no_mangle)]
+pub extern "C" fn cagedyn_law_count() -> i64 {
+    LAWS.len() as i64
+}
+
+/// Name of a force law, for example "guide_film"; "" for other numbers. Static text.
+#[unsafe(no_mangle)]
+pub extern "C" fn cagedyn_law_name(index: i64) -> *const c_char {
+    usize::try_from(index).ok().and_then(|i| LAW_NAMES.get(i)).map_or(EMPTY, |name| name).as_ptr()
+}
+
+/// Writes how often each force law was evaluated, once per contact, by the integration since creation or reset (length:
+/// law count). Laws that the scene does not use stay at zero.
+///
+/// # Safety
+/// `sim` is NULL or a live handle, `out` NULL or an array of `length` numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_law_evaluations(
+    sim: *const cagedyn_sim,
+    out: *mut f64,
+    length: i64,
+) -> i32 {
+    status(|| {
+        // SAFETY: see above.
+        let counts = unsafe { shared("sim", sim) }?.sim.statistics().laws.map(|n| n as f64);
+        // SAFETY: see above.
+        unsafe { write_array("out", &counts, out, length) }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn law_names_match_the_library() {
+        assert_eq!(LAW_NAMES.map(|name| name.to_str().unwrap_or("")), LAWS);
+    }
 }

@@ -17,6 +17,8 @@ use std::sync::Arc;
 const MAX_TIME: f64 = 1e6;
 /// Largest step of methods with error control, s: a tenth of a millisecond still sees every roller pass.
 const MAX_STEP: f64 = 1e-4;
+/// Largest nominal leapfrog step, s: without stiff contacts, films and the motion of the elements still set a scale.
+const MAX_NOMINAL_STEP: f64 = 2e-5;
 /// First step of methods with error control in units of 1/(highest frequency).
 const FIRST_STEP: f64 = 0.1;
 /// Nominal leapfrog step in units of 1/(highest frequency), with and without contact damping.
@@ -347,9 +349,9 @@ fn limits(model: &Model) -> Limits {
     let nominal_step = match &solver.method {
         Method::Leapfrog(m) => m.step.unwrap_or_else(|| {
             let share = if model.damped() { DAMPED_STEP } else { UNDAMPED_STEP };
-            share / model.highest_frequency()
+            (share / model.highest_frequency()).min(MAX_NOMINAL_STEP)
         }),
-        Method::DormandPrince(_) => FIRST_STEP / model.highest_frequency(),
+        Method::DormandPrince(_) => (FIRST_STEP / model.highest_frequency()).min(MAX_NOMINAL_STEP),
     };
     Limits {
         nominal_step: nominal_step.max(solver.min_step),
