@@ -4,21 +4,24 @@
 //! film alone     F = F_film                    (no force is defined where the film is gone)
 //! solid alone    F = F_solid(d),               d = e - (C - a - h_a)
 //! both           F = L F_film + (1 - L) F_solid,   moments likewise
-//!                L = 1 - exp(-1.8 Lambda^1.2), Lambda = (C - a - e)/sigma;   L = 0 where Lambda <= 0
+//!                L = f [1 - exp(-1.8 Lambda^1.2)],  f = smoothstep(Lambda/Lambda_t)^2,  Lambda = (C - a - e)/sigma
 //! ```
 //!
 //! e eccentricity, C radial clearance, h_a asperity height, sigma composite roughness. a is the height of the highest
 //! place of the roundness profile: the solid contact and Lambda see the circle that the turning profile sweeps, which
 //! keeps both smooth and the solid contact conservative; the film sees the profile itself. The solid contact pushes
-//! against the eccentricity and rubs at its end. Source: Takeshima et al. 2025, Eq. 6, 21-25 and Table 2; L weights
+//! against the eccentricity and rubs at its end. Source: Takeshima et al. 2025, Eq. 6, 21, 22, Table 2 and section 3.2; L weights
 //! the film there too (its printed formula lacks the minus).
+//!
+//! The factor f is an assumption: without it (Lambda_t = 0) the share falls slower than the film force grows, their
+//! product goes to infinity as the gap closes and is gone when it has closed. With it the force is continuous.
 
 use super::contact_pair::ContactMotion;
 use super::journal::{FilmForce, JournalMotion, NoFilm};
 use super::lubricant_layer::LubricantLayer;
 use super::short_bearing::ShortBearing;
 use super::solid_contact::SolidContact;
-use crate::scalar::Real;
+use crate::scalar::{Real, smoothstep};
 
 /// Film in the guide.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,6 +54,8 @@ pub struct GuideLaw {
     pub solid: Option<GuideSolid>,
     /// sigma, composite roughness in m; used where there are both.
     pub roughness: f64,
+    /// Lambda_t, film ratio below which the film fades out; 0 for the paper's share.
+    pub touching_ratio: f64,
 }
 
 /// Force of a guide on the journal. Components are those that act, after sharing.
@@ -136,7 +141,12 @@ impl GuideLaw {
         if !open {
             return T::constant(0.0);
         }
-        -((gap / self.roughness).powf(1.2) * -1.8).exp() + 1.0
+        let ratio = gap / self.roughness;
+        let share = -(ratio.powf(1.2) * -1.8).exp() + 1.0;
+        if ratio.value() >= self.touching_ratio {
+            return share;
+        }
+        share * smoothstep(ratio / self.touching_ratio).squared()
     }
 
     /// Whether the solid contact of a guide at the eccentricity `e` (m) touches.
@@ -185,5 +195,103 @@ fn from_film<T: Real>(film: FilmForce<T>, share: T) -> GuideForce<T> {
         moment: film.moment * share,
         film_share: share,
         minimum_film: film.minimum_film,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::laws::lubricant_layer::PressureShear;
+    use crate::laws::solid_friction::SolidFriction;
+
+    fn layer() -> GuideFilm {
+        GuideFilm::LubricantLayer(LubricantLayer {
+            viscosity: 0.0924,
+            pressure_viscosity: 2e-8,
+            cap: 0.9,
+            radius: 46.6615e-3,
+            clearance: 0.2135e-3,
+            width: 8e-3,
+            thickness: 80e-6,
+            pressure_shear: PressureShear::WithinArc,
+            roundness: Vec::new(),
+        })
+    }
+
+    fn mixed() -> GuideLaw {
+        let friction = Some(SolidFriction { coefficient: 0.1, transition_speed: 0.01 });
+        let contact = SolidContact { stiffness: 1e6, damping: 44.4, softening_depth: 1e-6, friction };
+        GuideLaw {
+            radius: 46.6615e-3,
+            free_clearance: 0.2135e-3,
+            film: Some(layer()),
+            solid: Some(GuideSolid { contact, asperity_height: 3e-6 }),
+            roughness: 1e-6,
+            touching_ratio: 0.1,
+        }
+    }
+
+    fn at(e: f64, speed: f64) -> JournalMotion<f64> {
+        JournalMotion {
+            position: [0.0, e],
+            velocity: [0.0; 2],
+            journal_speed: speed,
+            bush_speed: 0.0,
+            profile_angle: 0.0,
+            profile_speed: speed,
+        }
+    }
+
+    #[test]
+    fn shares_follow_the_smallest_gap() {
+        let law = mixed();
+        assert_eq!(law.film_share(0.0), 0.0);
+        assert_eq!(law.film_share(f64::NAN), 0.0);
+        assert!((law.film_share(1e-6) - (1.0 - (-1.8f64).exp())).abs() < 1e-15);
+        assert!((law.film_share(30e-6) - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn full_film_is_the_film_alone_and_no_film_the_solid_alone() {
+        let law = mixed();
+        let m = at(150e-6, 142.5);
+        let film_alone = GuideLaw { solid: None, ..law.clone() };
+        let (a, b) = (law.force(&m).unwrap(), film_alone.force(&m).unwrap());
+        assert!((a.force()[0] - b.force()[0]).abs() < 1e-12 * b.force()[0].abs());
+        assert_eq!((a.solid, a.moment), ([0.0; 2], b.moment * a.film_share));
+        let m = at(220e-6, 142.5);
+        let solid_alone = GuideLaw { film: None, ..law.clone() };
+        assert_eq!(law.force(&m), solid_alone.force(&m));
+        assert!(film_alone.force(&m).is_err());
+    }
+
+    #[test]
+    fn solid_contact_pushes_back_and_brakes() {
+        let law = GuideLaw { film: None, ..mixed() };
+        let f = law.force(&at(213.5e-6, 142.5)).unwrap();
+        // 3 um deep: 3 N inwards; the journal turns counter-clockwise and rubs at its top: friction to the right.
+        assert!((f.solid[1] + 3.0).abs() < 1e-9, "{f:?}");
+        assert!((f.solid[0] - 0.3).abs() < 1e-9);
+        assert!((f.moment + 0.3 * 46.6615e-3).abs() < 1e-10);
+        assert_eq!((f.film_share, law.solid_touches(210e-6), law.solid_touches(211e-6)), (0.0, false, true));
+        let carried = JournalMotion { bush_speed: 142.5, ..at(213.5e-6, 142.5) };
+        assert_eq!(law.force(&carried).unwrap().moment, 0.0);
+    }
+
+    #[test]
+    fn the_sum_is_continuous_where_the_film_ends() {
+        let law = mixed();
+        let force = |gap: f64| law.force(&at(0.2135e-3 - gap, 142.5)).unwrap().force();
+        let (a, b) = (force(1e-12), force(-1e-12));
+        assert!((a[1] - b[1]).abs() < 1e-3, "{a:?} {b:?}");
+        for k in 0..200 {
+            let gap = 4e-6 - f64::from(k) * 2e-8;
+            let (a, b) = (force(gap), force(gap - 1e-12));
+            assert!((a[1] - b[1]).abs() < 1e-3 * a[1].abs(), "{gap}: {a:?} {b:?}");
+        }
+        // The paper's share makes the force grow without bound instead.
+        let literal = GuideLaw { touching_ratio: 0.0, ..mixed() };
+        let closing = |gap: f64| literal.force(&at(0.2135e-3 - gap, 142.5)).unwrap().force()[1];
+        assert!(closing(1e-12) < 10.0 * closing(1e-9) && closing(1e-9) < 0.0);
     }
 }

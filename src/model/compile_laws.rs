@@ -294,12 +294,13 @@ impl Builder<'_> {
                 roundness,
             })),
         };
-        let roughness = guide.film_share.as_ref().map_or(0.0, |share| share.roughness);
+        let share = guide.film_share.as_ref();
+        let (roughness, touching_ratio) = share.map_or((0.0, 0.0), |s| (s.roughness, s.touching_ratio));
         let solid = guide.solid.as_ref().map(|law| GuideSolid {
             contact: solid(&law.contact),
             asperity_height: law.asperity_height.unwrap_or(ASPERITY_HEIGHT * roughness),
         });
-        Ok(GuideLaw { radius, free_clearance, film, solid, roughness })
+        Ok(GuideLaw { radius, free_clearance, film, solid, roughness, touching_ratio })
     }
 }
 

@@ -220,12 +220,20 @@ pub struct GuideSolid {
     pub asperity_height: Option<f64>,
 }
 
-/// Share of the film in the guide force: 1 - exp(-1.8 (h/roughness)^1.2), h smallest gap.
+/// Share of the film in the guide force: 1 - exp(-1.8 L^1.2), L film ratio: smallest gap over roughness.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FilmShare {
     /// Composite roughness sigma, m.
     pub roughness: f64,
+    /// Film ratio below which the film fades out, so that the force stays finite until the surfaces touch; 0 for the
+    /// bare share.
+    #[serde(default = "default_touching_ratio")]
+    pub touching_ratio: f64,
+}
+
+fn default_touching_ratio() -> f64 {
+    0.1
 }
 
 /// One harmonic of the cage roundness: radius deviation amplitude * cos(order * angle + phase).

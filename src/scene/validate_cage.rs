@@ -117,6 +117,7 @@ impl Scene {
             (Some(_), Some(_), Some(share)) => {
                 let largest = guide.diametral_clearance / 12.0;
                 number(&at("film_share.roughness"), share.roughness, range(1e-9, largest, "m"))?;
+                number(&at("film_share.touching_ratio"), share.touching_ratio, range(0.0, 3.0, ""))?;
             }
             (_, _, Some(_)) => {
                 return Err(bad(&at("film_share"), "needs both 'film' and 'solid' beside it"));
