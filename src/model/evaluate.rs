@@ -3,7 +3,7 @@
 //! Three passes: find the contacts that touch and write their motions into one contiguous list per law (`locate`); run
 //! each law over its list; collect the forces on the bodies (`assemble`).
 
-use super::laws::{self, LawCounts, Laws, PocketLaws, count_line_contacts};
+use super::laws::{self, Laws, PocketLaws, count_line_contacts};
 use super::workspace::{ElementSite, Loaded, PocketSite, ScaledLaws, Workspace};
 use super::{CageBody, ElementKind, Fault, Input, InputValues, Model, RingBody, RollerSet};
 use crate::contact::guide::BodyMotion;
@@ -28,7 +28,6 @@ impl Model {
         a: &mut [f64],
     ) -> Result<(), Fault> {
         ws.inputs = *inputs;
-        ws.counts = LawCounts::default();
         match ws.scaled.take() {
             None => self.evaluate(&self.laws, q, v, ws, a),
             Some(mut scaled) => {
@@ -236,11 +235,11 @@ impl CageBody {
     }
 }
 
-/// Counts the evaluations of this pass.
+/// Counts the evaluations of this pass; laws that the scene does not use cost nothing here.
 fn count(laws: &Laws, ws: &mut Workspace) {
     let lengths = [&ws.outer, &ws.inner].map(|batch| batch.len() as u64);
     let pockets = [&ws.wall, &ws.edge, &ws.plane].map(|batch| batch.len() as u64);
-    let counts: &mut LawCounts = &mut ws.counts;
+    let counts = &mut ws.counts;
     if let Some(raceways) = &laws.raceways {
         count_line_contacts(counts, laws::OUTER_RACEWAY, &raceways.outer, lengths[0]);
         count_line_contacts(counts, laws::INNER_RACEWAY, &raceways.inner, lengths[1]);
@@ -249,7 +248,9 @@ fn count(laws: &Laws, ws: &mut Workspace) {
         count_line_contacts(counts, laws::POCKET_WALL, &pocket.wall, pockets[0]);
         count_line_contacts(counts, laws::POCKET_EDGE, &pocket.edge, pockets[1]);
     }
-    counts[laws::POCKET_PLANE] += pockets[2];
+    if let Some(PocketLaws::Plane(_)) = &laws.pocket {
+        counts[laws::POCKET_PLANE] += pockets[2];
+    }
     if let (Some(GuideLaw { film, .. }), Some(force)) = (&laws.guide, &ws.guide) {
         counts[laws::GUIDE_FILM] += u64::from(film.is_some() && force.film_share > 0.0);
         counts[laws::GUIDE_SOLID] += u64::from(force.solid != [0.0; 2]);

@@ -121,7 +121,7 @@ pub struct Workspace {
     pub(super) inputs: InputValues,
     /// Contact forces on each roller, local frame; empty for kinematic elements.
     pub(super) on_roller: Vec<Wrench<f64>>,
-    /// Evaluations per law in the last force evaluation.
+    /// Evaluations per law.
     pub(super) counts: LawCounts,
     /// The laws at the present viscosity, where it follows the temperature.
     pub(super) scaled: Option<Box<ScaledLaws>>,
@@ -170,9 +170,14 @@ impl Workspace {
         [self.outer.len() + self.inner.len(), pockets]
     }
 
-    /// Number of evaluations of each law in the last force evaluation, in the order of [`LAWS`].
+    /// Number of evaluations of each law since the workspace was made or the counts were set, in the order of [`LAWS`].
     pub fn law_counts(&self) -> &LawCounts {
         &self.counts
+    }
+
+    /// Sets the counts.
+    pub fn set_law_counts(&mut self, counts: LawCounts) {
+        self.counts = counts;
     }
 
     /// All pocket contacts, in the order of the elements for each law.

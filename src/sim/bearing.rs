@@ -9,20 +9,12 @@ pub(super) struct Bearing {
     workspace: Workspace,
     host: HostInputs,
     evaluations: u64,
-    /// Evaluations per law.
-    law_counts: LawCounts,
 }
 
 impl Bearing {
     pub(super) fn new(model: Arc<Model>) -> Self {
         let workspace = Workspace::new(&model);
-        Self {
-            model,
-            workspace,
-            host: HostInputs::default(),
-            evaluations: 0,
-            law_counts: LawCounts::default(),
-        }
+        Self { model, workspace, host: HostInputs::default(), evaluations: 0 }
     }
 
     pub(super) fn model(&self) -> &Arc<Model> {
@@ -47,12 +39,12 @@ impl Bearing {
     }
 
     pub(super) fn law_counts(&self) -> &LawCounts {
-        &self.law_counts
+        self.workspace.law_counts()
     }
 
     pub(super) fn set_counts(&mut self, evaluations: u64, law_counts: LawCounts) {
         self.evaluations = evaluations;
-        self.law_counts = law_counts;
+        self.workspace.set_law_counts(law_counts);
     }
 
     pub(super) fn reset(&mut self) {
@@ -64,7 +56,10 @@ impl Bearing {
     pub(super) fn accelerations_at(&mut self, t: f64, state: &[f64], a: &mut [f64]) -> Result<(), Fault> {
         let (q, v) = state.split_at(self.model.layout().positions());
         let inputs = self.model.inputs_at(t, &self.host);
-        self.model.accelerations(&inputs, q, v, &mut self.workspace, a)
+        let counts = *self.workspace.law_counts();
+        let result = self.model.accelerations(&inputs, q, v, &mut self.workspace, a);
+        self.workspace.set_law_counts(counts);
+        result
     }
 
     pub(super) fn report(&self, state: &[f64], a: &[f64], out: &mut Forces) {
@@ -92,11 +87,7 @@ impl System for Bearing {
     fn accelerations(&mut self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> Result<(), Fault> {
         self.evaluations += 1;
         let inputs = self.model.inputs_at(t, &self.host);
-        let result = self.model.accelerations(&inputs, q, v, &mut self.workspace, a);
-        for (sum, n) in self.law_counts.iter_mut().zip(self.workspace.law_counts()) {
-            *sum += n;
-        }
-        result
+        self.model.accelerations(&inputs, q, v, &mut self.workspace, a)
     }
 
     fn not_finite(&self, velocity: usize) -> Fault {

@@ -32,12 +32,6 @@ fn fields() -> Vec<Row> {
             &["0.06", "f64"],
         ),
         rollers().value("no viscous force", "lubricant.viscosity.constant", json!(0), &["0.0 Pa s"]),
-        rollers().value(
-            "viscosity in mPa s times a thousand",
-            "lubricant.viscosity.constant",
-            json!(6e4),
-            &["6000.0 Pa s", "micro"],
-        ),
         grease().missing(
             "cold point missing",
             "lubricant.viscosity.walther.cold",
