@@ -29,4 +29,4 @@ pub mod sim;
 pub use error::{Error, Result, Status};
 pub use model::Model;
 pub use scene::Scene;
-pub use sim::{Recording, Sim, Spread};
+pub use sim::{CageMotion, Recording, Sim, Spread, WhirlRecord, WhirlSummary};

@@ -151,6 +151,67 @@ fn case_sets_give_one_folder_per_case_and_a_comparison() {
 }
 
 #[test]
+fn a_grease_guide_run_reports_its_whirl() {
+    let dir = tempfile::tempdir().expect("a directory");
+    let out = dir.path().to_string_lossy().into_owned();
+    let output = run(&["run", "scenes/grease_guide.json", "--out", &out]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let printed = text(&output.stdout);
+    for expected in ["backward whirl", "whirl speed", "film share", "guide force, shear", "guide film"] {
+        assert!(printed.contains(expected), "{expected} in {printed}");
+    }
+    for absent in ["drag torque", "inner ring y", "guide force, solid", "roller"] {
+        assert!(!printed.contains(absent), "{absent} in {printed}");
+    }
+
+    let summary = json(&dir.path().join("summary.json"));
+    let whirl =
+        |field: &str| summary["whirl"][field].as_f64().unwrap_or_else(|| panic!("{field}: {summary}"));
+    assert_eq!(summary["whirl"]["motion"], "backward_whirl");
+    let [low, mean, high] = ["p05", "mean", "p95"].map(|name| whirl(&format!("{name}_speed_rad_per_s")));
+    assert!(low < mean && mean < high && (-2150.0..-1800.0).contains(&mean), "{low} {mean} {high}");
+    assert!((100e-6..213.5e-6).contains(&whirl("mean_radius_m")));
+    assert!((-12.0..-8.0).contains(&whirl("turns")));
+    assert!((0.01..0.05).contains(&whirl("settling_time_s")));
+    let laws = summary["integration"]["law_evaluations"].as_object().expect("a map");
+    assert!(laws.keys().eq(["guide_film", "pocket_plane"]), "{laws:?}");
+    let channels = summary["statistics"].as_object().expect("a map");
+    assert!(channels.contains_key("guide.film_share") && !channels.keys().any(|name| name.contains('[')));
+
+    for picture in ["cage_orbit", "cage_position", "cage_spectrum", "whirl_history"] {
+        let svg = std::fs::read_to_string(dir.path().join(format!("{picture}.svg"))).expect(picture);
+        assert!(svg.contains("Grease") && !svg.contains("NaN"), "{picture}");
+    }
+    assert!(!dir.path().join("roller_history.svg").exists(), "there are no rollers");
+}
+
+#[test]
+fn cases_with_prescribed_elements_compare_their_whirl() {
+    let dir = tempfile::tempdir().expect("a directory");
+    let at = |name: &str| dir.path().join(name);
+    std::fs::copy(Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/grease_guide.json"), at("base.json"))
+        .expect("a copy");
+    let case = |rpm: f64| {
+        let speed = rpm * std::f64::consts::TAU / 60.0;
+        serde_json::json!({"name": format!("{rpm}rpm"), "set": {"inner_ring.speed.constant": speed}})
+    };
+    let set = serde_json::json!({"schema": "cagedyn.cases/1", "scene": "base.json", "cases": [case(500.0), case(3000.0)]});
+    std::fs::write(at("set.cases.json"), set.to_string()).expect("a case set");
+    let (file, out) = (at("set.cases.json"), at("out"));
+    let output = run(&["cases", &file.to_string_lossy(), "--out", &out.to_string_lossy()]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let printed = text(&output.stdout);
+    assert!(printed.contains("whirl [rad/s]") && printed.contains("backward whirl"), "{printed}");
+    let table = std::fs::read_to_string(at("out/cases.csv")).expect("a table");
+    assert!(table.starts_with("case,inner ring speed [1/min],whirl speed mean [rad/s]"), "{table}");
+    let motions: Vec<bool> = table.lines().skip(1).map(|line| line.contains(",backward whirl,")).collect();
+    assert_eq!(motions, [false, true], "{table}");
+    let svg = std::fs::read_to_string(at("out/whirl_speed.svg")).expect("a picture");
+    assert!(svg.contains("whirl speed [rad/s]") && !svg.contains("NaN"));
+    assert!(!at("out/cage_positions.svg").exists());
+}
+
+#[test]
 fn info_and_schema_print_what_they_promise() {
     let info = text(&run(&["info", "scenes/nu2310.json"]).stdout);
     for expected in

@@ -3,8 +3,10 @@
 mod bearing;
 mod recording;
 mod snapshot;
+mod whirl;
 
 pub use recording::{Recording, Spread};
+pub use whirl::{CageMotion, WhirlRecord, WhirlSummary};
 
 use crate::error::{Error, Result, Status};
 use crate::integrate::{DormandPrince, Driver, Failure, Leapfrog, Limits, Statistics, Stepper};

@@ -1,7 +1,7 @@
 //! The summary that `run` prints.
 
 use crate::run::Run;
-use crate::summary::{Statistics, Summary};
+use crate::summary::{Statistics, Summary, Whirl};
 use crate::table::{self, Align, grouped, number, rounded};
 use std::path::Path;
 
@@ -9,9 +9,9 @@ use std::path::Path;
 struct Rows(Vec<Vec<String>>);
 
 impl Rows {
-    /// A mean with its deviation in another unit, `scale` of it per SI unit.
+    /// A mean with its deviation in another unit, `scale` of it per SI unit. What is zero all the time is left out.
     fn spread(&mut self, name: &str, s: Option<&Statistics>, scale: f64, unit: &str, remark: &str) {
-        if let Some(s) = s {
+        if let Some(s) = s.filter(|s| (s.spread.min, s.spread.max) != (0.0, 0.0)) {
             let deviation = format!("± {}", number(s.spread.deviation * scale));
             self.add(name, number(s.spread.mean * scale), &deviation, unit, remark);
         }
@@ -27,11 +27,15 @@ pub fn text(run: &Run, summary: &Summary, folder: &Path) -> String {
     let w = &summary.window;
     let mut text = format!("{}\n", summary.title);
     text.push_str(&format!(
-        "mean ± standard deviation from {} s to {} s ({} records)\n\n",
+        "mean ± standard deviation from {} s to {} s ({} records)\n",
         rounded(w.from_s),
         rounded(w.to_s),
         w.records
     ));
+    if let Some(whirl) = &summary.whirl {
+        text.push_str(&format!("cage motion in this time: {}\n", motion(whirl)));
+    }
+    text.push('\n');
     for line in table::lines(&results(summary).0, &[Align::Left, Align::Right]) {
         text.push_str(&format!("  {line}\n"));
     }
@@ -40,6 +44,18 @@ pub fn text(run: &Run, summary: &Summary, folder: &Path) -> String {
         text.push_str(&format!("  {line}\n"));
     }
     text
+}
+
+/// "backward whirl, 10.4 turns, settled at 0.024 s".
+fn motion(whirl: &Whirl) -> String {
+    if !whirl.motion.is_whirl() {
+        return whirl.motion.name().to_owned();
+    }
+    let settled = match whirl.settling_time_s {
+        Some(t) => format!("settled at {} s", rounded(t)),
+        None => "not settled".to_owned(),
+    };
+    format!("{}, {:.1} turns, {settled}", whirl.motion.name(), whirl.turns.abs())
 }
 
 fn results(summary: &Summary) -> Rows {
@@ -56,6 +72,19 @@ fn results(summary: &Summary) -> Rows {
     let frequency = summary.cage_frequency_hz.map(|f| format!("{} Hz", number(f))).unwrap_or_default();
     rows.spread("cage speed", of("cage.speed"), 1.0, "rad/s", &frequency);
     rows.spread("cage slip", of("cage.slip"), 100.0, "%", "");
+    let band = |w: &Whirl| {
+        format!("5 % to 95 %: {} to {}", number(w.p05_speed_rad_per_s), number(w.p95_speed_rad_per_s))
+    };
+    let band = summary.whirl.as_ref().map(band).unwrap_or_default();
+    rows.spread("whirl speed", of("cage.whirl_speed"), 1.0, "rad/s", &band);
+    rows.spread("whirl radius", of("cage.whirl_radius"), 1e6, "um", "");
+    rows.spread("film share", of("guide.film_share"), 100.0, "%", "of the guide force");
+    let across = "across the line from guide to cage centre";
+    rows.spread("guide force, pressure", of("guide.pressure_phi"), 1.0, "N", across);
+    rows.spread("guide force, shear", of("guide.shear_phi"), 1.0, "N", across);
+    rows.spread("guide force, solid", of("guide.solid_phi"), 1.0, "N", across);
+    rows.spread("pocket forces", of("pocket.force_phi"), 1.0, "N", across);
+    rows.spread("elements touching", of("pocket.touching_elements"), 1.0, "", "the cage");
     if let Some(slip) = &summary.max_roller_slip {
         let place = format!("roller {} at {} s", slip.roller, rounded(slip.time_s));
         rows.add("largest roller slip", number(100.0 * slip.value), "", "%", &place);
@@ -94,6 +123,7 @@ fn effort(run: &Run, summary: &Summary, folder: &Path) -> Vec<Vec<String>> {
         ("method", i.method.replace('_', "-")),
         ("steps", steps),
         ("force evaluations", grouped(i.evaluations)),
+        ("law evaluations", law_evaluations(&i.law_evaluations)),
         ("time", time),
     ];
     if run.interrupted {
@@ -103,4 +133,10 @@ fn effort(run: &Run, summary: &Summary, folder: &Path) -> Vec<Vec<String>> {
     }
     rows.push(("files", format!("{}: {}", folder.display(), summary.files.join(", "))));
     rows.into_iter().map(|(name, value)| vec![name.to_owned(), value]).collect()
+}
+
+/// "guide film 6 423, pocket plane 5 640".
+fn law_evaluations(counts: &[(&str, u64)]) -> String {
+    let each = counts.iter().map(|(law, n)| format!("{} {}", law.replace('_', " "), grouped(*n)));
+    if counts.is_empty() { "none".to_owned() } else { each.collect::<Vec<_>>().join(", ") }
 }

@@ -4,6 +4,7 @@ use crate::summary::Summary;
 use crate::terminal::{self, INTERRUPTED, Progress};
 use crate::{RunArgs, output, report};
 use cagedyn::model::Channel;
+use cagedyn::scene::GuideRing;
 use cagedyn::sim::RunStatistics;
 use cagedyn::{Error, Model, Recording, Result, Scene, Sim, Status};
 use std::fs;
@@ -66,9 +67,21 @@ impl Run {
         self.recording.times.last().copied().unwrap_or(0.0)
     }
 
-    /// Number of rollers.
+    /// Number of rollers with a motion of their own.
     pub fn roller_count(&self) -> usize {
         self.model.layout().count
+    }
+
+    /// Cage centre (y, z) relative to the guide centre over time, m, if there is a cage.
+    pub fn cage_centre(&self) -> Option<[Vec<f64>; 2]> {
+        let guide = self.model.scene().cage.as_ref()?.guide.as_ref();
+        let moving = guide.is_some_and(|g| g.ring == GuideRing::InnerRing);
+        let relative = |cage: &str, ring: &str| {
+            let cage = self.column(cage)?;
+            let ring = self.column(ring).filter(|_| moving);
+            Some(cage.iter().enumerate().map(|(i, x)| x - ring.map_or(0.0, |r| r[i])).collect())
+        };
+        Some([relative("cage.y", "inner_ring.y")?, relative("cage.z", "inner_ring.z")?])
     }
 }
 

@@ -1,9 +1,9 @@
 //! Results of a run in numbers, as written to `summary.json`.
 
 use crate::run::Run;
-use cagedyn::model::Channel;
+use cagedyn::model::{Channel, LAWS};
 use cagedyn::scene::Method;
-use cagedyn::{Recording, Spread};
+use cagedyn::{CageMotion, Recording, Spread, WhirlRecord, WhirlSummary};
 use serde::{Serialize, Serializer};
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -43,6 +43,9 @@ pub struct Summary {
     /// Rotation frequency of the cage in the window, Hz.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cage_frequency_hz: Option<f64>,
+    /// Motion of the cage centre about the guide centre in the window.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub whirl: Option<Whirl>,
     /// Largest slip of any roller in the window.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_roller_slip: Option<RollerSlip>,
@@ -84,6 +87,9 @@ pub struct Integration {
     pub largest_step_s: f64,
     /// Force evaluations.
     pub evaluations: u64,
+    /// Evaluations of each law in them; those that never acted are left out.
+    #[serde(serialize_with = "as_map")]
+    pub law_evaluations: Vec<(&'static str, u64)>,
 }
 
 /// Averaging window.
@@ -95,6 +101,25 @@ pub struct Window {
     pub to_s: f64,
     /// Number of records.
     pub records: usize,
+}
+
+/// Motion of the cage centre about the guide centre.
+#[derive(Serialize)]
+pub struct Whirl {
+    /// Class of the motion.
+    pub motion: CageMotion,
+    /// Mean whirl speed, rad/s; positive counter-clockwise.
+    pub mean_speed_rad_per_s: f64,
+    /// Its fifth percentile, rad/s.
+    pub p05_speed_rad_per_s: f64,
+    /// Its 95th percentile, rad/s.
+    pub p95_speed_rad_per_s: f64,
+    /// Mean distance of the cage centre from the guide centre, m.
+    pub mean_radius_m: f64,
+    /// Net turns about the guide centre, positive counter-clockwise.
+    pub turns: f64,
+    /// Time from which on the whirl speed stays within 15 % of its mean, s; none if it never does.
+    pub settling_time_s: Option<f64>,
 }
 
 /// The largest slip of any roller.
@@ -151,6 +176,7 @@ impl Summary {
             integration: integration(run),
             window: window(&run.recording, from),
             cage_frequency_hz: mean("cage.speed").map(|speed| speed.abs() / TAU),
+            whirl: whirl(run, from),
             max_roller_slip: max_roller_slip(run, from),
             pocket_forces: pocket_forces(run, from),
             statistics,
@@ -164,9 +190,11 @@ impl Summary {
     }
 }
 
-/// Statistics of every channel of cage, guide and rings, and of the slip of every roller.
+/// Statistics of every channel of cage, guide and rings, and of the slip of every roller; not of the other channels
+/// that every element has.
 fn key_statistics(channels: &[Channel], recording: &Recording, from: f64) -> Vec<(String, Statistics)> {
-    let key = |name: &str| !name.starts_with("roller[") || name.ends_with("].slip");
+    let of_element = |name: &str| name.starts_with("roller[") || name.starts_with("element[");
+    let key = |name: &str| !of_element(name) || name.ends_with("].slip");
     let columns = channels.iter().enumerate().filter(|(_, c)| key(&c.name));
     columns
         .filter_map(|(i, c)| {
@@ -190,7 +218,30 @@ fn integration(run: &Run) -> Integration {
         smallest_step_s: driver.smallest_step,
         largest_step_s: driver.largest_step,
         evaluations: run.statistics.evaluations,
+        law_evaluations: LAWS.into_iter().zip(run.statistics.laws).filter(|(_, n)| *n > 0).collect(),
     }
+}
+
+fn whirl(run: &Run, from: f64) -> Option<Whirl> {
+    let [y, z] = run.cage_centre()?;
+    let record = WhirlRecord {
+        times: &run.recording.times,
+        whirl_speed: run.column("cage.whirl_speed")?,
+        whirl_radius: run.column("cage.whirl_radius")?,
+        centre: [&y, &z],
+        cage_speed: run.column("cage.speed")?,
+        clearance: run.model.guide_clearance(),
+    };
+    let w = WhirlSummary::of(&record, from)?;
+    Some(Whirl {
+        motion: w.motion,
+        mean_speed_rad_per_s: w.speed.mean,
+        p05_speed_rad_per_s: w.speed.p05,
+        p95_speed_rad_per_s: w.speed.p95,
+        mean_radius_m: w.radius,
+        turns: w.turns,
+        settling_time_s: w.settling_time,
+    })
 }
 
 fn window(recording: &Recording, from: f64) -> Window {
@@ -230,6 +281,9 @@ fn pocket_forces(run: &Run, from: f64) -> Option<PocketForces> {
 }
 
 /// Writes the pairs as a map that keeps their order.
-fn as_map<S: Serializer>(pairs: &[(String, Statistics)], serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_map(pairs.iter().map(|(name, s)| (name, s)))
+fn as_map<S: Serializer>(
+    pairs: &[(impl Serialize, impl Serialize)],
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(pairs.iter().map(|(name, value)| (name, value)))
 }

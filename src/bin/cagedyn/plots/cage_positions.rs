@@ -2,9 +2,8 @@
 
 use super::axis::Axis;
 use super::panel::{Panel, Place, panel};
-use super::style::{
-    self, CURVE, Canvas, Drawn, INK, MUTED, Marker, SERIES, Symbol, TEXT, line, px, text, text_width,
-};
+use super::style::{self, CURVE, Canvas, Drawn, INK, MUTED, Symbol, TEXT, line, px, text, text_width};
+use super::{Series, look};
 use cagedyn::Result;
 use plotters::prelude::Text;
 use plotters::style::text_anchor::{HPos, VPos};
@@ -14,16 +13,6 @@ const SIDE: f64 = 600.0;
 /// Size of the markers and of the labels of the points, px.
 const MARKER: f64 = 5.0;
 const LABEL: f64 = 11.0;
-/// Shapes of series, in order; another number than colours, so that their combinations repeat late.
-const SHAPES: [Marker; 4] = [Marker::Disc, Marker::Square, Marker::Triangle, Marker::Diamond];
-
-/// Cases that differ in speed only, in the order of speed.
-pub struct Series {
-    /// What the cases have in common.
-    pub label: String,
-    /// Their mean cage centres.
-    pub points: Vec<Point>,
-}
 
 /// Mean cage centre of a case.
 pub struct Point {
@@ -37,7 +26,7 @@ pub struct Point {
 ///
 /// # Errors
 /// [`cagedyn::Status::File`] when it cannot be drawn.
-pub fn cage_positions(title: &str, series: &[Series]) -> Result<String> {
+pub fn cage_positions(title: &str, series: &[Series<Point>]) -> Result<String> {
     let x_axis = Axis::new("mean cage centre y / radial guide clearance [1]", -1.1, 1.1, 5);
     let y_axis = Axis::new("mean cage centre z / radial guide clearance [1]", -1.1, 1.1, 5);
     let place = Place { x: 100.0, y: 80.0, w: SIDE, h: SIDE };
@@ -55,7 +44,7 @@ pub fn cage_positions(title: &str, series: &[Series]) -> Result<String> {
     })
 }
 
-fn legend(canvas: &Canvas<'_>, series: &[Series]) -> Drawn {
+fn legend(canvas: &Canvas<'_>, series: &[Series<Point>]) -> Drawn {
     let x = 100.0 + SIDE + 28.0;
     for (k, s) in series.iter().enumerate() {
         let (shape, color) = look(k);
@@ -65,11 +54,7 @@ fn legend(canvas: &Canvas<'_>, series: &[Series]) -> Drawn {
     style::legend_entry(canvas, (x, y), Symbol::Line(INK), "guide clearance")
 }
 
-fn look(k: usize) -> (Marker, style::Paint) {
-    (SHAPES[k % SHAPES.len()], SERIES[k % SERIES.len()])
-}
-
-fn contents(panel: &mut Panel<'_, '_, '_>, series: &[Series]) -> Drawn {
+fn contents(panel: &mut Panel<'_, '_, '_>, series: &[Series<Point>]) -> Drawn {
     let mut room = Room::default();
     for (k, s) in series.iter().enumerate() {
         panel.curve(s.points.iter().map(|p| p.centre), line(look(k).1, CURVE))?;

@@ -7,13 +7,34 @@ mod panel;
 mod position;
 mod roller;
 mod spectrum;
+mod strips;
 mod style;
+mod whirl_history;
+mod whirl_speed;
 
-pub use cage_positions::{Point, Series, cage_positions};
+pub use cage_positions::{Point, cage_positions};
+pub use whirl_speed::{WhirlPoint, whirl_speed};
 
 use crate::run::Run;
 use crate::summary::Summary;
 use cagedyn::Result;
+use style::{Marker, Paint, SERIES};
+
+/// Shapes of series, in order; another number than colours, so that their combinations repeat late.
+const SHAPES: [Marker; 4] = [Marker::Disc, Marker::Square, Marker::Triangle, Marker::Diamond];
+
+/// Cases that differ in speed only, in the order of speed.
+pub struct Series<P> {
+    /// What the cases have in common.
+    pub label: String,
+    /// One point per case.
+    pub points: Vec<P>,
+}
+
+/// Marker and colour of series `k`.
+fn look(k: usize) -> (Marker, Paint) {
+    (SHAPES[k % SHAPES.len()], SERIES[k % SERIES.len()])
+}
 
 /// File names and contents of the pictures of a run.
 ///
@@ -28,6 +49,7 @@ pub fn pictures(run: &Run, summary: &Summary) -> Result<Vec<(&'static str, Strin
         ("cage_orbit.svg", orbit::cage_orbit(run, summary)),
         ("cage_position.svg", position::cage_position(run, summary)),
         ("roller_history.svg", roller::roller_history(run)),
+        ("whirl_history.svg", whirl_history::whirl_history(run, summary)),
         ("cage_spectrum.svg", spectrum::cage_spectrum(run, summary)),
     ];
     drawn.into_iter().filter_map(|(name, svg)| Some(svg?.map(|svg| (name, svg)))).collect()

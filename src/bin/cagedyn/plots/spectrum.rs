@@ -10,19 +10,27 @@ use crate::table::{number, rounded};
 use cagedyn::Result;
 use plotters::prelude::Text;
 use plotters::style::text_anchor::{HPos, VPos};
+use std::f64::consts::TAU;
 
 /// The start of a run is left out, s ...
 const SETTLED: f64 = 0.08;
 /// ... but at most this share of it.
 const LARGEST_START_SHARE: f64 = 1.0 / 3.0;
-/// Highest frequency shown, Hz.
+/// Highest frequency shown, Hz, if the cage does not whirl faster ...
 const HIGHEST: f64 = 1000.0;
+/// ... or else in units of the whirl frequency.
+const ABOVE_WHIRL: f64 = 1.5;
 /// Powers of ten shown below the peak.
 const DECADES: f64 = 4.0;
+/// Label of the whirl frequency.
+const WHIRL: &str = "whirl";
 /// Frequency ranges that are told apart.
 const COLUMNS: usize = 1000;
-/// Room above the peak for the labels of the frequencies, in powers of ten.
-const LABEL_ROOM: f64 = 1.3;
+/// Room above the peak for the label of a frequency, and above all labels, in powers of ten.
+const LABEL_ROOM: f64 = 0.35;
+const TOP_ROOM: f64 = 0.25;
+/// There is room for at least this many labels.
+const MIN_LABELS: usize = 3;
 
 /// The picture, if there is a cage and the run is long enough.
 pub fn cage_spectrum(run: &Run, summary: &Summary) -> Option<Result<String>> {
@@ -30,7 +38,8 @@ pub fn cage_spectrum(run: &Run, summary: &Summary) -> Option<Result<String>> {
     let from = run.recording.index_at(start);
     let samples: Vec<f64> = run.column("cage.z")?.get(from..)?.iter().map(|x| 1e3 * x).collect();
     let mut spectrum = amplitude_spectrum(&samples, run.interval())?;
-    let shown = spectrum.frequencies.partition_point(|f| *f <= HIGHEST);
+    let highest = whirl_frequency(summary).map_or(HIGHEST, |f| HIGHEST.max(ABOVE_WHIRL * f));
+    let shown = spectrum.frequencies.partition_point(|f| *f <= highest);
     spectrum.frequencies.truncate(shown);
     spectrum.amplitudes.truncate(shown);
     let first = run.recording.times.get(from).copied()?;
@@ -39,15 +48,22 @@ pub fn cage_spectrum(run: &Run, summary: &Summary) -> Option<Result<String>> {
     Some(draw(&run.title, &subtitle, &spectrum, &orders(run, summary)))
 }
 
-/// Frequencies to mark, with their names: those of the cage and of the pockets passing by.
+/// Frequency of the whirl, if there is one, Hz.
+fn whirl_frequency(summary: &Summary) -> Option<f64> {
+    let whirl = summary.whirl.as_ref().filter(|w| w.motion.is_whirl())?;
+    Some(whirl.mean_speed_rad_per_s.abs() / TAU)
+}
+
+/// Frequencies to mark, with their names: those of the cage, of the pockets passing by and of the whirl.
 fn orders(run: &Run, summary: &Summary) -> Vec<(f64, String)> {
     let Some(cage) = summary.cage_frequency_hz.filter(|f| *f > 0.0) else { return Vec::new() };
-    let count = run.roller_count();
+    let count = run.model.element_count();
     let mut list = vec![(cage, "f_c".to_owned())];
     if count != 4 {
         list.push((4.0 * cage, "4 f_c".to_owned()));
     }
     list.push((count as f64 * cage, format!("Z f_c = {count} f_c")));
+    list.extend(whirl_frequency(summary).map(|f| (f, WHIRL.to_owned())));
     list.sort_by(|a, b| a.0.total_cmp(&b.0));
     list
 }
@@ -56,9 +72,9 @@ fn draw(title: &str, subtitle: &str, spectrum: &Spectrum, orders: &[(f64, String
     let highest = spectrum.frequencies.last().copied().unwrap_or(HIGHEST);
     let peak = spectrum.peak();
     let largest = spectrum.amplitudes.iter().fold(0.0, |m: f64, a| m.max(*a)).max(1e-15).log10();
+    let room = TOP_ROOM + LABEL_ROOM * orders.len().max(MIN_LABELS) as f64;
     let x_axis = Axis::new("frequency [Hz]", 0.0, highest, 10);
-    let y_axis =
-        Axis::powers_of_ten("amplitude of cage.z [mm]", (largest - DECADES).round(), largest + LABEL_ROOM);
+    let y_axis = Axis::powers_of_ten("amplitude of cage.z [mm]", (largest - DECADES).round(), largest + room);
     let place = Place { x: 100.0, y: 100.0, w: 770.0, h: 370.0 };
     style::picture((900.0, 540.0), title, subtitle, |canvas| {
         let mut entries = vec![(Symbol::Line(BLUE), "amplitude, Hann window".to_owned())];
@@ -66,13 +82,19 @@ fn draw(title: &str, subtitle: &str, spectrum: &Spectrum, orders: &[(f64, String
             let label = format!("peak {} mm at {} Hz", number(amplitude), number(frequency));
             entries.push((Symbol::Marker(Marker::Ring, RED), label));
         }
-        entries.push((Symbol::Dashed(MUTED), "multiples of the cage frequency f_c".to_owned()));
+        let whirls = orders.iter().any(|(_, name)| name == WHIRL);
+        let marks = if whirls {
+            "multiples of the cage frequency f_c, whirl"
+        } else {
+            "multiples of the cage frequency f_c"
+        };
+        entries.push((Symbol::Dashed(MUTED), marks.to_owned()));
         style::legend_row(canvas, 78.0, &entries)?;
         panel(canvas, place, (&x_axis, &y_axis), true, &[], |panel| {
             // Every label has a height of its own and its line ends there, so that none crosses another's text.
             let shown = orders.iter().filter(|(frequency, _)| *frequency < highest);
             for (row, (frequency, name)) in shown.enumerate() {
-                let top = y_axis.max - 0.12 - 0.35 * row as f64;
+                let top = y_axis.max - 0.12 - LABEL_ROOM * row as f64;
                 panel.vertical(*frequency, top, line(MUTED, THIN))?;
                 let (x, y) = panel.place((*frequency, top));
                 let label = format!("{name}, {} Hz", number(*frequency));

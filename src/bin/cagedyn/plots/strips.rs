@@ -1,0 +1,62 @@
+//! Quantities over time, one diagram below the other.
+
+use super::axis::Axis;
+use super::panel::{Place, panel};
+use super::style::{self, CURVE, MUTED, Paint, Symbol, line};
+use cagedyn::Result;
+
+/// Height of a diagram and gap between two, px.
+const HEIGHT: f64 = 165.0;
+const GAP: f64 = 16.0;
+/// Upper edge of the first diagram, px.
+const TOP: f64 = 100.0;
+
+/// One diagram.
+pub struct Strip {
+    /// Name of the quantity with unit.
+    pub name: &'static str,
+    /// Values over time and their colours; later curves cover earlier ones.
+    pub curves: Vec<(Paint, Vec<f64>)>,
+    /// Dashed lines at these values.
+    pub bounds: Vec<f64>,
+}
+
+/// Texts of the picture.
+pub struct Texts<'a> {
+    /// Title.
+    pub title: &'a str,
+    /// Line below it.
+    pub subtitle: &'a str,
+    /// Legend.
+    pub entries: Vec<(Symbol, String)>,
+}
+
+/// The picture; intervals of time in `shaded` get another background.
+///
+/// # Errors
+/// [`cagedyn::Status::File`] when it cannot be drawn.
+pub fn history(texts: &Texts<'_>, times: &[f64], strips: &[Strip], shaded: &[(f64, f64)]) -> Result<String> {
+    let (start, end) = (times.first().copied().unwrap_or(0.0), times.last().copied().unwrap_or(1.0));
+    let x_axis = Axis::new("time [s]", start, end, 10);
+    let height = TOP + strips.len() as f64 * (HEIGHT + GAP) + 46.0;
+    style::picture((900.0, height), texts.title, texts.subtitle, |canvas| {
+        style::legend_row(canvas, 78.0, &texts.entries)?;
+        for (k, strip) in strips.iter().enumerate() {
+            let values = strip.curves.iter().flat_map(|(_, values)| values.iter().copied());
+            let y_axis = Axis::covering(strip.name, values.chain(strip.bounds.iter().copied()), 5);
+            let place = Place { x: 100.0, y: TOP + k as f64 * (HEIGHT + GAP), w: 770.0, h: HEIGHT };
+            let last = k + 1 == strips.len();
+            panel(canvas, place, (&x_axis, &y_axis), last, shaded, |panel| {
+                for &bound in &strip.bounds {
+                    panel.dashed([(start, bound), (end, bound)], line(MUTED, 0.9))?;
+                }
+                for (color, values) in &strip.curves {
+                    let points = times.iter().copied().zip(values.iter().copied());
+                    panel.curve(points, line(*color, CURVE))?;
+                }
+                Ok(())
+            })?;
+        }
+        Ok(())
+    })
+}

@@ -1,0 +1,75 @@
+//! Whirl of the cage and the forces that drive and brake it, over the whole run.
+
+use super::strips::{self, Strip, Texts};
+use super::style::{BLUE, GREEN, MUTED, ORANGE, PURPLE, Paint, RED, Symbol, TEAL};
+use crate::run::Run;
+use crate::summary::Summary;
+use cagedyn::{Result, Spread};
+
+/// Share of the records whose extreme values do not stretch a diagram: right after the start, while the centre is
+/// near the guide centre, whirl speeds are large without meaning.
+const CLIPPED: f64 = 0.01;
+
+/// Parts of the guide force: channel, name, colour.
+const PARTS: [(&str, &str, Paint); 3] = [
+    ("guide.pressure_phi", "guide pressure", BLUE),
+    ("guide.shear_phi", "guide shear", ORANGE),
+    ("guide.solid_phi", "guide solid", RED),
+];
+
+/// The picture, if the elements have a prescribed motion and there is a cage.
+pub fn whirl_history(run: &Run, summary: &Summary) -> Option<Result<String>> {
+    if run.model.has_rollers() {
+        return None;
+    }
+    let column = |name: &str, scale: f64| -> Option<Vec<f64>> {
+        Some(run.column(name)?.iter().map(|x| scale * x).collect())
+    };
+    let present = |name: &str| {
+        // A part that never acts would only cover the others.
+        column(name, 1.0).filter(|values| values.iter().any(|x| *x != 0.0))
+    };
+    let strip = |name, curves: Vec<(Paint, Vec<f64>)>| Strip { name, curves, bounds: Vec::new() };
+    let clearance = run.model.guide_clearance();
+    let mut entries = vec![(Symbol::Patch, "averaging window".to_owned())];
+    let mut strips = vec![
+        strip("whirl speed [rad/s]", vec![(PURPLE, clipped(column("cage.whirl_speed", 1.0)?))]),
+        Strip {
+            name: "whirl radius [\u{b5}m]",
+            curves: vec![(GREEN, column("cage.whirl_radius", 1e6)?)],
+            bounds: clearance.map(|c| 1e6 * c).into_iter().collect(),
+        },
+    ];
+    if clearance.is_some() {
+        entries.push((Symbol::Dashed(MUTED), "guide clearance".to_owned()));
+    }
+    if let Some(share) = column("guide.film_share", 1.0) {
+        strips.push(Strip { name: "film share [1]", curves: vec![(TEAL, share)], bounds: vec![0.0] });
+    }
+    let parts: Vec<_> = PARTS.into_iter().filter_map(|(c, name, p)| Some((p, name, present(c)?))).collect();
+    if !parts.is_empty() {
+        entries.extend(parts.iter().map(|(paint, name, _)| (Symbol::Line(*paint), (*name).to_owned())));
+        let curves = parts.into_iter().map(|(paint, _, values)| (paint, clipped(values))).collect();
+        strips.push(strip("guide force [N]", curves));
+    }
+    if let Some(force) = column("pocket.force_phi", 1.0) {
+        strips.push(strip("pocket force [N]", vec![(MUTED, force)]));
+    }
+    let window = [(summary.window.from_s, summary.window.to_s)];
+    let subtitle =
+        "Whirl of the cage; forces across the line from guide to cage centre, positive counter-clockwise";
+    let texts = Texts { title: &run.title, subtitle, entries };
+    Some(strips::history(&texts, &run.recording.times, &strips, &window))
+}
+
+/// The values, those far outside of the range of all but a few of them cut to the edge of that range.
+fn clipped(mut values: Vec<f64>) -> Vec<f64> {
+    let mut sorted = values.clone();
+    sorted.sort_by(f64::total_cmp);
+    let cut = (CLIPPED * sorted.len() as f64) as usize;
+    let Some(inner) = sorted.get(cut..sorted.len() - cut).and_then(Spread::of) else { return values };
+    let room = inner.max - inner.min;
+    let (low, high) = (inner.min - room, inner.max + room);
+    values.iter_mut().filter(|x| x.is_finite()).for_each(|x| *x = x.clamp(low, high));
+    values
+}
