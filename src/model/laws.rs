@@ -23,6 +23,7 @@ pub(super) struct RacewayLaws {
 }
 
 /// Contacts of elements with their pockets.
+#[expect(clippy::large_enum_variant, reason = "one per model")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum PocketLaws {
     Cylinder(CylinderLaws),
