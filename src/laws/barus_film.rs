@@ -53,10 +53,10 @@ impl BarusFilm {
         if s.value() > self.cap * (1.0 + 1e-12) {
             return self.capped(s);
         }
-        let rest = -s + 1.0;
-        let z = s / rest;
+        let inverse = T::constant(1.0) / (-s + 1.0);
+        let z = s * inverse;
         let psi = psi(z);
-        WidthMean { pressure: peak * psi * 2.0 / rest, viscosity: (-(z * psi) + 1.0) / rest }
+        WidthMean { pressure: peak * psi * inverse * 2.0, viscosity: (-(z * psi) + 1.0) * inverse }
     }
 
     fn capped<T: Real>(&self, s: T) -> WidthMean<T> {
@@ -75,14 +75,10 @@ impl BarusFilm {
         }
     }
 
-    /// A measure of how far the averages are from their singular points on one side of the cap, for choosing quadrature
-    /// panels: where it changes little, they are smooth functions of s.
-    pub(super) fn smoothness(&self, s: f64, capped: bool) -> f64 {
-        if capped {
-            (1.0 - self.cap / s.max(self.cap)).sqrt() + (1.0 - self.cap).sqrt()
-        } else {
-            1.0 - s.min(self.cap)
-        }
+    /// On one side of the cap, a coordinate at `s` of which the averages are smooth functions, and its value where they
+    /// are singular: s = 1 below the cap, and t_c = -sqrt(1 - s_cap), with the other sign of the root, above it.
+    pub(super) fn coordinate(&self, s: f64, capped: bool) -> (f64, f64) {
+        if capped { (-(1.0 - self.cap / s.max(self.cap)).sqrt(), (1.0 - self.cap).sqrt()) } else { (s, 1.0) }
     }
 }
 
@@ -90,8 +86,16 @@ impl BarusFilm {
 fn psi<T: Real>(z: T) -> T {
     let size = z.value().abs();
     if size < 4e-2 {
-        let terms = if size < 2e-3 { &ODD_INVERSES[..6] } else { &ODD_INVERSES[..] };
-        return terms.iter().rev().fold(T::constant(0.0), |sum, &c| -(sum * z) + c);
+        let terms = match size {
+            0.0..2e-3 => 6,
+            2e-3..1.2e-2 => 8,
+            _ => ODD_INVERSES.len(),
+        };
+        // Even and odd powers side by side: neither waits for the other.
+        let (zero, square) = (T::constant(0.0), z * z);
+        let pairs = ODD_INVERSES[..terms].chunks_exact(2).rev();
+        let (even, odd) = pairs.fold((zero, zero), |(a, b), c| (a * square + c[0], b * square + c[1]));
+        return even - odd * z;
     }
     let phi = if z.value() > 0.0 {
         let root = z.sqrt();

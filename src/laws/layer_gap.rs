@@ -195,12 +195,117 @@ impl<T: Real> Gap<T> for ProfileGap<'_, T> {
     }
 }
 
-/// Place between `a` and `b` where `f` changes from true to false or back.
-pub(super) fn change(f: impl Fn(f64) -> bool, mut a: f64, mut b: f64) -> f64 {
-    let at_a = f(a);
-    for _ in 0..50 {
-        let middle = 0.5 * (a + b);
-        if f(middle) == at_a { a = middle } else { b = middle }
+/// Place between `a` and `b` where `f` changes its sign, by the Illinois method.
+pub(super) fn change(f: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
+    let (mut at_a, mut at_b) = (f(a), f(b));
+    for _ in 0..60 {
+        let secant = b - at_b * (b - a) / (at_b - at_a);
+        let inside = a.min(b) < secant && secant < a.max(b);
+        let next = if inside { secant } else { 0.5 * (a + b) };
+        let value = f(next);
+        let step = (next - b).abs();
+        if (value < 0.0) == (at_b < 0.0) {
+            at_a *= 0.5;
+        } else {
+            (a, at_a) = (b, at_b);
+        }
+        (b, at_b) = (next, value);
+        if value == 0.0 || step.min((b - a).abs()) < 1e-15 {
+            break;
+        }
     }
-    0.5 * (a + b)
+    b
+}
+
+/// Calls `visit` for the parts of an interval between the sign changes of `f`, which is looked at in `steps` steps and
+/// one beyond either end. Where those values curve towards zero, a pair of changes within one step is looked for too.
+pub(super) fn parts(
+    f: impl Fn(f64) -> f64,
+    [from, to]: [f64; 2],
+    steps: u32,
+    mut visit: impl FnMut(f64, f64),
+) {
+    let step = (to - from) / f64::from(steps);
+    let place = |i: u32| if i == steps { to } else { from + step * f64::from(i) };
+    let mut start = from;
+    let mut split = |at: f64| {
+        visit(start, at);
+        start = at;
+    };
+    let mut v = [f(from - step), f(from), f(place(1)), 0.0];
+    for i in 0..steps {
+        let (a, b) = (place(i), place(i + 1));
+        v[3] = f(b + step);
+        let side = if v[1] < 0.0 { -1.0 } else { 1.0 };
+        let [before, left, right, after] = v.map(|v| side * v);
+        if (v[1] < 0.0) != (v[2] < 0.0) {
+            split(change(&f, a, b));
+        } else if before >= left && after >= right && left.min(right) <= before - left + after - right {
+            let lowest = lowest(|x| side * f(x), a, b);
+            if side * f(lowest) < 0.0 {
+                split(change(&f, a, lowest));
+                split(change(&f, lowest, b));
+            }
+        }
+        v = [v[1], v[2], v[3], 0.0];
+    }
+    split(to);
+}
+
+/// Place of the minimum of `f` between `a` and `b`, or a place where it is negative.
+fn lowest(f: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    let (mut left, mut right) = (b - GOLDEN * (b - a), a + GOLDEN * (b - a));
+    let (mut at_left, mut at_right) = (f(left), f(right));
+    for _ in 0..36 {
+        if at_left < at_right {
+            (b, right, at_right) = (right, left, at_left);
+            left = b - GOLDEN * (b - a);
+            at_left = f(left);
+        } else {
+            (a, left, at_left) = (left, right, at_right);
+            right = a + GOLDEN * (b - a);
+            at_right = f(right);
+        }
+        if at_left.min(at_right) < 0.0 {
+            break;
+        }
+    }
+    if at_left < at_right { left } else { right }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ends(f: impl Fn(f64) -> f64, interval: [f64; 2], steps: u32) -> Vec<f64> {
+        let mut ends = Vec::new();
+        parts(f, interval, steps, |_, b| ends.push(b));
+        ends
+    }
+
+    fn near(found: &[f64], expected: &[f64]) -> bool {
+        found.len() == expected.len() && found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12)
+    }
+
+    #[test]
+    fn parts_end_at_sign_changes() {
+        assert!(near(&ends(|x| x.powi(3) - 0.2, [0.0, 1.0], 1), &[0.2f64.cbrt(), 1.0]));
+        assert_eq!(ends(|x| x * x + 1e-9, [-1.0, 1.1], 3), [1.1]);
+        assert_eq!(ends(|_| f64::NAN, [0.0, 1.0], 2), [1.0]);
+        assert_eq!(ends(|_| f64::INFINITY, [0.0, 1.0], 2), [1.0]);
+    }
+
+    #[test]
+    fn a_pair_of_sign_changes_within_a_step_is_found() {
+        for width in [0.2, 1e-3, 1e-6] {
+            for sign in [1.0, -1.0] {
+                for middle in [0.03, 0.3, 0.5, 0.9] {
+                    let (a, b) = (middle - 0.1 * width, middle + 0.1 * width);
+                    let found = ends(|x| sign * (x - a) * (x - b), [0.0, 1.0], 1);
+                    assert!(near(&found, &[a, b, 1.0]), "{width} {middle} {found:?}");
+                }
+            }
+        }
+    }
 }

@@ -1,25 +1,21 @@
 //! Integrals of pressure and shear over wet arcs, for `LubricantLayer`.
 //!
-//! An arc is split where G = 0 and where s = s_cap. Pieces with thickening, s > 0.1, are mapped by
-//! gamma = middle - half cos(x), because t_c is a square root of the distance from the place where s = s_cap, and cut
-//! into panels over which `BarusFilm::smoothness` changes little: the mean viscosity below the cap is nearly singular
-//! at s = 1. All places are chosen from plain values; nodes move with the ends of the arc, so that derivatives are those
-//! of the integral.
+//! An arc is split where G = 0 and where s = s_cap. Pieces above the cap are mapped by gamma = middle - half cos(x),
+//! because t_c is a square root of the distance from the place where s = s_cap. A piece is bisected into panels until a
+//! Gauss rule suits: its integrand has to be analytic within the Bernstein ellipse of the panel that belongs to the
+//! number of nodes. What it is singular at are the poles of the map to Sommerfeld's angle and the places where
+//! `BarusFilm::coordinate` takes a given value; that value stays outside if the Chebyshev coefficients of the coordinate
+//! say so, which is exact for a coordinate with one term. All places are chosen from plain values; nodes move with the
+//! ends of the arc, so that derivatives are those of the integral.
 
 use super::barus_film::BarusFilm;
-use super::layer_gap::{Gap, Place, change};
+use super::layer_gap::{Gap, Place, parts};
 use super::lubricant_layer::{LubricantLayer, PressureShear};
 use crate::scalar::Real;
 use std::f64::consts::PI;
 
 /// Largest s for which a piece is integrated as if the film were isoviscous.
-const MILD: f64 = 0.1;
-/// Widest panel, rad: below it ten nodes resolve the products of five sines that occur.
-const WIDEST: f64 = 1.0;
-/// Widest panel for six nodes, rad.
-const NARROW: f64 = 0.3;
-/// Largest ratio of `BarusFilm::smoothness` over a panel.
-const ROUGHEST: f64 = 2.0;
+const MILD: f64 = 0.01;
 /// Bisections of one piece; reached only by states that are not finite.
 const DEEPEST: u32 = 14;
 
@@ -37,22 +33,26 @@ pub(super) struct Arc<T> {
     pub end: T,
 }
 
-/// Coordinate x of a piece: the angle itself, or gamma = middle - half cos(x).
+/// Part of an arc in which the integrand has no kink.
 #[derive(Clone, Copy)]
-enum Map {
-    Angle,
-    Cosine { middle: f64, half: f64, capped: bool },
+struct Piece {
+    arc_start: f64,
+    /// Whether s is so small, or the film cavitates, that only the gap matters.
+    mild: bool,
+    /// Whether s > s_cap; then its coordinate x is that of gamma = middle - half cos(x), else gamma itself.
+    capped: bool,
+    middle: f64,
+    half: f64,
 }
 
-impl Map {
+impl Piece {
     /// Angle and its rate of change at `x`.
-    fn at(self, x: f64) -> (f64, f64) {
-        match self {
-            Self::Angle => (x, 1.0),
-            Self::Cosine { middle, half, .. } => {
-                let (sin, cos) = x.sin_cos();
-                (middle - half * cos, half * sin)
-            }
+    fn at(&self, x: f64) -> (f64, f64) {
+        if self.capped {
+            let (sin, cos) = x.sin_cos();
+            (self.middle - self.half * cos, self.half * sin)
+        } else {
+            (x, 1.0)
         }
     }
 }
@@ -100,72 +100,87 @@ impl<'a, T: Real, G: Gap<T>, P: Gap<f64>> Integrator<'a, T, G, P> {
         if !exists {
             return;
         }
-        let under_pressure = self.plain.at(0.5 * (from + to)).opening < 0.0;
-        if !under_pressure || bound < MILD {
-            self.panels(arc, Map::Angle, [from, to], [0.0; 2], 0);
+        let mild = bound < MILD || self.plain.at(0.5 * (from + to)).opening >= 0.0;
+        if mild || bound < self.film.cap {
+            self.smooth(arc, from, to, mild, false);
             return;
         }
-        let step = (to - from) / f64::from(scan);
-        let (mut start, mut left) = (from, from);
-        let mut left_capped = self.thickening(from) > self.film.cap;
-        for i in 1..=scan {
-            let right = if i == scan { to } else { from + step * f64::from(i) };
-            let right_capped = self.thickening(right) > self.film.cap;
-            if left_capped != right_capped {
-                let at = change(|g| self.thickening(g) > self.film.cap, left, right);
-                self.thickened(arc, start, at);
-                start = at;
+        let (plain, scale, cap) = (self.plain, self.scale(), self.film.cap);
+        let over = |gamma: f64| scale * thickening(&plain.at(gamma)) - cap;
+        parts(over, [from, to], scan, |a, b| {
+            // Not at an end: there, round-off decides on which side of the cap s lies.
+            if b > a {
+                self.smooth(arc, a, b, false, over(0.5 * (a + b)) > 0.0);
             }
-            (left, left_capped) = (right, right_capped);
-        }
-        self.thickened(arc, start, to);
+        });
     }
 
-    /// s = alpha q_0; negative where the film cavitates.
-    fn thickening(&self, gamma: f64) -> f64 {
-        let p = self.plain.at(gamma);
-        -p.opening * p.inverse_film.powi(3) * (self.peak_scale * self.law.pressure_viscosity)
+    /// s for q_0 = -G/h^3.
+    fn scale(&self) -> f64 {
+        self.peak_scale * self.law.pressure_viscosity
     }
 
-    fn smoothness(&self, gamma: f64, capped: bool) -> f64 {
-        // At the very cap round-off decides on which side of it s lies; the piece knows better.
-        self.film.smoothness(self.thickening(gamma).max(0.0), capped)
-    }
-
-    fn thickened(&mut self, arc: &Arc<T>, from: f64, to: f64) {
+    fn smooth(&mut self, arc: &Arc<T>, from: f64, to: f64, mild: bool, capped: bool) {
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-        let capped = self.thickening(middle) > self.film.cap;
-        let ends = [self.smoothness(from, capped), self.smoothness(to, capped)];
-        self.panels(arc, Map::Cosine { middle, half, capped }, [0.0, PI], ends, 0);
+        let piece = Piece { arc_start: arc.start.value(), mild, capped, middle, half };
+        let stretch = (arc.end - arc.start) / (arc.end.value() - arc.start.value());
+        let x = if capped { [0.0, PI] } else { [from, to] };
+        let mut samples = [0.0; 5];
+        if !mild {
+            let quarter = 0.25 * (x[1] - x[0]);
+            samples = [0.0, 1.0, 2.0, 3.0, 4.0].map(|i| self.coordinate(&piece, x[0] + i * quarter));
+        }
+        self.panels(&piece, [arc.start, stretch], x, &samples, 0);
     }
 
-    /// Bisects until panels are smooth enough. `ends` is the smoothness at both ends of `x`.
-    fn panels(&mut self, arc: &Arc<T>, map: Map, x: [f64; 2], ends: [f64; 2], depth: u32) {
-        let [from, to] = [map.at(x[0]).0, map.at(x[1]).0];
-        let far = PI - from.abs().max(to.abs());
-        let singular = far.hypot(2.0 * self.narrowness);
-        let mut wide = to - from > WIDEST || to - from > 2.0 * singular;
-        let middle = 0.5 * (x[0] + x[1]);
-        let mut at_middle = 0.0;
-        if let Map::Cosine { capped, .. } = map {
-            at_middle = self.smoothness(map.at(middle).0, capped);
-            let least = ends[0].min(ends[1]).min(at_middle);
-            let most = ends[0].max(ends[1]).max(at_middle);
-            wide |= x[1] - x[0] > 1.6 || most > ROUGHEST * least;
-        }
-        if wide && depth < DEEPEST {
-            self.panels(arc, map, [x[0], middle], [ends[0], at_middle], depth + 1);
-            self.panels(arc, map, [middle, x[1]], [at_middle, ends[1]], depth + 1);
-            return;
-        }
-        let few = matches!(map, Map::Angle) && to - from < NARROW.min(0.4 * singular);
-        let rule = if few { &GAUSS_6[..] } else { &GAUSS_10[..] };
-        let half = 0.5 * (x[1] - x[0]);
-        let (start, length) = (arc.start.value(), arc.end.value() - arc.start.value());
-        let stretch = (arc.end - arc.start) / length;
-        for (node, weight) in rule.iter().flat_map(|&(x, w)| [(-x, w), (x, w)]) {
-            let (gamma, rate) = map.at(middle + half * node);
-            self.node(arc.start + stretch * (gamma - start), stretch * (weight * half * rate));
+    fn coordinate(&self, piece: &Piece, x: f64) -> f64 {
+        let s = self.scale() * thickening(&self.plain.at(piece.at(x).0));
+        self.film.coordinate(s, piece.capped).0
+    }
+
+    /// Bisects until a rule suits. `map` is the start of the arc and its stretch, `samples` the coordinate at the ends,
+    /// the middle and the quarters of `x`.
+    fn panels(&mut self, piece: &Piece, map: [T; 2], x: [f64; 2], samples: &[f64; 5], depth: u32) {
+        let (middle, half) = (0.5 * (x[0] + x[1]), 0.5 * (x[1] - x[0]));
+        let [from, to] = x.map(|x| piece.at(x).0);
+        let width = to - from;
+        // Larger half axis of the ellipse through a pole.
+        let (far, narrow) = (PI - 0.5 * (from + to).abs(), 2.0 * self.narrowness);
+        let [near_end, far_end] =
+            [far - 0.5 * width, far + 0.5 * width].map(|d| (d * d + narrow * narrow).sqrt());
+        let axis = (near_end + far_end) / width;
+        let limit = self.film.coordinate(0.0, piece.capped).1;
+        let terms = chebyshev(samples);
+        let suits = |rule: &&Rule| {
+            let most = terms[1..].iter().zip(rule.growth).fold(terms[0], |sum, (c, g)| sum + c.abs() * g);
+            // Written so that a NaN suits.
+            let unsuited = width > rule.widest
+                || (piece.capped && half > rule.widest)
+                || axis < rule.growth[0]
+                || (!piece.mild && most >= limit);
+            !unsuited
+        };
+        let rule = match RULES.iter().find(suits) {
+            None if depth < DEEPEST => {
+                let mut parts = [
+                    [samples[0], 0.0, samples[1], 0.0, samples[2]],
+                    [samples[2], 0.0, samples[3], 0.0, samples[4]],
+                ];
+                if !piece.mild {
+                    let at = |i: f64| self.coordinate(piece, x[0] + 0.25 * i * half);
+                    (parts[0][1], parts[0][3]) = (at(1.0), at(3.0));
+                    (parts[1][1], parts[1][3]) = (at(5.0), at(7.0));
+                }
+                self.panels(piece, map, [x[0], middle], &parts[0], depth + 1);
+                self.panels(piece, map, [middle, x[1]], &parts[1], depth + 1);
+                return;
+            }
+            found => found.unwrap_or(&RULES[2]),
+        };
+        let [start, stretch] = map;
+        for (node, weight) in rule.nodes.iter().flat_map(|&(x, w)| [(-x, w), (x, w)]) {
+            let (gamma, rate) = piece.at(middle + half * node);
+            self.node(start + stretch * (gamma - piece.arc_start), stretch * (weight * half * rate));
         }
     }
 
@@ -210,16 +225,81 @@ impl<'a, T: Real, G: Gap<T>, P: Gap<f64>> Integrator<'a, T, G, P> {
     }
 }
 
-/// Positive nodes and weights of the Gauss-Legendre rules on [-1, 1].
-const GAUSS_6: [(f64, f64); 3] = [
-    (0.238_619_186_083_196_9, 0.467_913_934_572_691_04),
-    (0.661_209_386_466_264_5, 0.360_761_573_048_138_6),
-    (0.932_469_514_203_152, 0.171_324_492_379_170_36),
-];
-const GAUSS_10: [(f64, f64); 5] = [
-    (0.148_874_338_981_631_22, 0.295_524_224_714_752_87),
-    (0.433_395_394_129_247_2, 0.269_266_719_309_996_35),
-    (0.679_409_568_299_024_4, 0.219_086_362_515_982_04),
-    (0.865_063_366_688_984_5, 0.149_451_349_150_580_6),
-    (0.973_906_528_517_171_7, 0.066_671_344_308_688_14),
+/// -G/h^3.
+fn thickening(p: &Place<f64>) -> f64 {
+    -p.opening * p.inverse_film * p.inverse_film * p.inverse_film
+}
+
+/// Chebyshev coefficients of the quartic through five values at equal distances.
+fn chebyshev(&[a, b, c, d, e]: &[f64; 5]) -> [f64; 5] {
+    let (inner, outer) = (0.5 * (b + d) - c, 0.5 * (a + e) - c);
+    let square = (16.0 * inner - outer) / 3.0;
+    let fourth = outer - square;
+    let (inner, outer) = (0.5 * (d - b), 0.5 * (e - a));
+    let linear = (8.0 * inner - outer) / 3.0;
+    let cube = outer - linear;
+    [
+        c + 0.5 * square + 0.375 * fourth,
+        linear + 0.75 * cube,
+        0.5 * (square + fourth),
+        0.25 * cube,
+        0.125 * fourth,
+    ]
+}
+
+/// Gauss-Legendre rule on [-1, 1].
+struct Rule {
+    /// Widest panel, rad, at which products of five sines are integrated.
+    widest: f64,
+    /// Largest values of the Chebyshev polynomials of orders 1 to 4 on the ellipse in which the integrand has to be
+    /// analytic; the first is also its larger half axis.
+    growth: [f64; 4],
+    /// Positive nodes and weights.
+    nodes: &'static [(f64, f64)],
+}
+
+impl Rule {
+    /// `ellipse` is the sum of the half axes.
+    const fn new(widest: f64, ellipse: f64, nodes: &'static [(f64, f64)]) -> Self {
+        let a = 0.5 * (ellipse + 1.0 / ellipse);
+        let square = 2.0 * a * a - 1.0;
+        Self { widest, growth: [a, square, a * (2.0 * square - 1.0), 2.0 * square * square - 1.0], nodes }
+    }
+}
+
+const RULES: [Rule; 3] = [
+    Rule::new(
+        0.4,
+        6.5,
+        &[
+            (0.238_619_186_083_196_9, 0.467_913_934_572_691_04),
+            (0.661_209_386_466_264_5, 0.360_761_573_048_138_6),
+            (0.932_469_514_203_152, 0.171_324_492_379_170_36),
+        ],
+    ),
+    Rule::new(
+        1.2,
+        3.1,
+        &[
+            (0.148_874_338_981_631_22, 0.295_524_224_714_752_87),
+            (0.433_395_394_129_247_2, 0.269_266_719_309_996_35),
+            (0.679_409_568_299_024_4, 0.219_086_362_515_982_04),
+            (0.865_063_366_688_984_5, 0.149_451_349_150_580_6),
+            (0.973_906_528_517_171_7, 0.066_671_344_308_688_14),
+        ],
+    ),
+    Rule::new(
+        2.4,
+        2.0,
+        &[
+            (0.095_012_509_837_637_44, 0.189_450_610_455_068_5),
+            (0.281_603_550_779_258_9, 0.182_603_415_044_923_58),
+            (0.458_016_777_657_227_37, 0.169_156_519_395_002_54),
+            (0.617_876_244_402_643_8, 0.149_595_988_816_576_73),
+            (0.755_404_408_355_003, 0.124_628_971_255_533_88),
+            (0.865_631_202_387_831_8, 0.095_158_511_682_492_79),
+            (0.944_575_023_073_232_6, 0.062_253_523_938_647_894),
+            (0.989_400_934_991_649_9, 0.027_152_459_411_754_096),
+        ],
+    ),
 ];

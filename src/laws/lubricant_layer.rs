@@ -19,13 +19,18 @@
 //! layer has the same thickness everywhere and fills again at once.
 //!
 //! The width is integrated in closed form. Around the circumference the pressure gradient is integrated by parts, which
-//! leaves Gauss quadrature between the places where the integrand has a kink. For round surfaces the force agrees with
-//! a brute-force integral to 1e-9 of the largest force. With roundness, panels follow the harmonics and end where h
-//! has a minimum, h = h_L, G = 0 or s = s_cap. Two changes of sign of G or of s - s_cap within one panel go unseen, which
-//! costs accuracy (usually below 1e-7) but neither continuity nor symmetry.
+//! leaves Gauss quadrature between the places where the integrand has a kink. Against a brute-force integral, the force
+//! on round surfaces was off by at most 4.3e-10 of the largest force in 8600 random states, and by 7e-11 in 99.9 % of
+//! them. The largest of these errors are of states that dip into the layer by less than some 1e-5 of the film: there, the
+//! rounding of e alone moves the ends of the wet arc, and the error grows as the inverse of that depth.
+//!
+//! With roundness, panels follow the harmonics and end where h is smallest or largest, h = h_L, G = 0 or s = s_cap; the
+//! force was off by at most 8.1e-10 in 1600 states. Two changes of sign of G or of s - s_cap are missed only where both
+//! lie within a twelfth of the shortest period and the values around them do not curve towards zero; that costs
+//! accuracy, but neither continuity nor symmetry.
 
 use super::journal::{FilmForce, Harmonic, JournalMotion, NoFilm};
-use super::layer_gap::{Gap, ProfileGap, RoundGap, change};
+use super::layer_gap::{Gap, ProfileGap, RoundGap, change, parts};
 use super::layer_quadrature::{Arc, Integrator};
 use crate::scalar::Real;
 use std::f64::consts::{PI, TAU};
@@ -34,6 +39,8 @@ use std::f64::consts::{PI, TAU};
 const CAP_SCAN: u32 = 12;
 /// Panels per period of the highest harmonic.
 const PANELS_PER_PERIOD: f64 = 6.0;
+/// Steps in which a panel of a profile is searched for G = 0 and for the cap.
+const PARTS: u32 = 2;
 /// Widest panel of a profile in Sommerfeld's angle, rad.
 const WIDEST: f64 = 0.3;
 /// Narrowest panel of a profile, rad; it bounds their number.
@@ -176,36 +183,32 @@ impl LubricantLayer {
         let highest = self.roundness.iter().map(|a| a.order).max().unwrap_or(2);
         let widest = TAU / (PANELS_PER_PERIOD * f64::from(highest));
         let mut film = Integrator::new(self, &gap, &plain);
-        let (mut least, mut thinnest_at) = (f64::INFINITY, 0.0);
+        let (mut least, mut thinnest_at, mut missing) = (f64::INFINITY, 0.0, None);
+        let slope = |gamma: f64| plain.at(gamma).slope;
         let mut from = -PI;
         let mut here = plain.at(from);
-        while from < PI {
+        while from < PI && missing.is_none() {
             let gradient = (here.slope * here.arc * here.inverse_film).abs();
             let step = WIDEST.min(widest / here.arc).min(0.5 / gradient).max(NARROWEST);
             let to = if from + 1.01 * step < PI { from + step } else { PI };
-            let there = plain.at(to);
-            let mut parts = [[from, to], [to, to]];
-            if here.slope < 0.0 && there.slope > 0.0 {
-                let middle = change(|g| plain.at(g).slope < 0.0, from, to);
-                parts = [[from, middle], [middle, to]];
-            }
-            for [start, end] in parts {
-                let (h0, h1) = (plain.at(start).film, plain.at(end).film);
-                for (at, h) in [(start, h0), (end, h1)] {
+            parts(slope, [from, to], 1, |a, b| {
+                for (at, place) in [(a, plain.at(a)), (b, plain.at(b))] {
                     // Written so that a NaN counts as no film.
-                    let exists = h > 0.0;
+                    let exists = place.film > 0.0;
                     if !exists {
-                        return Err(NoFilm { minimum_film: h });
-                    }
-                    if h < least {
-                        (least, thinnest_at) = (h, at);
+                        missing = Some(place.film);
+                    } else if place.film < least {
+                        (least, thinnest_at) = (place.film, at);
                     }
                 }
-                if end > start {
-                    self.profile_panel(&mut film, start, end);
+                if missing.is_none() && b > a {
+                    self.profile_panel(&mut film, a, b);
                 }
-            }
-            (from, here) = (to, there);
+            });
+            (from, here) = (to, plain.at(to));
+        }
+        if let Some(minimum_film) = missing {
+            return Err(NoFilm { minimum_film });
         }
         let sums = film.sums;
         Ok(FilmForce {
@@ -216,7 +219,7 @@ impl LubricantLayer {
         })
     }
 
-    /// Adds the wet part of a panel in which h has no minimum inside.
+    /// Adds the wet part of a panel in which h has no extremum inside.
     fn profile_panel<T: Real>(
         &self,
         film: &mut Integrator<'_, T, ProfileGap<'_, T>, ProfileGap<'_, f64>>,
@@ -224,17 +227,17 @@ impl LubricantLayer {
         to: f64,
     ) {
         let (gap, plain) = (film.gap, film.plain);
-        let wet = |gamma: f64| plain.at(gamma).film < self.thickness;
+        let dry = |gamma: f64| plain.at(gamma).film - self.thickness;
         // The Newton step that gives the end of the wet arc its derivatives.
         let edge = || {
-            let at = change(wet, from, to);
+            let at = change(dry, from, to);
             let place = plain.at(at);
             let error = gap.at(T::constant(at)).film - self.thickness;
             let moved = T::constant(at) - error / (place.slope * place.arc);
             if moved.value().is_finite() { moved } else { T::constant(at) }
         };
         let mut arc = Arc { start: T::constant(from), end: T::constant(to) };
-        match (wet(from), wet(to)) {
+        match (dry(from) < 0.0, dry(to) < 0.0) {
             (true, true) => (),
             (false, false) => return,
             (true, false) => arc.end = edge(),
@@ -249,15 +252,18 @@ impl LubricantLayer {
                 film.wet_end(arc.start, -1.0);
             }
         }
-        let closing = |gamma: f64| plain.at(gamma).opening < 0.0;
-        let split = if closing(start) == closing(end) { end } else { change(closing, start, end) };
-        for [a, b] in [[start, split], [split, end]] {
-            let bound = [a, 0.5 * (a + b), b]
-                .map(|g| plain.at(g))
-                .iter()
-                .fold(0.0, |most: f64, p| most.max(self.thickening(-p.opening, p.film)));
-            film.piece(&arc, a, b, 2.0 * bound, 2);
-        }
+        parts(
+            |gamma| plain.at(gamma).opening,
+            [start, end],
+            PARTS,
+            |a, b| {
+                let bound = [a, 0.5 * (a + b), b]
+                    .map(|g| plain.at(g))
+                    .iter()
+                    .fold(0.0, |most: f64, p| most.max(self.thickening(-p.opening, p.film)));
+                film.piece(&arc, a, b, 2.0 * bound, PARTS);
+            },
+        );
     }
 }
 
