@@ -4,16 +4,22 @@
 mod common;
 
 use cagedyn::scene::CaseSet;
-use cagedyn::{Model, Scene};
+use cagedyn::{Model, Recording, Scene, Sim};
 use common::{read, repository};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 const SCENE_PAGE: &str = "docs/scene.md";
 
 /// Types that `docs/scene.md` describes once, under these names.
-const SHARED: [(&str, &str); 3] =
-    [("Signal", "<signal>"), ("PlaneVector", "<vector>"), ("ContactLaws", "<contact>")];
+const SHARED: [(&str, &str); 5] = [
+    ("Signal", "<signal>"),
+    ("PlaneVector", "<vector>"),
+    ("ContactLaws", "<contact>"),
+    ("SolidContact", "<solid>"),
+    ("Friction", "<friction>"),
+];
 
 /// Contents of the fenced blocks of one language.
 fn fenced(page: &str, language: &str) -> Vec<String> {
@@ -64,11 +70,17 @@ fn documents() -> (Vec<String>, Vec<String>) {
 }
 
 #[test]
-fn scenes_of_the_page_compile() {
+fn scenes_of_the_page_run() {
     let (scenes, _) = documents();
-    assert!(!scenes.is_empty());
+    for elements in ["rollers", "kinematic_elements"] {
+        assert!(scenes.iter().any(|text| text.contains(elements)), "no scene with {elements}");
+    }
     for text in &scenes {
-        Model::from_json(text).unwrap_or_else(|e| panic!("{e}\n{text}"));
+        let model = Model::from_json(text).unwrap_or_else(|e| panic!("{e}\n{text}"));
+        let mut sim = Sim::new(Arc::new(model)).unwrap_or_else(|e| panic!("{e}\n{text}"));
+        let record = sim.model().scene().record.clone();
+        let result = Recording::default().run(&mut sim, record.duration, record.interval, |_| true);
+        result.unwrap_or_else(|e| panic!("{e}\n{text}"));
     }
 }
 

@@ -142,6 +142,13 @@ fn pocket(sizes: Sizes) -> impl Strategy<Value = (Value, f64)> {
     )
 }
 
+/// Radial clearance of a pocket of any kind; infinite without one.
+fn pocket_room(pocket: &Value) -> f64 {
+    let plane = pocket["solid_plane"]["diametral_clearance"].as_f64().map(|x| 0.5 * x);
+    let cylinder = pocket["lubricated_cylinder"]["radial_clearance"].as_f64();
+    cylinder.or(plane).unwrap_or(f64::INFINITY)
+}
+
 /// A guide of any law on any ring, and its radial clearance.
 fn guide(sizes: Sizes) -> impl Strategy<Value = (Value, f64)> {
     let film = (0..3, any::<bool>(), 0..3usize, magnitude(0.02, 2.0), proptest::option::of(0.1..0.99f64));
@@ -179,6 +186,9 @@ fn guide(sizes: Sizes) -> impl Strategy<Value = (Value, f64)> {
             }
             if film > 0 && with_solid {
                 guide["film_share"] = json!({"roughness": (rough * clearance / 12.0).max(1e-9)});
+                if let Some(height) = height {
+                    guide["film_share"]["touching_ratio"] = json!(5.0 * height);
+                }
             }
             (guide, 0.5 * clearance)
         },
@@ -337,10 +347,16 @@ fn scene() -> impl Strategy<Value = Value> {
             scene["lubricant"]["viscosity"] = viscosity;
             scene["inner_ring"] = json!({"speed": speed});
             scene["cage"] = cage;
-            // A cage on a fixed inner ring starts off its centre.
-            let fixed = &ring.0["fixed"]["y"];
+            // A cage on a fixed inner ring starts around its centre, which stays within the pockets.
             let guided = scene["cage"]["guide"]["ring"] == "inner_ring";
-            let moved = fixed.as_f64().filter(|_| guided).unwrap_or(0.0);
+            let moved = ring.0["fixed"]["y"].as_f64().filter(|_| guided).map_or(0.0, |x| {
+                let largest = 0.25 * pocket_room(&scene["cage"]["pocket"]);
+                x.clamp(-largest, largest)
+            });
+            let mut ring = ring;
+            if moved != 0.0 {
+                ring.0 = json!({"fixed": {"y": moved, "z": -moved}});
+            }
             scene["initial"] = json!({
                 "first_roller_angle": angle,
                 "cage": {"y": moved + offset * angle.cos(), "z": -moved + offset * angle.sin()},

@@ -126,6 +126,25 @@ fn together() -> Vec<Row> {
             share,
             &["missing field `roughness`"],
         ),
+        grease().value(
+            "touching ratio beyond full films",
+            "cage.guide.film_share.touching_ratio",
+            json!(3.1),
+            &["3.1", "0e0 to 3e0"],
+        ),
+        grease().value(
+            "negative touching ratio",
+            "cage.guide.film_share.touching_ratio",
+            json!(-0.1),
+            &["-0.1"],
+        ),
+        grease().json(
+            "touching ratio of null",
+            "cage.guide.film_share.touching_ratio",
+            Value::Null,
+            "cage.guide.film_share.touching_ratio",
+            &["null", "f64"],
+        ),
         grease().json(
             "unknown field in the share",
             "cage.guide.film_share.exponent",
