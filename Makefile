@@ -1,6 +1,6 @@
 # make test      everything that CI runs: formatting, lints, all tests
 # make run       the NU2310 example, results in out/
-# make cases     the twelve NU2310 cases, results in out/cases/
+# make cases     the twelve NU2310 cases, the grease guide over speed and its variants, results in out/cases/
 # make example   the C example, compiled and run, table in out/
 # make pictures  the pictures of the README
 # make bench     time of a force evaluation and of a step
@@ -38,12 +38,17 @@ run:
 	$(CARGO) run --release --locked -- run scenes/nu2310.json --out out
 
 cases:
-	$(CARGO) run --release --locked -- cases scenes/nu2310_fig9.cases.json --out out/cases
+	$(CARGO) run --release --locked -- cases scenes/nu2310_fig9.cases.json --out out/cases/nu2310
+	$(CARGO) run --release --locked -- cases scenes/grease_guide_speed.cases.json --out out/cases/grease_speed
+	$(CARGO) run --release --locked -- cases scenes/grease_guide_effects.cases.json --out out/cases/grease_effects
 
 pictures:
 	$(CARGO) run --release --locked -- run scenes/nu2310.json --out out
+	$(CARGO) run --release --locked -- run scenes/grease_guide.json --out out/grease
+	$(CARGO) run --release --locked -- cases scenes/grease_guide_speed.cases.json --out out/cases/grease_speed
 	mkdir -p docs/images
-	cp out/cage_orbit.svg out/roller_history.svg docs/images/
+	cp out/cage_orbit.svg out/roller_history.svg out/grease/whirl_history.svg docs/images/
+	cp out/cases/grease_speed/whirl_speed.svg docs/images/
 
 example:
 	$(CARGO) build --release --locked
