@@ -3,6 +3,7 @@
 # make cases     the twelve NU2310 cases, the grease guide over speed and its variants, results in out/cases/
 # make example   the C example, compiled and run, table in out/
 # make pictures  the pictures of the README
+# make effects   cost of every effect and what it changes: docs/effects.md
 # make bench     time of a force evaluation and of a step
 # make header    writes include/cagedyn.h and schemas/ anew after a change
 # make install   library, header and pkg-config file below $(DESTDIR)$(PREFIX)
@@ -12,7 +13,7 @@ DESTDIR ?=
 VERSION := $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -n 1)
 CARGO ?= cargo
 
-.PHONY: test tools fmt lint unit run cases pictures example bench header install clean
+.PHONY: test tools fmt lint unit run cases pictures example effects bench header install clean
 
 test: tools fmt lint unit
 
@@ -57,6 +58,9 @@ example:
 	$(CC) -std=c99 -Wall -Wextra -Wpedantic -Iinclude examples/nu2310.c -o out/nu2310 \
 		-Ltarget/release -lcagedyn -Wl,-rpath,$(CURDIR)/target/release
 	./out/nu2310 scenes/nu2310.json out/nu2310.csv
+
+effects: tools
+	$(CARGO) run --release --locked --example effects -- --docs
 
 bench:
 	$(CARGO) bench --locked
