@@ -16,9 +16,9 @@ use std::process::Command;
 use std::sync::Arc;
 
 /// Time by which rollers have met their pockets and the greased cage its film, s.
-const DEVELOPED: f64 = 20e-3;
+const DEVELOPED: f64 = 10e-3;
 /// States at which instructions are counted.
-const STATES: usize = 10;
+const STATES: usize = 4;
 /// Largest share of the full force evaluation that a cage with nothing but its weight may cost.
 const WEIGHT_ALONE: f64 = 0.02;
 /// Instructions that a row may cost more than the unchanged scene, relative to that.
