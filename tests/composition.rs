@@ -5,120 +5,12 @@ mod common;
 
 use cagedyn::model::{Forces, LAWS};
 use cagedyn::{Model, Sim};
+use common::parts::{Parts, all, scene};
 use common::reports::{CAGE, FRICTION, GUIDE, INNER_RING, ROLLING, ROLLING_SPEED, SLIP_SPEED};
-use common::{example, set};
-use serde_json::{Value, json};
 use std::sync::Arc;
 
 const DURATION: f64 = 5e-3;
 const CHECKS: u32 = 20;
-
-/// Which parts a scene is made of.
-#[derive(Clone, Copy, Debug)]
-struct Parts {
-    rollers: bool,
-    guide: &'static str,
-    inner_ring: bool,
-    pocket: &'static str,
-    unbalance: bool,
-    roundness: bool,
-    gravity: bool,
-}
-
-fn all() -> Vec<Parts> {
-    let mut list = Vec::new();
-    for rollers in [true, false] {
-        for guide in ["none", "short bearing", "layer", "solid", "mixed short bearing", "mixed layer"] {
-            for inner_ring in [false, true] {
-                for pocket in ["none", "cylinder", "plane"] {
-                    for flags in 0..8 {
-                        let [unbalance, roundness, gravity] = [1, 2, 4].map(|bit| flags & bit != 0);
-                        let film = guide.contains("layer") || guide.contains("short");
-                        let sensible = (film || !roundness) && (guide != "none" || !inner_ring);
-                        if sensible {
-                            list.push(Parts {
-                                rollers,
-                                guide,
-                                inner_ring,
-                                pocket,
-                                unbalance,
-                                roundness,
-                                gravity,
-                            });
-                        }
-                    }
-                }
-            }
-        }
-    }
-    list
-}
-
-fn solid() -> Value {
-    json!({
-        "stiffness": 1e7, "damping": 200.0, "softening_depth": 1e-6,
-        "friction": {"coefficient": 0.1, "transition_speed": 0.01}
-    })
-}
-
-fn guide(parts: Parts) -> Value {
-    let radius = if parts.inner_ring { 35e-3 } else { 45e-3 };
-    let ring = if parts.inner_ring { "inner_ring" } else { "outer_ring" };
-    let mut guide = json!({"ring": ring, "guide_radius": radius, "diametral_clearance": 0.445e-3});
-    if parts.guide.contains("short") {
-        guide["film"] = json!({"short_bearing": {"land_width": 7e-3, "squeeze": true}});
-    }
-    if parts.guide.contains("layer") {
-        let layer = json!({"land_width": 14e-3, "thickness": 100e-6, "pressure_shear": "with_edges"});
-        guide["film"] = json!({"lubricant_layer": layer});
-    }
-    if parts.guide.contains("mixed") {
-        guide["film_share"] = json!({"roughness": 1e-6});
-    }
-    if parts.guide.contains("mixed") || parts.guide == "solid" {
-        guide["solid"] = json!({"contact": solid()});
-    }
-    if parts.roundness {
-        guide["roundness"] = json!([{"order": 2, "amplitude": 10e-6, "phase": 0.3}]);
-    }
-    guide
-}
-
-fn scene(parts: Parts) -> Value {
-    let mut scene = example();
-    scene["record"] = json!({"duration": DURATION, "interval": DURATION / f64::from(CHECKS)});
-    // Off the centre, so that thin films and solid contacts are met within the short run.
-    scene["initial"]["cage"] = json!({"y": 0.1e-3, "z": -0.03e-3});
-    scene["initial"]["cage_velocity"] = json!({"y": 0.08, "z": -0.05});
-    if !parts.rollers {
-        let rollers = scene["rollers"].clone();
-        for part in ["rollers", "outer_ring", "raceways"] {
-            scene.as_object_mut().unwrap().remove(part);
-        }
-        scene["kinematic_elements"] = json!({
-            "count": 12, "radius": rollers["radius"], "pitch_radius": 39.99e-3, "material": "steel",
-            "effective_length": rollers["effective_length"], "motion": {"rolling": {"contact_angle": 0.2}}
-        });
-        scene["inner_ring"] = json!({"speed": {"constant": -314.0}});
-        scene["initial"]["inner_ring"] = json!("centred");
-    }
-    match parts.pocket {
-        "none" => set(&mut scene, "cage.pocket", Value::Null),
-        "plane" => {
-            let plane = json!({"solid_plane": {"diametral_clearance": 0.3e-3, "contact": solid()}});
-            set(&mut scene, "cage.pocket", plane);
-        }
-        _ => {}
-    }
-    set(&mut scene, "cage.guide", if parts.guide == "none" { Value::Null } else { guide(parts) });
-    if parts.unbalance {
-        scene["cage"]["mass_eccentricity"] = json!({"y": 50e-6, "z": -20e-6});
-    }
-    if !parts.gravity {
-        scene["gravity"] = Value::Null;
-    }
-    scene
-}
 
 /// Positions (m), velocities (m/s) and rotation speeds (rad/s) of the bodies, in the order of force reports. Those of
 /// elements are their positions only.

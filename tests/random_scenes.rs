@@ -12,10 +12,10 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// A runner that tries the same cases on every machine and writes no files; PROPTEST_CASES asks for another number.
+/// A runner that tries the same cases on every machine and writes no files; PROPTEST_CASES asks for more.
 fn runner(cases: u32) -> TestRunner {
     let asked = std::env::var("PROPTEST_CASES").ok().and_then(|text| text.parse().ok());
-    let cases = asked.unwrap_or(cases);
+    let cases = cases.max(asked.unwrap_or(0));
     let config = Config { cases, failure_persistence: None, max_shrink_iters: 200, ..Config::default() };
     TestRunner::new_with_rng(config, TestRng::deterministic_rng(RngAlgorithm::ChaCha))
 }

@@ -127,7 +127,7 @@ fn pocket_slope(ws: &Workspace) -> Matrix3<f64> {
 
 impl CageBody {
     /// Rows of (force, moment about the geometric centre) as rows of accelerations, at the cage angle `angle` (rad).
-    fn accelerations_of(&self, rows: &Matrix3<f64>, angle: f64) -> Matrix3<f64> {
+    pub(super) fn accelerations_of(&self, rows: &Matrix3<f64>, angle: f64) -> Matrix3<f64> {
         let (fy, fz, moment) = (rows.row(0), rows.row(1), rows.row(2));
         let [uy, uz] = self.mass_offset(angle).unwrap_or_default();
         let turning = (moment - (fz * uy - fy * uz)) / self.inertia;

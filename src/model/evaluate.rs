@@ -181,6 +181,7 @@ impl Model {
                 add(&mut on_cage, force, inputs.of(Input::CageTorque));
             }
             self.accelerate_cage(cage, &on_cage, q[c + 2], v[c + 2], &mut a[c..c + 3]);
+            ws.on_cage = on_cage;
         }
         if let Some(i) = self.layout.ring
             && let RingBody::Free { mass, damping } = self.ring

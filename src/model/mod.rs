@@ -10,6 +10,7 @@ mod fault;
 mod forces;
 mod initial;
 mod inputs;
+mod jacobian;
 mod laws;
 mod layout;
 mod locate;
@@ -23,6 +24,7 @@ pub use forces::{
     BodyForces, CONTACT_QUANTITIES, ContactForces, FORCE_SOURCES, Forces, GuideReport, Quantity,
 };
 pub use inputs::{HostInputs, INPUTS, Input, InputValues};
+pub use jacobian::{Jacobian, RollerJacobian};
 pub use laws::{LAWS, LawCounts};
 pub use layout::Layout;
 pub use names::StateInfo;

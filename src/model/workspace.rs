@@ -121,6 +121,8 @@ pub struct Workspace {
     pub(super) inputs: InputValues,
     /// Contact forces on each roller, local frame; empty for kinematic elements.
     pub(super) on_roller: Vec<Wrench<f64>>,
+    /// Forces on the cage but its weight, moment about its geometric centre, global frame.
+    pub(super) on_cage: Wrench<f64>,
     /// Evaluations per law.
     pub(super) counts: LawCounts,
     /// The laws at the present viscosity, where it follows the temperature.
@@ -156,6 +158,7 @@ impl Workspace {
             journal: None,
             inputs: InputValues::default(),
             on_roller: vec![Wrench::default(); rollers],
+            on_cage: Wrench::default(),
             counts: [0; LAWS.len()],
             scaled: model
                 .inputs

@@ -6,6 +6,7 @@
 
 pub mod bench;
 pub mod palmgren;
+pub mod parts;
 pub mod reports;
 
 use serde_json::Value;

@@ -1,0 +1,413 @@
+//! Exact derivatives of the accelerations with respect to positions and velocities, by dual numbers through the same
+//! kinematics and laws that give the forces.
+//!
+//! Each contact is differentiated on its own: its law over what the law sees (approach, approach speed, surface
+//! speeds, share of edge friction), its kinematics over the coordinates of its two bodies, chained. The sums keep the
+//! structure of the bearing: ring and cage are coupled to every roller, rollers to nothing else.
+
+use super::laws::{CylinderLaws, Laws, PocketLaws, RacewayLaws};
+use super::workspace::{ElementSite, Workspace};
+use super::{ElementKind, Input, Model, RingBody, RollerSet};
+use crate::contact::guide::BodyMotion;
+use crate::contact::pocket::{CageMotion, Pillar, PillarContact, PocketPlace};
+use crate::contact::raceway::{RingMotion, RollerMotion};
+use crate::contact::{Wrench, rotate};
+use crate::laws::contact_pair::{ContactForce, ContactMotion};
+use crate::scalar::{Dual, Real};
+use nalgebra::{Matrix3, Matrix5, SMatrix};
+
+/// Coordinates of ring (y, z) and cage (y, z, angle).
+pub const SHARED: usize = 5;
+/// First cage coordinate among the shared ones.
+const CAGE: usize = 2;
+
+/// A number with derivatives over what a contact law sees: approach, approach speed, u1, u2, edge share.
+type LawDual = Dual<5>;
+/// A number with derivatives over the coordinates of a contact: roller (rho, travel), their rates, spin; shared
+/// positions; shared velocities.
+type PairDual = Dual<15>;
+
+/// Derivatives of the accelerations, m/s^2 and rad/s^2 per unit of the coordinate. Unused shared places are zero.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Jacobian {
+    /// Of the shared accelerations over shared positions and over shared velocities.
+    pub shared: [Matrix5<f64>; 2],
+    /// One per roller.
+    pub rollers: Vec<RollerJacobian>,
+}
+
+/// Derivatives that involve one roller. Its accelerations and velocities are those of (rho, travel, spin); spin has no
+/// position, so that column is zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RollerJacobian {
+    /// Own accelerations over own positions and velocities.
+    pub own: [Matrix3<f64>; 2],
+    /// Own accelerations over shared positions and velocities.
+    pub from_shared: [SMatrix<f64, 3, SHARED>; 2],
+    /// Shared accelerations over own positions and velocities.
+    pub to_shared: [SMatrix<f64, SHARED, 3>; 2],
+}
+
+impl Default for RollerJacobian {
+    fn default() -> Self {
+        Self {
+            own: [Matrix3::zeros(); 2],
+            from_shared: [SMatrix::zeros(); 2],
+            to_shared: [SMatrix::zeros(); 2],
+        }
+    }
+}
+
+/// Forces on the roller of a pair (radial, circumferential, moment) and on the shared bodies (ring y, z; cage y, z,
+/// moment), with their derivatives.
+struct PairForce {
+    own: [PairDual; 3],
+    shared: [PairDual; SHARED],
+}
+
+impl Model {
+    /// Derivatives of the accelerations at the last evaluated state (`q`, `v`) of `ws`.
+    ///
+    /// # Panics
+    /// When a slice is shorter than its shape, or `ws` was made for another model.
+    pub fn jacobian(&self, q: &[f64], v: &[f64], ws: &Workspace, out: &mut Jacobian) {
+        let laws = self.present_laws(ws);
+        out.shared = [Matrix5::zeros(); 2];
+        out.rollers.clear();
+        out.rollers.resize(self.layout.count, RollerJacobian::default());
+        for j in 0..ws.elements.len() {
+            let pair = Pair::new(self, j, q, v, ws);
+            if let (Some(raceways), ElementKind::Rollers(rollers)) = (&laws.raceways, &self.elements.kind) {
+                pair.raceways(raceways, rollers, &mut |force| add_pair(j, &force, out));
+            }
+            pair.pocket(laws, &mut |force| add_pair(j, &force, out));
+        }
+        self.add_guide(laws, q, v, ws, out);
+        self.divide_by_inertias(q, v, ws, out);
+    }
+
+    fn add_guide(&self, laws: &Laws, q: &[f64], v: &[f64], ws: &Workspace, out: &mut Jacobian) {
+        let (Some(law), Some(cage)) = (&laws.guide, &self.cage) else { return };
+        let bodies = self.guide_bodies(q, v, &ws.inputs);
+        // Ring y, z, cage y, z, angle; then their rates.
+        let lift = |body: &BodyMotion<f64>, at: usize, angle: bool, moves: bool| {
+            let variable =
+                |x: f64, i: usize| if moves { Dual::<10>::variable(x, i) } else { Dual::constant(x) };
+            BodyMotion {
+                position: std::array::from_fn(|k| variable(body.position[k], at + k)),
+                velocity: std::array::from_fn(|k| variable(body.velocity[k], SHARED + at + k)),
+                angle: if angle { variable(body.angle, at + 2) } else { Dual::constant(body.angle) },
+                speed: if angle { variable(body.speed, SHARED + at + 2) } else { Dual::constant(body.speed) },
+            }
+        };
+        let ring_moves = cage.guided_by_inner_ring && self.layout.ring.is_some();
+        let moving = lift(&bodies[0], CAGE, true, true);
+        let ring = lift(&bodies[1], 0, false, ring_moves);
+        let motion = cage.guide_side.journal_motion(&moving, &ring);
+        let Ok(force) = law.force(&motion) else { return };
+        let [on_cage, on_ring] = cage.guide_side.wrenches(&force, &motion);
+        let mut rows: [Option<Dual<10>>; SHARED] =
+            [None, None, Some(on_cage.force[0]), Some(on_cage.force[1]), Some(on_cage.moment)];
+        if ring_moves {
+            rows[0] = Some(on_ring.force[0]);
+            rows[1] = Some(on_ring.force[1]);
+        }
+        for (i, row) in rows.into_iter().enumerate() {
+            let Some(row) = row else { continue };
+            for k in 0..SHARED {
+                out.shared[0][(i, k)] += row.eps[k];
+                out.shared[1][(i, k)] += row.eps[SHARED + k];
+            }
+        }
+    }
+
+    /// From forces to accelerations, with the terms that are no contact forces.
+    fn divide_by_inertias(&self, q: &[f64], v: &[f64], ws: &Workspace, out: &mut Jacobian) {
+        let mut inverse = Matrix5::zeros();
+        if let RingBody::Free { mass, damping } = self.ring {
+            for k in 0..2 {
+                out.shared[1][(k, k)] -= damping;
+                inverse[(k, k)] = 1.0 / mass;
+            }
+        }
+        if let (Some(cage), Some(c)) = (&self.cage, self.layout.cage) {
+            let corner = cage.accelerations_of(&Matrix3::identity(), q[c + 2]);
+            inverse.fixed_view_mut::<3, 3>(CAGE, CAGE).copy_from(&corner);
+        }
+        for k in 0..2 {
+            out.shared[k] = inverse * out.shared[k];
+            for roller in &mut out.rollers {
+                roller.to_shared[k] = inverse * roller.to_shared[k];
+            }
+        }
+        self.add_unbalance(q, v, ws, out);
+        let ElementKind::Rollers(rollers) = &self.elements.kind else { return };
+        for ((roller, site), wrench) in out.rollers.iter_mut().zip(&ws.elements).zip(&ws.on_roller) {
+            let r = rollers.geometry.pitch_radius + site.motion.radial_offset;
+            let inverse = [1.0 / rollers.mass, 1.0 / (rollers.mass * r), 1.0 / rollers.inertia];
+            for k in 0..2 {
+                for (i, factor) in inverse.into_iter().enumerate() {
+                    roller.own[k].row_mut(i).scale_mut(factor);
+                    roller.from_shared[k].row_mut(i).scale_mut(factor);
+                }
+            }
+            let [weight_r, weight_c] = site.to_local(self.gravity);
+            let (radial_speed, orbit) = (site.motion.radial_speed, site.motion.orbit_speed);
+            let across = (wrench.force[1] / rollers.mass + weight_c - 2.0 * radial_speed * orbit) / r;
+            let [positions, velocities] = &mut roller.own;
+            positions[(0, 0)] += orbit * orbit;
+            positions[(0, 1)] += weight_c;
+            positions[(1, 0)] -= across / r;
+            positions[(1, 1)] -= weight_r / r;
+            velocities[(0, 1)] += 2.0 * r * orbit;
+            velocities[(1, 0)] -= 2.0 * orbit / r;
+            velocities[(1, 1)] -= 2.0 * radial_speed / r;
+        }
+    }
+
+    /// How the accelerations of an unbalanced cage change with its angle and speed at given forces.
+    fn add_unbalance(&self, q: &[f64], v: &[f64], ws: &Workspace, out: &mut Jacobian) {
+        let (Some(cage), Some(c)) = (&self.cage, self.layout.cage) else { return };
+        let Some([uy, uz]) = cage.mass_offset(q[c + 2]) else { return };
+        let [fy, fz] = ws.on_cage.force;
+        let turning = (ws.on_cage.moment - (uy * fz - uz * fy)) / cage.inertia;
+        // The offset turns: du = (-uz, uy) dangle.
+        let turning_rate = (uz * fz + uy * fy) / cage.inertia;
+        let speed = v[c + 2];
+        let [positions, velocities] = &mut out.shared;
+        let angle = CAGE + 2;
+        positions[(angle, angle)] += turning_rate;
+        positions[(CAGE, angle)] += turning_rate * uz + turning * uy - speed * speed * uz;
+        positions[(CAGE + 1, angle)] += speed * speed * uy + turning * uz - turning_rate * uy;
+        velocities[(CAGE, angle)] += 2.0 * speed * uy;
+        velocities[(CAGE + 1, angle)] += 2.0 * speed * uz;
+    }
+}
+
+/// Adds the derivatives of the forces of one contact of element `j`.
+fn add_pair(j: usize, force: &PairForce, out: &mut Jacobian) {
+    // Columns: own positions 0..2, own velocities 2..5, shared positions 5..10, shared velocities 10..15.
+    for (i, row) in force.shared.iter().enumerate() {
+        for k in 0..SHARED {
+            out.shared[0][(i, k)] += row.eps[5 + k];
+            out.shared[1][(i, k)] += row.eps[10 + k];
+        }
+    }
+    let Some(roller) = out.rollers.get_mut(j) else { return };
+    for (i, row) in force.shared.iter().enumerate() {
+        for k in 0..2 {
+            roller.to_shared[0][(i, k)] += row.eps[k];
+        }
+        for k in 0..3 {
+            roller.to_shared[1][(i, k)] += row.eps[2 + k];
+        }
+    }
+    for (i, row) in force.own.iter().enumerate() {
+        for k in 0..2 {
+            roller.own[0][(i, k)] += row.eps[k];
+        }
+        for k in 0..3 {
+            roller.own[1][(i, k)] += row.eps[2 + k];
+        }
+        for k in 0..SHARED {
+            roller.from_shared[0][(i, k)] += row.eps[5 + k];
+            roller.from_shared[1][(i, k)] += row.eps[10 + k];
+        }
+    }
+}
+
+/// The coordinates of one element and of the shared bodies as variables.
+struct Pair {
+    motion: RollerMotion<PairDual>,
+    /// Sine and cosine of the azimuth and of the lead over the pocket.
+    azimuth: (PairDual, PairDual),
+    lead: (PairDual, PairDual),
+    ring: BodyMotion<PairDual>,
+    cage: Option<BodyMotion<PairDual>>,
+}
+
+impl Pair {
+    fn new(model: &Model, j: usize, q: &[f64], v: &[f64], ws: &Workspace) -> Self {
+        let site: &ElementSite = &ws.elements[j];
+        let m = &site.motion;
+        let layout = &model.layout;
+        let rolling = model.has_rollers();
+        let own = |x: f64, i: usize| if rolling { PairDual::variable(x, i) } else { PairDual::constant(x) };
+        let motion = RollerMotion {
+            radial_offset: own(m.radial_offset, 0),
+            radial_speed: own(m.radial_speed, 2),
+            orbit_speed: own(m.orbit_speed, 3),
+            spin_speed: own(m.spin_speed, 4),
+        };
+        let turn = |(sin, cos): (f64, f64), slope: PairDual| (slope * cos + sin, -(slope * sin) + cos);
+        // Zero with the derivative of the travel.
+        let travel = own(0.0, 1);
+        let shared = |at: Option<usize>, place: usize, k: usize| match at {
+            Some(i) => {
+                [PairDual::variable(q[i + k], 5 + place + k), PairDual::variable(v[i + k], 10 + place + k)]
+            }
+            None => [PairDual::constant(0.0); 2],
+        };
+        let mut ring = BodyMotion {
+            position: std::array::from_fn(|k| shared(layout.ring, 0, k)[0]),
+            velocity: std::array::from_fn(|k| shared(layout.ring, 0, k)[1]),
+            angle: PairDual::constant(0.0),
+            speed: PairDual::constant(ws.inputs.of(Input::RingSpeed)),
+        };
+        if let RingBody::Fixed(position) = model.ring {
+            ring.position = position.map(PairDual::constant);
+        }
+        let cage = layout.cage.map(|c| {
+            let [angle, speed] = shared(Some(c), CAGE, 2);
+            BodyMotion {
+                position: std::array::from_fn(|k| shared(Some(c), CAGE, k)[0]),
+                velocity: std::array::from_fn(|k| shared(Some(c), CAGE, k)[1]),
+                angle,
+                speed,
+            }
+        });
+        let behind = cage.as_ref().map_or(travel, |cage| travel - (cage.angle - cage.angle.value()));
+        Self {
+            motion,
+            azimuth: turn((site.sin, site.cos), travel),
+            lead: turn(site.lead, behind),
+            ring,
+            cage,
+        }
+    }
+
+    fn to_local(&self, v: [PairDual; 2]) -> [PairDual; 2] {
+        rotate(v, -self.azimuth.0, self.azimuth.1)
+    }
+
+    fn to_global(&self, v: [PairDual; 2]) -> [PairDual; 2] {
+        rotate(v, self.azimuth.0, self.azimuth.1)
+    }
+
+    fn raceways(&self, laws: &RacewayLaws, rollers: &RollerSet, add: &mut impl FnMut(PairForce)) {
+        let geometry = &rollers.geometry;
+        let zero = PairDual::constant(0.0);
+        if self.motion.radial_offset.value() > geometry.gap {
+            let (motion, frame) = geometry.outer(&self.motion);
+            let force = chain(&laws.outer.force(&law_variables(&motion), None), &motion, zero);
+            let [on_roller, _] = frame.wrenches(&force);
+            add(PairForce { own: components(&on_roller), shared: [zero; SHARED] });
+        }
+        let ring = RingMotion {
+            position: self.to_local(self.ring.position),
+            velocity: self.to_local(self.ring.velocity),
+            speed: self.ring.speed,
+        };
+        let (motion, frame) = geometry.inner(&self.motion, &ring);
+        if motion.delta.value() > 0.0 {
+            let force = chain(&laws.inner.force(&law_variables(&motion), None), &motion, zero);
+            let [on_roller, on_ring] = frame.wrenches(&force);
+            let [y, z] = self.to_global(on_ring.force);
+            add(PairForce { own: components(&on_roller), shared: [y, z, zero, zero, zero] });
+        }
+    }
+
+    fn pocket(&self, laws: &Laws, add: &mut impl FnMut(PairForce)) {
+        let (Some(pocket), Some(cage)) = (&laws.pocket, &self.cage) else { return };
+        let place = match pocket {
+            PocketLaws::Cylinder(laws) => laws.shape.place,
+            PocketLaws::Plane(laws) => laws.shape.place,
+        };
+        let position = rotate(self.to_local(cage.position), self.lead.0, self.lead.1);
+        let offset = place.offset(self.motion.radial_offset, self.lead, position);
+        let apart = match pocket {
+            PocketLaws::Cylinder(laws) => laws.shape.apart(offset),
+            PocketLaws::Plane(laws) => laws.shape.apart(offset),
+        };
+        if apart {
+            return;
+        }
+        let velocity = rotate(self.to_local(cage.velocity), self.lead.0, self.lead.1);
+        let moving = CageMotion { position, velocity, speed: cage.speed };
+        let relative = place.relative_motion(offset, &self.motion, self.lead, &moving);
+        for side in [Pillar::Front, Pillar::Back] {
+            let contact = match pocket {
+                PocketLaws::Cylinder(laws) => laws.shape.pillar(side, &relative),
+                PocketLaws::Plane(laws) => laws.shape.wall(side, &relative),
+            };
+            let Some(contact) = contact else { continue };
+            let force = match pocket {
+                PocketLaws::Cylinder(laws) => cylinder_force(laws, &contact),
+                PocketLaws::Plane(laws) => {
+                    let law = laws.contact.force(&law_variables(&contact.motion));
+                    chain(&law, &contact.motion, contact.edge_share)
+                }
+            };
+            add(self.pocket_force(&place, &offset, &contact, &force));
+        }
+    }
+
+    fn pocket_force(
+        &self,
+        place: &PocketPlace,
+        offset: &[PairDual; 2],
+        contact: &PillarContact<PairDual>,
+        force: &ContactForce<PairDual>,
+    ) -> PairForce {
+        let [on_element, _] = contact.frame.wrenches(force);
+        let lever = place.lever(*offset, contact.frame.normal);
+        let [along_r, along_c] = on_element.force;
+        let moment = -(lever[0] * along_c - lever[1] * along_r);
+        let local = rotate(on_element.force, -self.lead.0, self.lead.1);
+        let [y, z] = self.to_global(local);
+        let zero = PairDual::constant(0.0);
+        let own = components(&Wrench { force: local, moment: on_element.moment });
+        PairForce { own, shared: [zero, zero, -y, -z, moment] }
+    }
+}
+
+/// Force of a wall or an edge of a cylindrical pocket.
+fn cylinder_force(laws: &CylinderLaws, contact: &PillarContact<PairDual>) -> ContactForce<PairDual> {
+    let motion = law_variables(&contact.motion);
+    let on_edge = contact.edge_share.value() >= 1.0;
+    let (law, share) = if on_edge {
+        (&laws.edge, LawDual::constant(1.0))
+    } else {
+        (&laws.wall, LawDual::variable(contact.edge_share.value(), 4))
+    };
+    let blend = (share.value() > 0.0).then(|| (share, laws.edge_friction.at(motion.u1.abs())));
+    chain(&law.force(&motion, blend), &contact.motion, contact.edge_share)
+}
+
+/// What a law sees, as its variables.
+fn law_variables(motion: &ContactMotion<PairDual>) -> ContactMotion<LawDual> {
+    ContactMotion {
+        delta: LawDual::variable(motion.delta.value(), 0),
+        delta_dot: LawDual::variable(motion.delta_dot.value(), 1),
+        u1: LawDual::variable(motion.u1.value(), 2),
+        u2: LawDual::variable(motion.u2.value(), 3),
+    }
+}
+
+/// The forces of a contact over the coordinates of its bodies: chain rule. What makes no force is left at zero.
+fn chain(
+    force: &ContactForce<LawDual>,
+    motion: &ContactMotion<PairDual>,
+    edge_share: PairDual,
+) -> ContactForce<PairDual> {
+    let inner = [motion.delta, motion.delta_dot, motion.u1, motion.u2, edge_share];
+    let over_coordinates = |f: LawDual| {
+        let mut out = PairDual::constant(f.re);
+        for (slope, x) in f.eps.iter().zip(&inner) {
+            for (e, dx) in out.eps.iter_mut().zip(x.eps) {
+                *e += slope * dx;
+            }
+        }
+        out
+    };
+    ContactForce {
+        normal: over_coordinates(force.normal),
+        friction: over_coordinates(force.friction),
+        rolling_resistance: over_coordinates(force.rolling_resistance),
+        ..ContactForce::apart()
+    }
+}
+
+fn components(wrench: &Wrench<PairDual>) -> [PairDual; 3] {
+    [wrench.force[0], wrench.force[1], wrench.moment]
+}
