@@ -8,7 +8,7 @@ use crate::contact::raceway::RacewayGeometry;
 use crate::error::Result;
 use crate::laws::walther::Walther;
 use crate::scene::{Cage, ElementMotion, GuideRing, RingMotion, Scene, Signal, SignalIntegral};
-use crate::scene::{Temperature, Viscosity, bad_scene, interpolate};
+use crate::scene::{Temperature, VISCOSITY, Viscosity, bad_scene, interpolate};
 use std::f64::consts::TAU;
 
 /// Builds the model of a checked scene.
@@ -126,13 +126,30 @@ fn inputs(scene: &Scene) -> Result<InputSignals> {
                     (InputSource::RingSpeed(speed.clone(), temperature.clone()), at_start)
                 }
             };
-            list.push((Input::Temperature, source));
-            let viscosity = law.viscosity(at_start);
-            if viscosity.is_nan() {
-                let text = format!("the oil has no viscosity at {at_start:?} K, too far from its two points");
-                return Err(bad_scene("lubricant.viscosity.walther.temperature", text));
+            let (coldest, hottest) = match &walther.temperature {
+                Temperature::OverTime(signal) => signal.bounds(),
+                Temperature::OverSpeed { temperature, .. } => {
+                    temperature.iter().fold((f64::INFINITY, 0.0), |(a, b), t| (t.min(a), t.max(b)))
+                }
+            };
+            for extreme in [coldest, hottest] {
+                let viscosity = law.viscosity(extreme);
+                let usual = VISCOSITY.min <= viscosity && viscosity <= VISCOSITY.max;
+                if !usual {
+                    let value = if viscosity.is_nan() {
+                        "no viscosity".to_owned()
+                    } else {
+                        format!("{viscosity:e} Pa s")
+                    };
+                    let text = format!(
+                        "the oil has {value} at {extreme:?} K, allowed are {:e} to {:e} Pa s; too far from its two points",
+                        VISCOSITY.min, VISCOSITY.max
+                    );
+                    return Err(bad_scene("lubricant.viscosity.walther.temperature", text));
+                }
             }
-            Some(Oil { law, built_at: (at_start, viscosity) })
+            list.push((Input::Temperature, source));
+            Some(Oil { law, built_at: (at_start, law.viscosity(at_start)) })
         }
         _ => None,
     };

@@ -42,7 +42,8 @@ impl CaseSet {
     /// [`Status::BadJson`]; [`Status::BadScene`] for a wrong format name or names that cannot name files.
     pub fn from_json(text: &str) -> Result<Self> {
         let mut reader = serde_json::Deserializer::from_str(text);
-        let set: Self = serde_path_to_error::deserialize(&mut reader).map_err(json_error)?;
+        let set: Self = serde_path_to_error::deserialize(&mut reader)
+            .map_err(|e| json_error(e, serde_json::from_str(text).ok().as_ref()))?;
         reader.end().map_err(|e| Error::new(Status::BadJson, e.to_string()))?;
         strict::same_shape(text, &set)?;
         let bad = |text: String| Err(Error::new(Status::BadScene, text));

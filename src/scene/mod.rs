@@ -33,6 +33,7 @@ pub use overrides::{parse_override, set_path};
 pub use rings::{FreeRing, InnerRing, Load, OuterRing, RingMotion};
 pub use run::{DormandPrince, Initial, Leapfrog, Method, Record, RingStart, Solver};
 pub use signal::{Signal, SignalIntegral, interpolate};
+pub(crate) use validate::VISCOSITY;
 
 use crate::error::{Error, Result, Status};
 use schemars::JsonSchema;
@@ -132,7 +133,8 @@ impl Scene {
     /// out of range or contradictions. The message starts with the JSON path.
     pub fn from_json(text: &str) -> Result<Self> {
         let mut reader = serde_json::Deserializer::from_str(text);
-        let scene: Self = serde_path_to_error::deserialize(&mut reader).map_err(json_error)?;
+        let scene: Self = serde_path_to_error::deserialize(&mut reader)
+            .map_err(|e| json_error(e, serde_json::from_str(text).ok().as_ref()))?;
         reader.end().map_err(|e| Error::new(Status::BadJson, e.to_string()))?;
         strict::same_shape(text, &scene)?;
         scene.validate()?;
@@ -166,7 +168,8 @@ impl Scene {
     /// # Errors
     /// As [`Scene::from_json`].
     pub fn from_value(value: serde_json::Value) -> Result<Self> {
-        let scene: Self = serde_path_to_error::deserialize(&value).map_err(json_error)?;
+        let scene: Self =
+            serde_path_to_error::deserialize(&value).map_err(|e| json_error(e, Some(&value)))?;
         strict::same_shape_as(&value, &scene)?;
         scene.validate()?;
         Ok(scene)
@@ -183,15 +186,30 @@ impl Scene {
     }
 }
 
-/// A JSON error with its dotted path.
-fn json_error(e: serde_path_to_error::Error<serde_json::Error>) -> Error {
+/// A JSON error with its dotted path in `value`, if that is JSON at all.
+fn json_error(e: serde_path_to_error::Error<serde_json::Error>, value: Option<&serde_json::Value>) -> Error {
     let mut path = String::new();
+    let mut place = value;
     for segment in e.path() {
         let name = segment.to_string();
+        let name = name.trim_matches(['[', ']']);
         let separator = if path.is_empty() { "" } else { "." };
-        path += &format!("{separator}{}", name.trim_matches(['[', ']']));
+        path += &format!("{separator}{name}");
+        place = place.and_then(|place| match name.parse::<usize>() {
+            Ok(index) if place.is_array() => place.get(index),
+            _ => place.get(name),
+        });
     }
-    // What serde_json says of a plain value where an object or a word is needed.
-    let text = e.into_inner().to_string().replace("expected value", "the value is of the wrong type");
+    let mut text = e.into_inner().to_string();
+    // What serde_json says of a plain value where a choice is needed.
+    if let Some(found) = place
+        && (text.starts_with("expected value") || text.contains("expected string or map"))
+    {
+        let line = text.find(" at line").map_or("", |at| &text[at..]);
+        text = format!(
+            "the value {found} is of the wrong type, expected an object with one key or a word{line}"
+        );
+    }
+    let text = text.replace("expected value", "the value is of the wrong type");
     Error::new(Status::BadJson, if path.is_empty() || path == "?" { text } else { format!("{path}: {text}") })
 }

@@ -8,7 +8,7 @@ pub fn parse_override(text: &str) -> Value {
     serde_json::from_str(text).unwrap_or_else(|_| Value::String(text.to_owned()))
 }
 
-/// Replaces the value at a dotted path (`cage.guide.short_bearing.roundness.0.amplitude`). The last object key may
+/// Replaces the value at a dotted path (`cage.guide.roundness.0.amplitude`). The last object key may
 /// be new; everything before it must exist. `null` removes the key, and with it an optional block.
 ///
 /// # Errors

@@ -86,15 +86,24 @@ impl Signal {
         }
     }
 
+    /// Smallest and largest value the signal reaches.
+    pub fn bounds(&self) -> (f64, f64) {
+        match self {
+            Signal::Constant(value) => (*value, *value),
+            Signal::Step { before: a, after: b, .. } | Signal::Ramp { from: a, to: b, .. } => {
+                (a.min(*b), a.max(*b))
+            }
+            Signal::Sine { mean, amplitude, .. } => (mean - amplitude.abs(), mean + amplitude.abs()),
+            Signal::Table { value, .. } => {
+                value.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(*v), b.max(*v)))
+            }
+        }
+    }
+
     /// Largest magnitude the signal reaches.
     pub fn largest(&self) -> f64 {
-        match self {
-            Signal::Constant(value) => value.abs(),
-            Signal::Step { before, after, .. } => before.abs().max(after.abs()),
-            Signal::Ramp { from, to, .. } => from.abs().max(to.abs()),
-            Signal::Sine { mean, amplitude, .. } => mean.abs() + amplitude.abs(),
-            Signal::Table { value, .. } => value.iter().fold(0.0, |m, v| m.max(v.abs())),
-        }
+        let (low, high) = self.bounds();
+        low.abs().max(high.abs())
     }
 }
 

@@ -14,7 +14,7 @@ pub(super) const POSITION: Range = range(-1e-2, 1e-2, "m");
 pub(super) const MASS: Range = range(1e-7, 1e6, "kg");
 pub(super) const INERTIA: Range = range(1e-15, 1e6, "kg m^2");
 pub(super) const SPEED: Range = range(-1e5, 1e5, "rad/s");
-const VISCOSITY: Range = range(1e-5, 1e3, "Pa s");
+pub(crate) const VISCOSITY: Range = range(1e-5, 1e3, "Pa s");
 pub(super) const FORCE: Range = range(-1e9, 1e9, "N");
 const GRAVITY: Range = range(-1e4, 1e4, "m/s^2");
 const SUPPORT_DAMPING: Range = range(0.0, 1e9, "N s/m");
@@ -138,6 +138,13 @@ impl Scene {
         count("kinematic_elements.count", elements.count)?;
         number("kinematic_elements.radius", elements.radius, RADIUS)?;
         number("kinematic_elements.pitch_radius", elements.pitch_radius, RADIUS)?;
+        if elements.radius >= elements.pitch_radius {
+            let text = format!(
+                "{:?} m is not smaller than the pitch radius {:?} m; the element would cover the bearing centre",
+                elements.radius, elements.pitch_radius
+            );
+            return Err(bad("kinematic_elements.radius", text));
+        }
         optional("kinematic_elements.effective_length", elements.effective_length, WIDTH)?;
         if let Some(material) = &elements.material {
             self.material_exists("kinematic_elements.material", material)?;
@@ -255,7 +262,8 @@ impl Scene {
             return Ok(());
         }
         let known: Vec<&str> = self.materials.keys().map(String::as_str).collect();
-        Err(bad(path, format!("'{name}' is not one of the materials ({})", known.join(", "))))
+        let known = if known.is_empty() { "there are none".to_owned() } else { known.join(", ") };
+        Err(bad(path, format!("'{name}' is not one of the materials ({known})")))
     }
 }
 
@@ -386,7 +394,8 @@ pub(super) fn signal(path: &str, s: &Signal, allowed: Range) -> Result<()> {
         }
         Signal::Sine { mean, amplitude, frequency, phase } => {
             number(&at("sine.mean"), *mean, allowed)?;
-            number(&at("sine.amplitude"), *amplitude, allowed)?;
+            let room = (mean - allowed.min).min(allowed.max - mean);
+            number(&at("sine.amplitude"), *amplitude, range(-room, room, allowed.unit))?;
             number(&at("sine.frequency"), *frequency, range(0.0, 1e6, "Hz"))?;
             number(&at("sine.phase"), *phase, ANGLE)
         }

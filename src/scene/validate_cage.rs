@@ -44,6 +44,24 @@ impl Scene {
                 self.neighbours_apart(&format!("{path}.diametral_clearance"), half_width, "pockets")?;
             }
         }
+        if let Some(pocket) = &cage.pocket
+            && self.kinematic_elements.is_some()
+        {
+            // Prescribed elements do not start beside each other in displaced pockets: the cage may press on them, but
+            // not be pushed through.
+            let clearance = match pocket {
+                Pocket::LubricatedCylinder(pocket) => pocket.radial_clearance,
+                Pocket::SolidPlane(pocket) => pocket.diametral_clearance / 2.0,
+            };
+            let start = self.initial.cage.y.hypot(self.initial.cage.z);
+            if start > 2.0 * clearance {
+                let text = format!(
+                    "the centre {start:?} m off presses elements through pockets of {clearance:?} m clearance; at most \
+                     twice that"
+                );
+                return Err(bad("initial.cage", text));
+            }
+        }
         cage.guide.as_ref().map_or(Ok(()), |guide| self.validate_guide(guide))
     }
 

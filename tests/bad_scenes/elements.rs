@@ -17,6 +17,12 @@ fn together() -> Vec<Row> {
     let driven = grease().with(&[("kinematic_elements.motion", prescribed), ("inner_ring", Value::Null)]);
     let not_beside = &["not allowed beside 'kinematic_elements'", "remove it"];
     vec![
+        grease().scene(
+            "element that covers the centre",
+            &[("kinematic_elements.count", json!(1)), ("kinematic_elements.radius", json!(0.2))],
+            "kinematic_elements.radius",
+            &["0.2 m", "pitch radius 0.045 m"],
+        ),
         rollers().needed("no elements", "rollers", "rollers", &["missing", "'kinematic_elements'"]),
         grease().needed("no elements for a cage", "kinematic_elements", "rollers", &["kinematic_elements"]),
         grease().scene(

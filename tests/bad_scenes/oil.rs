@@ -184,6 +184,18 @@ fn temperature() -> Vec<Row> {
         json!({"prescribed": {"orbit_speed": {"constant": 140.0}, "spin_speed": {"constant": -1600.0}}});
     let driven = grease().with(&[("kinematic_elements.motion", prescribed), ("inner_ring", Value::Null)]);
     vec![
+        grease().scene(
+            "temperature swing out of range",
+            &over_time(json!({"sine": {"mean": 313.0, "amplitude": 200.0, "frequency": 1.0, "phase": 0.0}})),
+            "lubricant.viscosity.walther.temperature.over_time.sine.amplitude",
+            &["200.0 K", "1.63e2 K"],
+        ),
+        grease().scene(
+            "oil stiff as pitch",
+            &over_time(json!({"constant": 225.0})),
+            place,
+            &["Pa s at 225.0 K", "1e-5 to 1e3 Pa s", "too far"],
+        ),
         grease().json("bare number for a temperature", place, json!(313.15), place, &["wrong type"]),
         grease().json("no temperature", place, json!({}), place, &[]),
         grease().json(

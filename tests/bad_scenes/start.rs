@@ -15,6 +15,12 @@ pub fn rows() -> Vec<Row> {
         ("inner_ring.motion", json!({"fixed": {"y": 1e-4, "z": 0.0}})),
     ]);
     vec![
+        grease().scene(
+            "start that pushes elements through their pockets",
+            &[("cage.guide", Value::Null), ("initial.cage", off(9e-3))],
+            "initial.cage",
+            &["0.009 m", "pockets of 0.0002775 m"],
+        ),
         bare().scene("start of no cage", &[("initial.cage", off(1e-5))], "initial.cage", no_cage),
         bare().scene(
             "velocity of no cage",
