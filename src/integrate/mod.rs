@@ -1,5 +1,6 @@
 //! Time integration. Knows second-order systems, steps and errors; nothing of bearings.
 
+pub mod arrowhead;
 mod control;
 mod dormand_prince;
 mod driver;
