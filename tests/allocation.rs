@@ -39,7 +39,11 @@ fn allocations(action: impl FnOnce()) -> u64 {
 #[test]
 fn nothing_is_allocated_while_a_simulation_runs() {
     let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/nu2310.json")).unwrap();
-    for solver in ["{}", r#"{"method": {"dormand_prince": {"tolerance": 1e-5}}}"#] {
+    for solver in [
+        "{}",
+        r#"{"method": {"dormand_prince": {"tolerance": 1e-5}}}"#,
+        r#"{"method": {"rosenbrock": {"tolerance": 1e-5}}}"#,
+    ] {
         let scene = Scene::from_json_with(&text, [("solver", solver)]).unwrap();
         let mut sim = Sim::new(Arc::new(Model::new(scene).unwrap())).unwrap();
         let mut outputs = vec![0.0; sim.channels().len()];

@@ -2,51 +2,56 @@
 
 mod common;
 
-use cagedyn::model::{HostInputs, Jacobian, Workspace};
+use cagedyn::integrate::Linearization;
+use cagedyn::model::{HostInputs, Workspace};
 use cagedyn::{Model, Sim};
 use common::parts::{all, scene};
+use serde_json::json;
 use std::sync::Arc;
 
 /// Steps of the differences as shares of the state scales; all must agree where the forces are smooth.
 const STEPS: [f64; 3] = [7e-6, 4e-6, 2e-6];
+/// Time in which the inputs change as much as the states by their scales, s.
+const TIME_SCALE: f64 = 1e-4;
 /// Agreement of the differences that counts as smooth, and of differences and derivatives.
 const SMOOTH: f64 = 2e-8;
 const TOLERANCE: f64 = 1e-7;
 
-/// Rows: accelerations; columns: positions, then velocities.
-fn dense(model: &Model, jacobian: &Jacobian) -> Vec<Vec<f64>> {
-    let layout = model.layout();
-    let (nq, nv) = (layout.positions(), layout.velocities());
-    let mut out = vec![vec![0.0; nq + nv]; nv];
-    let hub: Vec<Option<usize>> = (0..5)
-        .map(|k| if k < 2 { layout.ring.map(|i| i + k) } else { layout.cage.map(|i| i + k - 2) })
-        .collect();
-    for kind in 0..2 {
-        for (i, row) in hub.iter().enumerate() {
-            for (k, column) in hub.iter().enumerate() {
-                if let (Some(row), Some(column)) = (row, column) {
-                    out[*row][kind * nq + column] = jacobian.shared[kind][(i, k)];
+/// Rows: accelerations; columns: positions, velocities, time.
+fn dense(model: &Model, slope: &Linearization) -> Vec<Vec<f64>> {
+    let structure = model.structure();
+    let (nq, nv) = (model.layout().positions(), model.layout().velocities());
+    let mut out = vec![vec![0.0; nq + nv + 1]; nv];
+    for (row, rate) in out.iter_mut().zip(&slope.over_time) {
+        row[nq + nv] = *rate;
+    }
+    let hub = || structure.hub.iter().enumerate().filter_map(|(k, index)| Some((k, (*index)?)));
+    for (first, columns, part) in [(0, nq, &slope.over_positions), (nq, nv, &slope.over_velocities)] {
+        let mut put = |row: usize, column: usize, value: f64| {
+            // Spins have no position.
+            if column < columns {
+                out[row][first + column] = value;
+            } else {
+                assert_eq!(value, 0.0);
+            }
+        };
+        for (i, row) in hub() {
+            for (k, column) in hub() {
+                put(row, column, part.hub[(i, k)]);
+            }
+            for (spoke, places) in part.spokes.iter().zip(&structure.spokes) {
+                for (k, column) in places.iter().enumerate() {
+                    put(row, *column, spoke.to_hub[(i, k)]);
                 }
             }
         }
-        for (j, roller) in jacobian.rollers.iter().enumerate() {
-            let own = [layout.roller(j), layout.roller(j) + 1, layout.spin(j)];
-            // Spin has no position: its column belongs to the velocities only.
-            for (i, row) in own.iter().enumerate() {
-                for (k, column) in own.iter().enumerate().take(if kind == 0 { 2 } else { 3 }) {
-                    out[*row][kind * nq + column] = roller.own[kind][(i, k)];
+        for (spoke, places) in part.spokes.iter().zip(&structure.spokes) {
+            for (i, row) in places.iter().enumerate() {
+                for (k, column) in places.iter().enumerate() {
+                    put(*row, *column, spoke.own[(i, k)]);
                 }
-                for (k, column) in hub.iter().enumerate() {
-                    if let Some(column) = column {
-                        out[*row][kind * nq + column] = roller.from_shared[kind][(i, k)];
-                    }
-                }
-            }
-            for (i, row) in hub.iter().enumerate() {
-                for (k, column) in own.iter().enumerate().take(if kind == 0 { 2 } else { 3 }) {
-                    if let Some(row) = row {
-                        out[*row][kind * nq + column] = roller.to_shared[kind][(i, k)];
-                    }
+                for (k, column) in hub() {
+                    put(*row, column, spoke.from_hub[(i, k)]);
                 }
             }
         }
@@ -54,16 +59,17 @@ fn dense(model: &Model, jacobian: &Jacobian) -> Vec<Vec<f64>> {
     out
 }
 
-/// Column of the derivatives by a sixth-order difference with step `h`; `None` where forces are undefined.
+/// Column of the derivatives by a sixth-order difference with step `h`; the column after the last state is time. `None`
+/// where forces are undefined.
 fn difference(model: &Model, t: f64, state: &[f64], column: usize, h: f64) -> Option<Vec<f64>> {
     let nq = model.layout().positions();
-    let inputs = model.inputs_at(t, &HostInputs::default());
     let mut ws = Workspace::new(model);
     let mut sum = vec![0.0; model.layout().velocities()];
     for (offset, weight) in [(1.0, 45.0), (2.0, -9.0), (3.0, 1.0)] {
         for side in [1.0, -1.0] {
-            let mut moved = state.to_vec();
-            moved[column] += side * offset * h;
+            let (mut moved, mut time) = (state.to_vec(), t);
+            *moved.get_mut(column).unwrap_or(&mut time) += side * offset * h;
+            let inputs = model.inputs_at(time, &HostInputs::default());
             let (q, v) = moved.split_at(nq);
             let mut a = vec![0.0; sum.len()];
             model.accelerations(&inputs, q, v, &mut ws, &mut a).ok()?;
@@ -82,16 +88,17 @@ fn compare(model: &Model, t: f64, state: &[f64]) -> (usize, usize, f64, String) 
     let mut ws = Workspace::new(model);
     let mut a = vec![0.0; v.len()];
     model.accelerations(&model.inputs_at(t, &HostInputs::default()), q, v, &mut ws, &mut a).unwrap();
-    let mut jacobian = Jacobian::default();
-    model.jacobian(q, v, &ws, &mut jacobian);
-    let exact = dense(model, &jacobian);
-    let scales = model.state_scales();
+    let mut slope = Linearization::new(&model.structure(), v.len());
+    model.linearize(q, v, &ws, &model.input_rates_at(t, &HostInputs::default()), &mut slope);
+    let exact = dense(model, &slope);
+    let mut scales = model.state_scales();
+    scales.push(TIME_SCALE);
     let sizes: Vec<f64> = exact
         .iter()
         .map(|row| row.iter().zip(&scales).map(|(x, s)| (x * s).abs()).fold(1e-300, f64::max))
         .collect();
     let (mut compared, mut skipped, mut worst, mut place) = (0, 0, 0.0, String::new());
-    for column in 0..state.len() {
+    for column in 0..=state.len() {
         let found = STEPS.map(|share| difference(model, t, state, column, share * scales[column]));
         let [Some(coarse), Some(middle), Some(fine)] = found else {
             skipped += v.len();
@@ -126,7 +133,16 @@ fn compare(model: &Model, t: f64, state: &[f64]) -> (usize, usize, f64, String) 
 fn derivatives_match_differences_in_every_combination() {
     let (mut compared, mut skipped, mut largest) = (0, 0, 0.0f64);
     for (i, parts) in all().into_iter().enumerate() {
-        let model = Arc::new(Model::from_json(&scene(parts).to_string()).unwrap());
+        // Everything that can change with time does.
+        let mut scene = scene(parts);
+        let swing =
+            |mean: f64| json!({"sine": {"mean": mean, "amplitude": 50.0, "frequency": 80.0, "phase": 0.3}});
+        scene["inner_ring"]["speed"] = swing(-314.0);
+        scene["cage"]["load"] = json!({"force_y": swing(0.0), "torque": {"constant": 0.01}});
+        if parts.rollers {
+            scene["inner_ring"]["motion"]["free"]["load"]["z"] = swing(-4900.0);
+        }
+        let model = Arc::new(Model::from_json(&scene.to_string()).unwrap());
         let mut sim = Sim::new(model.clone()).unwrap();
         for k in 1..=2 {
             sim.advance_to(1.1e-3 * f64::from(k) + 1e-5 * (i % 37) as f64).unwrap();

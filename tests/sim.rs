@@ -3,6 +3,7 @@
 use cagedyn::{Model, Scene, Sim, Status};
 use std::sync::Arc;
 
+const STIFF: (&str, &str) = ("solver", r#"{"method": {"rosenbrock": {"tolerance": 1e-5}}}"#);
 const ACCURATE: (&str, &str) = ("solver", r#"{"method": {"dormand_prince": {"tolerance": 1e-7}}}"#);
 
 fn model(overrides: &[(&str, &str)]) -> Arc<Model> {
@@ -28,7 +29,7 @@ fn bits(state: &[f64]) -> Vec<u64> {
 
 #[test]
 fn the_same_scene_gives_the_same_bits() {
-    for method in [&[][..], &[ACCURATE][..]] {
+    for method in [&[][..], &[ACCURATE][..], &[STIFF][..]] {
         assert_eq!(bits(&state_at(method, 2e-3)), bits(&state_at(method, 2e-3)));
     }
 }
@@ -53,7 +54,7 @@ fn threads_do_not_affect_each_other() {
 
 #[test]
 fn saving_and_restoring_continues_with_the_same_bits() {
-    for method in [&[][..], &[ACCURATE][..]] {
+    for method in [&[][..], &[ACCURATE][..], &[STIFF][..]] {
         let mut first = sim(method);
         first.set_input(2, -3000.0).unwrap();
         first.advance_to(0.7e-3).unwrap();
@@ -92,10 +93,11 @@ fn damaged_and_foreign_snapshots_are_refused_and_change_nothing() {
 }
 
 #[test]
-fn both_methods_converge_to_the_same_trajectory() {
+fn all_methods_converge_to_the_same_trajectory() {
     // Before chaos: the first 2 ms. Largest distance of any body from where the reference has it, m.
     let solver = |method: &str| state_at(&[("solver", &format!("{{\"method\": {{{method}}}}}"))], 2e-3);
     let adaptive = |tolerance: &str| solver(&format!(r#""dormand_prince": {{"tolerance": {tolerance}}}"#));
+    let rosenbrock = |tolerance: &str| solver(&format!(r#""rosenbrock": {{"tolerance": {tolerance}}}"#));
     let leapfrog = |step: &str| solver(&format!(r#""leapfrog": {{"step": {step}}}"#));
     let reference = adaptive("1e-9");
     let distance = |state: Vec<f64>| {
@@ -106,9 +108,13 @@ fn both_methods_converge_to_the_same_trajectory() {
     };
     let (coarse, fine) = (distance(leapfrog("4e-6")), distance(leapfrog("0.25e-6")));
     let (loose, tight) = (distance(adaptive("1e-4")), distance(adaptive("1e-7")));
-    println!("leapfrog {coarse:e} {fine:e}, Dormand-Prince {loose:e} {tight:e}");
+    let (wide, narrow) = (distance(rosenbrock("1e-4")), distance(rosenbrock("1e-7")));
+    println!(
+        "leapfrog {coarse:e} {fine:e}, Dormand-Prince {loose:e} {tight:e}, Rosenbrock {wide:e} {narrow:e}"
+    );
     assert!(coarse < 2e-6 && fine < 0.2 * coarse, "{coarse:e} {fine:e}");
     assert!(loose < 1e-6 && tight < 0.05 * loose, "{loose:e} {tight:e}");
+    assert!(wide < 2e-6 && narrow < 0.05 * wide, "{wide:e} {narrow:e}");
 }
 
 #[test]
@@ -158,7 +164,7 @@ fn load_steps_ramps_sines_and_tables_are_followed() {
         (r#"{"sine": {"mean": -3000, "amplitude": 1000, "frequency": 500, "phase": 0.3}}"#, 0),
         (r#"{"table": {"time": [0, 3e-4, 6e-4], "value": [-4900, -2000, -6000]}}"#, 2),
     ] {
-        for method in [&[][..], &[ACCURATE][..]] {
+        for method in [&[][..], &[ACCURATE][..], &[STIFF][..]] {
             let overrides: Vec<_> = std::iter::once((load, signal)).chain(method.iter().copied()).collect();
             let mut s = sim(&overrides);
             s.advance_to(1.5e-3).unwrap_or_else(|e| panic!("{signal}: {e}"));
@@ -238,7 +244,7 @@ fn odd_scenes_run() {
         &rough_cage,
     ];
     for overrides in scenes {
-        for method in [&[][..], &[ACCURATE][..]] {
+        for method in [&[][..], &[ACCURATE][..], &[STIFF][..]] {
             let overrides: Vec<_> = overrides.iter().chain(method).copied().collect();
             let mut s = sim(&overrides);
             s.advance_to(1e-3).unwrap_or_else(|e| panic!("{overrides:?}: {e}"));

@@ -63,6 +63,13 @@ impl Arrowhead {
         self.spokes.fill(Spoke::identity());
     }
 
+    /// Makes the matrix zero.
+    pub fn fill_zero(&mut self) {
+        self.hub = SMatrix::zeros();
+        let zero = Spoke { own: SMatrix::zeros(), to_hub: SMatrix::zeros(), from_hub: SMatrix::zeros() };
+        self.spokes.fill(zero);
+    }
+
     /// Product of the matrix with (`hub`, `spokes`).
     ///
     /// # Panics

@@ -6,11 +6,15 @@ mod dormand_prince;
 mod driver;
 mod leapfrog;
 mod pack;
+mod rosenbrock;
 
 pub use dormand_prince::DormandPrince;
 pub use driver::{Driver, Failure, Limits, Statistics};
 pub use leapfrog::Leapfrog;
 pub use pack::Reader;
+pub use rosenbrock::Rosenbrock;
+
+use arrowhead::{Arrowhead, HUB, SPOKE};
 
 use nalgebra::Matrix3;
 
@@ -38,8 +42,58 @@ pub trait System {
     fn damped_blocks(&self) -> usize;
     /// Velocity indices of such a group; `None` for an unused place.
     fn damped_block(&self, i: usize) -> [Option<usize>; 3];
+    /// Which velocities are coupled.
+    fn structure(&self) -> Structure;
+    /// Accelerations `a` at time `t` in s, and their derivatives.
+    ///
+    /// # Errors
+    /// The system's fault when forces are undefined at this state.
+    fn linearize(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        a: &mut [f64],
+        out: &mut Linearization,
+    ) -> Result<(), Self::Fault>;
     /// Damping within each group at the last evaluated state (`q`, `v`), for a step of size `h` in s.
     fn damping(&self, h: f64, q: &[f64], v: &[f64], blocks: &mut [DampingBlock]);
+}
+
+/// Velocities by their coupling: a hub, coupled to all, and spokes, coupled to the hub only. Every velocity has one place.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Structure {
+    /// Velocity index of each place of the hub; `None` for an unused place.
+    pub hub: [Option<usize>; HUB],
+    /// Velocity indices of each spoke.
+    pub spokes: Vec<[usize; SPOKE]>,
+}
+
+/// Derivatives of the accelerations at one state. Unused places are zero, and so are columns of velocities without
+/// position in the first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Linearization {
+    /// da/dq.
+    pub over_positions: Arrowhead,
+    /// da/dv.
+    pub over_velocities: Arrowhead,
+    /// da/dt at constant state.
+    pub over_time: Vec<f64>,
+}
+
+impl Linearization {
+    /// Memory for a system of this structure with `velocities` velocities.
+    pub fn new(structure: &Structure, velocities: usize) -> Self {
+        let zero = Arrowhead::new(structure.spokes.len());
+        Self { over_positions: zero.clone(), over_velocities: zero, over_time: vec![0.0; velocities] }
+    }
+
+    /// Sets everything to zero.
+    pub fn clear(&mut self) {
+        self.over_positions.fill_zero();
+        self.over_velocities.fill_zero();
+        self.over_time.fill(0.0);
+    }
 }
 
 /// -da/dv of up to three coupled velocities (zero in unused places), or a positive approximation of it, 1/s.

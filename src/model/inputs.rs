@@ -119,6 +119,25 @@ impl InputSignals {
         now
     }
 
+    /// Rates of what [`InputSignals::at`] gives, per second; a temperature over the ring speed counts as constant.
+    pub(super) fn rates_at(&self, t: f64, host: &HostInputs) -> InputValues {
+        let mut rates = InputValues::default();
+        for (input, source) in &self.list {
+            if let (None, InputSource::Time(signal)) = (host.values[*input as usize], source) {
+                rates.values[*input as usize] = signal.rate(t);
+            }
+        }
+        if let Some(orbit) = &self.orbit {
+            let drive = rates.of(orbit.drive);
+            rates.values[Input::OrbitSpeed as usize] = orbit.orbit_ratio * drive;
+            if let Some(ratio) = orbit.spin_ratio {
+                rates.values[Input::SpinSpeed as usize] = ratio * drive;
+            }
+            rates.orbit_travel = self.at(t, host).of(Input::OrbitSpeed);
+        }
+        rates
+    }
+
     /// The first jump or kink after `t`, s.
     pub(super) fn next_event(&self, t: f64, host: &HostInputs) -> f64 {
         let followed = self.list.iter().filter(|(input, _)| host.values[*input as usize].is_none());

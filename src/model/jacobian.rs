@@ -7,106 +7,165 @@
 
 use super::laws::{CylinderLaws, Laws, PocketLaws, RacewayLaws};
 use super::workspace::{ElementSite, Workspace};
-use super::{ElementKind, Input, Model, RingBody, RollerSet};
+use super::{ElementKind, Input, InputValues, Model, RingBody, RollerSet};
 use crate::contact::guide::BodyMotion;
 use crate::contact::pocket::{CageMotion, Pillar, PillarContact, PocketPlace};
 use crate::contact::raceway::{RingMotion, RollerMotion};
 use crate::contact::{Wrench, rotate};
+use crate::integrate::arrowhead::HUB;
+use crate::integrate::{Linearization, Structure};
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
 use crate::scalar::{Dual, Real};
-use nalgebra::{Matrix3, Matrix5, SMatrix};
+use nalgebra::{Matrix3, Matrix5, Vector5};
 
-/// Coordinates of ring (y, z) and cage (y, z, angle).
-pub const SHARED: usize = 5;
-/// First cage coordinate among the shared ones.
+/// First cage coordinate in the hub, after ring y, z.
 const CAGE: usize = 2;
 
 /// A number with derivatives over what a contact law sees: approach, approach speed, u1, u2, edge share.
 type LawDual = Dual<5>;
-/// A number with derivatives over the coordinates of a contact: roller (rho, travel), their rates, spin; shared
-/// positions; shared velocities.
-type PairDual = Dual<15>;
-
-/// Derivatives of the accelerations, m/s^2 and rad/s^2 per unit of the coordinate. Unused shared places are zero.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Jacobian {
-    /// Of the shared accelerations over shared positions and over shared velocities.
-    pub shared: [Matrix5<f64>; 2],
-    /// One per roller.
-    pub rollers: Vec<RollerJacobian>,
-}
-
-/// Derivatives that involve one roller. Its accelerations and velocities are those of (rho, travel, spin); spin has no
-/// position, so that column is zero.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RollerJacobian {
-    /// Own accelerations over own positions and velocities.
-    pub own: [Matrix3<f64>; 2],
-    /// Own accelerations over shared positions and velocities.
-    pub from_shared: [SMatrix<f64, 3, SHARED>; 2],
-    /// Shared accelerations over own positions and velocities.
-    pub to_shared: [SMatrix<f64, SHARED, 3>; 2],
-}
-
-impl Default for RollerJacobian {
-    fn default() -> Self {
-        Self {
-            own: [Matrix3::zeros(); 2],
-            from_shared: [SMatrix::zeros(); 2],
-            to_shared: [SMatrix::zeros(); 2],
-        }
-    }
-}
+/// A number with derivatives over the coordinates of a contact: element (rho, travel), their rates, spin; hub positions;
+/// hub velocities; speed of the inner ring.
+type PairDual = Dual<16>;
+const RING_SPEED: usize = 15;
 
 /// Forces on the roller of a pair (radial, circumferential, moment) and on the shared bodies (ring y, z; cage y, z,
 /// moment), with their derivatives.
 struct PairForce {
     own: [PairDual; 3],
-    shared: [PairDual; SHARED],
+    shared: [PairDual; HUB],
 }
 
 impl Model {
-    /// Derivatives of the accelerations at the last evaluated state (`q`, `v`) of `ws`.
-    ///
-    /// # Panics
-    /// When a slice is shorter than its shape, or `ws` was made for another model.
-    pub fn jacobian(&self, q: &[f64], v: &[f64], ws: &Workspace, out: &mut Jacobian) {
-        let laws = self.present_laws(ws);
-        out.shared = [Matrix5::zeros(); 2];
-        out.rollers.clear();
-        out.rollers.resize(self.layout.count, RollerJacobian::default());
-        for j in 0..ws.elements.len() {
-            let pair = Pair::new(self, j, q, v, ws);
-            if let (Some(raceways), ElementKind::Rollers(rollers)) = (&laws.raceways, &self.elements.kind) {
-                pair.raceways(raceways, rollers, &mut |force| add_pair(j, &force, out));
-            }
-            pair.pocket(laws, &mut |force| add_pair(j, &force, out));
-        }
-        self.add_guide(laws, q, v, ws, out);
-        self.divide_by_inertias(q, v, ws, out);
+    /// Which velocities are coupled: ring and cage are the hub, rollers the spokes.
+    pub fn structure(&self) -> Structure {
+        let layout = &self.layout;
+        let roller = |j| [layout.roller(j), layout.roller(j) + 1, layout.spin(j)];
+        Structure { hub: self.hub(), spokes: (0..layout.count).map(roller).collect() }
     }
 
-    fn add_guide(&self, laws: &Laws, q: &[f64], v: &[f64], ws: &Workspace, out: &mut Jacobian) {
+    /// Velocities of ring and cage.
+    fn hub(&self) -> [Option<usize>; HUB] {
+        std::array::from_fn(|k| match k {
+            0 | 1 => self.layout.ring.map(|i| i + k),
+            _ => self.layout.cage.map(|i| i + k - CAGE),
+        })
+    }
+
+    /// Derivatives of the accelerations at the last evaluated state (`q`, `v`) of `ws`, while the inputs change at
+    /// `rates` (see [`Model::input_rates_at`]). A change of the viscosity with time is left out.
+    ///
+    /// # Panics
+    /// When a slice is shorter than its shape, or `ws` or `out` was made for another model.
+    pub fn linearize(
+        &self,
+        q: &[f64],
+        v: &[f64],
+        ws: &Workspace,
+        rates: &InputValues,
+        out: &mut Linearization,
+    ) {
+        let laws = self.present_laws(ws);
+        out.clear();
+        let mut drift = Drift { hub: Vector5::zeros(), rates };
+        for j in 0..ws.elements.len() {
+            let pair = Pair::new(self, j, q, v, ws);
+            let mut add = |force: PairForce| self.add_pair(j, &force, &mut drift, out);
+            if let (Some(raceways), ElementKind::Rollers(rollers)) = (&laws.raceways, &self.elements.kind) {
+                pair.raceways(raceways, rollers, &mut add);
+            }
+            pair.pocket(laws, &mut add);
+        }
+        self.add_guide(laws, q, v, ws, &mut drift, out);
+        self.add_loads(&mut drift);
+        self.divide_by_inertias(q, v, ws, &drift, out);
+    }
+
+    /// External loads change by themselves.
+    fn add_loads(&self, drift: &mut Drift<'_>) {
+        let inputs = [Input::LoadY, Input::LoadZ, Input::CageForceY, Input::CageForceZ, Input::CageTorque];
+        for (sum, input) in drift.hub.iter_mut().zip(inputs) {
+            *sum += drift.rates.of(input);
+        }
+    }
+
+    /// Adds the derivatives of the forces of one contact of element `j`.
+    fn add_pair(&self, j: usize, force: &PairForce, drift: &mut Drift<'_>, out: &mut Linearization) {
+        // Columns: own positions 0..2, own velocities 2..5, hub positions 5..10, hub velocities 10..15, ring speed.
+        let rates = drift.rates;
+        let by_itself = |row: &PairDual| row.eps[RING_SPEED] * rates.of(Input::RingSpeed);
+        let (k, d) = (&mut out.over_positions, &mut out.over_velocities);
+        for (i, row) in force.shared.iter().enumerate() {
+            for c in 0..HUB {
+                k.hub[(i, c)] += row.eps[5 + c];
+                d.hub[(i, c)] += row.eps[10 + c];
+            }
+            drift.hub[i] += by_itself(row);
+        }
+        let (Some(k), Some(d)) = (k.spokes.get_mut(j), d.spokes.get_mut(j)) else {
+            // The motion of the element is prescribed.
+            for (sum, row) in drift.hub.iter_mut().zip(&force.shared) {
+                *sum += row.eps[1] * rates.orbit_travel
+                    + row.eps[3] * rates.of(Input::OrbitSpeed)
+                    + row.eps[4] * rates.of(Input::SpinSpeed);
+            }
+            return;
+        };
+        for (i, row) in force.shared.iter().enumerate() {
+            for c in 0..2 {
+                k.to_hub[(i, c)] += row.eps[c];
+            }
+            for c in 0..3 {
+                d.to_hub[(i, c)] += row.eps[2 + c];
+            }
+        }
+        let places = [self.layout.roller(j), self.layout.roller(j) + 1, self.layout.spin(j)];
+        for (i, row) in force.own.iter().enumerate() {
+            for c in 0..2 {
+                k.own[(i, c)] += row.eps[c];
+            }
+            for c in 0..3 {
+                d.own[(i, c)] += row.eps[2 + c];
+            }
+            for c in 0..HUB {
+                k.from_hub[(i, c)] += row.eps[5 + c];
+                d.from_hub[(i, c)] += row.eps[10 + c];
+            }
+            out.over_time[places[i]] += by_itself(row);
+        }
+    }
+
+    fn add_guide(
+        &self,
+        laws: &Laws,
+        q: &[f64],
+        v: &[f64],
+        ws: &Workspace,
+        drift: &mut Drift<'_>,
+        out: &mut Linearization,
+    ) {
         let (Some(law), Some(cage)) = (&laws.guide, &self.cage) else { return };
         let bodies = self.guide_bodies(q, v, &ws.inputs);
         // Ring y, z, cage y, z, angle; then their rates.
         let lift = |body: &BodyMotion<f64>, at: usize, angle: bool, moves: bool| {
             let variable =
-                |x: f64, i: usize| if moves { Dual::<10>::variable(x, i) } else { Dual::constant(x) };
+                |x: f64, i: usize| if moves { Dual::<11>::variable(x, i) } else { Dual::constant(x) };
             BodyMotion {
                 position: std::array::from_fn(|k| variable(body.position[k], at + k)),
-                velocity: std::array::from_fn(|k| variable(body.velocity[k], SHARED + at + k)),
+                velocity: std::array::from_fn(|k| variable(body.velocity[k], HUB + at + k)),
                 angle: if angle { variable(body.angle, at + 2) } else { Dual::constant(body.angle) },
-                speed: if angle { variable(body.speed, SHARED + at + 2) } else { Dual::constant(body.speed) },
+                speed: if angle { variable(body.speed, HUB + at + 2) } else { Dual::constant(body.speed) },
             }
         };
         let ring_moves = cage.guided_by_inner_ring && self.layout.ring.is_some();
         let moving = lift(&bodies[0], CAGE, true, true);
-        let ring = lift(&bodies[1], 0, false, ring_moves);
+        let mut ring = lift(&bodies[1], 0, false, ring_moves);
+        if cage.guided_by_inner_ring {
+            ring.speed = Dual::variable(bodies[1].speed, 2 * HUB);
+        }
         let motion = cage.guide_side.journal_motion(&moving, &ring);
         let Ok(force) = law.force(&motion) else { return };
         let [on_cage, on_ring] = cage.guide_side.wrenches(&force, &motion);
-        let mut rows: [Option<Dual<10>>; SHARED] =
+        let mut rows: [Option<Dual<11>>; HUB] =
             [None, None, Some(on_cage.force[0]), Some(on_cage.force[1]), Some(on_cage.moment)];
         if ring_moves {
             rows[0] = Some(on_ring.force[0]);
@@ -114,19 +173,27 @@ impl Model {
         }
         for (i, row) in rows.into_iter().enumerate() {
             let Some(row) = row else { continue };
-            for k in 0..SHARED {
-                out.shared[0][(i, k)] += row.eps[k];
-                out.shared[1][(i, k)] += row.eps[SHARED + k];
+            for k in 0..HUB {
+                out.over_positions.hub[(i, k)] += row.eps[k];
+                out.over_velocities.hub[(i, k)] += row.eps[HUB + k];
             }
+            drift.hub[i] += row.eps[2 * HUB] * drift.rates.of(Input::RingSpeed);
         }
     }
 
     /// From forces to accelerations, with the terms that are no contact forces.
-    fn divide_by_inertias(&self, q: &[f64], v: &[f64], ws: &Workspace, out: &mut Jacobian) {
+    fn divide_by_inertias(
+        &self,
+        q: &[f64],
+        v: &[f64],
+        ws: &Workspace,
+        drift: &Drift<'_>,
+        out: &mut Linearization,
+    ) {
         let mut inverse = Matrix5::zeros();
         if let RingBody::Free { mass, damping } = self.ring {
             for k in 0..2 {
-                out.shared[1][(k, k)] -= damping;
+                out.over_velocities.hub[(k, k)] -= damping;
                 inverse[(k, k)] = 1.0 / mass;
             }
         }
@@ -134,39 +201,56 @@ impl Model {
             let corner = cage.accelerations_of(&Matrix3::identity(), q[c + 2]);
             inverse.fixed_view_mut::<3, 3>(CAGE, CAGE).copy_from(&corner);
         }
-        for k in 0..2 {
-            out.shared[k] = inverse * out.shared[k];
-            for roller in &mut out.rollers {
-                roller.to_shared[k] = inverse * roller.to_shared[k];
+        for part in [&mut out.over_positions, &mut out.over_velocities] {
+            part.hub = inverse * part.hub;
+            for spoke in &mut part.spokes {
+                spoke.to_hub = inverse * spoke.to_hub;
+            }
+        }
+        let rate = inverse * drift.hub;
+        for (index, rate) in self.hub().into_iter().zip(rate.iter()) {
+            if let Some(index) = index {
+                out.over_time[index] += rate;
             }
         }
         self.add_unbalance(q, v, ws, out);
-        let ElementKind::Rollers(rollers) = &self.elements.kind else { return };
-        for ((roller, site), wrench) in out.rollers.iter_mut().zip(&ws.elements).zip(&ws.on_roller) {
+        if let ElementKind::Rollers(rollers) = &self.elements.kind {
+            self.finish_rollers(rollers, ws, out);
+        }
+    }
+
+    fn finish_rollers(&self, rollers: &RollerSet, ws: &Workspace, out: &mut Linearization) {
+        for (j, (site, wrench)) in ws.elements.iter().zip(&ws.on_roller).enumerate() {
+            let (Some(k), Some(d)) =
+                (out.over_positions.spokes.get_mut(j), out.over_velocities.spokes.get_mut(j))
+            else {
+                return;
+            };
             let r = rollers.geometry.pitch_radius + site.motion.radial_offset;
             let inverse = [1.0 / rollers.mass, 1.0 / (rollers.mass * r), 1.0 / rollers.inertia];
-            for k in 0..2 {
-                for (i, factor) in inverse.into_iter().enumerate() {
-                    roller.own[k].row_mut(i).scale_mut(factor);
-                    roller.from_shared[k].row_mut(i).scale_mut(factor);
+            let places = [self.layout.roller(j), self.layout.roller(j) + 1, self.layout.spin(j)];
+            for (i, factor) in inverse.into_iter().enumerate() {
+                for part in [&mut *k, &mut *d] {
+                    part.own.row_mut(i).scale_mut(factor);
+                    part.from_hub.row_mut(i).scale_mut(factor);
                 }
+                out.over_time[places[i]] *= factor;
             }
             let [weight_r, weight_c] = site.to_local(self.gravity);
             let (radial_speed, orbit) = (site.motion.radial_speed, site.motion.orbit_speed);
             let across = (wrench.force[1] / rollers.mass + weight_c - 2.0 * radial_speed * orbit) / r;
-            let [positions, velocities] = &mut roller.own;
-            positions[(0, 0)] += orbit * orbit;
-            positions[(0, 1)] += weight_c;
-            positions[(1, 0)] -= across / r;
-            positions[(1, 1)] -= weight_r / r;
-            velocities[(0, 1)] += 2.0 * r * orbit;
-            velocities[(1, 0)] -= 2.0 * orbit / r;
-            velocities[(1, 1)] -= 2.0 * radial_speed / r;
+            k.own[(0, 0)] += orbit * orbit;
+            k.own[(0, 1)] += weight_c;
+            k.own[(1, 0)] -= across / r;
+            k.own[(1, 1)] -= weight_r / r;
+            d.own[(0, 1)] += 2.0 * r * orbit;
+            d.own[(1, 0)] -= 2.0 * orbit / r;
+            d.own[(1, 1)] -= 2.0 * radial_speed / r;
         }
     }
 
     /// How the accelerations of an unbalanced cage change with its angle and speed at given forces.
-    fn add_unbalance(&self, q: &[f64], v: &[f64], ws: &Workspace, out: &mut Jacobian) {
+    fn add_unbalance(&self, q: &[f64], v: &[f64], ws: &Workspace, out: &mut Linearization) {
         let (Some(cage), Some(c)) = (&self.cage, self.layout.cage) else { return };
         let Some([uy, uz]) = cage.mass_offset(q[c + 2]) else { return };
         let [fy, fz] = ws.on_cage.force;
@@ -174,7 +258,7 @@ impl Model {
         // The offset turns: du = (-uz, uy) dangle.
         let turning_rate = (uz * fz + uy * fy) / cage.inertia;
         let speed = v[c + 2];
-        let [positions, velocities] = &mut out.shared;
+        let (positions, velocities) = (&mut out.over_positions.hub, &mut out.over_velocities.hub);
         let angle = CAGE + 2;
         positions[(angle, angle)] += turning_rate;
         positions[(CAGE, angle)] += turning_rate * uz + turning * uy - speed * speed * uz;
@@ -184,36 +268,10 @@ impl Model {
     }
 }
 
-/// Adds the derivatives of the forces of one contact of element `j`.
-fn add_pair(j: usize, force: &PairForce, out: &mut Jacobian) {
-    // Columns: own positions 0..2, own velocities 2..5, shared positions 5..10, shared velocities 10..15.
-    for (i, row) in force.shared.iter().enumerate() {
-        for k in 0..SHARED {
-            out.shared[0][(i, k)] += row.eps[5 + k];
-            out.shared[1][(i, k)] += row.eps[10 + k];
-        }
-    }
-    let Some(roller) = out.rollers.get_mut(j) else { return };
-    for (i, row) in force.shared.iter().enumerate() {
-        for k in 0..2 {
-            roller.to_shared[0][(i, k)] += row.eps[k];
-        }
-        for k in 0..3 {
-            roller.to_shared[1][(i, k)] += row.eps[2 + k];
-        }
-    }
-    for (i, row) in force.own.iter().enumerate() {
-        for k in 0..2 {
-            roller.own[0][(i, k)] += row.eps[k];
-        }
-        for k in 0..3 {
-            roller.own[1][(i, k)] += row.eps[2 + k];
-        }
-        for k in 0..SHARED {
-            roller.from_shared[0][(i, k)] += row.eps[5 + k];
-            roller.from_shared[1][(i, k)] += row.eps[10 + k];
-        }
-    }
+/// How forces on the hub change with time at constant state.
+struct Drift<'a> {
+    hub: Vector5<f64>,
+    rates: &'a InputValues,
 }
 
 /// The coordinates of one element and of the shared bodies as variables.
@@ -231,8 +289,7 @@ impl Pair {
         let site: &ElementSite = &ws.elements[j];
         let m = &site.motion;
         let layout = &model.layout;
-        let rolling = model.has_rollers();
-        let own = |x: f64, i: usize| if rolling { PairDual::variable(x, i) } else { PairDual::constant(x) };
+        let own = PairDual::variable;
         let motion = RollerMotion {
             radial_offset: own(m.radial_offset, 0),
             radial_speed: own(m.radial_speed, 2),
@@ -252,7 +309,7 @@ impl Pair {
             position: std::array::from_fn(|k| shared(layout.ring, 0, k)[0]),
             velocity: std::array::from_fn(|k| shared(layout.ring, 0, k)[1]),
             angle: PairDual::constant(0.0),
-            speed: PairDual::constant(ws.inputs.of(Input::RingSpeed)),
+            speed: PairDual::variable(ws.inputs.of(Input::RingSpeed), RING_SPEED),
         };
         if let RingBody::Fixed(position) = model.ring {
             ring.position = position.map(PairDual::constant);
@@ -291,7 +348,7 @@ impl Pair {
             let (motion, frame) = geometry.outer(&self.motion);
             let force = chain(&laws.outer.force(&law_variables(&motion), None), &motion, zero);
             let [on_roller, _] = frame.wrenches(&force);
-            add(PairForce { own: components(&on_roller), shared: [zero; SHARED] });
+            add(PairForce { own: components(&on_roller), shared: [zero; HUB] });
         }
         let ring = RingMotion {
             position: self.to_local(self.ring.position),

@@ -24,7 +24,6 @@ pub use forces::{
     BodyForces, CONTACT_QUANTITIES, ContactForces, FORCE_SOURCES, Forces, GuideReport, Quantity,
 };
 pub use inputs::{HostInputs, INPUTS, Input, InputValues};
-pub use jacobian::{Jacobian, RollerJacobian};
 pub use laws::{LAWS, LawCounts};
 pub use layout::Layout;
 pub use names::StateInfo;
@@ -147,6 +146,11 @@ impl Model {
     /// Values of the inputs at time `t` in s.
     pub fn inputs_at(&self, t: f64, host: &HostInputs) -> InputValues {
         self.inputs.at(t, host)
+    }
+
+    /// Rates of the inputs at time `t` in s, per second; of `orbit_travel` too. At a jump or kink they are those after it.
+    pub fn input_rates_at(&self, t: f64, host: &HostInputs) -> InputValues {
+        self.inputs.rates_at(t, host)
     }
 
     /// Sets an input at time `t` (s) to `value`, or lets it follow the scene again with `None`.

@@ -63,6 +63,9 @@ pub enum Method {
     Leapfrog(Leapfrog),
     /// Dormand-Prince 5(4) with error control: the choice for accurate trajectories.
     DormandPrince(DormandPrince),
+    /// Rosenbrock method of order 4(3) on the exact derivatives, with error control: the choice for accurate
+    /// trajectories of stiff scenes, such as thin films and heavy loads.
+    Rosenbrock(Rosenbrock),
 }
 
 /// Parameters of the leapfrog.
@@ -78,6 +81,14 @@ pub struct Leapfrog {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DormandPrince {
+    /// Local error in units of the model's reference clearance (see docs/model.md); 1e-5 suits most scenes.
+    pub tolerance: f64,
+}
+
+/// Parameters of the Rosenbrock method.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Rosenbrock {
     /// Local error in units of the model's reference clearance (see docs/model.md); 1e-5 suits most scenes.
     pub tolerance: f64,
 }

@@ -73,6 +73,30 @@ impl Signal {
         }
     }
 
+    /// Rate of change at time `t` in s, per second. At a kink it is that after it; jumps have none.
+    pub fn rate(&self, t: f64) -> f64 {
+        match self {
+            Signal::Constant(_) | Signal::Step { .. } => 0.0,
+            Signal::Ramp { from, to, start, end } => {
+                if *start <= t && t < *end {
+                    (to - from) / (end - start)
+                } else {
+                    0.0
+                }
+            }
+            Signal::Sine { amplitude, frequency, phase, .. } => {
+                amplitude * TAU * frequency * (TAU * frequency * t + phase).cos()
+            }
+            Signal::Table { time, value } => {
+                let next = time.partition_point(|&x| x <= t);
+                match (next.checked_sub(1), time.get(next)) {
+                    (Some(last), Some(end)) => (value[next] - value[last]) / (end - time[last]),
+                    _ => 0.0,
+                }
+            }
+        }
+    }
+
     /// The first jump or kink after time `t` in s; infinity when there is none.
     pub fn next_event(&self, t: f64) -> f64 {
         let first_after = |times: &[f64]| times.iter().copied().find(|&x| x > t).unwrap_or(f64::INFINITY);
@@ -193,6 +217,22 @@ mod tests {
         let sine = Signal::Sine { mean: 1.0, amplitude: 2.0, frequency: 0.25, phase: 0.0 };
         assert!((sine.at(1.0) - 3.0).abs() < 1e-15);
         assert_eq!(sine.largest(), 3.0);
+    }
+
+    #[test]
+    fn rates_are_those_of_the_values() {
+        let signals = [
+            Signal::Ramp { from: 1.0, to: 4.0, start: 0.2, end: 0.9 },
+            Signal::Sine { mean: 1.0, amplitude: 2.0, frequency: 1.3, phase: 0.5 },
+            Signal::Table { time: vec![0.1, 0.5, 1.2], value: vec![1.0, 3.0, -1.0] },
+        ];
+        for signal in signals {
+            for t in [0.05, 0.3, 0.6, 1.0, 2.0] {
+                let h = 1e-6;
+                let difference = (signal.at(t + h) - signal.at(t - h)) / (2.0 * h);
+                assert!((signal.rate(t) - difference).abs() < 1e-8, "{signal:?} at {t}");
+            }
+        }
     }
 
     #[test]

@@ -239,6 +239,9 @@ impl Scene {
                 let allowed = range(self.solver.min_step.max(1e-10), 1e-3, "s");
                 optional("solver.method.leapfrog.step", m.step, allowed)?;
             }
+            Method::Rosenbrock(m) => {
+                number("solver.method.rosenbrock.tolerance", m.tolerance, range(1e-12, 1e-1, ""))?;
+            }
             Method::DormandPrince(m) => {
                 number("solver.method.dormand_prince.tolerance", m.tolerance, range(1e-12, 1e-1, ""))?;
             }

@@ -1,6 +1,6 @@
 //! The model as the integrator sees it: with its workspace, inputs and counts.
 
-use crate::integrate::{DampingBlock, System};
+use crate::integrate::{DampingBlock, Linearization, Structure, System};
 use crate::model::{Channel, Fault, Forces, HostInputs, Input, LawCounts, Model, Workspace};
 use std::sync::Arc;
 
@@ -114,6 +114,24 @@ impl System for Bearing {
             (_, Some(cage)) => [Some(cage), Some(cage + 1), Some(cage + 2)],
             _ => [None; 3],
         }
+    }
+
+    fn structure(&self) -> Structure {
+        self.model.structure()
+    }
+
+    fn linearize(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        a: &mut [f64],
+        out: &mut Linearization,
+    ) -> Result<(), Fault> {
+        self.accelerations(t, q, v, a)?;
+        let rates = self.model.input_rates_at(t, &self.host);
+        self.model.linearize(q, v, &self.workspace, &rates, out);
+        Ok(())
     }
 
     fn damping(&self, h: f64, q: &[f64], v: &[f64], blocks: &mut [DampingBlock]) {

@@ -9,7 +9,7 @@ pub use recording::{Recording, Spread};
 pub use whirl::{CageMotion, WhirlRecord, WhirlSummary};
 
 use crate::error::{Error, Result, Status};
-use crate::integrate::{DormandPrince, Driver, Failure, Leapfrog, Limits, Statistics, Stepper};
+use crate::integrate::{DormandPrince, Driver, Failure, Leapfrog, Limits, Rosenbrock, Statistics, Stepper};
 use crate::model::{Channel, Fault, Forces, Input, LawCounts, Model};
 use crate::scene::Method;
 use bearing::Bearing;
@@ -343,6 +343,11 @@ fn stepper(model: &Model, bearing: &Bearing) -> Box<dyn Stepper<Bearing> + Send>
             let tolerance = scales.into_iter().map(|scale| m.tolerance * scale).collect();
             Box::new(DormandPrince::new(bearing, tolerance))
         }
+        Method::Rosenbrock(m) => {
+            let scales = model.state_scales();
+            let tolerance = scales.into_iter().map(|scale| m.tolerance * scale).collect();
+            Box::new(Rosenbrock::new(bearing, tolerance))
+        }
     }
 }
 
@@ -353,7 +358,9 @@ fn limits(model: &Model) -> Limits {
             let share = if model.damped() { DAMPED_STEP } else { UNDAMPED_STEP };
             (share / model.highest_frequency()).min(MAX_NOMINAL_STEP)
         }),
-        Method::DormandPrince(_) => (FIRST_STEP / model.highest_frequency()).min(MAX_NOMINAL_STEP),
+        Method::DormandPrince(_) | Method::Rosenbrock(_) => {
+            (FIRST_STEP / model.highest_frequency()).min(MAX_NOMINAL_STEP)
+        }
     };
     Limits {
         nominal_step: nominal_step.max(solver.min_step),

@@ -208,6 +208,7 @@ fn integration(run: &Run) -> Integration {
     let method = match run.model.scene().solver.method {
         Method::Leapfrog(_) => "leapfrog",
         Method::DormandPrince(_) => "dormand_prince",
+        Method::Rosenbrock(_) => "rosenbrock",
     };
     Integration {
         method,
