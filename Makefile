@@ -4,6 +4,7 @@
 # make example   the C example, compiled and run, table in out/
 # make pictures  the pictures of the README
 # make effects   cost of every effect and what it changes: docs/effects.md
+# make verify    errors of the integration methods against CVODE: docs/verification.md
 # make bench     time of a force evaluation and of a step
 # make header    writes include/cagedyn.h and schemas/ anew after a change
 # make install   library, header and pkg-config file below $(DESTDIR)$(PREFIX)
@@ -13,7 +14,7 @@ DESTDIR ?=
 VERSION := $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -n 1)
 CARGO ?= cargo
 
-.PHONY: test tools fmt lint unit run cases pictures example effects bench header install clean
+.PHONY: test tools fmt lint unit run cases pictures example effects verify bench header install clean
 
 test: tools fmt lint unit
 
@@ -21,6 +22,9 @@ test: tools fmt lint unit
 tools:
 	@command -v cc >/dev/null && command -v c++ >/dev/null && command -v readelf >/dev/null \
 		|| ./tools/install.sh build-essential
+	@command -v cmake >/dev/null || ./tools/install.sh cmake
+	@ls /usr/lib/llvm-*/lib/libclang.so >/dev/null 2>&1 || [ -n "$$LIBCLANG_PATH" ] \
+		|| ./tools/install.sh libclang-dev
 	@command -v valgrind >/dev/null || ./tools/install.sh valgrind
 	@$(CARGO) fmt --version >/dev/null 2>&1 || { echo "installing rustfmt"; rustup component add rustfmt; }
 	@$(CARGO) clippy --version >/dev/null 2>&1 || { echo "installing clippy"; rustup component add clippy; }
@@ -61,6 +65,9 @@ example:
 
 effects: tools
 	$(CARGO) run --release --locked --example effects -- --docs
+
+verify: tools
+	CAGEDYN_BLESS=1 $(CARGO) test --locked --test cvode -- --ignored --nocapture tables
 
 bench:
 	$(CARGO) bench --locked
