@@ -134,8 +134,7 @@ fn inputs(scene: &Scene) -> Result<InputSignals> {
             };
             for extreme in [coldest, hottest] {
                 let viscosity = law.viscosity(extreme);
-                let usual = VISCOSITY.min <= viscosity && viscosity <= VISCOSITY.max;
-                if !usual {
+                if !(VISCOSITY.min..=VISCOSITY.max).contains(&viscosity) {
                     let value = if viscosity.is_nan() {
                         "no viscosity".to_owned()
                     } else {
