@@ -45,7 +45,7 @@ impl Model {
         let Some(oil) = self.inputs.oil.as_ref().filter(|_| temperature != scaled.temperature) else {
             return Ok(());
         };
-        ws.counts[laws::VISCOSITY_TEMPERATURE] += 1;
+        ws.counts[laws::VISCOSITY_TEMPERATURE] += u64::from(ws.counting);
         let ratio = oil.law.viscosity(temperature) / oil.built_at.1;
         if ratio.is_nan() {
             return Err(Fault::NoViscosity { temperature });
@@ -123,7 +123,9 @@ impl Model {
             let force = guide.force(&motion);
             ws.guide = Some(force.map_err(|e| Fault::NoGuideFilm { minimum_film: e.minimum_film })?);
         }
-        count(laws, ws);
+        if ws.counting {
+            count(laws, ws);
+        }
         Ok(())
     }
 

@@ -125,6 +125,8 @@ pub struct Workspace {
     pub(super) on_cage: Wrench<f64>,
     /// Evaluations per law.
     pub(super) counts: LawCounts,
+    /// Whether evaluations are counted now.
+    pub(super) counting: bool,
     /// The laws at the present viscosity, where it follows the temperature.
     pub(super) scaled: Option<Box<ScaledLaws>>,
 }
@@ -160,6 +162,7 @@ impl Workspace {
             on_roller: vec![Wrench::default(); rollers],
             on_cage: Wrench::default(),
             counts: [0; LAWS.len()],
+            counting: true,
             scaled: model
                 .inputs
                 .oil
@@ -176,6 +179,11 @@ impl Workspace {
     /// Number of evaluations of each law since the workspace was made or the counts were set, in the order of [`LAWS`].
     pub fn law_counts(&self) -> &LawCounts {
         &self.counts
+    }
+
+    /// Whether the next evaluations count; they do at first.
+    pub fn set_counting(&mut self, counting: bool) {
+        self.counting = counting;
     }
 
     /// Sets the counts.

@@ -56,9 +56,9 @@ impl Bearing {
     pub(super) fn accelerations_at(&mut self, t: f64, state: &[f64], a: &mut [f64]) -> Result<(), Fault> {
         let (q, v) = state.split_at(self.model.layout().positions());
         let inputs = self.model.inputs_at(t, &self.host);
-        let counts = *self.workspace.law_counts();
+        self.workspace.set_counting(false);
         let result = self.model.accelerations(&inputs, q, v, &mut self.workspace, a);
-        self.workspace.set_law_counts(counts);
+        self.workspace.set_counting(true);
         result
     }
 
