@@ -16,9 +16,9 @@ const TIME_SCALE: f64 = 1e-4;
 /// Agreement of the differences that counts as smooth, and of differences and derivatives.
 const SMOOTH: f64 = 2e-8;
 const TOLERANCE: f64 = 1e-7;
-/// Of a rough layer: where its quadrature misses a pair of sign changes, the force is off by 1e-9 and its derivative by
-/// the root of that.
-const ROUGH_TOLERANCE: f64 = 2e-6;
+/// A known defect: in one of these states the derivative of a rough layer is off by 6e-7; the cause is not found.
+const KNOWN_OUTLIERS: usize = 1;
+const OUTLIER_TOLERANCE: f64 = 1e-6;
 
 /// Rows: accelerations; columns: positions, velocities, time.
 fn dense(model: &Model, slope: &Linearization) -> Vec<Vec<f64>> {
@@ -134,7 +134,7 @@ fn compare(model: &Model, t: f64, state: &[f64]) -> (usize, usize, f64, String) 
 
 #[test]
 fn derivatives_match_differences_in_every_combination() {
-    let (mut compared, mut skipped, mut largest) = (0, 0, 0.0f64);
+    let (mut compared, mut skipped, mut outliers, mut largest) = (0, 0, 0, 0.0f64);
     for (i, parts) in all().into_iter().enumerate() {
         // Everything that can change with time does.
         let mut scene = scene(parts);
@@ -151,7 +151,8 @@ fn derivatives_match_differences_in_every_combination() {
             sim.advance_to(1.1e-3 * f64::from(k) + 1e-5 * (i % 37) as f64).unwrap();
             let (n, missed, worst, place) = compare(&model, sim.time(), sim.state());
             let rough = parts.roundness && parts.guide.contains("layer");
-            let tolerance = if rough { ROUGH_TOLERANCE } else { TOLERANCE };
+            outliers += usize::from(rough && worst >= TOLERANCE);
+            let tolerance = if rough { OUTLIER_TOLERANCE } else { TOLERANCE };
             assert!(worst < tolerance, "{parts:?} at {} s: {worst:e} in {place}", sim.time());
             compared += n;
             skipped += missed;
@@ -159,5 +160,6 @@ fn derivatives_match_differences_in_every_combination() {
         }
     }
     println!("{compared} derivatives compared, {skipped} skipped at kinks, largest error {largest:e}");
+    assert!(outliers <= KNOWN_OUTLIERS, "{outliers} states beyond {TOLERANCE:e}");
     assert!(skipped < compared / 20, "{skipped} of {compared} skipped");
 }

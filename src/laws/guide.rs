@@ -149,11 +149,6 @@ impl GuideLaw {
         share * smoothstep(ratio / self.touching_ratio).squared()
     }
 
-    /// Whether the solid contact of a guide at the eccentricity `e` (m) touches.
-    pub fn solid_touches(&self, e: f64) -> bool {
-        self.solid.is_some_and(|solid| e > self.free_clearance - solid.asperity_height)
-    }
-
     fn add_solid<T: Real>(
         &self,
         solid: &GuideSolid,
@@ -273,7 +268,8 @@ mod tests {
         assert!((f.solid[1] + 3.0).abs() < 1e-9, "{f:?}");
         assert!((f.solid[0] - 0.3).abs() < 1e-9);
         assert!((f.moment + 0.3 * 46.6615e-3).abs() < 1e-10);
-        assert_eq!((f.film_share, law.solid_touches(210e-6), law.solid_touches(211e-6)), (0.0, false, true));
+        assert_eq!(f.film_share, 0.0);
+        assert_eq!(law.force(&at(210e-6, 142.5)).unwrap().solid, [0.0; 2]);
         let carried = JournalMotion { bush_speed: 142.5, ..at(213.5e-6, 142.5) };
         assert_eq!(law.force(&carried).unwrap().moment, 0.0);
     }
