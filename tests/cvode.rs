@@ -209,10 +209,10 @@ impl System for Rates {
     fn next_event(&self, _: f64) -> f64 {
         f64::INFINITY
     }
-    fn damped_blocks(&self) -> usize {
+    fn groups(&self) -> usize {
         0
     }
-    fn damped_block(&self, _: usize) -> [Option<usize>; 3] {
+    fn group(&self, _: usize) -> [Option<usize>; 3] {
         [None; 3]
     }
     fn structure(&self) -> Structure {
@@ -236,9 +236,9 @@ impl Case {
     fn limited(&self, tolerance: f64, max_step: f64) -> End {
         let sim = self.sim(&json!({}));
         let start = sim.state().to_vec();
-        let tolerances = sim.model().state_scales().iter().map(|s| tolerance * s).collect();
+        let tolerances: Vec<f64> = sim.model().state_scales().iter().map(|s| tolerance * s).collect();
         let mut rates = Rates { sim, state: Vec::new(), rate: vec![0.0; start.len()] };
-        let method = Box::new(DormandPrince::new(&rates, tolerances));
+        let method = Box::new(DormandPrince::new(&rates, &tolerances));
         let limits = Limits { nominal_step: max_step, min_step: 1e-14, max_step, max_steps: 10_000_000 };
         let mut driver = Driver::new(method, limits);
         driver.start(0.0, &start);

@@ -63,10 +63,10 @@ impl System for Oscillator {
     fn next_event(&self, t: f64) -> f64 {
         if t < self.jump { self.jump } else { f64::INFINITY }
     }
-    fn damped_blocks(&self) -> usize {
+    fn groups(&self) -> usize {
         1
     }
-    fn damped_block(&self, _: usize) -> [Option<usize>; 3] {
+    fn group(&self, _: usize) -> [Option<usize>; 3] {
         [Some(0), None, Some(2)]
     }
     fn structure(&self) -> Structure {
@@ -105,7 +105,7 @@ fn leapfrog(s: &Oscillator, step: f64) -> Driver<Oscillator> {
 }
 
 fn dormand_prince(s: &Oscillator, tolerance: f64) -> Driver<Oscillator> {
-    Driver::new(Box::new(DormandPrince::new(s, vec![tolerance; 5])), limits(1e-3))
+    Driver::new(Box::new(DormandPrince::new(s, &[tolerance; 5])), limits(1e-3))
 }
 
 /// Largest error of x, x', w at time t.
@@ -140,7 +140,7 @@ fn leapfrog_is_of_second_order() {
 fn dormand_prince_steps_are_of_fifth_order_and_dense_output_of_fourth() {
     let attempt = |h: f64, theta: f64| {
         let mut s = Oscillator::smooth();
-        let mut m = DormandPrince::new(&s, vec![1.0; 5]);
+        let mut m = DormandPrince::new(&s, &[1.0; 5]);
         let mut out = [0.0; 5];
         Stepper::<Oscillator>::set_state(&mut m, &START);
         m.refresh(&mut s, 0.0).unwrap();
@@ -322,10 +322,10 @@ impl System for Driven {
     fn next_event(&self, _: f64) -> f64 {
         f64::INFINITY
     }
-    fn damped_blocks(&self) -> usize {
+    fn groups(&self) -> usize {
         0
     }
-    fn damped_block(&self, _: usize) -> [Option<usize>; 3] {
+    fn group(&self, _: usize) -> [Option<usize>; 3] {
         [None; 3]
     }
     fn structure(&self) -> Structure {
@@ -365,7 +365,7 @@ const DRIVEN_START: [f64; 7] = [0.0, 0.3, -0.2, 1.0, 0.1, 0.4, 0.5];
 /// State at t = 2 with Rosenbrock steps of size `h`.
 fn rosenbrock_at_two(rate: f64, h: f64) -> Vec<f64> {
     let mut system = Driven { rate };
-    let mut m = Rosenbrock::new(&system, vec![1.0; 7]);
+    let mut m = Rosenbrock::new(&system, &[1.0; 7]);
     Stepper::<Driven>::set_state(&mut m, &DRIVEN_START);
     for i in 0..(2.0 / h).round() as usize {
         m.attempt(&mut system, i as f64 * h, h, f64::INFINITY).unwrap();
@@ -377,7 +377,7 @@ fn rosenbrock_at_two(rate: f64, h: f64) -> Vec<f64> {
 #[test]
 fn rosenbrock_is_of_fourth_order_on_a_driven_structured_system() {
     let mut system = Driven { rate: 3.0 };
-    let reference = DormandPrince::new(&system, vec![1e-13; 7]);
+    let reference = DormandPrince::new(&system, &[1e-13; 7]);
     let mut driver = Driver::new(Box::new(reference), limits(1e-3));
     driver.start(0.0, &DRIVEN_START);
     driver.advance(&mut system, 2.0).unwrap();
@@ -409,7 +409,7 @@ fn rosenbrock_takes_steps_far_beyond_stiff_rates() {
 fn rosenbrock_dense_output_is_of_third_order_and_ends_on_its_steps() {
     let attempt = |h: f64, theta: f64| {
         let mut s = Oscillator::smooth();
-        let mut m = Rosenbrock::new(&s, vec![1.0; 5]);
+        let mut m = Rosenbrock::new(&s, &[1.0; 5]);
         let mut out = [0.0; 5];
         Stepper::<Oscillator>::set_state(&mut m, &START);
         m.attempt(&mut s, 0.0, h, f64::INFINITY).unwrap();

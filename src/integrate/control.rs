@@ -1,51 +1,150 @@
-//! Step-size control: constants and the PI controller of the methods with an error estimate.
+//! Errors and step sizes: the norm that measures an error, the controller that follows it, and their constants.
 //!
-//! Factors follow Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, section II.4.
+//! Sources: Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, section II.4 (safety, limits);
+//! Soderlind, Digital filters in adaptive time-stepping, ACM Trans. Math. Softw. 29 (2003) 1 (filtered controllers);
+//! Soderlind and Wang, Adaptive time-stepping and computational stability, J. Comp. Appl. Math. 185 (2006) 225
+//! (smooth limiter).
+
+use super::System;
 
 /// Aim at this share of the largest step that the error estimate allows.
 const SAFETY: f64 = 0.9;
-/// Weight of the previous error (PI control); 0 is plain control.
-const PI_WEIGHT: f64 = 0.04;
-/// A step grows and shrinks at most by these factors.
-const MAX_GROWTH: f64 = 5.0;
-const MIN_SHRINK: f64 = 0.2;
+/// The filter H211 with b = 4, for implicit methods: it answers to the mean of two errors, and a change of the step
+/// damps the next one, so that impacts cost fewer rejected steps.
+const FILTER: [f64; 3] = [0.25, 0.25, 0.25];
+/// The controller PI.3.4, for explicit methods: it settles where stability and not accuracy limits the step.
+const PROPORTIONAL_INTEGRAL: [f64; 3] = [0.7, -0.4, 0.0];
+/// A change of the step by a factor c becomes 1 + LIMIT atan((c - 1)/LIMIT): at most 2.6, at least 0.2.
+const LIMIT: f64 = 1.0;
 /// Errors below this count as this, so that a perfect step does not spoil the memory.
 const SMALLEST_ERROR: f64 = 1e-4;
+/// A rejected step shrinks at least to this and at most to that share.
+const REJECTED_SHRINK: [f64; 2] = [0.2, 0.9];
 /// Step factor after an evaluation failed.
 pub const FAULT_SHRINK: f64 = 0.25;
 /// Growth back to the nominal step of a method without error estimate, per step.
 pub const RECOVERY_GROWTH: f64 = 2.0;
 
-/// Proportional-integral step-size controller.
+/// The error of an attempted step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Estimate {
+    /// In units of the tolerance; a step with at most 1 is accepted.
+    pub error: f64,
+    /// The group of velocities whose states have this error: see [`System::groups`].
+    pub group: usize,
+}
+
+/// How steps of a method follow its errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PiController {
+pub struct Law {
+    /// Power of the step that the error estimate grows with.
+    order: f64,
+    /// Exponents, times the order, of the present and the last error, and of the last change of the step.
+    exponents: [f64; 3],
+}
+
+impl Law {
+    /// For an explicit method.
+    pub fn explicit(order: f64) -> Self {
+        Self { order, exponents: PROPORTIONAL_INTEGRAL }
+    }
+
+    /// For an implicit or linearly implicit method.
+    pub fn implicit(order: f64) -> Self {
+        Self { order, exponents: FILTER }
+    }
+}
+
+/// Root mean square over the states of a group in units of their tolerances, largest over the groups: no body is
+/// hidden by a mean over all of them, and no state is measured by its own size (angles grow without limit).
+#[derive(Clone, Debug)]
+pub struct ErrorNorm {
+    /// 1/tolerance of each state, divided by the root of the number of states in its group.
+    weight: Vec<f64>,
+    /// Group of each state.
+    group: Vec<usize>,
+    squares: Vec<f64>,
+}
+
+impl ErrorNorm {
+    /// The norm for a system, with an absolute tolerance for every state. States in no group form one more.
+    pub fn new<S: System>(system: &S, tolerance: &[f64]) -> Self {
+        let (positions, rest) = (system.positions(), system.groups());
+        let mut group = vec![rest; positions + system.velocities()];
+        for i in 0..rest {
+            for v in system.group(i).into_iter().flatten() {
+                group[positions + v] = i;
+                if v < positions {
+                    group[v] = i;
+                }
+            }
+        }
+        let size = |g: usize| group.iter().filter(|i| **i == g).count() as f64;
+        let weight = tolerance.iter().zip(&group).map(|(t, g)| 1.0 / (t * size(*g).sqrt())).collect();
+        Self { weight, group, squares: vec![0.0; rest + 1] }
+    }
+
+    /// Size of an error given by its component for each state.
+    pub fn of(&mut self, component: impl Fn(usize) -> f64) -> Estimate {
+        self.squares.fill(0.0);
+        for (i, (weight, group)) in self.weight.iter().zip(&self.group).enumerate() {
+            let e = component(i) * weight;
+            self.squares[*group] += e * e;
+        }
+        let mut largest = Estimate::default();
+        for (group, square) in self.squares.iter().enumerate() {
+            // Also true for what is not a number, which then stays.
+            if !(square.sqrt() <= largest.error || largest.error.is_nan()) {
+                largest = Estimate { error: square.sqrt(), group };
+            }
+        }
+        largest
+    }
+}
+
+/// Chooses step sizes from the errors of the last two steps and the last change of the step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Controller {
     /// Error of the last accepted step in units of the tolerance.
     pub last_error: f64,
+    /// Last step over the one before it.
+    pub last_change: f64,
     /// The last attempt was rejected: do not grow yet.
     pub after_rejection: bool,
 }
 
-impl PiController {
+impl Controller {
     /// A controller without memory.
     pub fn new() -> Self {
-        Self { last_error: SMALLEST_ERROR, after_rejection: false }
+        Self { last_error: 1.0, last_change: 1.0, after_rejection: false }
     }
 
     /// Factor for the next step after an accepted one with the error `error` <= 1.
-    pub fn accepted(&mut self, error: f64, order: f64) -> f64 {
-        let exponent = 1.0 / order - 0.75 * PI_WEIGHT;
-        let error = error.max(SMALLEST_ERROR);
-        let factor = SAFETY * error.powf(-exponent) * self.last_error.powf(PI_WEIGHT);
-        let growth = if self.after_rejection { 1.0 } else { MAX_GROWTH };
-        self.last_error = error;
-        self.after_rejection = false;
-        factor.clamp(MIN_SHRINK, growth)
+    pub fn accepted(&mut self, error: f64, law: Law) -> f64 {
+        let Law { order, exponents: [now, last, change] } = law;
+        let aim = SAFETY.powf(order);
+        let error = error.max(SMALLEST_ERROR) / aim;
+        let followed = error.powf(-now / order) * self.last_error.powf(-last / order);
+        let wanted = followed * self.last_change.powf(-change);
+        let limited = 1.0 + LIMIT * ((wanted - 1.0) / LIMIT).atan();
+        let factor = if self.after_rejection { limited.min(1.0) } else { limited };
+        *self = Self { last_error: error, last_change: factor, after_rejection: false };
+        factor
     }
 
-    /// Factor for the retry of a step with the error `error` > 1.
-    pub fn rejected(&mut self, error: f64, order: f64) -> f64 {
-        let exponent = 1.0 / order - 0.75 * PI_WEIGHT;
+    /// Factor for the retry of a step with the error `error` > 1; a quarter if it is not finite.
+    pub fn rejected(&mut self, error: f64, law: Law) -> f64 {
+        if !error.is_finite() {
+            return self.failed();
+        }
         self.after_rejection = true;
-        (SAFETY * error.powf(-exponent)).clamp(MIN_SHRINK, 1.0)
+        let [most, least] = REJECTED_SHRINK;
+        (SAFETY * error.powf(-1.0 / law.order)).clamp(most, least)
+    }
+
+    /// Factor for the retry of a step whose evaluation failed.
+    pub fn failed(&mut self) -> f64 {
+        self.after_rejection = true;
+        FAULT_SHRINK
     }
 }

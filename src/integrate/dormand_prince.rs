@@ -1,9 +1,9 @@
 //! Explicit Runge-Kutta pair of order 5(4) by Dormand and Prince, with its fourth-order dense output.
 //!
 //! Coefficients: Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, table II.5.2 and
-//! section II.6. The error of a step is the largest component in units of its absolute tolerance: no component
-//! is hidden by a mean, and none is measured by its own size (angles grow without limit).
+//! section II.6.
 
+use super::control::{ErrorNorm, Estimate, Law};
 use super::{Reader, Stepper, System};
 
 const C: [f64; 7] = [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0];
@@ -34,8 +34,7 @@ const D: [f64; 7] = [
 #[derive(Clone, Debug)]
 pub struct DormandPrince {
     positions: usize,
-    /// Absolute tolerance per state.
-    tolerance: Vec<f64>,
+    norm: ErrorNorm,
     state: Vec<f64>,
     trial: Vec<f64>,
     /// Rates at the seven stages; the first is that of `state`.
@@ -48,12 +47,12 @@ pub struct DormandPrince {
 
 impl DormandPrince {
     /// Memory for a system with an absolute tolerance for every state.
-    pub fn new<S: System>(system: &S, tolerance: Vec<f64>) -> Self {
+    pub fn new<S: System>(system: &S, tolerance: &[f64]) -> Self {
         let n = system.positions() + system.velocities();
         let zeros = || vec![0.0; n];
         Self {
             positions: system.positions(),
-            tolerance,
+            norm: ErrorNorm::new(system, tolerance),
             state: zeros(),
             trial: zeros(),
             k: std::array::from_fn(|_| zeros()),
@@ -92,7 +91,7 @@ impl<S: System> Stepper<S> for DormandPrince {
         Self::rate(system, t, self.positions, &self.state, &mut self.a, &mut self.k[0])
     }
 
-    fn attempt(&mut self, system: &mut S, t: f64, h: f64, t_last: f64) -> Result<Option<f64>, S::Fault> {
+    fn attempt(&mut self, system: &mut S, t: f64, h: f64, t_last: f64) -> Result<Option<Estimate>, S::Fault> {
         let n = self.state.len();
         for stage in 1..7 {
             let (done, rest) = self.k.split_at_mut(stage);
@@ -103,12 +102,8 @@ impl<S: System> Stepper<S> for DormandPrince {
             let time = (t + C[stage] * h).min(t_last);
             Self::rate(system, time, self.positions, &self.trial, &mut self.a, &mut rest[0])?;
         }
-        let mut error: f64 = 0.0;
         for i in 0..n {
             let weighted = |w: &[f64; 7]| -> f64 { self.k.iter().zip(w).map(|(k, w)| w * k[i]).sum() };
-            let scaled = (h * weighted(&E) / self.tolerance[i]).abs();
-            // f64::max would drop a NaN.
-            error = if error.is_nan() || scaled <= error { error } else { scaled };
             let change = self.trial[i] - self.state[i];
             let bend = h * self.k[0][i] - change;
             let [d0, d1, d2, d3, d4] = &mut self.trial_dense;
@@ -118,7 +113,8 @@ impl<S: System> Stepper<S> for DormandPrince {
             d3[i] = change - h * self.k[6][i] - bend;
             d4[i] = h * weighted(&D);
         }
-        Ok(Some(error))
+        let k = &self.k;
+        Ok(Some(self.norm.of(|i| h * k.iter().zip(&E).map(|(k, w)| w * k[i]).sum::<f64>())))
     }
 
     fn accept(&mut self) {
@@ -139,8 +135,8 @@ impl<S: System> Stepper<S> for DormandPrince {
         }
     }
 
-    fn control_order(&self) -> f64 {
-        5.0
+    fn control(&self) -> Law {
+        Law::explicit(5.0)
     }
 
     fn save(&self, out: &mut Vec<f64>) {

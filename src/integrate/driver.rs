@@ -3,8 +3,9 @@
 //! The driver runs ahead of the time its caller asks for and answers from the dense output of the last step, so
 //! the times of the questions never influence the steps.
 
-use super::control::{FAULT_SHRINK, PiController, RECOVERY_GROWTH};
-use super::{Reader, Stepper, System};
+use super::auto::Choice;
+use super::control::{Controller, Estimate, RECOVERY_GROWTH};
+use super::{Reader, Stepper, System, Vibration};
 
 /// Limits of the step size and the number of steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,6 +35,8 @@ pub struct Statistics {
     pub smallest_step: f64,
     /// Largest accepted step, s.
     pub largest_step: f64,
+    /// Vibration over time; its root mean square is a number of health.
+    pub vibration: Vibration,
 }
 
 /// Why a run cannot go on. The state is that of the last accepted step.
@@ -71,8 +74,10 @@ pub struct Driver<S: System> {
     /// The last accepted step spans `from` to `to`, s.
     from: f64,
     to: f64,
+    /// Step of methods without error estimate, s.
+    nominal_step: f64,
     next_step: f64,
-    control: PiController,
+    control: Controller,
     needs_refresh: bool,
     statistics: Statistics,
 }
@@ -94,8 +99,9 @@ impl<S: System> Driver<S> {
             limits,
             from: 0.0,
             to: 0.0,
+            nominal_step: limits.nominal_step,
             next_step: limits.nominal_step,
-            control: PiController::new(),
+            control: Controller::new(),
             needs_refresh: true,
             statistics: Statistics::default(),
         }
@@ -105,8 +111,8 @@ impl<S: System> Driver<S> {
     pub fn start(&mut self, t: f64, state: &[f64]) {
         self.stepper.set_state(state);
         (self.from, self.to) = (t, t);
-        self.next_step = self.limits.nominal_step;
-        self.control = PiController::new();
+        self.next_step = self.nominal_step;
+        self.control = Controller::new();
         self.needs_refresh = true;
     }
 
@@ -115,14 +121,26 @@ impl<S: System> Driver<S> {
         self.to
     }
 
+    /// What a method that chooses among others has chosen.
+    pub fn choice(&self) -> Option<Choice> {
+        self.stepper.choice()
+    }
+
     /// Counts since creation.
     pub fn statistics(&self) -> &Statistics {
         &self.statistics
     }
 
-    /// Sets all counts to zero.
-    pub fn clear_statistics(&mut self) {
+    /// Sets all counts to zero and forgets what was learned from earlier states.
+    pub fn reset(&mut self) {
         self.statistics = Statistics::default();
+        self.forget();
+    }
+
+    /// Forgets what was learned from earlier states.
+    pub fn forget(&mut self) {
+        self.nominal_step = self.limits.nominal_step;
+        self.stepper.forget();
     }
 
     /// Integrates until `t` is reached or passed.
@@ -164,60 +182,58 @@ impl<S: System> Driver<S> {
                 return Err(Failure::TooManySteps { time: self.to, limit: self.limits.max_steps });
             }
             *attempts += 1;
-            let plan = self.plan(system);
+            let event = system.next_event(self.to);
+            if let Some(step) = self.stepper.review(system, self.to, event.next_down()) {
+                (self.nominal_step, self.next_step) = (step, step);
+                self.control = Controller::new();
+            }
+            let plan = self.plan(event);
             if plan.end <= self.to {
                 // The step is lost in the round-off of the time.
                 return Err(Failure::StepTooSmall { time: self.to, step: plan.h, fault: last_fault });
             }
             match self.stepper.attempt(system, self.to, plan.h, plan.t_last) {
-                Ok(Some(error)) if error <= 1.0 => {
-                    let order = self.stepper.control_order();
-                    let factor = self.control.accepted(error, order);
+                Ok(Some(Estimate { error, .. })) if error <= 1.0 => {
+                    let factor = self.control.accepted(error, self.stepper.control());
                     // A step cut by an event says little about the size of the next one: do not shrink for it.
                     let floor = if plan.cut { self.next_step } else { 0.0 };
                     self.next_step = (plan.h * factor).max(floor).min(self.limits.max_step);
-                    self.accept(&plan);
+                    self.accept(system, &plan);
                     return Ok(());
                 }
                 Ok(None) => {
-                    self.next_step = (self.next_step * RECOVERY_GROWTH).min(self.limits.nominal_step);
-                    self.accept(&plan);
+                    self.next_step = (self.next_step * RECOVERY_GROWTH).min(self.nominal_step);
+                    self.accept(system, &plan);
                     return Ok(());
                 }
-                Ok(Some(error)) => {
+                Ok(Some(Estimate { error, group })) => {
                     self.statistics.rejected += 1;
-                    let order = self.stepper.control_order();
-                    // A NaN error is no estimate: shrink as for a fault.
-                    let factor = if error.is_finite() {
-                        self.control.rejected(error, order)
-                    } else {
-                        self.control.after_rejection = true;
-                        FAULT_SHRINK
-                    };
-                    self.next_step = plan.h * factor;
+                    system.rejected(group);
+                    self.next_step = plan.h * self.control.rejected(error, self.stepper.control());
                 }
                 Err(fault) => {
                     self.statistics.faults += 1;
-                    self.control.after_rejection = true;
-                    self.next_step = plan.h * FAULT_SHRINK;
+                    system.failed(self.to, fault);
+                    self.next_step = plan.h * self.control.failed();
                     last_fault = Some(fault);
                 }
             }
             let smallest = self.limits.min_step.max(4.0 * f64::EPSILON * self.to.abs());
             if self.next_step < smallest {
                 let step = self.next_step;
-                self.next_step = self.limits.nominal_step;
+                self.next_step = self.nominal_step;
                 return Err(Failure::StepTooSmall { time: self.to, step, fault: last_fault });
             }
         }
     }
 
-    fn accept(&mut self, plan: &Plan) {
+    fn accept(&mut self, system: &S, plan: &Plan) {
         self.stepper.accept();
         (self.from, self.to) = (self.to, plan.end);
         self.needs_refresh = plan.on_event;
         let s = &mut self.statistics;
         s.steps += 1;
+        s.vibration.add(system.vibration(), plan.h);
         s.events += u64::from(plan.on_event);
         s.largest_step = s.largest_step.max(plan.h);
         if !plan.cut && (s.smallest_step == 0.0 || plan.h < s.smallest_step) {
@@ -226,8 +242,7 @@ impl<S: System> Driver<S> {
     }
 
     /// The next step: never across an event, and not leaving a tiny rest before it.
-    fn plan(&self, system: &S) -> Plan {
-        let event = system.next_event(self.to);
+    fn plan(&self, event: f64) -> Plan {
         let rest = event - self.to;
         let h = self.next_step;
         if rest <= h {
@@ -243,11 +258,12 @@ impl<S: System> Driver<S> {
     /// Appends everything that the next steps depend on.
     pub fn save(&self, out: &mut Vec<f64>) {
         let s = &self.statistics;
-        out.extend([self.from, self.to, self.next_step]);
-        out.extend([self.control.last_error, f64::from(u8::from(self.control.after_rejection))]);
+        let c = &self.control;
+        out.extend([self.from, self.to, self.nominal_step, self.next_step]);
+        out.extend([c.last_error, c.last_change, f64::from(u8::from(c.after_rejection))]);
         out.push(f64::from(u8::from(self.needs_refresh)));
         out.extend([s.steps, s.rejected, s.faults, s.events].map(|n| n as f64));
-        out.extend([s.smallest_step, s.largest_step]);
+        out.extend([s.smallest_step, s.largest_step, s.vibration.squares, s.vibration.count]);
         self.stepper.save(out);
     }
 
@@ -257,9 +273,11 @@ impl<S: System> Driver<S> {
         let largest = self.limits.nominal_step.max(self.limits.max_step);
         self.from = from.number()?;
         self.to = from.number().filter(|to| *to >= self.from)?;
+        self.nominal_step = from.number().filter(|h| *h > 0.0 && *h <= largest)?;
         self.next_step = from.number().filter(|h| *h > 0.0 && *h <= largest)?;
         let last_error = from.number().filter(|e| *e > 0.0)?;
-        self.control = PiController { last_error, after_rejection: from.flag()? };
+        let last_change = from.number().filter(|c| *c > 0.0)?;
+        self.control = Controller { last_error, last_change, after_rejection: from.flag()? };
         self.needs_refresh = from.flag()?;
         self.statistics = Statistics {
             steps: from.count()?,
@@ -268,6 +286,10 @@ impl<S: System> Driver<S> {
             events: from.count()?,
             smallest_step: from.number().filter(|h| *h >= 0.0)?,
             largest_step: from.number().filter(|h| *h >= 0.0)?,
+            vibration: Vibration {
+                squares: from.number().filter(|x| *x >= 0.0)?,
+                count: from.number().filter(|x| *x >= 0.0)?,
+            },
         };
         self.stepper.load(from)
     }

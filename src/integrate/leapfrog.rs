@@ -12,6 +12,7 @@
 //! order in damping with D_i = D, which is what rates far above 1/h need. Stable up to h = 2/omega of the highest
 //! undamped frequency. No error estimate.
 
+use super::control::{Estimate, Law};
 use super::{DampingBlock, Reader, Stepper, System};
 use nalgebra::{Matrix3, Vector3};
 
@@ -46,8 +47,14 @@ impl Leapfrog {
             trial_a: velocity.clone(),
             a: velocity.clone(),
             predicted: velocity,
-            blocks: vec![DampingBlock::default(); system.damped_blocks()],
+            blocks: vec![DampingBlock::default(); system.groups()],
         }
+    }
+
+    /// Goes to where another method for the same system is.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.end.copy_from_slice(&other.end);
+        self.mean_a.copy_from_slice(&other.mean_a);
     }
 }
 
@@ -65,7 +72,7 @@ impl<S: System> Stepper<S> for Leapfrog {
         Ok(())
     }
 
-    fn attempt(&mut self, system: &mut S, t: f64, h: f64, t_last: f64) -> Result<Option<f64>, S::Fault> {
+    fn attempt(&mut self, system: &mut S, t: f64, h: f64, t_last: f64) -> Result<Option<Estimate>, S::Fault> {
         let nq = self.positions;
         let (q, v) = self.end.split_at(nq);
         let (q_trial, v_trial) = self.trial.split_at_mut(nq);
@@ -78,7 +85,7 @@ impl<S: System> Stepper<S> for Leapfrog {
         self.trial_a.copy_from_slice(&self.a);
         system.damping(h, q_trial, &self.predicted, &mut self.blocks);
         for (b, damping) in self.blocks.iter().enumerate() {
-            let at = system.damped_block(b);
+            let at = system.group(b);
             let known = Vector3::from_fn(|k, _| at[k].map_or(0.0, |i| self.a[i]));
             let predicted = Vector3::from_fn(|k, _| at[k].map_or(0.0, |i| self.predicted[i] - v[i]));
             let matrix = Matrix3::identity() + damping.implicit * h;
@@ -135,8 +142,8 @@ impl<S: System> Stepper<S> for Leapfrog {
         }
     }
 
-    fn control_order(&self) -> f64 {
-        2.0
+    fn control(&self) -> Law {
+        Law::explicit(2.0)
     }
 
     fn save(&self, out: &mut Vec<f64>) {

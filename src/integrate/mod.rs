@@ -1,12 +1,16 @@
 //! Time integration. Knows second-order systems, steps and errors; nothing of bearings.
 
 pub mod arrowhead;
-mod control;
+pub mod auto;
+pub mod control;
 mod dormand_prince;
 mod driver;
 mod leapfrog;
+pub mod mode;
 mod pack;
+mod race;
 mod rosenbrock;
+pub mod watch;
 
 pub use dormand_prince::DormandPrince;
 pub use driver::{Driver, Failure, Limits, Statistics};
@@ -15,6 +19,8 @@ pub use pack::Reader;
 pub use rosenbrock::Rosenbrock;
 
 use arrowhead::{Arrowhead, HUB, SPOKE};
+use auto::Choice;
+use control::{Estimate, Law};
 
 use nalgebra::Matrix3;
 
@@ -38,10 +44,10 @@ pub trait System {
     fn not_finite(&self, velocity: usize) -> Self::Fault;
     /// The first time after `t` at which the accelerations jump or kink by themselves; infinity if there is none.
     fn next_event(&self, t: f64) -> f64;
-    /// Number of groups of up to three velocities with implicit damping.
-    fn damped_blocks(&self) -> usize;
+    /// Number of groups of up to three velocities that belong together, as those of one body do.
+    fn groups(&self) -> usize;
     /// Velocity indices of such a group; `None` for an unused place.
-    fn damped_block(&self, i: usize) -> [Option<usize>; 3];
+    fn group(&self, i: usize) -> [Option<usize>; 3];
     /// Which velocities are coupled.
     fn structure(&self) -> Structure;
     /// Accelerations `a` at time `t` in s, and their derivatives.
@@ -56,8 +62,38 @@ pub trait System {
         a: &mut [f64],
         out: &mut Linearization,
     ) -> Result<(), Self::Fault>;
-    /// Damping within each group at the last evaluated state (`q`, `v`), for a step of size `h` in s.
+    /// Damping within each of the groups at the last evaluated state (`q`, `v`), for a step of size `h` in s.
     fn damping(&self, h: f64, q: &[f64], v: &[f64], blocks: &mut [DampingBlock]);
+    /// The fast vibration at the last evaluated state, which a method must not damp by itself.
+    fn vibration(&self) -> Vibration {
+        Vibration::default()
+    }
+    /// Told of every attempt from time `t` (s) that failed with `fault`.
+    fn failed(&mut self, _t: f64, _fault: Self::Fault) {}
+    /// Told of every attempt whose error in this group was too large.
+    fn rejected(&mut self, _group: usize) {}
+}
+
+/// How much a system vibrates: mean squares, added up.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Vibration {
+    /// Sum of squared speeds, m^2/s^2.
+    pub squares: f64,
+    /// Number of speeds in it.
+    pub count: f64,
+}
+
+impl Vibration {
+    /// Adds another with a weight.
+    pub fn add(&mut self, other: Self, weight: f64) {
+        self.squares += weight * other.squares;
+        self.count += weight * other.count;
+    }
+
+    /// Root mean square speed, m/s; zero of nothing.
+    pub fn rms(self) -> f64 {
+        if self.count > 0.0 { (self.squares / self.count).sqrt() } else { 0.0 }
+    }
 }
 
 /// Velocities by their coupling: a hub, coupled to all, and spokes, coupled to the hub only. Every velocity has one place.
@@ -123,20 +159,31 @@ pub trait Stepper<S: System> {
     /// # Errors
     /// The system's fault at this state.
     fn refresh(&mut self, system: &mut S, t: f64) -> Result<(), S::Fault>;
-    /// Tries a step of size `h` from time `t`; never evaluates later than `t_last`. Returns the error in units of
-    /// the tolerance, if the method estimates it.
+    /// Called before every attempt from time `t`: the method may measure the system, up to `t_last`, and change
+    /// itself. Returns the step to go on with, if it is to change.
+    fn review(&mut self, _system: &mut S, _t: f64, _t_last: f64) -> Option<f64> {
+        None
+    }
+    /// Forgets what was learned from earlier states.
+    fn forget(&mut self) {}
+    /// Tries a step of size `h` from time `t`; never evaluates later than `t_last`. Returns the error, if the method
+    /// estimates it.
     ///
     /// # Errors
     /// The system's fault at a stage; the state is then unchanged.
-    fn attempt(&mut self, system: &mut S, t: f64, h: f64, t_last: f64) -> Result<Option<f64>, S::Fault>;
+    fn attempt(&mut self, system: &mut S, t: f64, h: f64, t_last: f64) -> Result<Option<Estimate>, S::Fault>;
     /// Makes the last attempt the current state.
     fn accept(&mut self);
     /// State at the end of the last accepted step.
     fn state(&self) -> &[f64];
     /// State within the last accepted step at the fraction 0 <= `theta` <= 1 of it.
     fn interpolate(&self, theta: f64, out: &mut [f64]);
-    /// Order of the method's error estimate plus one: the exponent of step-size control.
-    fn control_order(&self) -> f64;
+    /// How the steps follow the errors; of no use for methods without error estimate.
+    fn control(&self) -> Law;
+    /// What a method that chooses among others has chosen.
+    fn choice(&self) -> Option<Choice> {
+        None
+    }
     /// Appends everything that the next steps depend on.
     fn save(&self, out: &mut Vec<f64>);
     /// Takes back what [`Stepper::save`] wrote; `None` if it does not fit.

@@ -16,6 +16,7 @@
 //! Wanner, Solving Ordinary Differential Equations II, section IV.7 and the program RODAS (method 1).
 
 use super::arrowhead::{Arrowhead, Factors, HUB, SPOKE};
+use super::control::{ErrorNorm, Estimate, Law};
 use super::{Linearization, Reader, Stepper, Structure, System};
 use nalgebra::SVector;
 
@@ -69,8 +70,7 @@ const DENSE: [[f64; 5]; 2] = [
 pub struct Rosenbrock {
     positions: usize,
     structure: Structure,
-    /// Absolute tolerance per state.
-    tolerance: Vec<f64>,
+    norm: ErrorNorm,
     state: Vec<f64>,
     trial: Vec<f64>,
     a: Vec<f64>,
@@ -93,14 +93,14 @@ pub struct Rosenbrock {
 
 impl Rosenbrock {
     /// Memory for a system with an absolute tolerance for every state.
-    pub fn new<S: System>(system: &S, tolerance: Vec<f64>) -> Self {
+    pub fn new<S: System>(system: &S, tolerance: &[f64]) -> Self {
         let structure = system.structure();
         let (nq, nv) = (system.positions(), system.velocities());
         let zeros = || vec![0.0; nq + nv];
         let spokes = structure.spokes.len();
         Self {
             positions: nq,
-            tolerance,
+            norm: ErrorNorm::new(system, tolerance),
             state: zeros(),
             trial: zeros(),
             a: vec![0.0; nv],
@@ -191,7 +191,7 @@ impl<S: System> Stepper<S> for Rosenbrock {
         Ok(())
     }
 
-    fn attempt(&mut self, system: &mut S, t: f64, h: f64, t_last: f64) -> Result<Option<f64>, S::Fault> {
+    fn attempt(&mut self, system: &mut S, t: f64, h: f64, t_last: f64) -> Result<Option<Estimate>, S::Fault> {
         let (nq, n) = (self.positions, self.state.len());
         let (q, v) = self.state.split_at(nq);
         if !self.linearized {
@@ -224,14 +224,9 @@ impl<S: System> Stepper<S> for Rosenbrock {
             }
             self.solve(i, h);
         }
-        let mut error: f64 = 0.0;
         for k in 0..n {
             // The last stage is the error; with it the step is complete.
-            let last = self.stages[5][k];
-            let end = self.trial[k] + last;
-            let scaled = (last / self.tolerance[k]).abs();
-            // f64::max would drop a NaN.
-            error = if error.is_nan() || scaled <= error { error } else { scaled };
+            let end = self.trial[k] + self.stages[5][k];
             let bend =
                 |weights: &[f64; 5]| -> f64 { self.stages.iter().zip(weights).map(|(u, w)| w * u[k]).sum() };
             self.trial_dense[0][k] = self.state[k];
@@ -240,7 +235,8 @@ impl<S: System> Stepper<S> for Rosenbrock {
             self.trial_dense[1][k] = end;
             self.trial[k] = end;
         }
-        Ok(Some(error))
+        let last = &self.stages[5];
+        Ok(Some(self.norm.of(|k| last[k])))
     }
 
     fn accept(&mut self) {
@@ -261,8 +257,8 @@ impl<S: System> Stepper<S> for Rosenbrock {
         }
     }
 
-    fn control_order(&self) -> f64 {
-        4.0
+    fn control(&self) -> Law {
+        Law::implicit(4.0)
     }
 
     fn save(&self, out: &mut Vec<f64>) {

@@ -7,8 +7,9 @@ use super::laws::{self, Laws, PocketLaws, count_line_contacts};
 use super::workspace::{ElementSite, Loaded, PocketSite, ScaledLaws, Workspace};
 use super::{CageBody, ElementKind, Fault, Input, InputValues, Model, RingBody, RollerSet};
 use crate::contact::guide::BodyMotion;
+use crate::contact::pocket::Pillar;
 use crate::contact::{Wrench, rotate};
-use crate::laws::contact_pair::ContactMotion;
+use crate::laws::contact_pair::{ContactForce, ContactMotion};
 use crate::laws::guide::GuideLaw;
 
 impl Model {
@@ -68,8 +69,22 @@ impl Model {
         self.assemble(q, v, ws, a);
         match a.iter().position(|x| !x.is_finite()) {
             None => Ok(()),
-            Some(velocity) => Err(Fault::NotFinite { velocity }),
+            Some(velocity) => Err(Fault::NotFinite { velocity, contact: self.contact_not_finite(ws) }),
         }
+    }
+
+    /// The first contact whose force is not finite, as a place in [`Model::contact_names`].
+    fn contact_not_finite(&self, ws: &Workspace) -> Option<usize> {
+        let bad = |f: &ContactForce<f64>| !(f.normal + f.friction + f.rolling_resistance).is_finite();
+        let raceways = [&ws.outer, &ws.inner].into_iter().enumerate();
+        let mut on_raceway =
+            raceways.flat_map(|(k, batch)| batch.iter().map(move |c| (c.element, k, c.force)));
+        let mut in_pocket = ws.pocket_contacts().map(|c| {
+            let side = usize::from(c.site.pillar == Pillar::Back);
+            (c.element, self.pocket_contact_offset() + side, c.force)
+        });
+        let found = on_raceway.find(|c| bad(c.2)).or_else(|| in_pocket.find(|c| bad(c.2)));
+        found.map(|(element, place, _)| element * self.contacts_per_element() + place)
     }
 
     /// The laws as the last evaluation used them.

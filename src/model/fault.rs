@@ -30,7 +30,30 @@ pub enum Fault {
     NotFinite {
         /// Index of the velocity whose rate it is.
         velocity: usize,
+        /// The contact it comes from, if it is one: its place in [`Model::contact_names`].
+        contact: Option<usize>,
     },
+}
+
+/// The kinds of [`Fault`].
+pub const FAULTS: [&str; 6] =
+    ["no_guide_film", "no_viscosity", "lost_roller", "lost_ring", "lost_cage", "not_finite"];
+
+/// Number of faults of each kind, in the order of [`FAULTS`].
+pub type FaultCounts = [u64; FAULTS.len()];
+
+impl Fault {
+    /// Place of its kind in [`FAULTS`].
+    pub fn kind(&self) -> usize {
+        match self {
+            Self::NoGuideFilm { .. } => 0,
+            Self::NoViscosity { .. } => 1,
+            Self::LostRoller { .. } => 2,
+            Self::LostRing => 3,
+            Self::LostCage => 4,
+            Self::NotFinite { .. } => 5,
+        }
+    }
 }
 
 impl Model {
@@ -48,7 +71,12 @@ impl Model {
             }
             Fault::LostRing => "the inner ring has left the bearing".to_owned(),
             Fault::LostCage => "the cage has left the bearing".to_owned(),
-            Fault::NotFinite { velocity } => {
+            Fault::NotFinite { contact: Some(contact), .. } => {
+                let names = self.contact_names();
+                let name = names.get(contact).map_or("?", String::as_str);
+                format!("the force of {name} is not a finite number")
+            }
+            Fault::NotFinite { velocity, contact: None } => {
                 let index = self.layout().positions() + velocity;
                 let infos = self.state_infos();
                 let name = infos.get(index).map_or("?", |info| info.name.as_str());

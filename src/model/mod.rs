@@ -19,7 +19,7 @@ mod scales;
 mod workspace;
 
 pub use channels::Channel;
-pub use fault::Fault;
+pub use fault::{FAULTS, Fault, FaultCounts};
 pub use forces::{
     BodyForces, CONTACT_QUANTITIES, ContactForces, FORCE_SOURCES, Forces, GuideReport, Quantity,
 };

@@ -5,6 +5,7 @@ use super::{InputValues, Model};
 use crate::contact::pocket::Pillar;
 use crate::contact::raceway::RollerMotion;
 use crate::contact::{PairFrame, Wrench, rotate};
+use crate::integrate::Vibration;
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
 use crate::laws::guide::GuideForce;
 use crate::laws::journal::JournalMotion;
@@ -174,6 +175,13 @@ impl Workspace {
     pub fn active_contacts(&self) -> [usize; 2] {
         let pockets = self.wall.len() + self.edge.len() + self.plane.len();
         [self.outer.len() + self.inner.len(), pockets]
+    }
+
+    /// Normal speeds of the touching raceway contacts at the last evaluated state.
+    pub(crate) fn vibration(&self) -> Vibration {
+        let motions = self.outer.motion.iter().chain(&self.inner.motion);
+        let squares = motions.map(|m| m.delta_dot * m.delta_dot).sum();
+        Vibration { squares, count: (self.outer.len() + self.inner.len()) as f64 }
     }
 
     /// Number of evaluations of each law since the workspace was made or the counts were set, in the order of [`LAWS`].

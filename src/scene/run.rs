@@ -43,6 +43,9 @@ pub enum RingStart {
 pub struct Solver {
     /// Method.
     pub method: Method,
+    /// Largest step of methods with error control, s. Absent: 0.1 ms.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_step: Option<f64>,
     /// Smallest step size, s; a run that needs less fails.
     pub min_step: f64,
     /// Largest number of attempted steps in one advance.
@@ -51,7 +54,8 @@ pub struct Solver {
 
 impl Default for Solver {
     fn default() -> Self {
-        Self { method: Method::Leapfrog(Leapfrog { step: None }), min_step: 1e-12, max_steps: 200_000_000 }
+        let method = Method::Auto(Auto { tolerance: None });
+        Self { method, max_step: None, min_step: 1e-12, max_steps: 200_000_000 }
     }
 }
 
@@ -59,6 +63,8 @@ impl Default for Solver {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Method {
+    /// Chooses method and step from the scene and from what it measures while running.
+    Auto(Auto),
     /// Semi-implicit leapfrog of fixed step: one force evaluation per step; the choice for statistics of long runs.
     Leapfrog(Leapfrog),
     /// Dormand-Prince 5(4) with error control: the choice for accurate trajectories.
@@ -66,6 +72,16 @@ pub enum Method {
     /// Rosenbrock method of order 4(3) on the exact derivatives, with error control: the choice for accurate
     /// trajectories of stiff scenes, such as thin films and heavy loads.
     Rosenbrock(Rosenbrock),
+}
+
+/// Parameters of the choice.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Auto {
+    /// Local error in units of the model's reference clearance (see docs/model.md), for accurate trajectories. Absent:
+    /// rollers are followed in their statistics, everything else with 1e-6.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
 }
 
 /// Parameters of the leapfrog.

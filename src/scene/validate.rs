@@ -234,16 +234,19 @@ impl Scene {
         }
         number("initial.first_roller_angle", self.initial.first_roller_angle, ANGLE)?;
         number("solver.min_step", self.solver.min_step, range(1e-18, 1e-6, "s"))?;
+        let tolerance = || range(1e-12, 1e-1, "");
+        optional("solver.max_step", self.solver.max_step, range(self.solver.min_step, 1e-2, "s"))?;
         match &self.solver.method {
+            Method::Auto(m) => optional("solver.method.auto.tolerance", m.tolerance, tolerance())?,
             Method::Leapfrog(m) => {
                 let allowed = range(self.solver.min_step.max(1e-10), 1e-3, "s");
                 optional("solver.method.leapfrog.step", m.step, allowed)?;
             }
             Method::Rosenbrock(m) => {
-                number("solver.method.rosenbrock.tolerance", m.tolerance, range(1e-12, 1e-1, ""))?;
+                number("solver.method.rosenbrock.tolerance", m.tolerance, tolerance())?;
             }
             Method::DormandPrince(m) => {
-                number("solver.method.dormand_prince.tolerance", m.tolerance, range(1e-12, 1e-1, ""))?;
+                number("solver.method.dormand_prince.tolerance", m.tolerance, tolerance())?;
             }
         }
         if self.solver.max_steps == 0 {

@@ -1,7 +1,7 @@
 //! The model as the integrator sees it: with its workspace, inputs and counts.
 
-use crate::integrate::{DampingBlock, Linearization, Structure, System};
-use crate::model::{Channel, Fault, Forces, HostInputs, Input, LawCounts, Model, Workspace};
+use crate::integrate::{DampingBlock, Linearization, Structure, System, Vibration};
+use crate::model::{Channel, Fault, FaultCounts, Forces, HostInputs, Input, LawCounts, Model, Workspace};
 use std::sync::Arc;
 
 pub(super) struct Bearing {
@@ -9,12 +9,27 @@ pub(super) struct Bearing {
     workspace: Workspace,
     host: HostInputs,
     evaluations: u64,
+    /// Failed attempts by cause, and the last one with its time in s.
+    fault_counts: FaultCounts,
+    last_fault: Option<(f64, Fault)>,
+    /// Steps rejected because of each group.
+    rejections: Vec<u64>,
 }
 
 impl Bearing {
     pub(super) fn new(model: Arc<Model>) -> Self {
         let workspace = Workspace::new(&model);
-        Self { model, workspace, host: HostInputs::default(), evaluations: 0 }
+        let layout = model.layout();
+        let groups = layout.count + usize::from(layout.ring.is_some()) + usize::from(layout.cage.is_some());
+        Self {
+            workspace,
+            host: HostInputs::default(),
+            evaluations: 0,
+            fault_counts: FaultCounts::default(),
+            last_fault: None,
+            rejections: vec![0; groups],
+            model,
+        }
     }
 
     pub(super) fn model(&self) -> &Arc<Model> {
@@ -47,9 +62,47 @@ impl Bearing {
         self.workspace.set_law_counts(law_counts);
     }
 
+    pub(super) fn fault_counts(&self) -> &FaultCounts {
+        &self.fault_counts
+    }
+
+    pub(super) fn set_fault_counts(&mut self, counts: FaultCounts) {
+        self.fault_counts = counts;
+        self.last_fault = None;
+    }
+
+    /// The last failed attempt since creation, reset or restoring: time in s and cause.
+    pub(super) fn last_fault(&self) -> Option<(f64, Fault)> {
+        self.last_fault
+    }
+
+    /// Steps rejected because of each group.
+    pub(super) fn rejections_mut(&mut self) -> &mut [u64] {
+        &mut self.rejections
+    }
+
+    pub(super) fn rejections(&self) -> &[u64] {
+        &self.rejections
+    }
+
+    /// The body because of which most steps were rejected, and how many.
+    pub(super) fn most_rejections(&self) -> Option<(String, u64)> {
+        let most = self.rejections.iter().copied().max().filter(|n| *n > 0)?;
+        let group = self.rejections.iter().position(|n| *n == most)?;
+        let layout = self.model.layout();
+        let name = match group.checked_sub(layout.count) {
+            None => format!("{}[{group}]", self.model.element_kind()),
+            Some(0) if layout.ring.is_some() => "inner_ring".to_owned(),
+            Some(_) => "cage".to_owned(),
+        };
+        Some((name, most))
+    }
+
     pub(super) fn reset(&mut self) {
         self.host = HostInputs::default();
         self.set_counts(0, LawCounts::default());
+        self.set_fault_counts(FaultCounts::default());
+        self.rejections.fill(0);
     }
 
     /// Accelerations of a state vector; not counted as an evaluation of the integration.
@@ -91,7 +144,7 @@ impl System for Bearing {
     }
 
     fn not_finite(&self, velocity: usize) -> Fault {
-        Fault::NotFinite { velocity }
+        Fault::NotFinite { velocity, contact: None }
     }
 
     fn next_event(&self, t: f64) -> f64 {
@@ -99,12 +152,11 @@ impl System for Bearing {
     }
 
     /// Rollers, then the ring and the cage, whichever exist.
-    fn damped_blocks(&self) -> usize {
-        let layout = self.model.layout();
-        layout.count + usize::from(layout.ring.is_some()) + usize::from(layout.cage.is_some())
+    fn groups(&self) -> usize {
+        self.rejections.len()
     }
 
-    fn damped_block(&self, i: usize) -> [Option<usize>; 3] {
+    fn group(&self, i: usize) -> [Option<usize>; 3] {
         let layout = self.model.layout();
         if i < layout.count {
             return [Some(layout.roller(i)), Some(layout.roller(i) + 1), Some(layout.spin(i))];
@@ -132,6 +184,21 @@ impl System for Bearing {
         let rates = self.model.input_rates_at(t, &self.host);
         self.model.linearize(q, v, &self.workspace, &rates, out);
         Ok(())
+    }
+
+    fn vibration(&self) -> Vibration {
+        self.workspace.vibration()
+    }
+
+    fn failed(&mut self, t: f64, fault: Fault) {
+        self.fault_counts[fault.kind()] += 1;
+        self.last_fault = Some((t, fault));
+    }
+
+    fn rejected(&mut self, group: usize) {
+        if let Some(count) = self.rejections.get_mut(group) {
+            *count += 1;
+        }
     }
 
     fn damping(&self, h: f64, q: &[f64], v: &[f64], blocks: &mut [DampingBlock]) {

@@ -1,6 +1,7 @@
 //! A running simulation: state, integrator and outputs of one model. Mutable, one per thread.
 
 mod bearing;
+mod method;
 mod recording;
 mod snapshot;
 mod whirl;
@@ -9,24 +10,14 @@ pub use recording::{Recording, Spread};
 pub use whirl::{CageMotion, WhirlRecord, WhirlSummary};
 
 use crate::error::{Error, Result, Status};
-use crate::integrate::{DormandPrince, Driver, Failure, Leapfrog, Limits, Rosenbrock, Statistics, Stepper};
-use crate::model::{Channel, Fault, Forces, Input, LawCounts, Model};
-use crate::scene::Method;
+use crate::integrate::auto::Choice;
+use crate::integrate::{Driver, Failure, Statistics};
+use crate::model::{Channel, FAULTS, Fault, FaultCounts, Forces, Input, LawCounts, Model};
 use bearing::Bearing;
 use std::sync::Arc;
 
 /// Largest simulated time, s: beyond it a step of a nanosecond is lost in round-off.
 const MAX_TIME: f64 = 1e6;
-/// Largest step of methods with error control, s: a tenth of a millisecond still sees every roller pass.
-const MAX_STEP: f64 = 1e-4;
-/// Largest nominal leapfrog step, s: without stiff contacts, films and the motion of the elements still set a scale.
-const MAX_NOMINAL_STEP: f64 = 2e-5;
-/// First step of methods with error control in units of 1/(highest frequency).
-const FIRST_STEP: f64 = 0.1;
-/// Nominal leapfrog step in units of 1/(highest frequency), with and without contact damping.
-const DAMPED_STEP: f64 = 1.0;
-const UNDAMPED_STEP: f64 = 0.5;
-
 /// Counts of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RunStatistics {
@@ -34,6 +25,10 @@ pub struct RunStatistics {
     pub driver: Statistics,
     /// Force evaluations of the integration.
     pub evaluations: u64,
+    /// What `auto` has chosen; absent with other methods.
+    pub choice: Option<Choice>,
+    /// Failed attempts by cause, in the order of [`FAULTS`].
+    pub faults: FaultCounts,
     /// Evaluations of each law in them, in the order of [`crate::model::LAWS`].
     pub laws: LawCounts,
 }
@@ -64,7 +59,7 @@ impl Sim {
     pub fn new(model: Arc<Model>) -> Result<Self> {
         let state = model.initial_state()?;
         let bearing = Bearing::new(model.clone());
-        let driver = Driver::new(stepper(&model, &bearing), limits(&model));
+        let driver = Driver::new(method::stepper(&model, &bearing), method::limits(&model));
         let mut sim = Self {
             channels: model.channels().into(),
             fingerprint: snapshot::fingerprint(&model),
@@ -109,6 +104,7 @@ impl Sim {
         evaluated.map_err(|f| self.bad_state(time, f))?;
         self.time = time;
         self.state.copy_from_slice(state);
+        self.driver.forget();
         self.restart();
         Ok(())
     }
@@ -187,7 +183,7 @@ impl Sim {
         self.bearing.reset();
         self.time = 0.0;
         self.state.copy_from_slice(&state);
-        self.driver.clear_statistics();
+        self.driver.reset();
         self.restart();
         Ok(())
     }
@@ -259,16 +255,40 @@ impl Sim {
 
     /// Step that runs start with, s; a method without error control keeps it.
     pub fn nominal_step(&self) -> f64 {
-        limits(self.model()).nominal_step
+        method::limits(self.model()).nominal_step
     }
 
     /// Counts since creation or reset; a restored simulation goes on from the saved counts.
     pub fn statistics(&self) -> RunStatistics {
         RunStatistics {
             driver: *self.driver.statistics(),
+            choice: self.driver.choice(),
+            faults: *self.bearing.fault_counts(),
             evaluations: self.bearing.evaluations(),
             laws: *self.bearing.law_counts(),
         }
+    }
+
+    /// What the integration does and why, and what went wrong on the way, in one line for people.
+    pub fn report(&self) -> String {
+        let mut text = match self.driver.choice() {
+            Some(choice) => method::describe(&choice),
+            None => method::named(&self.model().scene().solver.method).to_owned(),
+        };
+        let rms = self.driver.statistics().vibration.rms();
+        if rms > 0.0 {
+            text += &format!("; loaded raceway contacts vibrate with {rms:.3e} m/s rms");
+        }
+        for (name, count) in FAULTS.iter().zip(self.bearing.fault_counts()).filter(|(_, n)| **n > 0) {
+            text += &format!("; {count} failed attempts: {name}");
+        }
+        if let Some((t, fault)) = self.bearing.last_fault() {
+            text += &format!("; the last one at t = {t:?} s: {}", self.model().describe(fault));
+        }
+        if let Some((body, count)) = self.bearing.most_rejections() {
+            text += &format!("; {count} of {} rejected steps for {body}", self.driver.statistics().rejected);
+        }
+        text
     }
 
     fn restart(&mut self) {
@@ -332,40 +352,4 @@ fn wrong_size(what: &str, given: usize, expected: usize) -> Error {
 
 fn bad_index(what: &str, index: usize, count: usize) -> Error {
     Error::new(Status::BadIndex, format!("{what}: index {index}, there are {count}"))
-}
-
-/// The method that the scene asks for.
-fn stepper(model: &Model, bearing: &Bearing) -> Box<dyn Stepper<Bearing> + Send> {
-    match &model.scene().solver.method {
-        Method::Leapfrog(_) => Box::new(Leapfrog::new(bearing)),
-        Method::DormandPrince(m) => {
-            let scales = model.state_scales();
-            let tolerance = scales.into_iter().map(|scale| m.tolerance * scale).collect();
-            Box::new(DormandPrince::new(bearing, tolerance))
-        }
-        Method::Rosenbrock(m) => {
-            let scales = model.state_scales();
-            let tolerance = scales.into_iter().map(|scale| m.tolerance * scale).collect();
-            Box::new(Rosenbrock::new(bearing, tolerance))
-        }
-    }
-}
-
-fn limits(model: &Model) -> Limits {
-    let solver = &model.scene().solver;
-    let nominal_step = match &solver.method {
-        Method::Leapfrog(m) => m.step.unwrap_or_else(|| {
-            let share = if model.damped() { DAMPED_STEP } else { UNDAMPED_STEP };
-            (share / model.highest_frequency()).min(MAX_NOMINAL_STEP)
-        }),
-        Method::DormandPrince(_) | Method::Rosenbrock(_) => {
-            (FIRST_STEP / model.highest_frequency()).min(MAX_NOMINAL_STEP)
-        }
-    };
-    Limits {
-        nominal_step: nominal_step.max(solver.min_step),
-        min_step: solver.min_step,
-        max_step: MAX_STEP.max(solver.min_step),
-        max_steps: solver.max_steps,
-    }
 }

@@ -3,11 +3,11 @@
 use super::Sim;
 use crate::error::{Error, Result, Status};
 use crate::integrate::Reader;
-use crate::model::{HostInputs, LawCounts, Model};
+use crate::model::{FaultCounts, HostInputs, LawCounts, Model};
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// First number of a snapshot; changes when its content changes.
-const FORMAT: f64 = 2.0;
+const FORMAT: f64 = 3.0;
 
 impl Sim {
     /// Everything the future of this simulation depends on, for the same model in the same build of the library.
@@ -16,6 +16,7 @@ impl Sim {
         out.extend(self.fingerprint);
         out.extend([self.time, self.bearing.evaluations() as f64]);
         out.extend(self.bearing.law_counts().iter().map(|n| *n as f64));
+        out.extend(self.bearing.fault_counts().iter().chain(self.bearing.rejections()).map(|n| *n as f64));
         let host = self.bearing.host();
         for input in host.values {
             out.extend([f64::from(u8::from(input.is_some())), input.unwrap_or(0.0)]);
@@ -64,6 +65,13 @@ impl Sim {
         for count in &mut law_counts {
             *count = from.count()?;
         }
+        let mut fault_counts = FaultCounts::default();
+        for count in &mut fault_counts {
+            *count = from.count()?;
+        }
+        for count in self.bearing.rejections_mut() {
+            *count = from.count()?;
+        }
         let mut host = HostInputs::default();
         for input in &mut host.values {
             let (set, value) = (from.flag()?, from.number()?);
@@ -82,6 +90,7 @@ impl Sim {
         self.time = time;
         *self.bearing.host_mut() = host;
         self.bearing.set_counts(evaluations, law_counts);
+        self.bearing.set_fault_counts(fault_counts);
         self.forces_current = false;
         Some(())
     }

@@ -154,6 +154,10 @@ fn integration(model: Arc<Model>) -> Vec<Vec<String>> {
     let solver = model.scene().solver.clone();
     let record = model.scene().record.clone();
     let (method, kind) = match &solver.method {
+        Method::Auto(m) => match m.tolerance {
+            Some(tolerance) => (format!("chosen while running, tolerance {tolerance}"), "first step"),
+            None => ("chosen while running".to_owned(), "first step"),
+        },
         Method::Leapfrog(m) if m.step.is_some() => ("leapfrog".to_owned(), "step, set by the scene"),
         Method::Leapfrog(_) => ("leapfrog".to_owned(), "step, from the highest contact frequency"),
         Method::DormandPrince(m) => (format!("Dormand-Prince 5(4), tolerance {}", m.tolerance), "first step"),

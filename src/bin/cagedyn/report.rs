@@ -121,6 +121,7 @@ fn effort(run: &Run, summary: &Summary, folder: &Path) -> Vec<Vec<String>> {
     );
     let mut rows = vec![
         ("method", i.method.replace('_', "-")),
+        ("why", run.report.clone()),
         ("steps", steps),
         ("force evaluations", grouped(i.evaluations)),
         ("law evaluations", law_evaluations(&i.law_evaluations)),

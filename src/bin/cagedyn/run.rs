@@ -30,6 +30,8 @@ pub struct Run {
     pub channels: Vec<Channel>,
     /// Counts.
     pub statistics: RunStatistics,
+    /// What the integration did and why.
+    pub report: String,
     /// Simulated time, s.
     pub time: f64,
     /// Wall time of the simulation, s.
@@ -130,6 +132,7 @@ pub fn simulate(mut scene: Scene, until: Option<f64>, fallback_title: &str, labe
         title,
         channels: sim.channels().to_vec(),
         statistics: sim.statistics(),
+        report: sim.report(),
         time: sim.time(),
         wall,
         interrupted: terminal::stop_requested() && sim.time() < duration - interval,

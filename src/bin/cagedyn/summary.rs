@@ -1,7 +1,7 @@
 //! Results of a run in numbers, as written to `summary.json`.
 
 use crate::run::Run;
-use cagedyn::model::{Channel, LAWS};
+use cagedyn::model::{Channel, FAULTS, LAWS};
 use cagedyn::scene::Method;
 use cagedyn::{CageMotion, Recording, Spread, WhirlRecord, WhirlSummary};
 use serde::{Serialize, Serializer};
@@ -73,12 +73,19 @@ pub struct States {
 pub struct Integration {
     /// Method, as in the scene.
     pub method: &'static str,
+    /// What the integration did and why.
+    pub report: String,
     /// Accepted steps.
     pub steps: u64,
     /// Steps rejected by the error estimate.
     pub rejected: u64,
     /// Steps abandoned because forces were undefined.
     pub faults: u64,
+    /// The same by cause; those that never occurred are left out.
+    #[serde(serialize_with = "as_map")]
+    pub faults_by_cause: Vec<(&'static str, u64)>,
+    /// Root mean square approach speed of the loaded raceway contacts, m/s.
+    pub raceway_vibration_rms: f64,
     /// Jumps and kinks of inputs.
     pub events: u64,
     /// Smallest step, s.
@@ -206,15 +213,19 @@ fn key_statistics(channels: &[Channel], recording: &Recording, from: f64) -> Vec
 fn integration(run: &Run) -> Integration {
     let driver = &run.statistics.driver;
     let method = match run.model.scene().solver.method {
+        Method::Auto(_) => "auto",
         Method::Leapfrog(_) => "leapfrog",
         Method::DormandPrince(_) => "dormand_prince",
         Method::Rosenbrock(_) => "rosenbrock",
     };
     Integration {
         method,
+        report: run.report.clone(),
         steps: driver.steps,
         rejected: driver.rejected,
         faults: driver.faults,
+        faults_by_cause: FAULTS.into_iter().zip(run.statistics.faults).filter(|(_, n)| *n > 0).collect(),
+        raceway_vibration_rms: driver.vibration.rms(),
         events: driver.events,
         smallest_step_s: driver.smallest_step,
         largest_step_s: driver.largest_step,

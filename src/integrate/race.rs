@@ -1,0 +1,127 @@
+//! Chooses between two methods of equal accuracy by what they achieve: simulated time per force evaluation.
+//!
+//! Both work on the run itself, so a trial of the slower one costs time but no accuracy. A method that loses waits
+//! twice as long for its next trial. All of it counts evaluations and not seconds of a clock, so it is reproducible.
+
+use super::Reader;
+
+/// Evaluations in one window.
+const WINDOW: f64 = 400.0;
+/// Windows between trials: at first, and at most.
+const FIRST_PAUSE: f64 = 2.0;
+const LONGEST_PAUSE: f64 = 64.0;
+/// The other method must advance this many times as far.
+const CLEAR_LEAD: f64 = 1.2;
+
+/// Two methods, numbered 0 and 1, one of which is active.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Race {
+    active: usize,
+    /// Simulated time in s and evaluations in the present window.
+    advanced: f64,
+    cost: f64,
+    /// Simulated time per evaluation in the last window of each, s.
+    rates: [f64; 2],
+    /// Whether the active method is on trial.
+    trial: bool,
+    /// Windows until the next trial, and between trials.
+    wait: f64,
+    pause: f64,
+}
+
+impl Race {
+    /// A race in which `first` is active.
+    pub fn new(first: usize) -> Self {
+        Self {
+            active: first,
+            advanced: 0.0,
+            cost: 0.0,
+            rates: [0.0; 2],
+            trial: false,
+            wait: FIRST_PAUSE,
+            pause: FIRST_PAUSE,
+        }
+    }
+
+    /// The active method.
+    pub fn active(&self) -> usize {
+        self.active
+    }
+
+    /// Whether the active method is on trial.
+    pub fn on_trial(&self) -> bool {
+        self.trial
+    }
+
+    /// How many times as far as the other the active method advances with one evaluation; zero before both have been
+    /// tried.
+    pub fn lead(&self) -> f64 {
+        let other = self.rates[1 - self.active];
+        if other > 0.0 { self.rates[self.active] / other } else { 0.0 }
+    }
+
+    /// The active method made an accepted step of `advance` s.
+    pub fn note_advance(&mut self, advance: f64) {
+        self.advanced += advance;
+    }
+
+    /// The active method spent evaluations.
+    pub fn note_cost(&mut self, evaluations: f64) {
+        self.cost += evaluations;
+    }
+
+    /// The active method cannot go on: the other takes over, and it waits.
+    pub fn give_up(&mut self) {
+        self.rates[self.active] = 0.0;
+        self.pause = (2.0 * self.pause).min(LONGEST_PAUSE);
+        (self.trial, self.wait) = (false, self.pause);
+        (self.advanced, self.cost) = (0.0, 0.0);
+        self.active = 1 - self.active;
+    }
+
+    /// At the end of a window: decides. Whether the active method changed.
+    pub fn decide(&mut self) -> bool {
+        if self.cost < WINDOW {
+            return false;
+        }
+        self.rates[self.active] = self.advanced / self.cost;
+        (self.advanced, self.cost) = (0.0, 0.0);
+        let other = 1 - self.active;
+        if self.trial {
+            self.trial = false;
+            self.wait = self.pause;
+            if self.rates[self.active] > CLEAR_LEAD * self.rates[other] {
+                self.pause = FIRST_PAUSE;
+                return false;
+            }
+            self.pause = (2.0 * self.pause).min(LONGEST_PAUSE);
+            self.active = other;
+            return true;
+        }
+        self.wait -= 1.0;
+        if self.wait > 0.0 {
+            return false;
+        }
+        self.trial = true;
+        self.active = other;
+        true
+    }
+
+    /// Appends everything that the next decisions depend on.
+    pub fn save(&self, out: &mut Vec<f64>) {
+        out.extend([self.active as f64, self.advanced, self.cost, self.rates[0], self.rates[1]]);
+        out.extend([f64::from(u8::from(self.trial)), self.wait, self.pause]);
+    }
+
+    /// Takes back what [`Race::save`] wrote; `None` if it does not fit.
+    pub fn load(&mut self, from: &mut Reader<'_>) -> Option<()> {
+        self.active = usize::from(from.flag()?);
+        for number in [&mut self.advanced, &mut self.cost].into_iter().chain(&mut self.rates) {
+            *number = from.number().filter(|x| *x >= 0.0)?;
+        }
+        self.trial = from.flag()?;
+        self.wait = from.number()?;
+        self.pause = from.number().filter(|x| (FIRST_PAUSE..=LONGEST_PAUSE).contains(x))?;
+        Some(())
+    }
+}

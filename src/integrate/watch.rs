@@ -1,0 +1,307 @@
+//! Watches over the leapfrog, which has no error estimate of its own, and chooses its step.
+//!
+//! The step is `share / highest frequency`, halved `level` times. From time to time the highest frequency is measured
+//! at the present state, and a stretch of steps is made twice, with the step and with half of it: their difference is
+//! the error of the stretch, and the ratio of their vibrations shows whether the method drives or damps them. Both
+//! move the level; neither touches the run itself.
+
+use super::control::ErrorNorm;
+use super::mode::{Mode, ModeFinder};
+use super::{Leapfrog, Linearization, Reader, Stepper, System, Vibration};
+
+/// Steps between two checks: they cost a twentieth of a run.
+const INTERVAL: u64 = 512;
+/// Steps of a stretch: about one period of the fastest vibration.
+const STRETCH: usize = 8;
+/// Largest error of a stretch in units of the norm, and the largest relative change of vibration. Measured on a
+/// roller bearing: with smaller errors the statistics of long runs stay within the scatter of the reference.
+const LARGEST_ERROR: f64 = 5e-4;
+const LARGEST_CHANGE: f64 = 0.25;
+/// Below this share of the largest error a step of double size would pass too.
+const COMFORT: f64 = 1.0 / 16.0;
+/// The frequency that the step rests on follows the measured one only if they differ by more than this factor.
+const CLEAR_DIFFERENCE: f64 = 1.1;
+/// Passed checks in a row before the step is doubled.
+const PATIENCE: u64 = 16;
+/// Weight of the past in the running means, and the total weight, that of four checks, from which they count.
+const MEMORY: f64 = 7.0 / 8.0;
+const ENOUGH: f64 = 0.41;
+/// Below this share of critical damping the fastest vibration counts as undamped: half the step.
+const LIGHT_DAMPING: f64 = 0.01;
+/// Steps finer than the first one by more than this many halvings cost more than error control.
+const FINEST: u64 = 4;
+
+/// What is known about a system before its first step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Expectation {
+    /// Highest frequency of undamped vibration, rad/s; zero if unknown.
+    pub frequency: f64,
+    /// Whether that vibration is damped.
+    pub damped: bool,
+    /// Step in units of 1/frequency.
+    pub share: f64,
+    /// Largest step, s.
+    pub largest_step: f64,
+}
+
+impl Expectation {
+    /// The step to start with, s.
+    pub fn step(&self) -> f64 {
+        self.step_at(self.frequency, self.level())
+    }
+
+    fn step_at(&self, frequency: f64, level: u64) -> f64 {
+        let halvings = (0..level).fold(1.0, |share, _| 0.5 * share);
+        (self.share / frequency).min(self.largest_step) * halvings
+    }
+
+    /// The level to start with, and the lowest one while nothing else is known.
+    fn level(&self) -> u64 {
+        u64::from(!self.damped)
+    }
+}
+
+/// What the checks have found since the start.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Findings {
+    /// Number of checks.
+    pub checks: u64,
+    /// Mean and largest error of a stretch, in units of the norm.
+    pub mean_error: f64,
+    /// Largest error of a stretch.
+    pub largest_error: f64,
+    /// Vibration with the step and with half of it.
+    pub vibrations: [Vibration; 2],
+    /// Highest frequency met, rad/s.
+    pub frequency: f64,
+}
+
+/// What a check leads to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// Go on.
+    Keep,
+    /// Go on with another step.
+    Change,
+    /// No step that is worth its cost is accurate enough.
+    Hopeless,
+}
+
+/// The watch and its memory.
+#[derive(Clone, Debug)]
+pub struct Watch {
+    expected: Expectation,
+    coarse: Leapfrog,
+    fine: Leapfrog,
+    norm: ErrorNorm,
+    finder: ModeFinder,
+    slopes: Linearization,
+    a: Vec<f64>,
+    /// Steps until the next check.
+    due: u64,
+    level: u64,
+    /// Highest frequency that the step rests on, rad/s.
+    frequency: f64,
+    /// Running sums of the error and of both squared vibrations, and their total weight.
+    error: f64,
+    squares: [f64; 2],
+    weight: f64,
+    /// Checks in a row that a step of double size would have passed too.
+    comfortable: u64,
+    findings: Findings,
+}
+
+impl Watch {
+    /// A watch over a system; `units` are one unit of error of each state.
+    pub fn new<S: System>(system: &S, expected: Expectation, units: &[f64]) -> Self {
+        let leapfrog = Leapfrog::new(system);
+        let mut watch = Self {
+            expected,
+            coarse: leapfrog.clone(),
+            fine: leapfrog,
+            norm: ErrorNorm::new(system, units),
+            finder: ModeFinder::new(system, units),
+            slopes: Linearization::new(&system.structure(), system.velocities()),
+            a: vec![0.0; system.velocities()],
+            due: 0,
+            level: 0,
+            frequency: 0.0,
+            error: 0.0,
+            squares: [0.0; 2],
+            weight: 0.0,
+            comfortable: 0,
+            findings: Findings::default(),
+        };
+        watch.forget();
+        watch
+    }
+
+    /// Forgets everything that was measured.
+    pub fn forget(&mut self) {
+        self.level = self.expected.level();
+        self.frequency = self.expected.frequency;
+        self.due = 0;
+        self.findings = Findings::default();
+        self.start_anew();
+    }
+
+    /// What was found.
+    pub fn findings(&self) -> &Findings {
+        &self.findings
+    }
+
+    /// Step of the leapfrog, s.
+    pub fn step(&self) -> f64 {
+        self.expected.step_at(self.frequency, self.level)
+    }
+
+    /// One more step was made.
+    pub fn count_step(&mut self) {
+        self.due = self.due.saturating_sub(1);
+    }
+
+    /// Checks, if it is time to. `main` is the method at time `t`; nothing is evaluated later than `t_last`.
+    pub fn look<S: System>(&mut self, system: &mut S, main: &Leapfrog, t: f64, t_last: f64) -> Verdict {
+        if self.due > 0 {
+            return Verdict::Keep;
+        }
+        self.due = INTERVAL;
+        let before = self.step();
+        let floor = self.measure_frequency(system, main, t);
+        self.level = self.level.max(floor);
+        // A step that is far too coarse is refined at once, others after some checks have agreed.
+        while let Some(error) = self.check(system, main, t, t_last) {
+            if error <= LARGEST_ERROR * 8.0 || self.level > FINEST {
+                break;
+            }
+            self.refine();
+        }
+        let inaccurate = self.error > LARGEST_ERROR * self.weight;
+        if self.weight > ENOUGH && (inaccurate || self.change_of_vibration() > LARGEST_CHANGE) {
+            self.refine();
+        } else if self.comfortable >= PATIENCE && self.level > floor {
+            self.level -= 1;
+            self.start_anew();
+        }
+        if self.level > FINEST || self.step() < self.expected.step_at(self.expected.frequency, FINEST) {
+            Verdict::Hopeless
+        } else if self.step() == before {
+            Verdict::Keep
+        } else {
+            Verdict::Change
+        }
+    }
+
+    /// Goes back from hopeless to the first step; a check comes next.
+    pub fn relax(&mut self) {
+        (self.frequency, self.level, self.due) = (self.expected.frequency, self.expected.level(), 0);
+        self.start_anew();
+    }
+
+    fn refine(&mut self) {
+        self.level += 1;
+        self.start_anew();
+    }
+
+    fn start_anew(&mut self) {
+        (self.error, self.squares, self.weight, self.comfortable) = (0.0, [0.0; 2], 0.0, 0);
+    }
+
+    /// Relative difference of the vibrations with the step and with half of it.
+    fn change_of_vibration(&self) -> f64 {
+        let [coarse, fine] = self.squares;
+        if fine > 0.0 { ((coarse / fine).sqrt() - 1.0).abs() } else { 0.0 }
+    }
+
+    /// Measures the highest frequency; returns the level below which its damping forbids to go.
+    fn measure_frequency<S: System>(&mut self, system: &mut S, main: &Leapfrog, t: f64) -> u64 {
+        let expected = self.expected.level();
+        let (q, v) = Stepper::<S>::state(main).split_at(system.positions());
+        if system.linearize(t, q, v, &mut self.a, &mut self.slopes).is_err() {
+            return expected;
+        }
+        let Mode { frequency, damping_ratio } = self.finder.find(&self.slopes);
+        self.findings.frequency = self.findings.frequency.max(frequency);
+        let known = frequency.max(self.expected.frequency);
+        if known > CLEAR_DIFFERENCE * self.frequency || self.frequency > CLEAR_DIFFERENCE * known {
+            self.frequency = known;
+        }
+        if frequency < 0.5 * self.frequency {
+            return expected;
+        }
+        u64::from(damping_ratio < LIGHT_DAMPING)
+    }
+
+    /// Makes a stretch of steps twice. Returns its error, if it lies before `t_last` and could be made.
+    fn check<S: System>(&mut self, system: &mut S, main: &Leapfrog, t: f64, t_last: f64) -> Option<f64> {
+        let h = self.step();
+        if t + STRETCH as f64 * h > t_last {
+            return None;
+        }
+        let mut vibrations = [Vibration::default(); 2];
+        for (method, (pieces, vibration)) in
+            [&mut self.coarse, &mut self.fine].into_iter().zip([1, 2].into_iter().zip(&mut vibrations))
+        {
+            method.copy_from(main);
+            let h = h / f64::from(pieces);
+            for i in 0..STRETCH * pieces as usize {
+                // A failure here is the run's own in a moment.
+                method.attempt(system, t + i as f64 * h, h, t_last).ok()?;
+                Stepper::<S>::accept(method);
+                vibration.add(system.vibration(), 1.0 / f64::from(pieces));
+            }
+        }
+        let (coarse, fine) = (Stepper::<S>::state(&self.coarse), Stepper::<S>::state(&self.fine));
+        let error = self.norm.of(|i| coarse[i] - fine[i]).error;
+        self.note(error, vibrations);
+        Some(error)
+    }
+
+    fn note(&mut self, error: f64, vibrations: [Vibration; 2]) {
+        let found = &mut self.findings;
+        found.checks += 1;
+        found.mean_error += (error - found.mean_error) / found.checks as f64;
+        found.largest_error = found.largest_error.max(error);
+        for k in 0..2 {
+            found.vibrations[k].add(vibrations[k], 1.0);
+            self.squares[k] = MEMORY * self.squares[k] + (1.0 - MEMORY) * vibrations[k].squares;
+        }
+        self.error = MEMORY * self.error + (1.0 - MEMORY) * error;
+        self.weight = MEMORY * self.weight + (1.0 - MEMORY);
+        let comfortable = error <= COMFORT * LARGEST_ERROR && self.change_of_vibration() <= COMFORT;
+        self.comfortable = if comfortable { self.comfortable + 1 } else { 0 };
+    }
+
+    /// Appends everything that the next steps depend on.
+    pub fn save(&self, out: &mut Vec<f64>) {
+        let f = &self.findings;
+        out.extend([self.due, self.level, self.comfortable, f.checks].map(|n| n as f64));
+        out.extend([self.frequency, self.error, self.squares[0], self.squares[1], self.weight]);
+        out.extend([f.mean_error, f.largest_error, f.frequency]);
+        out.extend(f.vibrations.iter().flat_map(|v| [v.squares, v.count]));
+    }
+
+    /// Takes back what [`Watch::save`] wrote; `None` if it does not fit.
+    pub fn load(&mut self, from: &mut Reader<'_>) -> Option<()> {
+        let positive = |from: &mut Reader<'_>| from.number().filter(|x| *x >= 0.0);
+        self.due = from.count()?;
+        self.level = from.count().filter(|level| *level <= FINEST)?;
+        self.comfortable = from.count()?;
+        let checks = from.count()?;
+        self.frequency = positive(from)?;
+        self.error = positive(from)?;
+        self.squares = [positive(from)?, positive(from)?];
+        self.weight = positive(from)?;
+        self.findings = Findings {
+            checks,
+            mean_error: positive(from)?,
+            largest_error: positive(from)?,
+            frequency: positive(from)?,
+            vibrations: [(); 2].map(|()| Vibration::default()),
+        };
+        for vibration in &mut self.findings.vibrations {
+            *vibration = Vibration { squares: positive(from)?, count: positive(from)? };
+        }
+        Some(())
+    }
+}

@@ -1,0 +1,137 @@
+//! From the scene's choice of a method to a running one, and back to words.
+
+use super::bearing::Bearing;
+use crate::integrate::auto::{Aim, Auto, Choice, Kind, Reason};
+use crate::integrate::watch::Expectation;
+use crate::integrate::{DormandPrince, Leapfrog, Limits, Rosenbrock, Stepper};
+use crate::model::Model;
+use crate::scene::Method;
+
+/// Largest step of methods with error control, s, unless the scene says otherwise: a tenth of a millisecond still sees
+/// every roller pass.
+const MAX_STEP: f64 = 1e-4;
+/// Largest nominal leapfrog step, s: without stiff contacts, films and the motion of the elements still set a scale.
+const MAX_NOMINAL_STEP: f64 = 2e-5;
+/// First step of methods with error control in units of 1/(highest frequency).
+const FIRST_STEP: f64 = 0.1;
+/// Nominal leapfrog step in units of 1/(highest frequency), with and without contact damping.
+const DAMPED_STEP: f64 = 1.0;
+const UNDAMPED_STEP: f64 = 0.5;
+/// Tolerance of `auto` where it controls errors and none is asked for.
+const AUTO_TOLERANCE: f64 = 1e-6;
+
+/// The method that the scene asks for.
+pub(super) fn stepper(model: &Model, bearing: &Bearing) -> Box<dyn Stepper<Bearing> + Send> {
+    let units = model.state_scales();
+    let tolerance = |t: f64| units.iter().map(|unit| t * unit).collect::<Vec<_>>();
+    match &model.scene().solver.method {
+        Method::Auto(_) => Box::new(Auto::new(bearing, aim(model))),
+        Method::Leapfrog(_) => Box::new(Leapfrog::new(bearing)),
+        Method::DormandPrince(m) => Box::new(DormandPrince::new(bearing, &tolerance(m.tolerance))),
+        Method::Rosenbrock(m) => Box::new(Rosenbrock::new(bearing, &tolerance(m.tolerance))),
+    }
+}
+
+/// Steps and limits that a run starts with.
+pub(super) fn limits(model: &Model) -> Limits {
+    let solver = &model.scene().solver;
+    let nominal_step = match &solver.method {
+        Method::Auto(_) => aim(model).nominal_step(),
+        Method::Leapfrog(m) => m.step.unwrap_or_else(|| {
+            let share = if model.damped() { DAMPED_STEP } else { UNDAMPED_STEP };
+            (share / model.highest_frequency()).min(MAX_NOMINAL_STEP)
+        }),
+        Method::DormandPrince(_) | Method::Rosenbrock(_) => first_step(model),
+    };
+    Limits {
+        nominal_step: nominal_step.max(solver.min_step),
+        min_step: solver.min_step,
+        max_step: solver.max_step.unwrap_or(MAX_STEP).max(solver.min_step),
+        max_steps: solver.max_steps,
+    }
+}
+
+/// First step of error control, s.
+fn first_step(model: &Model) -> f64 {
+    (FIRST_STEP / model.highest_frequency()).min(MAX_NOMINAL_STEP)
+}
+
+/// Rollers between raceways vibrate all the time and make the motion chaotic within milliseconds, so their statistics
+/// are what can be had; everything else is smooth between contacts.
+fn aim(model: &Model) -> Aim {
+    let asked = match &model.scene().solver.method {
+        Method::Auto(auto) => auto.tolerance,
+        _ => None,
+    };
+    Aim {
+        statistics: model.has_rollers() && asked.is_none(),
+        expected: Expectation {
+            frequency: model.highest_frequency(),
+            damped: model.damped(),
+            share: DAMPED_STEP,
+            largest_step: MAX_NOMINAL_STEP,
+        },
+        units: model.state_scales(),
+        tolerance: asked.unwrap_or(AUTO_TOLERANCE),
+        first_step: first_step(model),
+    }
+}
+
+/// Name of a method, as in scenes.
+pub(super) fn name(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Leapfrog => "leapfrog",
+        Kind::DormandPrince => "dormand_prince",
+        Kind::Rosenbrock => "rosenbrock",
+    }
+}
+
+/// The scene's method.
+pub(super) fn named(method: &Method) -> &'static str {
+    match method {
+        Method::Auto(_) => "auto",
+        Method::Leapfrog(_) => name(Kind::Leapfrog),
+        Method::DormandPrince(_) => name(Kind::DormandPrince),
+        Method::Rosenbrock(_) => name(Kind::Rosenbrock),
+    }
+}
+
+/// What was chosen and why, in words.
+pub(super) fn describe(choice: &Choice) -> String {
+    let found = &choice.findings;
+    let step = format!("leapfrog with steps of {:.3e} s", choice.leapfrog_step);
+    let mut text = match choice.method {
+        Kind::Leapfrog => step.clone(),
+        other => name(other).to_owned(),
+    };
+    text += match choice.reason {
+        Reason::Vibration => ": the rollers vibrate all the time, and statistics of that cost least this way",
+        Reason::Trajectory => ": errors are controlled",
+        Reason::Speed => ": errors are controlled, and it advances further per force evaluation",
+        Reason::Trial => {
+            ": errors are controlled, and it is tried whether it advances further per force evaluation"
+        }
+        Reason::Failures => ": attempts of the method before failed",
+        Reason::Cost => ": the leapfrog would need steps that cost more than error control",
+    };
+    if choice.lead > 0.0 && choice.method != Kind::Leapfrog {
+        text += &format!(" ({:.2} times as far as the other method)", choice.lead);
+    }
+    if found.checks > 0 {
+        let [coarse, fine] = found.vibrations.map(|v| v.rms());
+        text += &format!(
+            "; {} checks with half the step: mean error {:.1e}, largest {:.1e} of the reference clearance, \
+             vibration {:+.1} %, highest frequency {:.3e} rad/s",
+            found.checks,
+            found.mean_error,
+            found.largest_error,
+            if fine > 0.0 { 100.0 * (coarse / fine - 1.0) } else { 0.0 },
+            found.frequency
+        );
+    }
+    let steps = choice.steps;
+    text + &format!(
+        "; {} steps by leapfrog, {} by dormand_prince, {} by rosenbrock, {} changes",
+        steps[0], steps[1], steps[2], choice.changes
+    )
+}
