@@ -40,6 +40,7 @@ static void check_null_handles(void)
     CHECK_FAILS(cagedyn_sim_get_state(NULL, x, 3), null, "sim");
     CHECK_FAILS(cagedyn_sim_set_state(NULL, 0.0, x, 3), null, "sim");
     CHECK_FAILS(cagedyn_sim_derivative(NULL, 0.0, x, x, 3), null, "sim");
+    CHECK_FAILS(cagedyn_sim_jacobian(NULL, 0.0, x, 3, x, 3), null, "sim");
     CHECK_FAILS(cagedyn_sim_step(NULL, 0.0), null, "sim");
     CHECK_FAILS(cagedyn_sim_advance_to(NULL, 0.0), null, "sim");
     CHECK_FAILS(cagedyn_sim_accelerations(NULL, x, 3), null, "sim");
@@ -100,6 +101,31 @@ static void check_arrays(const cagedyn_model *m, cagedyn_sim *sim)
     free(x), free(y), free(before);
 }
 
+static void check_jacobian(const cagedyn_model *m, cagedyn_sim *sim)
+{
+    int64_t n = cagedyn_model_state_count(m), nn = n * n;
+    double *x = numbers(n), *jacobian = numbers(nn);
+    const int32_t size = CAGEDYN_ERR_WRONG_SIZE, null = CAGEDYN_ERR_NULL_ARGUMENT;
+    const int32_t value = CAGEDYN_ERR_BAD_VALUE;
+    for (int64_t i = 0; i < nn; i++) jacobian[i] = 7.0;
+    CHECK(cagedyn_sim_get_state(sim, x, n) == CAGEDYN_OK);
+    CHECK_FAILS(cagedyn_sim_jacobian(sim, 0.0, NULL, n, jacobian, nn), null, "state");
+    CHECK_FAILS(cagedyn_sim_jacobian(sim, 0.0, x, n, NULL, nn), null, "jacobian");
+    CHECK_FAILS(cagedyn_sim_jacobian(sim, 0.0, x, n - 1, jacobian, nn), size, "state");
+    CHECK_FAILS(cagedyn_sim_jacobian(sim, 0.0, x, -1, jacobian, nn), size, "state");
+    CHECK_FAILS(cagedyn_sim_jacobian(sim, 0.0, x, n, jacobian, n), size, "jacobian");
+    CHECK_FAILS(cagedyn_sim_jacobian(sim, 0.0, x, n, jacobian, -1), size, "jacobian");
+    CHECK_FAILS(cagedyn_sim_jacobian(sim, NAN, x, n, jacobian, nn), value, "t:");
+    CHECK_FAILS(cagedyn_sim_jacobian(sim, -1.0, x, n, jacobian, nn), value, "t:");
+    x[5] = NAN;
+    CHECK_FAILS(cagedyn_sim_jacobian(sim, 0.0, x, n, jacobian, nn), value, "state[5]");
+    CHECK(cagedyn_sim_get_state(sim, x, n) == CAGEDYN_OK);
+    x[2] = 1e-3;
+    CHECK_FAILS(cagedyn_sim_jacobian(sim, 0.0, x, n, jacobian, nn), CAGEDYN_ERR_BAD_STATE, "film");
+    for (int64_t i = 0; i < nn; i++) CHECK(jacobian[i] == 7.0);
+    free(x), free(jacobian);
+}
+
 static void check_values(cagedyn_sim *sim)
 {
     double x = 7.0;
@@ -144,6 +170,7 @@ int main(int argc, char **argv)
     check_texts();
     check_null_handles();
     check_arrays(model, sim);
+    check_jacobian(model, sim);
     check_values(sim);
     check_limits(model);
     cagedyn_sim_free(sim);

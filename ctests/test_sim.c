@@ -32,6 +32,70 @@ static void check_state_and_derivative(const cagedyn_model *m)
     free(state), free(rate), free(a);
 }
 
+/* A change of a state that moves forces by about the same share, whatever the unit. */
+static double small_change(const cagedyn_model *m, int64_t k)
+{
+    const char *units[] = {"m", "rad", "m/s", "rad/s"};
+    const double changes[] = {1e-9, 25e-9, 1e-5, 25e-5};
+    for (int i = 0; i < 4; i++)
+        if (strcmp(cagedyn_model_state_unit(m, k), units[i]) == 0) return changes[i];
+    CHECK(!"a known unit");
+    return NAN;
+}
+
+/* Column k of the derivatives over the state by central differences with step h. */
+static void difference(cagedyn_sim *sim, double *state, int64_t n, int64_t k, double h, double *out)
+{
+    double x = state[k], *up = numbers(n);
+    state[k] = x + h;
+    CHECK(cagedyn_sim_derivative(sim, 1e-3, state, up, n) == CAGEDYN_OK);
+    state[k] = x - h;
+    CHECK(cagedyn_sim_derivative(sim, 1e-3, state, out, n) == CAGEDYN_OK);
+    state[k] = x;
+    for (int64_t i = 0; i < n; i++) out[i] = (up[i] - out[i]) / (2.0 * h);
+    free(up);
+}
+
+static void check_jacobian(const cagedyn_model *m)
+{
+    int64_t n = cagedyn_model_state_count(m), nn = n * n;
+    double *state = numbers(n), *other = numbers(n), *jacobian = numbers(nn), *overlapping = numbers(nn);
+    double *coarse = numbers(n), *fine = numbers(n), *size = numbers(n), before[7], after[7];
+    cagedyn_sim *sim = cagedyn_sim_new(m);
+    CHECK(cagedyn_sim_advance_to(sim, 1e-3) == CAGEDYN_OK);
+    CHECK(cagedyn_sim_get_state(sim, state, n) == CAGEDYN_OK);
+    CHECK(cagedyn_sim_statistics(sim, before, 7) == CAGEDYN_OK);
+    CHECK(cagedyn_sim_jacobian(sim, 1e-3, state, n, jacobian, nn) == CAGEDYN_OK);
+
+    /* Entries in units of the largest share that a small change of one state has in a row. */
+    for (int64_t k = 0; k < n; k++)
+        for (int64_t i = 0; i < n; i++)
+            size[i] = fmax(size[i], fabs(jacobian[i + k * n]) * small_change(m, k));
+    /* Both differences are off by up to 6e-5 of that, by terms that fall with the square of the step and cancel in
+     * the extrapolation; what is left is of fourth order, 5e-9. */
+    for (int64_t k = 0; k < n; k++) {
+        double h = small_change(m, k);
+        difference(sim, state, n, k, h, coarse);
+        difference(sim, state, n, k, 0.5 * h, fine);
+        for (int64_t i = 0; i < n; i++) {
+            double extrapolated = (4.0 * fine[i] - coarse[i]) / 3.0;
+            double error = fabs(jacobian[i + k * n] - extrapolated) * h / size[i];
+            CHECK(error < 1e-7);
+        }
+    }
+
+    /* Nothing is changed or counted; the state may lie inside of the matrix. */
+    memcpy(overlapping + 3, state, (size_t)n * sizeof(double));
+    CHECK(cagedyn_sim_jacobian(sim, 1e-3, overlapping + 3, n, overlapping, nn) == CAGEDYN_OK);
+    CHECK(memcmp(jacobian, overlapping, (size_t)nn * sizeof(double)) == 0);
+    CHECK(cagedyn_sim_get_state(sim, other, n) == CAGEDYN_OK);
+    CHECK(memcmp(state, other, (size_t)n * sizeof(double)) == 0);
+    CHECK(cagedyn_sim_statistics(sim, after, 7) == CAGEDYN_OK);
+    CHECK(memcmp(before, after, sizeof before) == 0);
+    cagedyn_sim_free(sim);
+    free(state), free(other), free(jacobian), free(overlapping), free(coarse), free(fine), free(size);
+}
+
 static void check_forces(const cagedyn_model *m)
 {
     int64_t bodies = cagedyn_model_body_count(m), sources = cagedyn_model_force_source_count(m);
@@ -141,6 +205,7 @@ int main(int argc, char **argv)
 {
     cagedyn_model *model = load_model(argc, argv);
     check_state_and_derivative(model);
+    check_jacobian(model);
     check_forces(model);
     check_steps_and_outputs(model);
     check_inputs(model);

@@ -253,6 +253,18 @@ int32_t cagedyn_sim_set_state(cagedyn_sim *sim, double time, const double *state
 // simulation's own state does not change.
 int32_t cagedyn_sim_derivative(cagedyn_sim *sim, double t, const double *state, double *rate, int64_t length);
 
+// Writes the exact derivatives of what cagedyn_sim_derivative() gives over the state, at an arbitrary state and time
+// `t` (s), to `jacobian`, for hosts with their own implicit integrator: a square matrix by columns, so that
+// jacobian[i + k * length] is the derivative of rate i over state k. `length` is the length of the state, and
+// `jacobian_length` its square. The simulation's own state does not change. The first call takes memory for one such
+// matrix. Arrays may overlap.
+int32_t cagedyn_sim_jacobian(cagedyn_sim *sim,
+                             double t,
+                             const double *state,
+                             int64_t length,
+                             double *jacobian,
+                             int64_t jacobian_length);
+
 // Advances by `dt` >= 0 seconds. On failure time and state do not change.
 int32_t cagedyn_sim_step(cagedyn_sim *sim, double dt);
 

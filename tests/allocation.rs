@@ -1,4 +1,4 @@
-//! Steps, derivatives and outputs do not allocate memory.
+//! Steps, derivatives, Jacobians after the first, and outputs do not allocate memory.
 #![allow(unsafe_code)]
 
 use cagedyn::{Model, Scene, Sim};
@@ -57,6 +57,13 @@ fn nothing_is_allocated_while_a_simulation_runs() {
             allocations(|| sim.derivative(0.0, &state, &mut rate).unwrap()),
             0,
             "derivative, {solver}"
+        );
+        let mut jacobian = vec![0.0; state.len() * state.len()];
+        sim.jacobian(0.0, &state, &mut jacobian).unwrap();
+        assert_eq!(
+            allocations(|| sim.jacobian(0.0, &state, &mut jacobian).unwrap()),
+            0,
+            "second Jacobian, {solver}"
         );
         assert_eq!(allocations(|| sim.set_state(0.0, &state).unwrap()), 0, "state, {solver}");
         assert_eq!(allocations(|| sim.set_input(0, -300.0).unwrap()), 0, "input, {solver}");

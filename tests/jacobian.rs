@@ -4,8 +4,9 @@ mod common;
 
 use cagedyn::integrate::Linearization;
 use cagedyn::model::{HostInputs, Workspace};
-use cagedyn::{Model, Sim};
-use common::parts::{all, scene};
+use cagedyn::{Model, Sim, Status};
+use common::parts::{Parts, all, scene};
+use common::{Random, example_text, example_with};
 use serde_json::json;
 use std::sync::Arc;
 
@@ -84,16 +85,22 @@ fn difference(model: &Model, t: f64, state: &[f64], column: usize, h: f64) -> Op
     Some(sum)
 }
 
-/// Numbers of entries compared and skipped, and the worst error, at one state.
-fn compare(model: &Model, t: f64, state: &[f64]) -> (usize, usize, f64, String) {
-    let nq = model.layout().positions();
-    let (q, v) = state.split_at(nq);
+/// Derivatives of the accelerations at one state.
+fn linearization(model: &Model, t: f64, state: &[f64]) -> Linearization {
+    let (q, v) = state.split_at(model.layout().positions());
     let mut ws = Workspace::new(model);
     let mut a = vec![0.0; v.len()];
     model.accelerations(&model.inputs_at(t, &HostInputs::default()), q, v, &mut ws, &mut a).unwrap();
     let mut slope = Linearization::new(&model.structure(), v.len());
     model.linearize(q, v, &ws, &model.input_rates_at(t, &HostInputs::default()), &mut slope);
-    let exact = dense(model, &slope);
+    slope
+}
+
+/// Numbers of entries compared and skipped, and the worst error, at one state.
+fn compare(model: &Model, t: f64, state: &[f64]) -> (usize, usize, f64, String) {
+    let nq = model.layout().positions();
+    let v = &state[nq..];
+    let exact = dense(model, &linearization(model, t, state));
     let mut scales = model.state_scales();
     scales.push(TIME_SCALE);
     let sizes: Vec<f64> = exact
@@ -162,4 +169,161 @@ fn derivatives_match_differences_in_every_combination() {
     println!("{compared} derivatives compared, {skipped} skipped at kinks, largest error {largest:e}");
     assert!(outliers <= KNOWN_OUTLIERS, "{outliers} states beyond {TOLERANCE:e}");
     assert!(skipped < compared / 20, "{skipped} of {compared} skipped");
+}
+
+/// A state that the bearing of these parts reaches.
+fn moving(parts: Parts) -> Sim {
+    let model = Model::from_json(&scene(parts).to_string()).unwrap();
+    let mut sim = Sim::new(Arc::new(model)).unwrap();
+    sim.advance_to(1.1e-3).unwrap();
+    sim
+}
+
+#[test]
+fn the_jacobian_of_a_simulation_has_every_derivative_in_its_place() {
+    for parts in all() {
+        let mut sim = moving(parts);
+        let model = sim.model().clone();
+        let (t, state) = (sim.time(), sim.state().to_vec());
+        let (n, nq) = (state.len(), model.layout().positions());
+        let mut found = vec![f64::NAN; n * n];
+        sim.jacobian(t, &state, &mut found).unwrap();
+        let slope = linearization(&model, t, &state);
+        let accelerations = dense(&model, &slope);
+        for column in 0..n {
+            for row in 0..n {
+                let expected = match row.checked_sub(nq) {
+                    Some(velocity) => accelerations[velocity][column],
+                    None => f64::from(u8::from(column == nq + row)),
+                };
+                assert_eq!(found[column * n + row], expected, "{parts:?}: {row}, {column}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_jacobian_of_a_simulation_matches_differences_of_its_derivative() {
+    // Free ring, rollers, film and solid contact of the guide, plane pockets, unbalance.
+    let parts = Parts {
+        rollers: true,
+        guide: "mixed short bearing",
+        inner_ring: false,
+        pocket: "plane",
+        unbalance: true,
+        roundness: true,
+        gravity: true,
+    };
+    let mut sim = moving(parts);
+    let (t, state) = (sim.time(), sim.state().to_vec());
+    let scales = sim.model().state_scales();
+    let n = state.len();
+    let mut exact = vec![0.0; n * n];
+    sim.jacobian(t, &state, &mut exact).unwrap();
+    let mut slope = |column: usize, h: f64| {
+        let mut at = |offset: f64| {
+            let (mut moved, mut rate) = (state.clone(), vec![0.0; n]);
+            moved[column] += offset * h;
+            sim.derivative(t, &moved, &mut rate).unwrap();
+            rate
+        };
+        let [up, down, up_2, down_2, up_3, down_3] = [1.0, -1.0, 2.0, -2.0, 3.0, -3.0].map(&mut at);
+        let sum = |i: usize| 45.0 * (up[i] - down[i]) - 9.0 * (up_2[i] - down_2[i]) + (up_3[i] - down_3[i]);
+        (0..n).map(|i| sum(i) / (60.0 * h)).collect::<Vec<f64>>()
+    };
+    let sizes: Vec<f64> = (0..n)
+        .map(|row| (0..n).map(|k| (exact[k * n + row] * scales[k]).abs()).fold(0.0, f64::max))
+        .collect();
+    let (mut compared, mut largest) = (0, 0.0f64);
+    for column in 0..n {
+        let [coarse, middle, fine] = STEPS.map(|share| slope(column, share * scales[column]));
+        for row in 0..n {
+            let scale = sizes[row] / scales[column];
+            let spread = (coarse[row] - fine[row]).abs().max((middle[row] - fine[row]).abs());
+            if spread <= SMOOTH * scale {
+                compared += 1;
+                largest = largest.max((exact[column * n + row] - fine[row]).abs() / scale);
+            }
+        }
+    }
+    println!("{compared} of {} compared, largest error {largest:e}", n * n);
+    assert!(largest < TOLERANCE, "{largest:e}");
+    assert!(compared > n * n * 19 / 20, "{compared} of {}", n * n);
+}
+
+#[test]
+fn there_is_a_jacobian_wherever_there_is_a_derivative() {
+    let mut random = Random::new(5);
+    let (mut found, mut refused) = (0, 0);
+    for parts in all() {
+        let mut sim = Sim::new(Arc::new(Model::from_json(&scene(parts).to_string()).unwrap())).unwrap();
+        let start = sim.state().to_vec();
+        let scales = sim.model().state_scales();
+        let (mut rate, mut out) = (start.clone(), vec![0.0; start.len() * start.len()]);
+        for _ in 0..5 {
+            // What is at rest or in the centre, what is near, and what is anywhere.
+            let near = |x: f64, h: f64, random: &mut Random| match random.index(2) {
+                0 => 0.0,
+                _ => x + h * random.around_zero(1.0),
+            };
+            let close: Vec<f64> = start.iter().zip(&scales).map(|(x, h)| near(*x, *h, &mut random)).collect();
+            let far = start.iter().map(|x| x * 10f64.powf(random.within(-300.0, 12.0))).collect();
+            for state in [close, far] {
+                let derivative = sim.derivative(0.0, &state, &mut rate);
+                let jacobian = sim.jacobian(0.0, &state, &mut out);
+                assert_eq!(jacobian, derivative, "{parts:?}: {state:?}");
+                assert!(out.iter().all(|x| x.is_finite()), "{parts:?}: {state:?}");
+                found += usize::from(jacobian.is_ok());
+                refused += usize::from(jacobian.is_err());
+            }
+        }
+    }
+    println!("{found} states with a Jacobian, {refused} without forces");
+    assert!(found > 1000 && refused > 100, "{found}, {refused}");
+}
+
+#[test]
+fn a_jacobian_that_cannot_be_had_changes_nothing() {
+    let mut sim = Sim::new(Arc::new(Model::from_json(&example_text()).unwrap())).unwrap();
+    let (before, state) = (sim.statistics(), sim.state().to_vec());
+    let n = state.len();
+    let mut out = vec![7.0; n * n];
+    let with = |i: usize, value: f64| {
+        let mut state = state.clone();
+        state[i] = value;
+        state
+    };
+    let mut refused = |t: f64, state: &[f64], length: usize, status: Status, text: &str| {
+        let error = sim.jacobian(t, state, &mut out[..length]).unwrap_err();
+        assert_eq!(error.status, status, "{error}");
+        assert!(error.message.contains(text), "{error}");
+    };
+    refused(0.0, &state[1..], n * n, Status::WrongSize, "state");
+    refused(0.0, &state, n, Status::WrongSize, "jacobian");
+    refused(f64::NAN, &state, n * n, Status::BadValue, "t:");
+    refused(0.0, &with(5, f64::NAN), n * n, Status::BadValue, "state[5]");
+    refused(0.0, &with(2, 1e-3), n * n, Status::BadState, "film");
+    assert!(out.iter().all(|x| *x == 7.0));
+    assert_eq!(sim.statistics(), before);
+}
+
+#[test]
+fn asking_for_jacobians_does_not_change_a_run() {
+    for solver in ["leapfrog", "dormand_prince", "rosenbrock"] {
+        let setting = if solver == "leapfrog" { json!({}) } else { json!({"tolerance": 1e-5}) };
+        let scene = example_with(&[("solver", json!({"method": {solver: setting}}))]);
+        let model = Arc::new(Model::from_json(&scene.to_string()).unwrap());
+        let mut alone = Sim::new(model.clone()).unwrap();
+        let mut asked = Sim::new(model).unwrap();
+        let start = asked.state().to_vec();
+        let mut out = vec![0.0; start.len() * start.len()];
+        for i in 1..=20 {
+            alone.advance_to(5e-5 * f64::from(i)).unwrap();
+            asked.advance_to(5e-5 * f64::from(i)).unwrap();
+            asked.jacobian(0.3, &start, &mut out).unwrap();
+            assert_eq!(alone.forces().unwrap(), asked.forces().unwrap());
+        }
+        assert_eq!(alone.state(), asked.state());
+        assert_eq!(alone.statistics(), asked.statistics());
+    }
 }

@@ -16,6 +16,8 @@ pub struct cagedyn_sim {
     /// Copies of the caller's arrays, so that overlapping arrays are harmless.
     state: Vec<f64>,
     result: Vec<f64>,
+    /// Empty until a Jacobian is first asked for.
+    jacobian: Vec<f64>,
 }
 
 /// Names of the statistics, NUL-terminated.
@@ -69,7 +71,7 @@ pub unsafe extern "C" fn cagedyn_sim_new(model: *const cagedyn_model) -> *mut ca
             let sim = Sim::new(unsafe { shared("model", model) }?.model.clone())?;
             let (states, outputs) = (sim.state().len(), sim.channels().len());
             let (state, result) = (vec![0.0; states], vec![0.0; states.max(outputs)]);
-            Ok(Box::into_raw(Box::new(cagedyn_sim { sim, state, result })))
+            Ok(Box::into_raw(Box::new(cagedyn_sim { sim, state, result, jacobian: Vec::new() })))
         },
     )
 }
@@ -164,6 +166,37 @@ pub unsafe extern "C" fn cagedyn_sim_derivative(
             let n = s.state.len();
             s.sim.derivative(t, &s.state, &mut s.result[..n])?;
             write_array("rate", &s.result[..n], rate, length)
+        })
+    }
+}
+
+/// Writes the exact derivatives of what cagedyn_sim_derivative() gives over the state, at an arbitrary state and time
+/// `t` (s), to `jacobian`, for hosts with their own implicit integrator: a square matrix by columns, so that
+/// jacobian[i + k * length] is the derivative of rate i over state k. `length` is the length of the state, and
+/// `jacobian_length` its square. The simulation's own state does not change. The first call takes memory for one such
+/// matrix. Arrays may overlap.
+///
+/// # Safety
+/// `sim` is NULL or a live handle, `state` NULL or an array of `length` numbers, `jacobian` NULL or an array of
+/// `jacobian_length` numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_jacobian(
+    sim: *mut cagedyn_sim,
+    t: f64,
+    state: *const f64,
+    length: i64,
+    jacobian: *mut f64,
+    jacobian_length: i64,
+) -> i32 {
+    // SAFETY: see above.
+    unsafe {
+        with(sim, |s| {
+            let size = s.state.len() * s.state.len();
+            check_array("jacobian", jacobian.is_null(), jacobian_length, size)?;
+            read_array("state", state, length, &mut s.state)?;
+            s.jacobian.resize(size, 0.0);
+            s.sim.jacobian(t, &s.state, &mut s.jacobian)?;
+            write_array("jacobian", &s.jacobian, jacobian, jacobian_length)
         })
     }
 }

@@ -33,11 +33,16 @@ pub enum Fault {
         /// The contact it comes from, if it is one: its place in [`Model::contact_names`].
         contact: Option<usize>,
     },
+    /// A derivative of an acceleration over the state is not a finite number.
+    NoSlope {
+        /// Index of the velocity whose rate it is.
+        velocity: usize,
+    },
 }
 
 /// The kinds of [`Fault`].
-pub const FAULTS: [&str; 6] =
-    ["no_guide_film", "no_viscosity", "lost_roller", "lost_ring", "lost_cage", "not_finite"];
+pub const FAULTS: [&str; 7] =
+    ["no_guide_film", "no_viscosity", "lost_roller", "lost_ring", "lost_cage", "not_finite", "no_slope"];
 
 /// Number of faults of each kind, in the order of [`FAULTS`].
 pub type FaultCounts = [u64; FAULTS.len()];
@@ -52,6 +57,7 @@ impl Fault {
             Self::LostRing => 3,
             Self::LostCage => 4,
             Self::NotFinite { .. } => 5,
+            Self::NoSlope { .. } => 6,
         }
     }
 }
@@ -77,11 +83,17 @@ impl Model {
                 format!("the force of {name} is not a finite number")
             }
             Fault::NotFinite { velocity, contact: None } => {
-                let index = self.layout().positions() + velocity;
-                let infos = self.state_infos();
-                let name = infos.get(index).map_or("?", |info| info.name.as_str());
-                format!("the rate of {name} is not a finite number")
+                format!("the rate of {} is not a finite number", self.velocity_name(velocity))
+            }
+            Fault::NoSlope { velocity } => {
+                let name = self.velocity_name(velocity);
+                format!("a derivative of the rate of {name} is not a finite number")
             }
         }
+    }
+
+    fn velocity_name(&self, velocity: usize) -> String {
+        let mut infos = self.state_infos().into_iter();
+        infos.nth(self.layout().positions() + velocity).map_or("?".to_owned(), |info| info.name)
     }
 }

@@ -1,5 +1,6 @@
 //! The model as the integrator sees it: with its workspace, inputs and counts.
 
+use super::jacobian::Slopes;
 use crate::integrate::{DampingBlock, Linearization, Structure, System, Vibration};
 use crate::model::{Channel, Fault, FaultCounts, Forces, HostInputs, Input, LawCounts, Model, Workspace};
 use std::sync::Arc;
@@ -14,6 +15,8 @@ pub(super) struct Bearing {
     last_fault: Option<(f64, Fault)>,
     /// Steps rejected because of each group.
     rejections: Vec<u64>,
+    /// Made when derivatives are first asked for.
+    slopes: Option<Slopes>,
 }
 
 impl Bearing {
@@ -28,6 +31,7 @@ impl Bearing {
             fault_counts: FaultCounts::default(),
             last_fault: None,
             rejections: vec![0; groups],
+            slopes: None,
             model,
         }
     }
@@ -113,6 +117,16 @@ impl Bearing {
         let result = self.model.accelerations(&inputs, q, v, &mut self.workspace, a);
         self.workspace.set_counting(true);
         result
+    }
+
+    /// Accelerations of a state vector and their derivatives; not counted as an evaluation of the integration.
+    pub(super) fn linearize_at(&mut self, t: f64, state: &[f64], a: &mut [f64]) -> Result<&Slopes, Fault> {
+        self.accelerations_at(t, state, a)?;
+        let (q, v) = state.split_at(self.model.layout().positions());
+        let rates = self.model.input_rates_at(t, &self.host);
+        let slopes = self.slopes.get_or_insert_with(|| Slopes::new(&self.model));
+        self.model.linearize(q, v, &self.workspace, &rates, &mut slopes.linearization);
+        Ok(slopes)
     }
 
     pub(super) fn report(&self, state: &[f64], a: &[f64], out: &mut Forces) {

@@ -1,6 +1,7 @@
 //! A running simulation: state, integrator and outputs of one model. Mutable, one per thread.
 
 mod bearing;
+mod jacobian;
 mod method;
 mod recording;
 mod snapshot;

@@ -1,0 +1,120 @@
+//! The Jacobian of the rates of a state, for hosts with their own implicit integrator.
+
+use super::{Sim, check_time, wrong_size};
+use crate::error::Result;
+use crate::integrate::arrowhead::Arrowhead;
+use crate::integrate::{Linearization, Structure};
+use crate::model::{Fault, Model};
+
+/// Memory for derivatives of the accelerations.
+pub(super) struct Slopes {
+    structure: Structure,
+    pub(super) linearization: Linearization,
+}
+
+impl Slopes {
+    pub(super) fn new(model: &Model) -> Self {
+        let structure = model.structure();
+        let linearization = Linearization::new(&structure, model.layout().velocities());
+        Self { structure, linearization }
+    }
+
+    /// The fault of the first acceleration without finite derivatives.
+    fn check(&self) -> std::result::Result<(), Fault> {
+        let Linearization { over_positions, over_velocities, .. } = &self.linearization;
+        for part in [over_positions, over_velocities] {
+            if let Some((velocity, ..)) = entries(&self.structure, part).find(|(.., x)| !x.is_finite()) {
+                return Err(Fault::NoSlope { velocity });
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes the derivatives of the rates of `positions` positions and all velocities by columns.
+    fn write(&self, positions: usize, out: &mut [f64]) {
+        let size = positions + self.linearization.over_time.len();
+        out.fill(0.0);
+        for i in 0..positions {
+            out[(positions + i) * size + i] = 1.0;
+        }
+        let Linearization { over_positions, over_velocities, .. } = &self.linearization;
+        for (row, column, value) in entries(&self.structure, over_positions) {
+            // Spins have no position; what stands in their place is zero.
+            if column < positions {
+                out[column * size + positions + row] = value;
+            }
+        }
+        for (row, column, value) in entries(&self.structure, over_velocities) {
+            out[(positions + column) * size + positions + row] = value;
+        }
+    }
+}
+
+/// Row, column (both as velocities) and value of every entry of a matrix of this structure.
+fn entries<'a>(
+    structure: &'a Structure,
+    matrix: &'a Arrowhead,
+) -> impl Iterator<Item = (usize, usize, f64)> + 'a {
+    let hub = || structure.hub.iter().enumerate().filter_map(|(k, velocity)| Some((k, (*velocity)?)));
+    let within_hub =
+        hub().flat_map(move |(i, row)| hub().map(move |(k, column)| (row, column, matrix.hub[(i, k)])));
+    let spokes = structure.spokes.iter().zip(&matrix.spokes);
+    let with_spokes = spokes.flat_map(move |(places, spoke)| {
+        places.iter().enumerate().flat_map(move |(i, &own)| {
+            let within = places.iter().enumerate().map(move |(k, &column)| (own, column, spoke.own[(i, k)]));
+            let across = hub().flat_map(move |(k, shared)| {
+                [(own, shared, spoke.from_hub[(i, k)]), (shared, own, spoke.to_hub[(k, i)])]
+            });
+            within.chain(across)
+        })
+    });
+    within_hub.chain(with_spokes)
+}
+
+impl Sim {
+    /// Exact derivatives of what [`Sim::derivative`] gives over the state, at an arbitrary state and time `t` (s), for
+    /// hosts with their own implicit integrator: `out[i + n * k]` is the derivative of rate `i` over state `k`, with
+    /// `n` the length of the state. Units are those of the rate over those of the state.
+    ///
+    /// Where forces have a kink, such as at first touch, it is the derivative on one of its sides. The simulation's
+    /// own state is not touched, and nothing is counted. The first call takes memory; later ones take none.
+    ///
+    /// # Errors
+    /// As [`Sim::derivative`], and [`Status::BadState`](crate::Status::BadState) where a derivative is not finite;
+    /// `out` is then unchanged.
+    pub fn jacobian(&mut self, t: f64, state: &[f64], out: &mut [f64]) -> Result<()> {
+        check_time("t", t)?;
+        self.check_state(state)?;
+        let length = state.len() * state.len();
+        if out.len() != length {
+            return Err(wrong_size("jacobian", out.len(), length));
+        }
+        self.forces_current = false;
+        let positions = self.model().layout().positions();
+        let linearized = self.bearing.linearize_at(t, state, &mut self.accelerations);
+        let checked = linearized.and_then(|slopes| slopes.check().map(|()| slopes));
+        match checked {
+            Ok(slopes) => {
+                slopes.write(positions, out);
+                Ok(())
+            }
+            Err(fault) => Err(self.bad_state(t, fault)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_finite_is_found_and_named() {
+        let model = Model::from_json(include_str!("../../scenes/nu2310.json")).unwrap();
+        let mut slopes = Slopes::new(&model);
+        assert_eq!(slopes.check(), Ok(()));
+        slopes.linearization.over_velocities.spokes[3].to_hub[(4, 1)] = f64::NAN;
+        let fault = slopes.check().unwrap_err();
+        let text = model.describe(fault);
+        assert!(text.contains("derivative of the rate of cage.speed is not a finite number"), "{text}");
+    }
+}
