@@ -189,7 +189,7 @@ fn inputs_taken_over_by_the_host_stay_until_released_or_reset() {
     s.reset().unwrap();
     assert_eq!(s.input(0), Ok(-314.1592653589793));
     assert_eq!(bits(s.state()), start);
-    assert_eq!(s.statistics(), Default::default());
+    assert_eq!(s.statistics(), sim(&[]).statistics());
     assert_eq!(s.set_input(3, 0.0).unwrap_err().status, Status::BadIndex);
     let fixed = sim(&[
         ("inner_ring.motion", r#"{"fixed": {"y": 0, "z": -25e-6}}"#),

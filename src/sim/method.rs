@@ -7,8 +7,10 @@ use crate::integrate::{DormandPrince, Leapfrog, Limits, Rosenbrock, Stepper};
 use crate::model::Model;
 use crate::scene::Method;
 
-/// Largest step of methods with error control, s, unless the scene says otherwise: a tenth of a millisecond still sees
+/// Largest step of methods with error control, unless the scene says otherwise, in units of 1/(highest frequency): half
+/// the time of a contact, so that none is jumped over except by a graze. And in s: a tenth of a millisecond still sees
 /// every roller pass.
+const LARGEST_SHARE: f64 = std::f64::consts::FRAC_PI_2;
 const MAX_STEP: f64 = 1e-4;
 /// Largest nominal leapfrog step, s: without stiff contacts, films and the motion of the elements still set a scale.
 const MAX_NOMINAL_STEP: f64 = 2e-5;
@@ -43,10 +45,11 @@ pub(super) fn limits(model: &Model) -> Limits {
         }),
         Method::DormandPrince(_) | Method::Rosenbrock(_) => first_step(model),
     };
+    let largest_step = (LARGEST_SHARE / model.highest_frequency()).min(MAX_STEP);
     Limits {
         nominal_step: nominal_step.max(solver.min_step),
         min_step: solver.min_step,
-        max_step: solver.max_step.unwrap_or(MAX_STEP).max(solver.min_step),
+        max_step: solver.max_step.unwrap_or(largest_step).max(solver.min_step),
         max_steps: solver.max_steps,
     }
 }
