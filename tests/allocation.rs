@@ -43,6 +43,7 @@ fn nothing_is_allocated_while_a_simulation_runs() {
         "{}",
         r#"{"method": {"dormand_prince": {"tolerance": 1e-5}}}"#,
         r#"{"method": {"rosenbrock": {"tolerance": 1e-5}}}"#,
+        r#"{"method": {"radau": {"tolerance": 1e-5}}}"#,
     ] {
         let scene = Scene::from_json_with(&text, [("solver", solver)]).unwrap();
         let mut sim = Sim::new(Arc::new(Model::new(scene).unwrap())).unwrap();

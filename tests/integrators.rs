@@ -1,7 +1,7 @@
 //! The integration methods on small systems with known solutions: order, dense output, events, faults, saving.
 
 use cagedyn::integrate::{
-    DampingBlock, DormandPrince, Driver, Failure, Leapfrog, Limits, Linearization, Reader, Rosenbrock,
+    DampingBlock, DormandPrince, Driver, Failure, Leapfrog, Limits, Linearization, Radau, Reader, Rosenbrock,
     Stepper, Structure, System, implicit_share,
 };
 use nalgebra::{Matrix3, Vector3};
@@ -108,6 +108,16 @@ fn dormand_prince(s: &Oscillator, tolerance: f64) -> Driver<Oscillator> {
     Driver::new(Box::new(DormandPrince::new(s, &[tolerance; 5])), limits(1e-3))
 }
 
+const METHODS: [&str; 3] = ["leapfrog", "dormand_prince", "radau"];
+
+/// A method with error control by its name.
+fn adaptive_driver(method: &str, s: &Oscillator, tolerance: f64) -> Driver<Oscillator> {
+    match method {
+        "radau" => Driver::new(Box::new(Radau::new(s, &[tolerance; 5])), limits(1e-3)),
+        _ => dormand_prince(s, tolerance),
+    }
+}
+
 /// Largest error of x, x', w at time t.
 fn error(driver: &mut Driver<Oscillator>, system: &mut Oscillator, t: f64) -> f64 {
     let mut out = [0.0; 5];
@@ -169,10 +179,11 @@ fn errors_follow_the_tolerance() {
 
 #[test]
 fn questions_do_not_change_the_steps() {
-    for adaptive in [false, true] {
+    for method in METHODS {
+        let adaptive = method != "leapfrog";
         let run = |questions: usize| {
             let mut s = Oscillator::smooth();
-            let mut d = if adaptive { dormand_prince(&s, 1e-7) } else { leapfrog(&s, 0.013) };
+            let mut d = if adaptive { adaptive_driver(method, &s, 1e-7) } else { leapfrog(&s, 0.013) };
             d.start(0.0, &START);
             let mut out = [0.0; 5];
             for i in 1..=questions {
@@ -198,9 +209,10 @@ fn dense_output_is_continuous_and_accurate() {
 
 #[test]
 fn events_are_landed_on_exactly() {
-    for adaptive in [false, true] {
+    for method in METHODS {
+        let adaptive = method != "leapfrog";
         let mut s = Oscillator { jump: 1.234_567, ..Oscillator::smooth() };
-        let mut d = if adaptive { dormand_prince(&s, 1e-9) } else { leapfrog(&s, 0.002) };
+        let mut d = if adaptive { adaptive_driver(method, &s, 1e-9) } else { leapfrog(&s, 0.002) };
         d.start(0.0, &START);
         let e = error(&mut d, &mut s, 3.0);
         assert!(e < if adaptive { 1e-8 } else { 2e-6 }, "{e}");
@@ -211,10 +223,11 @@ fn events_are_landed_on_exactly() {
 
 #[test]
 fn a_fault_is_retried_with_smaller_steps_and_ends_in_an_error() {
-    for adaptive in [false, true] {
+    for method in METHODS {
+        let adaptive = method != "leapfrog";
         // x falls from 1, so a wall below never matters; one above 1 that is crossed upwards does.
         let mut s = Oscillator { zeta: 0.0, wall: 0.5, ..Oscillator::smooth() };
-        let mut d = if adaptive { dormand_prince(&s, 1e-6) } else { leapfrog(&s, 0.01) };
+        let mut d = if adaptive { adaptive_driver(method, &s, 1e-6) } else { leapfrog(&s, 0.01) };
         d.start(0.0, &[0.0, 0.0, 1.0, 0.0, 0.0]);
         let Err(Failure::StepTooSmall { time, fault, .. }) = d.advance(&mut s, 2.0) else {
             panic!("the wall must stop the run");
@@ -250,9 +263,11 @@ fn a_fault_at_the_start_and_the_step_limit_are_reported() {
 
 #[test]
 fn saving_continues_bit_identically() {
-    for adaptive in [false, true] {
+    for method in METHODS {
+        let adaptive = method != "leapfrog";
         let mut s = Oscillator { jump: 2.1, ..Oscillator::smooth() };
-        let new = |s: &Oscillator| if adaptive { dormand_prince(s, 1e-7) } else { leapfrog(s, 0.01) };
+        let new =
+            |s: &Oscillator| if adaptive { adaptive_driver(method, s, 1e-7) } else { leapfrog(s, 0.01) };
         let mut d = new(&s);
         d.start(0.0, &START);
         d.advance(&mut s, 1.003).unwrap();
@@ -421,5 +436,66 @@ fn rosenbrock_dense_output_is_of_third_order_and_ends_on_its_steps() {
     let order = |theta: f64| (attempt(0.2, theta) / attempt(0.1, theta)).log2();
     // Local errors are one order higher than the method's.
     assert!(order(1.0) > 4.7, "{}", order(1.0));
+    assert!(order(0.4) > 3.7, "{}", order(0.4));
+}
+
+/// State at t = 2 with Radau steps of size `h`.
+fn radau_at_two(rate: f64, h: f64) -> Vec<f64> {
+    let mut system = Driven { rate };
+    let mut m = Radau::new(&system, &[1e-13; 7]);
+    Stepper::<Driven>::set_state(&mut m, &DRIVEN_START);
+    for i in 0..(2.0 / h).round() as usize {
+        m.attempt(&mut system, i as f64 * h, h, f64::INFINITY).unwrap();
+        Stepper::<Driven>::accept(&mut m);
+    }
+    Stepper::<Driven>::state(&m).to_vec()
+}
+
+#[test]
+fn radau_is_of_fifth_order_on_a_driven_structured_system() {
+    let mut system = Driven { rate: 3.0 };
+    let reference = DormandPrince::new(&system, &[1e-13; 7]);
+    let mut driver = Driver::new(Box::new(reference), limits(1e-3));
+    driver.start(0.0, &DRIVEN_START);
+    driver.advance(&mut system, 2.0).unwrap();
+    let mut exact = [0.0; 7];
+    driver.state_at(2.0, &mut exact);
+    let errors = [0.1, 0.05, 0.025].map(|h| {
+        let end = radau_at_two(3.0, h);
+        end.iter().zip(exact).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()))
+    });
+    for pair in errors.windows(2) {
+        let order = (pair[0] / pair[1]).log2();
+        assert!((order - 5.0).abs() < 0.2, "{errors:?}");
+    }
+}
+
+#[test]
+fn radau_takes_steps_far_beyond_stiff_rates() {
+    for rate in [1e3, 1e6, 1e9] {
+        let (coarse, fine) = (radau_at_two(rate, 0.1), radau_at_two(rate, 0.01));
+        for (a, b) in coarse.iter().zip(&fine) {
+            assert!((a - b).abs() < 1e-5, "{rate}: {coarse:?} {fine:?}");
+        }
+        assert!((fine[3] - 2f64.cos()).abs() < 2.0 / rate + 1e-6);
+    }
+}
+
+#[test]
+fn radau_dense_output_is_of_third_order_and_ends_on_its_steps() {
+    let attempt = |h: f64, theta: f64| {
+        let mut s = Oscillator::smooth();
+        let mut m = Radau::new(&s, &[1e-12; 5]);
+        let mut out = [0.0; 5];
+        Stepper::<Oscillator>::set_state(&mut m, &START);
+        m.attempt(&mut s, 0.0, h, f64::INFINITY).unwrap();
+        Stepper::<Oscillator>::accept(&mut m);
+        Stepper::<Oscillator>::interpolate(&m, theta, &mut out);
+        let exact = s.exact(theta * h);
+        (out[0] - exact[0]).abs().max((out[2] - exact[1]).abs())
+    };
+    let order = |theta: f64| (attempt(0.2, theta) / attempt(0.1, theta)).log2();
+    // Local errors are one order higher than the method's.
+    assert!(order(1.0) > 5.7, "{}", order(1.0));
     assert!(order(0.4) > 3.7, "{}", order(0.4));
 }

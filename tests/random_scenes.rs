@@ -266,6 +266,7 @@ fn solver() -> impl Strategy<Value = Value> {
         magnitude(1e-7, 2e-6).prop_map(|step| json!({"leapfrog": {"step": step}})),
         magnitude(1e-7, 1e-3).prop_map(|tolerance| json!({"dormand_prince": {"tolerance": tolerance}})),
         magnitude(1e-7, 1e-3).prop_map(|tolerance| json!({"rosenbrock": {"tolerance": tolerance}})),
+        magnitude(1e-7, 1e-3).prop_map(|tolerance| json!({"radau": {"tolerance": tolerance}})),
     ]
     .prop_map(|method| json!({"method": method, "min_step": 1e-13, "max_steps": 2_000}))
 }

@@ -14,7 +14,7 @@
 //! chosen as if both were scaled to one. Inverses are never formed: with stiff, nearly singular groups they would
 //! lose what cancels between hub and spokes.
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::{ComplexField, SMatrix, SVector};
 
 /// Unknowns of the hub.
 pub const HUB: usize = 5;
@@ -24,18 +24,23 @@ pub const SPOKE: usize = 3;
 /// A pivot below this share of the terms whose difference it is consists of rounding: the matrix is singular.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
+/// Real and complex numbers.
+pub trait Number: ComplexField<RealField = f64> + Copy {}
+
+impl<T: ComplexField<RealField = f64> + Copy> Number for T {}
+
 /// The part of the matrix that belongs to one spoke.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spoke {
+pub struct Spoke<T: Number = f64> {
     /// A_j: rows and columns of the spoke.
-    pub own: SMatrix<f64, SPOKE, SPOKE>,
+    pub own: SMatrix<T, SPOKE, SPOKE>,
     /// U_j: rows of the hub, columns of the spoke.
-    pub to_hub: SMatrix<f64, HUB, SPOKE>,
+    pub to_hub: SMatrix<T, HUB, SPOKE>,
     /// V_j: rows of the spoke, columns of the hub.
-    pub from_hub: SMatrix<f64, SPOKE, HUB>,
+    pub from_hub: SMatrix<T, SPOKE, HUB>,
 }
 
-impl Spoke {
+impl<T: Number> Spoke<T> {
     /// A spoke with the identity and without coupling.
     pub fn identity() -> Self {
         Self { own: SMatrix::identity(), to_hub: SMatrix::zeros(), from_hub: SMatrix::zeros() }
@@ -44,14 +49,14 @@ impl Spoke {
 
 /// The matrix. Unused places carry the identity.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Arrowhead {
+pub struct Arrowhead<T: Number = f64> {
     /// S: rows and columns of the hub.
-    pub hub: SMatrix<f64, HUB, HUB>,
+    pub hub: SMatrix<T, HUB, HUB>,
     /// The spokes.
-    pub spokes: Vec<Spoke>,
+    pub spokes: Vec<Spoke<T>>,
 }
 
-impl Arrowhead {
+impl<T: Number> Arrowhead<T> {
     /// The identity with this number of spokes.
     pub fn new(spokes: usize) -> Self {
         Self { hub: SMatrix::identity(), spokes: vec![Spoke::identity(); spokes] }
@@ -76,10 +81,10 @@ impl Arrowhead {
     /// If the numbers of spokes differ.
     pub fn multiply(
         &self,
-        hub: &SVector<f64, HUB>,
-        spokes: &[SVector<f64, SPOKE>],
-        hub_out: &mut SVector<f64, HUB>,
-        spokes_out: &mut [SVector<f64, SPOKE>],
+        hub: &SVector<T, HUB>,
+        spokes: &[SVector<T, SPOKE>],
+        hub_out: &mut SVector<T, HUB>,
+        spokes_out: &mut [SVector<T, SPOKE>],
     ) {
         assert!(spokes.len() == self.spokes.len() && spokes_out.len() == self.spokes.len());
         *hub_out = self.hub * hub;
@@ -92,24 +97,24 @@ impl Arrowhead {
 
 /// The factors of an [`Arrowhead`]. Memory is taken once.
 #[derive(Clone, Debug)]
-pub struct Factors {
-    hub: Lu<HUB>,
-    spokes: Vec<SpokeFactors>,
+pub struct Factors<T: Number = f64> {
+    hub: Lu<T, HUB>,
+    spokes: Vec<SpokeFactors<T>>,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct SpokeFactors {
-    own: Lu<SPOKE>,
+struct SpokeFactors<T> {
+    own: Lu<T, SPOKE>,
     /// Columns of U_j.
-    to_hub: [[f64; HUB]; SPOKE],
+    to_hub: [[T; HUB]; SPOKE],
     /// Rows of T_j.
-    response: [[f64; HUB]; SPOKE],
+    response: [[T; HUB]; SPOKE],
 }
 
-impl Factors {
+impl<T: Number> Factors<T> {
     /// The factors of the identity with this number of spokes.
     pub fn new(spokes: usize) -> Self {
-        let zero = [[0.0; HUB]; SPOKE];
+        let zero = [[T::zero(); HUB]; SPOKE];
         let spoke = SpokeFactors { own: Lu::identity(), to_hub: zero, response: zero };
         Self { hub: Lu::identity(), spokes: vec![spoke; spokes] }
     }
@@ -119,13 +124,13 @@ impl Factors {
     /// # Panics
     /// If the numbers of spokes differ.
     #[must_use]
-    pub fn factorize(&mut self, a: &Arrowhead) -> bool {
+    pub fn factorize(&mut self, a: &Arrowhead<T>) -> bool {
         assert_eq!(a.spokes.len(), self.spokes.len());
         // Columns of the Schur complement.
-        let mut schur: [[f64; HUB]; HUB] = a.hub.data.0;
+        let mut schur: [[T; HUB]; HUB] = a.hub.data.0;
         for (spoke, factors) in a.spokes.iter().zip(&mut self.spokes) {
             let own = transposed(&spoke.own.data.0);
-            if !factors.own.decompose(own, own.map(|row| row.map(f64::abs))) {
+            if !factors.own.decompose(own, own.map(|row| row.map(T::norm1))) {
                 return false;
             }
             factors.to_hub = spoke.to_hub.data.0;
@@ -137,9 +142,9 @@ impl Factors {
             }
         }
         let schur = transposed(&schur);
-        let mut size = transposed(&a.hub.data.0);
+        let mut size = transposed(&a.hub.data.0).map(|row| row.map(T::norm1));
         for (size, s) in size.iter_mut().flatten().zip(schur.iter().flatten()) {
-            *size = size.abs().max(s.abs());
+            *size = size.max(s.norm1());
         }
         self.hub.decompose(schur, size)
     }
@@ -148,9 +153,9 @@ impl Factors {
     ///
     /// # Panics
     /// If the numbers of spokes differ.
-    pub fn solve(&self, hub: &mut SVector<f64, HUB>, spokes: &mut [SVector<f64, SPOKE>]) {
+    pub fn solve(&self, hub: &mut SVector<T, HUB>, spokes: &mut [SVector<T, SPOKE>]) {
         assert_eq!(spokes.len(), self.spokes.len());
-        let mut s: [f64; HUB] = hub.data.0[0];
+        let mut s: [T; HUB] = hub.data.0[0];
         for (factors, x) in self.spokes.iter().zip(spokes.iter_mut()) {
             let y = factors.own.solve(&x.data.0[0].map(|x| [x]));
             for (u, [y]) in factors.to_hub.iter().zip(y) {
@@ -162,7 +167,7 @@ impl Factors {
         *hub = SVector::from(s);
         for (factors, x) in self.spokes.iter().zip(spokes) {
             for (x, t) in x.iter_mut().zip(&factors.response) {
-                *x -= t.iter().zip(&s).map(|(t, s)| t * s).sum::<f64>();
+                *x -= t.iter().zip(&s).fold(T::zero(), |sum, (t, s)| sum + *t * *s);
             }
         }
     }
@@ -170,27 +175,28 @@ impl Factors {
 
 /// Rows of the triangular factors of a small matrix, with the inverse of the diagonal.
 #[derive(Clone, Copy, Debug)]
-struct Lu<const N: usize> {
-    rows: [[f64; N]; N],
+struct Lu<T, const N: usize> {
+    rows: [[T; N]; N],
     /// Row of the matrix that each row came from.
     order: [usize; N],
 }
 
-impl<const N: usize> Lu<N> {
+impl<T: Number, const N: usize> Lu<T, N> {
     fn identity() -> Self {
-        let rows = std::array::from_fn(|i| std::array::from_fn(|j| f64::from(u8::from(i == j))));
+        let rows =
+            std::array::from_fn(|i| std::array::from_fn(|j| if i == j { T::one() } else { T::zero() }));
         Self { rows, order: std::array::from_fn(|i| i) }
     }
 
     /// Factorises the matrix with these rows. `size` is the magnitude of the terms that each entry is a sum of.
     #[inline]
-    fn decompose(&mut self, mut a: [[f64; N]; N], mut size: [[f64; N]; N]) -> bool {
+    fn decompose(&mut self, mut a: [[T; N]; N], mut size: [[f64; N]; N]) -> bool {
         let Some(mut weight) = row_weights(&a) else { return false };
         let mut order: [usize; N] = std::array::from_fn(|i| i);
         for k in 0..N {
             let mut best = k;
             for i in k + 1..N {
-                if a[i][k].abs() * weight[i] > a[best][k].abs() * weight[best] {
+                if a[i][k].norm1() * weight[i] > a[best][k].norm1() * weight[best] {
                     best = i;
                 }
             }
@@ -201,8 +207,8 @@ impl<const N: usize> Lu<N> {
                 order.swap(k, best);
             }
             let inverse = a[k][k].recip();
-            // Also false for what is not a number.
-            let sound = a[k][k].abs() > ROUNDING * size[k][k] && inverse.is_finite();
+            // Also false for what is not a number. The inverse of a huge complex number is zero.
+            let sound = a[k][k].norm1() > ROUNDING * size[k][k] && inverse.is_finite() && !inverse.is_zero();
             if !sound {
                 return false;
             }
@@ -213,7 +219,7 @@ impl<const N: usize> Lu<N> {
                 for j in k + 1..N {
                     let term = l * a[k][j];
                     a[i][j] -= term;
-                    size[i][j] = size[i][j].max(term.abs());
+                    size[i][j] = size[i][j].max(term.norm1());
                 }
             }
         }
@@ -223,7 +229,7 @@ impl<const N: usize> Lu<N> {
 
     /// Rows of the solution for right-hand sides with these rows.
     #[inline]
-    fn solve<const M: usize>(&self, b: &[[f64; M]; N]) -> [[f64; M]; N] {
+    fn solve<const M: usize>(&self, b: &[[T; M]; N]) -> [[T; M]; N] {
         let mut x = self.order.map(|i| b[i]);
         for i in 1..N {
             let (known, rest) = x.split_at_mut(i);
@@ -244,18 +250,18 @@ impl<const N: usize> Lu<N> {
 
 /// Powers of two that bring rows to one after columns have been brought to one. `None` if an entry is not finite.
 #[inline]
-fn row_weights<const N: usize>(a: &[[f64; N]; N]) -> Option<[f64; N]> {
+fn row_weights<T: Number, const N: usize>(a: &[[T; N]; N]) -> Option<[f64; N]> {
     let mut columns = [0.0; N];
     for row in a {
         for (sum, a) in columns.iter_mut().zip(row) {
-            *sum += a.abs();
+            *sum += a.norm1();
         }
     }
     if !columns.iter().sum::<f64>().is_finite() {
         return None;
     }
     let columns = columns.map(inverse_power);
-    Some(a.map(|row| inverse_power(row.iter().zip(&columns).map(|(a, c)| a.abs() * c).sum())))
+    Some(a.map(|row| inverse_power(row.iter().zip(&columns).map(|(a, c)| a.norm1() * c).sum())))
 }
 
 /// A power of two near 1/x, of a finite x >= 0.
@@ -267,14 +273,14 @@ fn inverse_power(x: f64) -> f64 {
 
 /// a -= factor b
 #[inline]
-fn subtract<const M: usize>(a: &mut [f64; M], factor: f64, b: &[f64; M]) {
+fn subtract<T: Number, const M: usize>(a: &mut [T; M], factor: T, b: &[T; M]) {
     for (a, b) in a.iter_mut().zip(b) {
-        *a -= factor * b;
+        *a -= factor * *b;
     }
 }
 
 /// Rows from columns.
 #[inline]
-fn transposed<const N: usize, const M: usize>(columns: &[[f64; N]; M]) -> [[f64; M]; N] {
+fn transposed<T: Copy, const N: usize, const M: usize>(columns: &[[T; N]; M]) -> [[T; M]; N] {
     std::array::from_fn(|i| std::array::from_fn(|j| columns[j][i]))
 }

@@ -9,13 +9,16 @@ mod leapfrog;
 pub mod mode;
 mod pack;
 mod race;
+mod radau;
 mod rosenbrock;
+mod shifted;
 pub mod watch;
 
 pub use dormand_prince::DormandPrince;
 pub use driver::{Driver, Failure, Limits, Statistics};
 pub use leapfrog::Leapfrog;
 pub use pack::Reader;
+pub use radau::Radau;
 pub use rosenbrock::Rosenbrock;
 
 use arrowhead::{Arrowhead, HUB, SPOKE};

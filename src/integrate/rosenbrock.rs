@@ -6,19 +6,12 @@
 //! y_new = y + Sum_j m_j u_j,   error = u_6
 //! ```
 //!
-//! For q' = v, v' = a(t, q, v) the positions are eliminated, which leaves one structured system per stage:
-//!
-//! ```text
-//! (I/(h g) - D - h g K) u_v = r_v + h g K r_q,   u_q = h g (r_q + u_v),   K = da/dq,  D = da/dv
-//! ```
-//!
 //! Six evaluations and one derivative per step, six solves and one factorisation per attempt. Source: Hairer and
 //! Wanner, Solving Ordinary Differential Equations II, section IV.7 and the program RODAS (method 1).
 
-use super::arrowhead::{Arrowhead, Factors, HUB, SPOKE};
 use super::control::{ErrorNorm, Estimate, Law};
+use super::shifted::Shifted;
 use super::{Linearization, Reader, Stepper, Structure, System};
-use nalgebra::SVector;
 
 const GAMMA: f64 = 0.25;
 const A: [[f64; 5]; 6] = [
@@ -77,15 +70,10 @@ pub struct Rosenbrock {
     /// Accelerations at the start of the step; with `slope` they serve every attempt from there.
     start_a: Vec<f64>,
     linearized: bool,
-    /// Right-hand side of a stage and its K r_q, over the velocities.
-    right: Vec<f64>,
     /// u_1 to u_6 over the whole state.
     stages: [Vec<f64>; 6],
     slope: Linearization,
-    matrix: Arrowhead,
-    factors: Factors,
-    hub: SVector<f64, HUB>,
-    spokes: Vec<SVector<f64, SPOKE>>,
+    system: Shifted<f64>,
     /// Start, end and two bending terms of the last accepted step and of the attempt.
     dense: [Vec<f64>; 4],
     trial_dense: [Vec<f64>; 4],
@@ -97,7 +85,6 @@ impl Rosenbrock {
         let structure = system.structure();
         let (nq, nv) = (system.positions(), system.velocities());
         let zeros = || vec![0.0; nq + nv];
-        let spokes = structure.spokes.len();
         Self {
             positions: nq,
             norm: ErrorNorm::new(system, tolerance),
@@ -106,69 +93,12 @@ impl Rosenbrock {
             a: vec![0.0; nv],
             start_a: vec![0.0; nv],
             linearized: false,
-            right: vec![0.0; nv],
             stages: std::array::from_fn(|_| zeros()),
             slope: Linearization::new(&structure, nv),
-            matrix: Arrowhead::new(spokes),
-            factors: Factors::new(spokes),
-            hub: SVector::zeros(),
-            spokes: vec![SVector::zeros(); spokes],
+            system: Shifted::new(structure.spokes.len()),
             structure,
             dense: std::array::from_fn(|_| zeros()),
             trial_dense: std::array::from_fn(|_| zeros()),
-        }
-    }
-
-    /// Factorises I/(h g) - D - h g K; false if that fails.
-    fn factorize(&mut self, h: f64) -> bool {
-        let (shift, hg) = (1.0 / (GAMMA * h), GAMMA * h);
-        let (k, d) = (&self.slope.over_positions, &self.slope.over_velocities);
-        self.matrix.hub = -d.hub - k.hub * hg;
-        for i in 0..HUB {
-            self.matrix.hub[(i, i)] += shift;
-        }
-        for ((m, k), d) in self.matrix.spokes.iter_mut().zip(&k.spokes).zip(&d.spokes) {
-            m.own = -d.own - k.own * hg;
-            m.to_hub = -d.to_hub - k.to_hub * hg;
-            m.from_hub = -d.from_hub - k.from_hub * hg;
-            for i in 0..SPOKE {
-                m.own[(i, i)] += shift;
-            }
-        }
-        self.factors.factorize(&self.matrix)
-    }
-
-    /// Solves for stage `i` with the right-hand sides in `stages[i]` (positions) and `right` (velocities).
-    fn solve(&mut self, i: usize, h: f64) {
-        let (nq, hg) = (self.positions, GAMMA * h);
-        let stage = &mut self.stages[i];
-        // K r_q; velocities without position have no column in K.
-        let at = |x: &[f64], index: Option<usize>| index.filter(|i| *i < x.len()).map_or(0.0, |i| x[i]);
-        let r_q = &stage[..nq];
-        let hub_q = SVector::<f64, HUB>::from_fn(|k, _| at(r_q, self.structure.hub[k]));
-        let k = &self.slope.over_positions;
-        let mut hub = k.hub * hub_q;
-        for ((x, spoke), places) in self.spokes.iter_mut().zip(&k.spokes).zip(&self.structure.spokes) {
-            let own_q = SVector::<f64, SPOKE>::from_fn(|k, _| at(r_q, Some(places[k])));
-            hub += spoke.to_hub * own_q;
-            let pushed = spoke.own * own_q + spoke.from_hub * hub_q;
-            *x = SVector::from_fn(|k, _| self.right[places[k]] + hg * pushed[k]);
-        }
-        self.hub = SVector::from_fn(|k, _| at(&self.right, self.structure.hub[k]) + hg * hub[k]);
-        self.factors.solve(&mut self.hub, &mut self.spokes);
-        let (u_q, u_v) = stage.split_at_mut(nq);
-        for (k, index) in self.structure.hub.iter().enumerate() {
-            if let Some(index) = index {
-                u_v[*index] = self.hub[k];
-            }
-        }
-        for (x, places) in self.spokes.iter().zip(&self.structure.spokes) {
-            for (k, index) in places.iter().enumerate() {
-                u_v[*index] = x[k];
-            }
-        }
-        for (u_q, u_v) in u_q.iter_mut().zip(u_v.iter()) {
-            *u_q = hg * (*u_q + u_v);
         }
     }
 }
@@ -198,7 +128,7 @@ impl<S: System> Stepper<S> for Rosenbrock {
             system.linearize(t, q, v, &mut self.start_a, &mut self.slope)?;
             self.linearized = true;
         }
-        if !self.factorize(h) {
+        if !self.system.factorize(&self.slope, 1.0 / (GAMMA * h)) {
             return Err(system.not_finite(0));
         }
         self.trial.copy_from_slice(&self.state);
@@ -216,13 +146,13 @@ impl<S: System> Stepper<S> for Rosenbrock {
             let (done, rest) = self.stages.split_at_mut(i);
             for k in 0..n {
                 let sum: f64 = done.iter().zip(&C[i]).map(|(u, c)| c / h * u[k]).sum();
-                if k < nq {
-                    rest[0][k] = v[k] + sum;
-                } else {
-                    self.right[k - nq] = self.a[k - nq] + sum + h * RATE[i] * self.slope.over_time[k - nq];
-                }
+                let rate = match k.checked_sub(nq) {
+                    None => v[k],
+                    Some(k) => self.a[k] + h * RATE[i] * self.slope.over_time[k],
+                };
+                rest[0][k] = rate + sum;
             }
-            self.solve(i, h);
+            self.system.solve(&self.slope, &self.structure, nq, &mut rest[0]);
         }
         for k in 0..n {
             // The last stage is the error; with it the step is complete.

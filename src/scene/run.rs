@@ -73,6 +73,9 @@ pub enum Method {
     /// Rosenbrock method of order 4(3) on the exact derivatives, with error control: the choice for accurate
     /// trajectories of stiff scenes, such as thin films and heavy loads.
     Rosenbrock(Rosenbrock),
+    /// Radau IIA method of order 5 on the exact derivatives, with error control: the choice for extreme accuracy where
+    /// films are stiff and nothing else touches.
+    Radau(Radau),
 }
 
 /// Parameters of the choice.
@@ -106,6 +109,14 @@ pub struct DormandPrince {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Rosenbrock {
+    /// Local error in units of the model's reference clearance (see docs/model.md); 1e-5 suits most scenes.
+    pub tolerance: f64,
+}
+
+/// Parameters of the Radau method.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Radau {
     /// Local error in units of the model's reference clearance (see docs/model.md); 1e-5 suits most scenes.
     pub tolerance: f64,
 }

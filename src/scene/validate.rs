@@ -245,6 +245,9 @@ impl Scene {
             Method::Rosenbrock(m) => {
                 number("solver.method.rosenbrock.tolerance", m.tolerance, tolerance())?;
             }
+            Method::Radau(m) => {
+                number("solver.method.radau.tolerance", m.tolerance, tolerance())?;
+            }
             Method::DormandPrince(m) => {
                 number("solver.method.dormand_prince.tolerance", m.tolerance, tolerance())?;
             }

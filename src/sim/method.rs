@@ -3,7 +3,7 @@
 use super::bearing::Bearing;
 use crate::integrate::auto::{Aim, Auto, Choice, Kind, Reason};
 use crate::integrate::watch::Expectation;
-use crate::integrate::{DormandPrince, Leapfrog, Limits, Rosenbrock, Stepper};
+use crate::integrate::{DormandPrince, Leapfrog, Limits, Radau, Rosenbrock, Stepper};
 use crate::model::Model;
 use crate::scene::Method;
 
@@ -31,6 +31,7 @@ pub(super) fn stepper(model: &Model, bearing: &Bearing) -> Box<dyn Stepper<Beari
         Method::Leapfrog(_) => Box::new(Leapfrog::new(bearing)),
         Method::DormandPrince(m) => Box::new(DormandPrince::new(bearing, &tolerance(m.tolerance))),
         Method::Rosenbrock(m) => Box::new(Rosenbrock::new(bearing, &tolerance(m.tolerance))),
+        Method::Radau(m) => Box::new(Radau::new(bearing, &tolerance(m.tolerance))),
     }
 }
 
@@ -43,7 +44,7 @@ pub(super) fn limits(model: &Model) -> Limits {
             let share = if model.damped() { DAMPED_STEP } else { UNDAMPED_STEP };
             (share / model.highest_frequency()).min(MAX_NOMINAL_STEP)
         }),
-        Method::DormandPrince(_) | Method::Rosenbrock(_) => first_step(model),
+        Method::DormandPrince(_) | Method::Rosenbrock(_) | Method::Radau(_) => first_step(model),
     };
     let largest_step = (LARGEST_SHARE / model.highest_frequency()).min(MAX_STEP);
     Limits {
@@ -96,6 +97,7 @@ pub(super) fn named(method: &Method) -> &'static str {
         Method::Leapfrog(_) => name(Kind::Leapfrog),
         Method::DormandPrince(_) => name(Kind::DormandPrince),
         Method::Rosenbrock(_) => name(Kind::Rosenbrock),
+        Method::Radau(_) => "radau",
     }
 }
 

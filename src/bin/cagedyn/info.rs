@@ -161,6 +161,7 @@ fn integration(model: Arc<Model>) -> Vec<Vec<String>> {
         Method::Leapfrog(m) if m.step.is_some() => ("leapfrog".to_owned(), "step, set by the scene"),
         Method::Leapfrog(_) => ("leapfrog".to_owned(), "step, from the highest contact frequency"),
         Method::DormandPrince(m) => (format!("Dormand-Prince 5(4), tolerance {}", m.tolerance), "first step"),
+        Method::Radau(m) => (format!("Radau IIA 5, tolerance {}", m.tolerance), "first step"),
         Method::Rosenbrock(m) => (format!("Rosenbrock 4(3), tolerance {}", m.tolerance), "first step"),
     };
     let step =

@@ -217,6 +217,7 @@ fn integration(run: &Run) -> Integration {
         Method::Leapfrog(_) => "leapfrog",
         Method::DormandPrince(_) => "dormand_prince",
         Method::Rosenbrock(_) => "rosenbrock",
+        Method::Radau(_) => "radau",
     };
     Integration {
         method,

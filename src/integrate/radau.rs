@@ -1,0 +1,343 @@
+//! Radau IIA method of order 5 with three stages, fully implicit, stiffly accurate and L-stable, with an error
+//! estimate of order 3 and the collocation polynomial as dense output.
+//!
+//! ```text
+//! z_i = h Sum_j a_ij f(t + c_j h, y + z_j),   y_new = y + z_3
+//! ```
+//!
+//! Simplified Newton iteration with the exact Jacobian J of the start of the step. The eigenvectors of the inverse
+//! of a_ij separate it into a real and a complex system of the size of one stage:
+//!
+//! ```text
+//! (gamma/h I - J) d_1 = r_1,   ((alpha + i beta)/h I - J) (d_2 + i d_3) = r_2 + i r_3
+//! ```
+//!
+//! Source: Hairer and Wanner, Solving Ordinary Differential Equations II, section IV.8 and the program RADAU5.
+
+use super::control::{ErrorNorm, Estimate, Law};
+use super::shifted::Shifted;
+use super::{Linearization, Reader, Stepper, Structure, System};
+use nalgebra::Complex;
+
+/// Times of the stages in units of the step.
+const TIMES: [f64; 3] = [0.155_051_025_721_682_2, 0.644_948_974_278_317_8, 1.0];
+/// Real and complex eigenvalue of the inverse of the matrix a_ij.
+const GAMMA: f64 = 3.637_834_252_744_496;
+const ALPHA: f64 = 2.681_082_873_627_752_2;
+const BETA: f64 = 3.050_430_199_247_410_5;
+/// Eigenvectors: z = T w, and the inverse of T.
+const T: [[f64; 3]; 3] = [
+    [0.091_232_394_870_892_94, -0.141_255_295_020_954_2, -0.030_029_194_105_147_424],
+    [0.241_717_932_707_107, 0.204_129_352_293_799_93, 0.382_942_112_757_261_9],
+    [0.966_048_182_615_093, 1.0, 0.0],
+];
+const INVERSE_T: [[f64; 3]; 3] = [
+    [4.325_579_890_063_155, 0.339_199_251_815_809_87, 0.541_770_539_935_874_9],
+    [-4.178_718_591_551_905, -0.327_682_820_761_062_4, 0.476_623_554_500_550_45],
+    [-0.502_872_634_945_786_9, 2.571_926_949_855_605, -0.596_039_204_828_224_9],
+];
+/// Weights of the stages in the error estimate.
+const ERROR: [f64; 3] = [-10.048_809_399_827_416, 1.382_142_733_160_749, -1.0 / 3.0];
+/// The iteration ends when its error is below this share of the tolerance. The error of order 5 is far below the
+/// estimate of order 3, so an iteration that used up the tolerance would waste it.
+const ITERATION_SHARE: f64 = 3e-4;
+/// Largest number of iterations.
+const MAX_ITERATIONS: u32 = 7;
+/// An iteration that reduces its error by less than this diverges.
+const SLOWEST: f64 = 0.99;
+/// Increments below this share of a state are rounding.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
+/// The method's memory.
+#[derive(Clone, Debug)]
+pub struct Radau {
+    positions: usize,
+    structure: Structure,
+    /// Absolute tolerance per state.
+    tolerance: Vec<f64>,
+    norm: ErrorNorm,
+    state: Vec<f64>,
+    trial: Vec<f64>,
+    /// Accelerations at the start of the step; with `slope` they serve every attempt from there.
+    start_a: Vec<f64>,
+    slope: Linearization,
+    linearized: bool,
+    /// The last attempt started from the same state.
+    retried: bool,
+    /// z_1 to z_3, w_1 to w_3 and the accelerations of the stages.
+    stages: [Vec<f64>; 3],
+    transformed: [Vec<f64>; 3],
+    a: [Vec<f64>; 3],
+    /// What one iteration may leave in each state.
+    allowed: Vec<f64>,
+    real: Shifted<f64>,
+    pair: Shifted<Complex<f64>>,
+    right: Vec<f64>,
+    right_pair: Vec<Complex<f64>>,
+    /// Estimated ratio of the error of the iteration to its last increment.
+    contraction: f64,
+    /// Size of the last accepted step and of the attempt, s.
+    step: f64,
+    trial_step: f64,
+    /// Divided differences of the collocation polynomials of the two.
+    dense: [Vec<f64>; 3],
+    trial_dense: [Vec<f64>; 3],
+    /// The polynomial of the last step leads into the next one.
+    smooth: bool,
+}
+
+/// How an iteration ended.
+enum Iteration {
+    Converged,
+    /// The error it would leave, in units of the allowed one; more than 1.
+    Slow(f64),
+}
+
+impl Radau {
+    /// Memory for a system with an absolute tolerance for every state.
+    pub fn new<S: System>(system: &S, tolerance: &[f64]) -> Self {
+        let structure = system.structure();
+        let (nq, nv) = (system.positions(), system.velocities());
+        let zeros = || vec![0.0; nq + nv];
+        let three = || std::array::from_fn(|_| zeros());
+        let spokes = structure.spokes.len();
+        Self {
+            positions: nq,
+            tolerance: tolerance.to_vec(),
+            norm: ErrorNorm::new(system, tolerance),
+            state: zeros(),
+            trial: zeros(),
+            start_a: vec![0.0; nv],
+            slope: Linearization::new(&structure, nv),
+            linearized: false,
+            retried: false,
+            stages: three(),
+            transformed: three(),
+            a: std::array::from_fn(|_| vec![0.0; nv]),
+            allowed: zeros(),
+            real: Shifted::new(spokes),
+            pair: Shifted::new(spokes),
+            right: zeros(),
+            right_pair: vec![Complex::new(0.0, 0.0); nq + nv],
+            contraction: 1.0,
+            step: 0.0,
+            trial_step: 0.0,
+            dense: three(),
+            trial_dense: three(),
+            smooth: false,
+            structure,
+        }
+    }
+
+    /// Starting values of the iteration: the last collocation polynomial continued, or none.
+    fn predict(&mut self, h: f64) {
+        let ratio = if self.smooth { h / self.step } else { 0.0 };
+        for k in 0..self.state.len() {
+            let z = TIMES.map(|c| bend(&self.dense, k, c * ratio));
+            let w = combined(&INVERSE_T, z);
+            for i in 0..3 {
+                self.stages[i][k] = z[i];
+                self.transformed[i][k] = w[i];
+            }
+            self.allowed[k] = (ITERATION_SHARE * self.tolerance[k]).max(ROUNDING * self.state[k].abs());
+        }
+    }
+
+    /// Solves for the stages by Newton's method.
+    fn iterate<S: System>(
+        &mut self,
+        system: &mut S,
+        t: f64,
+        h: f64,
+        t_last: f64,
+    ) -> Result<Iteration, S::Fault> {
+        let (nq, n) = (self.positions, self.state.len());
+        let (real, pair) = (GAMMA / h, Complex::new(ALPHA, BETA) / h);
+        self.contraction = self.contraction.max(f64::EPSILON).powf(0.8);
+        let (mut last_size, mut last_ratio) = (0.0, 0.0);
+        for iteration in 1..=MAX_ITERATIONS {
+            for ((z, a), c) in self.stages.iter().zip(&mut self.a).zip(TIMES) {
+                for ((trial, y), z) in self.trial.iter_mut().zip(&self.state).zip(z) {
+                    *trial = y + z;
+                }
+                let (q, v) = self.trial.split_at(nq);
+                system.accelerations((t + c * h).min(t_last), q, v, a)?;
+            }
+            for k in 0..n {
+                let rates = std::array::from_fn(|i| {
+                    if k < nq { self.state[nq + k] + self.stages[i][nq + k] } else { self.a[i][k - nq] }
+                });
+                let [r1, r2, r3] = combined(&INVERSE_T, rates);
+                let [w1, w2, w3] = self.transformed.each_ref().map(|w| w[k]);
+                self.right[k] = r1 - real * w1;
+                self.right_pair[k] = Complex::new(r2, r3) - pair * Complex::new(w2, w3);
+            }
+            self.real.solve(&self.slope, &self.structure, nq, &mut self.right);
+            self.pair.solve(&self.slope, &self.structure, nq, &mut self.right_pair);
+            let mut size: f64 = 0.0;
+            for ((d1, d2), allowed) in self.right.iter().zip(&self.right_pair).zip(&self.allowed) {
+                let scaled = d1.abs().max(d2.re.abs()).max(d2.im.abs()) / allowed;
+                // f64::max would drop a NaN.
+                size = if size.is_nan() || scaled <= size { size } else { scaled };
+            }
+            if !size.is_finite() {
+                return Ok(Iteration::Slow(f64::INFINITY));
+            }
+            if iteration > 1 {
+                let ratio: f64 = size / last_size;
+                let mean = if iteration == 2 { ratio } else { (ratio * last_ratio).sqrt() };
+                last_ratio = ratio;
+                if mean >= SLOWEST {
+                    return Ok(Iteration::Slow(f64::INFINITY));
+                }
+                self.contraction = mean / (1.0 - mean);
+                let left = self.contraction * size * mean.powi((MAX_ITERATIONS - iteration) as i32);
+                if left > 1.0 {
+                    return Ok(Iteration::Slow(left));
+                }
+            }
+            last_size = size.max(f64::EPSILON);
+            for k in 0..n {
+                let d = [self.right[k], self.right_pair[k].re, self.right_pair[k].im];
+                let w = std::array::from_fn(|i| self.transformed[i][k] + d[i]);
+                let z = combined(&T, w);
+                for i in 0..3 {
+                    self.transformed[i][k] = w[i];
+                    self.stages[i][k] = z[i];
+                }
+            }
+            if self.contraction * size <= 1.0 {
+                return Ok(Iteration::Converged);
+            }
+        }
+        Ok(Iteration::Slow(f64::INFINITY))
+    }
+
+    /// The error, left in `right`, from the rates at the start of the step or, if `nearby`,
+    /// at `trial`.
+    fn estimate(&mut self, h: f64, nearby: bool) -> Estimate {
+        let (nq, n) = (self.positions, self.state.len());
+        for k in 0..n {
+            let (v, a) = if nearby { (&self.trial, &self.a[0]) } else { (&self.state, &self.start_a) };
+            let rate = if k < nq { v[nq + k] } else { a[k - nq] };
+            let sum: f64 = self.stages.iter().zip(ERROR).map(|(z, e)| e * z[k]).sum();
+            self.right[k] = rate + sum / h;
+        }
+        self.real.solve(&self.slope, &self.structure, nq, &mut self.right);
+        let right = &self.right;
+        self.norm.of(|k| right[k])
+    }
+}
+
+impl<S: System> Stepper<S> for Radau {
+    fn set_state(&mut self, state: &[f64]) {
+        self.state.copy_from_slice(state);
+        for part in &mut self.dense {
+            part.fill(0.0);
+        }
+        (self.linearized, self.retried, self.smooth) = (false, false, false);
+        self.contraction = 1.0;
+    }
+
+    fn refresh(&mut self, system: &mut S, t: f64) -> Result<(), S::Fault> {
+        let (q, v) = self.state.split_at(self.positions);
+        (self.linearized, self.retried, self.smooth) = (false, false, false);
+        system.linearize(t, q, v, &mut self.start_a, &mut self.slope)?;
+        self.linearized = true;
+        Ok(())
+    }
+
+    fn attempt(&mut self, system: &mut S, t: f64, h: f64, t_last: f64) -> Result<Option<Estimate>, S::Fault> {
+        let nq = self.positions;
+        if !self.linearized {
+            let (q, v) = self.state.split_at(nq);
+            system.linearize(t, q, v, &mut self.start_a, &mut self.slope)?;
+            self.linearized = true;
+        }
+        if !self.real.factorize(&self.slope, GAMMA / h)
+            || !self.pair.factorize(&self.slope, Complex::new(ALPHA, BETA) / h)
+        {
+            return Err(system.not_finite(0));
+        }
+        // Also after a fault at a stage.
+        let careful = std::mem::replace(&mut self.retried, true) || !self.smooth;
+        self.predict(h);
+        if let Iteration::Slow(left) = self.iterate(system, t, h, t_last)? {
+            self.contraction = 1.0;
+            return Ok(Some(Estimate { error: left, ..Estimate::default() }));
+        }
+        let mut estimate = self.estimate(h, false);
+        if careful && estimate.error > 1.0 {
+            // Evaluated again where the estimate points to, it has no part left that decays within the step.
+            for ((trial, y), e) in self.trial.iter_mut().zip(&self.state).zip(&self.right) {
+                *trial = y + e;
+            }
+            let (q, v) = self.trial.split_at(nq);
+            if system.accelerations(t, q, v, &mut self.a[0]).is_ok() {
+                estimate = self.estimate(h, true);
+            }
+        }
+        self.trial_step = h;
+        let [c1, c2, _] = TIMES;
+        for k in 0..self.state.len() {
+            let [z1, z2, z3] = self.stages.each_ref().map(|z| z[k]);
+            let last = (z3 - z2) / (1.0 - c2);
+            let middle = (z2 - z1) / (c2 - c1);
+            let second = (last - middle) / (1.0 - c1);
+            let first = (middle - z1 / c1) / c2;
+            self.trial[k] = self.state[k] + z3;
+            self.trial_dense[0][k] = last;
+            self.trial_dense[1][k] = second;
+            self.trial_dense[2][k] = second - first;
+        }
+        Ok(Some(estimate))
+    }
+
+    fn accept(&mut self) {
+        std::mem::swap(&mut self.state, &mut self.trial);
+        std::mem::swap(&mut self.dense, &mut self.trial_dense);
+        self.step = self.trial_step;
+        (self.linearized, self.retried, self.smooth) = (false, false, true);
+    }
+
+    fn state(&self) -> &[f64] {
+        &self.state
+    }
+
+    fn interpolate(&self, theta: f64, out: &mut [f64]) {
+        for (k, (out, end)) in out.iter_mut().zip(&self.state).enumerate() {
+            *out = end + bend(&self.dense, k, theta - 1.0);
+        }
+    }
+
+    fn control(&self) -> Law {
+        Law::implicit(4.0)
+    }
+
+    fn save(&self, out: &mut Vec<f64>) {
+        out.extend([self.step, self.contraction, f64::from(u8::from(self.smooth))]);
+        out.extend_from_slice(&self.state);
+        for part in &self.dense {
+            out.extend_from_slice(part);
+        }
+    }
+
+    fn load(&mut self, from: &mut Reader<'_>) -> Option<()> {
+        (self.linearized, self.retried) = (false, false);
+        self.step = from.number()?;
+        self.contraction = from.number()?;
+        self.smooth = from.flag()?;
+        from.fill(&mut self.state)?;
+        self.dense.iter_mut().try_for_each(|part| from.fill(part))
+    }
+}
+
+/// Difference of a collocation polynomial to its end, at `x` steps after the end.
+fn bend(dense: &[Vec<f64>; 3], k: usize, x: f64) -> f64 {
+    let [c1, c2, _] = TIMES;
+    x * (dense[0][k] + (x + 1.0 - c2) * (dense[1][k] + (x + 1.0 - c1) * dense[2][k]))
+}
+
+fn combined(matrix: &[[f64; 3]; 3], x: [f64; 3]) -> [f64; 3] {
+    matrix.map(|row| row[0] * x[0] + row[1] * x[1] + row[2] * x[2])
+}
