@@ -3,6 +3,8 @@
 
 #include "check.h"
 
+enum { STATISTICS = 24 };
+
 static void check_state_and_derivative(const cagedyn_model *m)
 {
     int64_t n = cagedyn_model_state_count(m), nq = cagedyn_model_position_count(m), nv = n - nq;
@@ -60,11 +62,11 @@ static void check_jacobian(const cagedyn_model *m)
 {
     int64_t n = cagedyn_model_state_count(m), nn = n * n;
     double *state = numbers(n), *other = numbers(n), *jacobian = numbers(nn), *overlapping = numbers(nn);
-    double *coarse = numbers(n), *fine = numbers(n), *size = numbers(n), before[7], after[7];
+    double *coarse = numbers(n), *fine = numbers(n), *size = numbers(n), before[STATISTICS], after[STATISTICS];
     cagedyn_sim *sim = cagedyn_sim_new(m);
     CHECK(cagedyn_sim_advance_to(sim, 1e-3) == CAGEDYN_OK);
     CHECK(cagedyn_sim_get_state(sim, state, n) == CAGEDYN_OK);
-    CHECK(cagedyn_sim_statistics(sim, before, 7) == CAGEDYN_OK);
+    CHECK(cagedyn_sim_statistics(sim, before, STATISTICS) == CAGEDYN_OK);
     CHECK(cagedyn_sim_jacobian(sim, 1e-3, state, n, jacobian, nn) == CAGEDYN_OK);
 
     /* Entries in units of the largest share that a small change of one state has in a row. */
@@ -90,7 +92,7 @@ static void check_jacobian(const cagedyn_model *m)
     CHECK(memcmp(jacobian, overlapping, (size_t)nn * sizeof(double)) == 0);
     CHECK(cagedyn_sim_get_state(sim, other, n) == CAGEDYN_OK);
     CHECK(memcmp(state, other, (size_t)n * sizeof(double)) == 0);
-    CHECK(cagedyn_sim_statistics(sim, after, 7) == CAGEDYN_OK);
+    CHECK(cagedyn_sim_statistics(sim, after, STATISTICS) == CAGEDYN_OK);
     CHECK(memcmp(before, after, sizeof before) == 0);
     cagedyn_sim_free(sim);
     free(state), free(other), free(jacobian), free(overlapping), free(coarse), free(fine), free(size);
@@ -125,7 +127,7 @@ static void check_forces(const cagedyn_model *m)
 static void check_steps_and_outputs(const cagedyn_model *m)
 {
     int64_t n = cagedyn_model_output_count(m), states = cagedyn_model_state_count(m);
-    double *all = numbers(n), *one = numbers(states), *many = numbers(states), count[7], time = 0.0;
+    double *all = numbers(n), *one = numbers(states), *many = numbers(states), count[STATISTICS], time = 0.0;
     cagedyn_sim *sim = cagedyn_sim_new(m), *other = cagedyn_sim_new(m);
 
     /* Many small calls give the trajectory of one call. */
@@ -143,10 +145,13 @@ static void check_steps_and_outputs(const cagedyn_model *m)
         CHECK(cagedyn_sim_get_output(sim, i, &value) == CAGEDYN_OK);
         CHECK(value == all[i] && isfinite(value));
     }
-    CHECK(cagedyn_statistic_count() == 7);
+    CHECK(cagedyn_statistic_count() == STATISTICS);
     CHECK(strcmp(cagedyn_statistic_name(0), "steps") == 0);
-    CHECK(cagedyn_statistic_name(7)[0] == '\0');
-    CHECK(cagedyn_sim_statistics(sim, count, 7) == CAGEDYN_OK && count[0] > 100.0);
+    CHECK(strcmp(cagedyn_statistic_name(STATISTICS - 1), "failed_no_slope") == 0);
+    CHECK(cagedyn_statistic_name(STATISTICS)[0] == '\0');
+    CHECK(cagedyn_sim_statistics(sim, count, STATISTICS) == CAGEDYN_OK && count[0] > 100.0);
+    CHECK(strncmp(cagedyn_sim_report(sim), "leapfrog with steps of ", 23) == 0);
+    CHECK(cagedyn_sim_report(NULL)[0] == '\0');
     cagedyn_sim_free(sim);
     cagedyn_sim_free(other);
     free(all), free(one), free(many);

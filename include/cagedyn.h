@@ -320,15 +320,30 @@ int32_t cagedyn_sim_restore(cagedyn_sim *sim, const double *saved, int64_t lengt
 // Number of statistics.
 int64_t cagedyn_statistic_count(void);
 
-// Name of a statistic: steps, rejected_steps (by the error estimate), failed_steps (forces undefined), evaluations
-// (of all forces), events, smallest_step and largest_step (s). "" for other numbers. Static text.
+// Name of a statistic. "" for other numbers. Static text.
+//
+// - steps, rejected_steps (by the error estimate), failed_steps (forces undefined), evaluations (of all forces),
+//   events: counts.
+// - smallest_step, largest_step: s.
+// - raceway_vibration_rms: root mean square approach speed of the loaded raceway contacts, m/s.
+// - leapfrog_steps, dormand_prince_steps, rosenbrock_steps, method_changes (of method or leapfrog step): what the
+//   method "auto" did; zero with other methods.
+// - checks, mean_check_error, largest_check_error (in units of the reference clearance), check_vibration_ratio (of
+//   vibration with a step to vibration with half of it), highest_frequency (rad/s): what "auto" found when it repeated
+//   leapfrog steps with half the step.
+// - failed_...: failed_steps by cause.
 const char *cagedyn_statistic_name(int64_t index);
 
-// Writes the counts since creation or reset; a restored simulation goes on from the saved ones (length: statistic
+// Writes the statistics since creation or reset; a restored simulation goes on from the saved ones (length: statistic
 // count).
 int32_t cagedyn_sim_statistics(const cagedyn_sim *sim,
                                double *out,
                                int64_t length);
+
+// What the integration does and why, and what went wrong on the way, in one line for people: the method and the reason
+// it was chosen for, the error found by checks, failed attempts with the contact or body that caused the last one. ""
+// on failure. Lives until the next call for this simulation.
+const char *cagedyn_sim_report(cagedyn_sim *sim);
 
 // Number of force laws whose evaluations are counted.
 int64_t cagedyn_law_count(void);

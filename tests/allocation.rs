@@ -41,6 +41,8 @@ fn nothing_is_allocated_while_a_simulation_runs() {
     let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/nu2310.json")).unwrap();
     for solver in [
         "{}",
+        r#"{"method": {"auto": {"tolerance": 1e-5}}}"#,
+        r#"{"method": {"leapfrog": {}}}"#,
         r#"{"method": {"dormand_prince": {"tolerance": 1e-5}}}"#,
         r#"{"method": {"rosenbrock": {"tolerance": 1e-5}}}"#,
         r#"{"method": {"radau": {"tolerance": 1e-5}}}"#,

@@ -262,6 +262,8 @@ fn ring() -> impl Strategy<Value = (Value, &'static str)> {
 
 fn solver() -> impl Strategy<Value = Value> {
     prop_oneof![
+        Just(json!({"auto": {}})),
+        magnitude(1e-7, 1e-3).prop_map(|tolerance| json!({"auto": {"tolerance": tolerance}})),
         Just(json!({"leapfrog": {}})),
         magnitude(1e-7, 2e-6).prop_map(|step| json!({"leapfrog": {"step": step}})),
         magnitude(1e-7, 1e-3).prop_map(|tolerance| json!({"dormand_prince": {"tolerance": tolerance}})),

@@ -4,6 +4,7 @@ use cagedyn::{Model, Scene, Sim, Status};
 use std::sync::Arc;
 
 const STIFF: (&str, &str) = ("solver", r#"{"method": {"rosenbrock": {"tolerance": 1e-5}}}"#);
+const CHOSEN: (&str, &str) = ("solver", r#"{"method": {"auto": {"tolerance": 1e-5}}}"#);
 const ACCURATE: (&str, &str) = ("solver", r#"{"method": {"dormand_prince": {"tolerance": 1e-7}}}"#);
 
 fn model(overrides: &[(&str, &str)]) -> Arc<Model> {
@@ -29,7 +30,7 @@ fn bits(state: &[f64]) -> Vec<u64> {
 
 #[test]
 fn the_same_scene_gives_the_same_bits() {
-    for method in [&[][..], &[ACCURATE][..], &[STIFF][..]] {
+    for method in [&[][..], &[CHOSEN][..], &[ACCURATE][..], &[STIFF][..]] {
         assert_eq!(bits(&state_at(method, 2e-3)), bits(&state_at(method, 2e-3)));
     }
 }
@@ -54,7 +55,7 @@ fn threads_do_not_affect_each_other() {
 
 #[test]
 fn saving_and_restoring_continues_with_the_same_bits() {
-    for method in [&[][..], &[ACCURATE][..], &[STIFF][..]] {
+    for method in [&[][..], &[CHOSEN][..], &[ACCURATE][..], &[STIFF][..]] {
         let mut first = sim(method);
         first.set_input(2, -3000.0).unwrap();
         first.advance_to(0.7e-3).unwrap();
@@ -164,7 +165,7 @@ fn load_steps_ramps_sines_and_tables_are_followed() {
         (r#"{"sine": {"mean": -3000, "amplitude": 1000, "frequency": 500, "phase": 0.3}}"#, 0),
         (r#"{"table": {"time": [0, 3e-4, 6e-4], "value": [-4900, -2000, -6000]}}"#, 2),
     ] {
-        for method in [&[][..], &[ACCURATE][..], &[STIFF][..]] {
+        for method in [&[][..], &[CHOSEN][..], &[ACCURATE][..], &[STIFF][..]] {
             let overrides: Vec<_> = std::iter::once((load, signal)).chain(method.iter().copied()).collect();
             let mut s = sim(&overrides);
             s.advance_to(1.5e-3).unwrap_or_else(|e| panic!("{signal}: {e}"));
@@ -244,7 +245,7 @@ fn odd_scenes_run() {
         &rough_cage,
     ];
     for overrides in scenes {
-        for method in [&[][..], &[ACCURATE][..], &[STIFF][..]] {
+        for method in [&[][..], &[CHOSEN][..], &[ACCURATE][..], &[STIFF][..]] {
             let overrides: Vec<_> = overrides.iter().chain(method).copied().collect();
             let mut s = sim(&overrides);
             s.advance_to(1e-3).unwrap_or_else(|e| panic!("{overrides:?}: {e}"));
@@ -348,7 +349,13 @@ fn a_refused_state_leaves_the_outputs_alone() {
 
 #[test]
 fn no_number_in_a_snapshot_can_hang_or_break_a_run() {
-    for method in [r#""leapfrog": {}"#, r#""dormand_prince": {"tolerance": 1e-5}"#] {
+    let methods = [
+        r#""leapfrog": {}"#,
+        r#""dormand_prince": {"tolerance": 1e-5}"#,
+        r#""auto": {}"#,
+        r#""auto": {"tolerance": 1e-5}"#,
+    ];
+    for method in methods {
         let solver = format!(r#"{{"method": {{{method}}}, "max_steps": 2000}}"#);
         let mut s = sim(&[("solver", &solver)]);
         s.advance_to(0.2e-3).unwrap();

@@ -8,6 +8,7 @@
 mod guard;
 pub mod model;
 pub mod sim;
+pub mod statistics;
 
 use crate::error::Status;
 use std::ffi::c_char;

@@ -1,52 +1,22 @@
 //! Simulations in C.
 
-use super::guard::{
-    EMPTY, check_array, count, exclusive, guard, index, read_array, shared, status, write_array,
-};
+use super::guard::{check_array, count, exclusive, guard, index, read_array, shared, status, write_array};
 use super::model::cagedyn_model;
 use crate::error::Result;
-use crate::model::LAWS;
 use crate::sim::Sim;
-use std::ffi::{CStr, c_char};
+use std::ffi::CString;
 
 /// A running simulation. May be used by one thread at a time.
 #[allow(non_camel_case_types)]
 pub struct cagedyn_sim {
-    sim: Sim,
+    pub(super) sim: Sim,
     /// Copies of the caller's arrays, so that overlapping arrays are harmless.
     state: Vec<f64>,
     result: Vec<f64>,
+    pub(super) report: CString,
     /// Empty until a Jacobian is first asked for.
     jacobian: Vec<f64>,
 }
-
-/// Names of the statistics, NUL-terminated.
-const STATISTICS: [&str; 7] = [
-    "steps\0",
-    "rejected_steps\0",
-    "failed_steps\0",
-    "evaluations\0",
-    "events\0",
-    "smallest_step\0",
-    "largest_step\0",
-];
-
-/// Names of [`LAWS`], NUL-terminated.
-const LAW_NAMES: [&CStr; LAWS.len()] = [
-    c"outer_raceway",
-    c"inner_raceway",
-    c"pocket_wall",
-    c"pocket_edge",
-    c"pocket_plane",
-    c"film_thickness",
-    c"traction",
-    c"self_heating",
-    c"lubrication_regime",
-    c"rolling_resistance",
-    c"guide_film",
-    c"guide_solid",
-    c"viscosity_temperature",
-];
 
 /// Runs `entry` on a simulation that it may change.
 ///
@@ -71,7 +41,13 @@ pub unsafe extern "C" fn cagedyn_sim_new(model: *const cagedyn_model) -> *mut ca
             let sim = Sim::new(unsafe { shared("model", model) }?.model.clone())?;
             let (states, outputs) = (sim.state().len(), sim.channels().len());
             let (state, result) = (vec![0.0; states], vec![0.0; states.max(outputs)]);
-            Ok(Box::into_raw(Box::new(cagedyn_sim { sim, state, result, jacobian: Vec::new() })))
+            Ok(Box::into_raw(Box::new(cagedyn_sim {
+                sim,
+                state,
+                result,
+                report: CString::default(),
+                jacobian: Vec::new(),
+            })))
         },
     )
 }
@@ -374,80 +350,5 @@ pub unsafe extern "C" fn cagedyn_sim_restore(sim: *mut cagedyn_sim, saved: *cons
             read_array("saved", saved, length, &mut copy)?;
             s.sim.restore(&copy)
         })
-    }
-}
-
-/// Number of statistics.
-#[unsafe(no_mangle)]
-pub extern "C" fn cagedyn_statistic_count() -> i64 {
-    STATISTICS.len() as i64
-}
-
-/// Name of a statistic: steps, rejected_steps (by the error estimate), failed_steps (forces undefined), evaluations
-/// (of all forces), events, smallest_step and largest_step (s). "" for other numbers. Static text.
-#[unsafe(no_mangle)]
-pub extern "C" fn cagedyn_statistic_name(index: i64) -> *const c_char {
-    let name = usize::try_from(index).ok().and_then(|i| STATISTICS.get(i)).copied();
-    name.unwrap_or("\0").as_ptr().cast()
-}
-
-/// Writes the counts since creation or reset; a restored simulation goes on from the saved ones (length: statistic
-/// count).
-///
-/// # Safety
-/// `sim` is NULL or a live handle, `out` NULL or an array of `length` numbers.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cagedyn_sim_statistics(sim: *const cagedyn_sim, out: *mut f64, length: i64) -> i32 {
-    status(|| {
-        // SAFETY: see above.
-        let s = unsafe { shared("sim", sim) }?.sim.statistics();
-        let d = s.driver;
-        let counts = [d.steps, d.rejected, d.faults, s.evaluations, d.events].map(|n| n as f64);
-        let mut values = [0.0; STATISTICS.len()];
-        values[..5].copy_from_slice(&counts);
-        values[5..].copy_from_slice(&[d.smallest_step, d.largest_step]);
-        // SAFETY: see above.
-        unsafe { write_array("out", &values, out, length) }
-    })
-}
-
-/// Number of force laws whose evaluations are counted.
-#[unsafe(no_mangle)]
-pub extern "C" fn cagedyn_law_count() -> i64 {
-    LAWS.len() as i64
-}
-
-/// Name of a force law, for example "guide_film"; "" for other numbers. Static text.
-#[unsafe(no_mangle)]
-pub extern "C" fn cagedyn_law_name(index: i64) -> *const c_char {
-    usize::try_from(index).ok().and_then(|i| LAW_NAMES.get(i)).map_or(EMPTY, |name| name).as_ptr()
-}
-
-/// Writes how often each force law was evaluated, once per contact, by the integration since creation or reset (length:
-/// law count). Laws that the scene does not use stay at zero.
-///
-/// # Safety
-/// `sim` is NULL or a live handle, `out` NULL or an array of `length` numbers.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cagedyn_sim_law_evaluations(
-    sim: *const cagedyn_sim,
-    out: *mut f64,
-    length: i64,
-) -> i32 {
-    status(|| {
-        // SAFETY: see above.
-        let counts = unsafe { shared("sim", sim) }?.sim.statistics().laws.map(|n| n as f64);
-        // SAFETY: see above.
-        unsafe { write_array("out", &counts, out, length) }
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn law_names_match_the_library() {
-        assert_eq!(LAW_NAMES.map(|name| name.to_str().unwrap_or("")), LAWS);
     }
 }

@@ -1,8 +1,8 @@
 //! Chooses among the other methods, from what is known about a system and from what it does.
 //!
 //! - A system that vibrates all the time is followed in its statistics: the leapfrog, watched over by [`Watch`]. When
-//!   it fails, or would need steps that cost more than error control, the methods with error control take over for a
-//!   while.
+//!   it fails, or would need steps that cost as much as error control, the Rosenbrock method takes over until probes
+//!   say that the leapfrog would do again.
 //! - Any other system, or with a tolerance that was asked for, is followed in its trajectory: Dormand-Prince or the
 //!   Rosenbrock method, whichever advances further per evaluation ([`Race`]).
 
@@ -24,11 +24,8 @@ const PATIENCE: u64 = 3;
 const LONG_PATIENCE: u64 = 12;
 /// At most this many changes for that reason before a step is accepted.
 const MOST_CHANGES: u64 = 4;
-/// Evaluations of error control before the leapfrog is tried again, twice as many if it fails again within a few
-/// checks, up to a limit.
-const RECOVERY: f64 = 4000.0;
-const LONGEST_RECOVERY: f64 = 64.0 * RECOVERY;
-const FEW_CHECKS: u64 = 8;
+/// Evaluations of error control between two probes whether the leapfrog would do.
+const PROBE_INTERVAL: f64 = 1000.0;
 
 /// How to follow a system.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,7 +73,7 @@ pub enum Reason {
     Trial,
     /// The attempts of the one before failed.
     Failures,
-    /// The leapfrog would have to take steps that cost more.
+    /// The leapfrog would have to take steps that cost as much.
     Cost,
 }
 
@@ -118,11 +115,8 @@ pub struct Auto {
     /// Attempts since the last change or accepted step, and changes because of them.
     attempts: u64,
     gave_way: u64,
-    /// Evaluations of error control until the leapfrog is tried again.
-    recovery: f64,
-    /// The same when it was last given up, and the checks made by then.
-    last_recovery: f64,
-    last_checks: u64,
+    /// Evaluations of error control until the next probe of the leapfrog.
+    probe: f64,
     steps: [u64; 3],
     changes: u64,
     /// Where states change hands.
@@ -163,9 +157,7 @@ impl Auto {
             h: aim.first_step,
             attempts: 0,
             gave_way: 0,
-            recovery: 0.0,
-            last_recovery: 0.0,
-            last_checks: 0,
+            probe: 0.0,
             steps: [0; 3],
             changes: 0,
             state: vec![0.0; system.positions() + system.velocities()],
@@ -179,8 +171,7 @@ impl Auto {
         self.watch.forget();
         self.race = Race::new(EXPLICIT);
         self.last_steps = [self.aim.first_step; 2];
-        (self.attempts, self.gave_way, self.recovery) = (0, 0, 0.0);
-        (self.last_recovery, self.last_checks) = (0.0, 0);
+        (self.attempts, self.gave_way, self.probe) = (0, 0, 0.0);
         (self.steps, self.changes) = ([0; 3], 0);
         (self.active, self.reason) = match self.aim.statistics {
             true => (Kind::Leapfrog, Reason::Vibration),
@@ -221,19 +212,19 @@ impl Auto {
                 return Some(self.watch.step());
             }
         };
-        self.watch.relax();
+        self.watch.give_up();
         self.race = Race::new(IMPLICIT);
         self.last_steps = [self.watch.step(); 2];
-        let checks = self.watch.findings().checks;
-        let again = self.last_recovery > 0.0 && checks < self.last_checks + FEW_CHECKS;
-        self.recovery = if again { (2.0 * self.last_recovery).min(LONGEST_RECOVERY) } else { RECOVERY };
-        (self.last_recovery, self.last_checks) = (self.recovery, checks);
+        self.probe = PROBE_INTERVAL;
         self.change_to(Kind::Rosenbrock, reason, system, t)
     }
 
-    fn review_race<S: System>(&mut self, system: &mut S, t: f64) -> Option<f64> {
-        if self.aim.statistics && self.recovery <= 0.0 {
-            return self.change_to(Kind::Leapfrog, Reason::Vibration, system, t);
+    fn review_race<S: System>(&mut self, system: &mut S, t: f64, t_last: f64) -> Option<f64> {
+        if self.aim.statistics && self.probe <= 0.0 {
+            self.probe = PROBE_INTERVAL;
+            if self.may_leapfrog(system, t, t_last) {
+                return self.change_to(Kind::Leapfrog, Reason::Vibration, system, t);
+            }
         }
         let stuck = self.attempts >= LONG_PATIENCE && self.gave_way < MOST_CHANGES;
         if stuck {
@@ -241,7 +232,8 @@ impl Auto {
             self.last_steps[self.race.active()] = self.h;
             self.race.give_up();
         }
-        let changed = stuck || self.race.decide();
+        // In statistics the explicit method at loose tolerance drives the vibration: it only helps out.
+        let changed = stuck || (!self.aim.statistics || self.race.active() == EXPLICIT) && self.race.decide();
         if self.reason == Reason::Trial && !self.race.on_trial() {
             self.reason = Reason::Speed;
         }
@@ -257,9 +249,18 @@ impl Auto {
         self.change_to(kind, reason, system, t)
     }
 
+    /// Whether a probe says that the leapfrog could go on from the present state.
+    fn may_leapfrog<S: System>(&mut self, system: &mut S, t: f64, t_last: f64) -> bool {
+        let mut state = std::mem::take(&mut self.state);
+        state.copy_from_slice(Stepper::<S>::state(self));
+        Stepper::<S>::set_state(&mut self.leapfrog, &state);
+        self.state = state;
+        self.leapfrog.refresh(system, t).is_ok() && self.watch.probe(system, &self.leapfrog, t, t_last)
+    }
+
     fn note_cost(&mut self, evaluations: f64) {
         self.race.note_cost(evaluations);
-        self.recovery -= evaluations;
+        self.probe -= evaluations;
     }
 }
 
@@ -275,7 +276,7 @@ impl<S: System> Stepper<S> for Auto {
     fn review(&mut self, system: &mut S, t: f64, t_last: f64) -> Option<f64> {
         match self.active {
             Kind::Leapfrog => self.review_leapfrog(system, t, t_last),
-            Kind::DormandPrince | Kind::Rosenbrock => self.review_race(system, t),
+            Kind::DormandPrince | Kind::Rosenbrock => self.review_race(system, t, t_last),
         }
     }
 
@@ -340,8 +341,8 @@ impl<S: System> Stepper<S> for Auto {
     /// All methods are saved, so that the length is always the same.
     fn save(&self, out: &mut Vec<f64>) {
         out.extend([self.active as usize as f64, self.reason as usize as f64]);
-        out.extend([self.last_steps[0], self.last_steps[1], self.h, self.attempts as f64, self.recovery]);
-        out.extend([self.gave_way as f64, self.last_recovery, self.last_checks as f64]);
+        out.extend([self.last_steps[0], self.last_steps[1], self.h, self.attempts as f64, self.probe]);
+        out.push(self.gave_way as f64);
         out.extend(self.steps.map(|n| n as f64));
         out.push(self.changes as f64);
         self.watch.save(out);
@@ -367,10 +368,8 @@ impl<S: System> Stepper<S> for Auto {
             *step = from.number().filter(|h| *h > 0.0)?;
         }
         self.attempts = from.count()?;
-        self.recovery = from.number()?;
+        self.probe = from.number()?;
         self.gave_way = from.count()?;
-        self.last_recovery = from.number()?;
-        self.last_checks = from.count()?;
         for steps in &mut self.steps {
             *steps = from.count()?;
         }

@@ -184,6 +184,8 @@ impl<S: System> Driver<S> {
             *attempts += 1;
             let event = system.next_event(self.to);
             if let Some(step) = self.stepper.review(system, self.to, event.next_down()) {
+                let largest = self.limits.nominal_step.max(self.limits.max_step);
+                let step = step.clamp(self.limits.min_step, largest);
                 (self.nominal_step, self.next_step) = (step, step);
                 self.control = Controller::new();
             }

@@ -15,21 +15,27 @@ const INTERVAL: u64 = 512;
 const STRETCH: usize = 8;
 /// Largest error of a stretch in units of the norm, and the largest relative change of vibration. Measured on a
 /// roller bearing: with smaller errors the statistics of long runs stay within the scatter of the reference.
-const LARGEST_ERROR: f64 = 5e-4;
+const LARGEST_ERROR: f64 = 1.5e-4;
 const LARGEST_CHANGE: f64 = 0.25;
+/// A stretch with more than this many times the largest error is refined at once.
+const FAR_TOO_MUCH: f64 = 8.0;
+/// Error control gives back to the leapfrog below this share of the largest error.
+const GIVE_BACK: f64 = 0.5;
 /// Below this share of the largest error a step of double size would pass too.
-const COMFORT: f64 = 1.0 / 16.0;
+const COMFORT: f64 = 1.0 / 8.0;
 /// The frequency that the step rests on follows the measured one only if they differ by more than this factor.
 const CLEAR_DIFFERENCE: f64 = 1.1;
 /// Passed checks in a row before the step is doubled.
 const PATIENCE: u64 = 16;
 /// Weight of the past in the running means, and the total weight, that of four checks, from which they count.
-const MEMORY: f64 = 7.0 / 8.0;
-const ENOUGH: f64 = 0.41;
+const MEMORY: f64 = 15.0 / 16.0;
+const ENOUGH: f64 = 0.22;
 /// Below this share of critical damping the fastest vibration counts as undamped: half the step.
 const LIGHT_DAMPING: f64 = 0.01;
-/// Steps finer than the first one by more than this many halvings cost more than error control.
-const FINEST: u64 = 4;
+/// Steps finer than by this many halvings cost as much as error control, which has no bias.
+const FINEST: u64 = 1;
+/// The same holds where the highest frequency is more than this many times the expected one.
+const HIGHEST: f64 = 2.0;
 
 /// What is known about a system before its first step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,6 +80,14 @@ pub struct Findings {
     pub vibrations: [Vibration; 2],
     /// Highest frequency met, rad/s.
     pub frequency: f64,
+}
+
+impl Findings {
+    /// Root mean square vibration with the step over that with half of it; 1 if there is none.
+    pub fn vibration_ratio(&self) -> f64 {
+        let [coarse, fine] = self.vibrations.map(Vibration::rms);
+        if fine > 0.0 { coarse / fine } else { 1.0 }
+    }
 }
 
 /// What a check leads to.
@@ -171,19 +185,18 @@ impl Watch {
         self.level = self.level.max(floor);
         // A step that is far too coarse is refined at once, others after some checks have agreed.
         while let Some(error) = self.check(system, main, t, t_last) {
-            if error <= LARGEST_ERROR * 8.0 || self.level > FINEST {
+            if error <= FAR_TOO_MUCH * LARGEST_ERROR || self.level > FINEST {
                 break;
             }
             self.refine();
         }
-        let inaccurate = self.error > LARGEST_ERROR * self.weight;
-        if self.weight > ENOUGH && (inaccurate || self.change_of_vibration() > LARGEST_CHANGE) {
+        if self.weight > ENOUGH && !self.accurate(1.0) {
             self.refine();
         } else if self.comfortable >= PATIENCE && self.level > floor {
             self.level -= 1;
             self.start_anew();
         }
-        if self.level > FINEST || self.step() < self.expected.step_at(self.expected.frequency, FINEST) {
+        if self.too_fine() {
             Verdict::Hopeless
         } else if self.step() == before {
             Verdict::Keep
@@ -192,10 +205,36 @@ impl Watch {
         }
     }
 
-    /// Goes back from hopeless to the first step; a check comes next.
-    pub fn relax(&mut self) {
-        (self.frequency, self.level, self.due) = (self.expected.frequency, self.expected.level(), 0);
+    /// While another method runs: makes the check at the finest step that is worth its cost, from the state that `main`
+    /// has been set to. Whether the leapfrog may go on from there.
+    pub fn probe<S: System>(&mut self, system: &mut S, main: &Leapfrog, t: f64, t_last: f64) -> bool {
+        self.level = FINEST;
+        self.measure_frequency(system, main, t);
+        if self.too_fine() || self.check(system, main, t, t_last).is_none() {
+            self.start_anew();
+            return false;
+        }
+        let may = self.weight > ENOUGH && self.accurate(GIVE_BACK);
+        if may {
+            self.start_anew();
+            self.due = INTERVAL;
+        }
+        may
+    }
+
+    /// Gives the run to another method.
+    pub fn give_up(&mut self) {
+        self.level = FINEST;
         self.start_anew();
+    }
+
+    fn too_fine(&self) -> bool {
+        self.level > FINEST || self.frequency > HIGHEST * self.expected.frequency
+    }
+
+    /// Whether the running means are below this share of what is allowed.
+    fn accurate(&self, share: f64) -> bool {
+        self.error <= share * LARGEST_ERROR * self.weight && self.change_of_vibration() <= LARGEST_CHANGE
     }
 
     fn refine(&mut self) {

@@ -43,8 +43,8 @@ pub enum RingStart {
 pub struct Solver {
     /// Method.
     pub method: Method,
-    /// Largest step of methods with error control, s. Absent: half the time of a contact at the highest contact
-    /// frequency, at most 0.1 ms.
+    /// Largest step of methods with error control, s. Absent: 0.1 ms; without rollers at most half the time of a
+    /// contact at the highest contact frequency.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_step: Option<f64>,
     /// Smallest step size, s; a run that needs less fails.

@@ -5,35 +5,21 @@ mod jacobian;
 mod method;
 mod recording;
 mod snapshot;
+mod statistics;
 mod whirl;
 
 pub use recording::{Recording, Spread};
+pub use statistics::{RunStatistics, STATISTICS};
 pub use whirl::{CageMotion, WhirlRecord, WhirlSummary};
 
 use crate::error::{Error, Result, Status};
-use crate::integrate::auto::Choice;
-use crate::integrate::{Driver, Failure, Statistics};
-use crate::model::{Channel, FAULTS, Fault, FaultCounts, Forces, Input, LawCounts, Model};
+use crate::integrate::{Driver, Failure};
+use crate::model::{Channel, FAULTS, Fault, Forces, Input, Model};
 use bearing::Bearing;
 use std::sync::Arc;
 
 /// Largest simulated time, s: beyond it a step of a nanosecond is lost in round-off.
 const MAX_TIME: f64 = 1e6;
-/// Counts of a run.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct RunStatistics {
-    /// Steps.
-    pub driver: Statistics,
-    /// Force evaluations of the integration.
-    pub evaluations: u64,
-    /// What `auto` has chosen; absent with other methods.
-    pub choice: Option<Choice>,
-    /// Failed attempts by cause, in the order of [`FAULTS`].
-    pub faults: FaultCounts,
-    /// Evaluations of each law in them, in the order of [`crate::model::LAWS`].
-    pub laws: LawCounts,
-}
-
 /// A simulation of one model.
 ///
 /// The integrator may have run ahead of [`Sim::time`]; the state is then interpolated. Setting the state or an

@@ -111,3 +111,12 @@ impl Random {
         self.unit() < probability
     }
 }
+
+/// Replaces what stands between a marker and the next `<!-- end -->` in a file.
+pub fn replace_between(file: &Path, marker: &str, text: &str) {
+    let mut page = std::fs::read_to_string(file).expect("the page can be read");
+    let start = page.find(marker).expect("a marker") + marker.len();
+    let length = page[start..].find("<!-- end -->").expect("an end");
+    page.replace_range(start..start + length, &format!("\n\n{text}\n"));
+    std::fs::write(file, page).expect("the page is written");
+}

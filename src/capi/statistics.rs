@@ -1,0 +1,152 @@
+//! Counts, numbers of health and reports of simulations in C.
+
+use super::guard::{EMPTY, exclusive, guard, shared, status, to_c_string, write_array};
+use super::sim::cagedyn_sim;
+use crate::model::LAWS;
+use crate::sim::STATISTICS;
+use std::ffi::{CStr, c_char};
+
+/// Names of [`STATISTICS`], NUL-terminated.
+const STATISTIC_NAMES: [&CStr; STATISTICS.len()] = [
+    c"steps",
+    c"rejected_steps",
+    c"failed_steps",
+    c"evaluations",
+    c"events",
+    c"smallest_step",
+    c"largest_step",
+    c"raceway_vibration_rms",
+    c"leapfrog_steps",
+    c"dormand_prince_steps",
+    c"rosenbrock_steps",
+    c"method_changes",
+    c"checks",
+    c"mean_check_error",
+    c"largest_check_error",
+    c"check_vibration_ratio",
+    c"highest_frequency",
+    c"failed_no_guide_film",
+    c"failed_no_viscosity",
+    c"failed_lost_roller",
+    c"failed_lost_ring",
+    c"failed_lost_cage",
+    c"failed_not_finite",
+    c"failed_no_slope",
+];
+
+/// Names of [`LAWS`], NUL-terminated.
+const LAW_NAMES: [&CStr; LAWS.len()] = [
+    c"outer_raceway",
+    c"inner_raceway",
+    c"pocket_wall",
+    c"pocket_edge",
+    c"pocket_plane",
+    c"film_thickness",
+    c"traction",
+    c"self_heating",
+    c"lubrication_regime",
+    c"rolling_resistance",
+    c"guide_film",
+    c"guide_solid",
+    c"viscosity_temperature",
+];
+
+/// Number of statistics.
+#[unsafe(no_mangle)]
+pub extern "C" fn cagedyn_statistic_count() -> i64 {
+    STATISTICS.len() as i64
+}
+
+/// Name of a statistic. "" for other numbers. Static text.
+///
+/// - steps, rejected_steps (by the error estimate), failed_steps (forces undefined), evaluations (of all forces),
+///   events: counts.
+/// - smallest_step, largest_step: s.
+/// - raceway_vibration_rms: root mean square approach speed of the loaded raceway contacts, m/s.
+/// - leapfrog_steps, dormand_prince_steps, rosenbrock_steps, method_changes (of method or leapfrog step): what the
+///   method "auto" did; zero with other methods.
+/// - checks, mean_check_error, largest_check_error (in units of the reference clearance), check_vibration_ratio (of
+///   vibration with a step to vibration with half of it), highest_frequency (rad/s): what "auto" found when it repeated
+///   leapfrog steps with half the step.
+/// - failed_...: failed_steps by cause.
+#[unsafe(no_mangle)]
+pub extern "C" fn cagedyn_statistic_name(index: i64) -> *const c_char {
+    let name = usize::try_from(index).ok().and_then(|i| STATISTIC_NAMES.get(i));
+    name.map_or(EMPTY, |name| name).as_ptr()
+}
+
+/// Writes the statistics since creation or reset; a restored simulation goes on from the saved ones (length: statistic
+/// count).
+///
+/// # Safety
+/// `sim` is NULL or a live handle, `out` NULL or an array of `length` numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_statistics(sim: *const cagedyn_sim, out: *mut f64, length: i64) -> i32 {
+    // SAFETY: see above.
+    status(|| unsafe { write_array("out", &shared("sim", sim)?.sim.statistics().values(), out, length) })
+}
+
+/// What the integration does and why, and what went wrong on the way, in one line for people: the method and the reason
+/// it was chosen for, the error found by checks, failed attempts with the contact or body that caused the last one. ""
+/// on failure. Lives until the next call for this simulation.
+///
+/// # Safety
+/// `sim` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_report(sim: *mut cagedyn_sim) -> *const c_char {
+    guard(
+        |_| EMPTY.as_ptr(),
+        || {
+            // SAFETY: see above.
+            let s = unsafe { exclusive("sim", sim) }?;
+            s.report = to_c_string(&s.sim.report());
+            Ok(s.report.as_ptr())
+        },
+    )
+}
+
+/// Number of force laws whose evaluations are counted.
+#[unsafe(no_mangle)]
+pub extern "C" fn cagedyn_law_count() -> i64 {
+    LAWS.len() as i64
+}
+
+/// Name of a force law, for example "guide_film"; "" for other numbers. Static text.
+#[unsafe(no_mangle)]
+pub extern "C" fn cagedyn_law_name(index: i64) -> *const c_char {
+    usize::try_from(index).ok().and_then(|i| LAW_NAMES.get(i)).map_or(EMPTY, |name| name).as_ptr()
+}
+
+/// Writes how often each force law was evaluated, once per contact, by the integration since creation or reset (length:
+/// law count). Laws that the scene does not use stay at zero.
+///
+/// # Safety
+/// `sim` is NULL or a live handle, `out` NULL or an array of `length` numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_law_evaluations(
+    sim: *const cagedyn_sim,
+    out: *mut f64,
+    length: i64,
+) -> i32 {
+    status(|| {
+        // SAFETY: see above.
+        let counts = unsafe { shared("sim", sim) }?.sim.statistics().laws.map(|n| n as f64);
+        // SAFETY: see above.
+        unsafe { write_array("out", &counts, out, length) }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn law_names_match_the_library() {
+        assert_eq!(LAW_NAMES.map(|name| name.to_str().unwrap_or("")), LAWS);
+    }
+
+    #[test]
+    fn statistic_names_match_the_library() {
+        assert_eq!(STATISTIC_NAMES.map(|name| name.to_str().unwrap_or("")), STATISTICS);
+    }
+}
