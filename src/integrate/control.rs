@@ -113,12 +113,14 @@ pub struct Controller {
     pub after_rejection: bool,
 }
 
-impl Controller {
+impl Default for Controller {
     /// A controller without memory.
-    pub fn new() -> Self {
+    fn default() -> Self {
         Self { last_error: 1.0, last_change: 1.0, after_rejection: false }
     }
+}
 
+impl Controller {
     /// Factor for the next step after an accepted one with the error `error` <= 1.
     pub fn accepted(&mut self, error: f64, law: Law) -> f64 {
         let Law { order, exponents: [now, last, change] } = law;

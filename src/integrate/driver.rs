@@ -101,7 +101,7 @@ impl<S: System> Driver<S> {
             to: 0.0,
             nominal_step: limits.nominal_step,
             next_step: limits.nominal_step,
-            control: Controller::new(),
+            control: Controller::default(),
             needs_refresh: true,
             statistics: Statistics::default(),
         }
@@ -112,7 +112,7 @@ impl<S: System> Driver<S> {
         self.stepper.set_state(state);
         (self.from, self.to) = (t, t);
         self.next_step = self.nominal_step;
-        self.control = Controller::new();
+        self.control = Controller::default();
         self.needs_refresh = true;
     }
 
@@ -187,7 +187,7 @@ impl<S: System> Driver<S> {
                 let largest = self.limits.nominal_step.max(self.limits.max_step);
                 let step = step.clamp(self.limits.min_step, largest);
                 (self.nominal_step, self.next_step) = (step, step);
-                self.control = Controller::new();
+                self.control = Controller::default();
             }
             let plan = self.plan(event);
             if plan.end <= self.to {

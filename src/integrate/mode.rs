@@ -2,8 +2,8 @@
 //!
 //! Power iteration on -da/dq: of all modes the one with the highest frequency survives.
 
-use super::arrowhead::{HUB, SPOKE};
-use super::{Linearization, Structure, System};
+use super::arrowhead::{Arrowhead, HUB, SPOKE};
+use super::{Linearization, Structure};
 use nalgebra::SVector;
 
 /// Multiplications by -da/dq. Frequencies of loaded rollers lie close together: any mixture of them will do.
@@ -42,10 +42,10 @@ impl Vector {
 }
 
 impl ModeFinder {
-    /// A finder for a system, with the unit that each position is measured in.
-    pub fn new<S: System>(system: &S, units: &[f64]) -> Self {
-        let Structure { hub, spokes } = system.structure();
-        let positions = &units[..system.positions().min(units.len())];
+    /// A finder for systems of this structure with this number of positions, and the unit of each of them.
+    pub fn new(structure: &Structure, positions: usize, units: &[f64]) -> Self {
+        let Structure { hub, spokes } = structure;
+        let positions = &units[..positions.min(units.len())];
         let unit = |i: Option<usize>| i.and_then(|i| positions.get(i)).copied().unwrap_or(0.0);
         let hub_unit = SVector::from_fn(|k, _| unit(hub[k]));
         let spoke_units: Vec<_> =
@@ -80,7 +80,7 @@ impl ModeFinder {
     }
 
     /// `image` = -matrix `shape`, both in the units of the positions.
-    fn multiply(&mut self, matrix: &super::arrowhead::Arrowhead) {
+    fn multiply(&mut self, matrix: &Arrowhead) {
         let inverse = |unit: f64| if unit > 0.0 { -1.0 / unit } else { 0.0 };
         let hub = self.shape.hub.component_mul(&self.hub_unit);
         let mut hub_image = matrix.hub * hub;

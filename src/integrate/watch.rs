@@ -128,14 +128,14 @@ pub struct Watch {
 impl Watch {
     /// A watch over a system; `units` are one unit of error of each state.
     pub fn new<S: System>(system: &S, expected: Expectation, units: &[f64]) -> Self {
-        let leapfrog = Leapfrog::new(system);
+        let (structure, leapfrog) = (system.structure(), Leapfrog::new(system));
         let mut watch = Self {
             expected,
             coarse: leapfrog.clone(),
             fine: leapfrog,
             norm: ErrorNorm::new(system, units),
-            finder: ModeFinder::new(system, units),
-            slopes: Linearization::new(&system.structure(), system.velocities()),
+            finder: ModeFinder::new(&structure, system.positions(), units),
+            slopes: Linearization::new(&structure, system.velocities()),
             a: vec![0.0; system.velocities()],
             due: 0,
             level: 0,
@@ -301,9 +301,9 @@ impl Watch {
         found.checks += 1;
         found.mean_error += (error - found.mean_error) / found.checks as f64;
         found.largest_error = found.largest_error.max(error);
-        for k in 0..2 {
-            found.vibrations[k].add(vibrations[k], 1.0);
-            self.squares[k] = MEMORY * self.squares[k] + (1.0 - MEMORY) * vibrations[k].squares;
+        for ((sum, square), now) in found.vibrations.iter_mut().zip(&mut self.squares).zip(vibrations) {
+            sum.add(now, 1.0);
+            *square = MEMORY * *square + (1.0 - MEMORY) * now.squares;
         }
         self.error = MEMORY * self.error + (1.0 - MEMORY) * error;
         self.weight = MEMORY * self.weight + (1.0 - MEMORY);

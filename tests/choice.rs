@@ -1,0 +1,172 @@
+//! The choice of a method on small systems: what it measures, when it leaves the leapfrog and returns, and the race
+//! between the methods with error control.
+
+use cagedyn::integrate::auto::{Aim, Auto, Kind, Reason};
+use cagedyn::integrate::mode::{Mode, ModeFinder};
+use cagedyn::integrate::watch::Expectation;
+use cagedyn::integrate::{DampingBlock, Driver, Limits, Linearization, Structure, System, Vibration};
+
+fn limits(step: f64) -> Limits {
+    Limits { nominal_step: step, min_step: 1e-14, max_step: 0.5, max_steps: 10_000_000 }
+}
+
+/// A chain in the shape of an arrowhead: a hub mass on a spring, and a spoke mass on the hub.
+fn coupled(k: [f64; 2], d: f64) -> (Structure, Linearization) {
+    let structure = Structure { hub: [Some(0), None, None, None, None], spokes: vec![[1, 2, 3]] };
+    let mut slopes = Linearization::new(&structure, 4);
+    slopes.clear();
+    for (part, k) in [(&mut slopes.over_positions, k), (&mut slopes.over_velocities, k.map(|k| k * d))] {
+        part.hub[(0, 0)] = -(k[0] + k[1]);
+        part.spokes[0].to_hub[(0, 0)] = k[1];
+        part.spokes[0].from_hub[(0, 0)] = k[1];
+        part.spokes[0].own[(0, 0)] = -k[1];
+    }
+    (structure, slopes)
+}
+
+#[test]
+fn the_fastest_vibration_of_a_chain_is_found() {
+    for (units, stiffness) in [([1.0; 7], [1.0, 3.0]), ([2.0, 0.1, 5.0, 1.0, 1.0, 1.0, 1.0], [7.0, 0.2])] {
+        let (structure, slopes) = coupled(stiffness, 0.02);
+        let mode = ModeFinder::new(&structure, 3, &units).find(&slopes);
+        // Roots of (a - x)(b - x) = b^2 with a = k1 + k2, b = k2.
+        let [a, b] = [stiffness[0] + stiffness[1], stiffness[1]];
+        let square = 0.5 * (a + b) + (0.25 * (a - b) * (a - b) + b * b).sqrt();
+        assert!((mode.frequency / square.sqrt() - 1.0).abs() < 1e-6, "{mode:?} {}", square.sqrt());
+        // Damping proportional to stiffness: ratio = d w/2.
+        assert!((mode.damping_ratio / (0.01 * square.sqrt()) - 1.0).abs() < 0.01 * units[0], "{mode:?}");
+    }
+    let (structure, mut nothing) = coupled([0.0; 2], 0.0);
+    nothing.clear();
+    assert_eq!(ModeFinder::new(&structure, 3, &[1.0; 7]).find(&nothing), Mode::default());
+}
+
+/// An undamped spring whose stiffness changes at given times, and that fails for some evaluations after one.
+struct Stiffening {
+    /// From these times on (s) the square of the frequency is this.
+    squares: [(f64, f64); 3],
+    fails_from: f64,
+    failures: u64,
+}
+
+impl Stiffening {
+    fn square(&self, t: f64) -> f64 {
+        self.squares.iter().rev().find(|(from, _)| t >= *from).map_or(1.0, |(_, square)| *square)
+    }
+}
+
+impl System for Stiffening {
+    type Fault = &'static str;
+
+    fn positions(&self) -> usize {
+        1
+    }
+    fn velocities(&self) -> usize {
+        1
+    }
+    fn accelerations(&mut self, t: f64, q: &[f64], _: &[f64], a: &mut [f64]) -> Result<(), &'static str> {
+        if t > self.fails_from && self.failures > 0 {
+            self.failures -= 1;
+            return Err("out of order");
+        }
+        a[0] = -self.square(t) * q[0];
+        Ok(())
+    }
+    fn not_finite(&self, _: usize) -> &'static str {
+        "not finite"
+    }
+    fn next_event(&self, t: f64) -> f64 {
+        self.squares.iter().map(|(from, _)| *from).find(|from| *from > t).unwrap_or(f64::INFINITY)
+    }
+    fn groups(&self) -> usize {
+        1
+    }
+    fn group(&self, _: usize) -> [Option<usize>; 3] {
+        [Some(0), None, None]
+    }
+    fn structure(&self) -> Structure {
+        Structure { hub: [Some(0), None, None, None, None], spokes: Vec::new() }
+    }
+    fn linearize(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        a: &mut [f64],
+        out: &mut Linearization,
+    ) -> Result<(), &'static str> {
+        self.accelerations(t, q, v, a)?;
+        out.clear();
+        out.over_positions.hub[(0, 0)] = -self.square(t);
+        Ok(())
+    }
+    fn damping(&self, _: f64, _: &[f64], _: &[f64], blocks: &mut [DampingBlock]) {
+        blocks[0] = DampingBlock::default();
+    }
+    fn vibration(&self) -> Vibration {
+        Vibration { squares: 1.0, count: 1.0 }
+    }
+}
+
+fn auto(system: &Stiffening, statistics: bool) -> Driver<Stiffening> {
+    let aim = Aim {
+        statistics,
+        // An undamped system is expected to be one; the unit of error is wide enough for half of the step.
+        expected: Expectation { frequency: 1.0, damped: true, share: 0.1, largest_step: 1.0 },
+        units: vec![100.0; 2],
+        tolerance: 1e-8,
+        first_step: 1e-3,
+    };
+    let limits = limits(aim.nominal_step());
+    let mut driver = Driver::new(Box::new(Auto::new(system, aim)), limits);
+    driver.start(0.0, &[1.0, 0.0]);
+    driver
+}
+
+#[test]
+fn the_choice_leaves_the_leapfrog_where_it_must_and_returns() {
+    let infinity = f64::INFINITY;
+    // Twenty times the frequency for a while.
+    let mut system =
+        Stiffening { squares: [(0.0, 1.0), (60.0, 400.0), (160.0, 1.0)], fails_from: infinity, failures: 0 };
+    let mut driver = auto(&system, true);
+    let at = |driver: &mut Driver<Stiffening>, system: &mut Stiffening, t: f64| {
+        driver.advance(system, t).unwrap();
+        driver.choice().unwrap()
+    };
+    let before = at(&mut driver, &mut system, 59.0);
+    assert_eq!((before.method, before.reason), (Kind::Leapfrog, Reason::Vibration));
+    // No damping was found: half the step.
+    assert!((before.leapfrog_step - 0.05).abs() < 1e-3, "{before:?}");
+    let stiff = at(&mut driver, &mut system, 150.0);
+    assert_eq!((stiff.method, stiff.reason), (Kind::Rosenbrock, Reason::Cost), "{stiff:?}");
+    assert!((stiff.findings.frequency - 20.0).abs() < 0.1, "{stiff:?}");
+    let after = at(&mut driver, &mut system, 3000.0);
+    assert_eq!((after.method, after.reason), (Kind::Leapfrog, Reason::Vibration), "{after:?}");
+    assert!(after.steps[0] > 1000 && after.steps[2] > 100 && after.changes >= 2, "{after:?}");
+}
+
+#[test]
+fn the_choice_gives_way_when_attempts_fail() {
+    let mut system = Stiffening { squares: [(0.0, 1.0); 3], fails_from: 10.0, failures: 3 };
+    let mut driver = auto(&system, true);
+    driver.advance(&mut system, 10.5).unwrap();
+    let choice = driver.choice().unwrap();
+    assert_eq!((choice.method, choice.reason), (Kind::Rosenbrock, Reason::Failures), "{choice:?}");
+    assert!(driver.statistics().faults >= 3);
+}
+
+#[test]
+fn error_control_of_the_choice_keeps_the_tolerance_and_takes_the_faster_method() {
+    let mut system = Stiffening { squares: [(0.0, 1.0); 3], fails_from: f64::INFINITY, failures: 0 };
+    let mut driver = auto(&system, false);
+    let mut out = [0.0; 2];
+    driver.advance(&mut system, 200.0).unwrap();
+    driver.state_at(200.0, &mut out);
+    // 1e-8 of 100 for each of some thousand steps.
+    assert!((out[0] - 200f64.cos()).abs() < 1e-3, "{out:?}");
+    let choice = driver.choice().unwrap();
+    let [leapfrog, explicit, implicit] = choice.steps;
+    assert!(leapfrog == 0 && implicit > 0 && explicit > 5 * implicit, "{choice:?}");
+    assert!(choice.lead > 1.2 || choice.reason == Reason::Trial, "{choice:?}");
+}
