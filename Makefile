@@ -5,6 +5,7 @@
 # make pictures  the pictures of the README
 # make effects   cost of every effect and what it changes: docs/effects.md
 # make verify    errors of the integration methods against CVODE: docs/verification.md
+# make statistics  long runs of all methods in their statistics: docs/statistics.md
 # make bench     time of a force evaluation and of a step
 # make header    writes include/cagedyn.h and schemas/ anew after a change
 # make install   library, header and pkg-config file below $(DESTDIR)$(PREFIX)
@@ -14,7 +15,7 @@ DESTDIR ?=
 VERSION := $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -n 1)
 CARGO ?= cargo
 
-.PHONY: test tools fmt lint unit run cases pictures example effects verify bench header install clean
+.PHONY: test tools fmt lint unit run cases pictures example effects verify statistics bench header install clean
 
 test: tools fmt lint unit
 
@@ -68,6 +69,9 @@ effects: tools
 
 verify: tools
 	CAGEDYN_BLESS=1 $(CARGO) test --locked --test cvode -- --ignored --nocapture tables
+
+statistics: tools
+	$(CARGO) run --release --locked --example statistics -- --docs
 
 bench:
 	$(CARGO) bench --locked
