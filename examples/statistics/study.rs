@@ -10,7 +10,6 @@ use serde_json::json;
 use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::time::Instant;
 
 /// Largest step of CVODE, s: in free flight a step without limit jumps across contacts.
 const CVODE_STEP: f64 = 1e-5;
@@ -23,8 +22,6 @@ pub struct Run {
     pub values: Vec<Option<f64>>,
     /// Force evaluations per simulated time, 1/ms.
     pub evaluations: f64,
-    /// Time that the run took over simulated time.
-    pub cost: f64,
 }
 
 /// All runs of a method.
@@ -37,7 +34,7 @@ pub struct Outcome {
     pub runs: Result<Vec<Run>>,
 }
 
-/// All runs of a case; the references come first.
+/// All runs of a case.
 pub struct Outcomes {
     /// Name of the case.
     pub name: &'static str,
@@ -98,7 +95,6 @@ fn step(sim: &Sim, share: f64) -> f64 {
 /// # Errors
 /// Those of scene and integration.
 pub fn run(case: &Case, text: &str, solver: Solver, k: usize) -> Result<Run> {
-    let begin = Instant::now();
     let method = match solver {
         Solver::Leapfrog(share) => {
             Some(json!({"leapfrog": {"step": step(&case.sim(text, None, k)?, share)}}))
@@ -124,11 +120,7 @@ pub fn run(case: &Case, text: &str, solver: Solver, k: usize) -> Result<Run> {
         sim.statistics().evaluations
     };
     let simulated = case.settling + case.window;
-    Ok(Run {
-        values: record.values(&sim),
-        evaluations: evaluations as f64 / (1e3 * simulated),
-        cost: begin.elapsed().as_secs_f64() / simulated,
-    })
+    Ok(Run { values: record.values(&sim), evaluations: evaluations as f64 / (1e3 * simulated) })
 }
 
 fn integrate(case: &Case, sim: &mut Sim, method: cvode::Method, times: &[f64]) -> Result<cvode::Solution> {
@@ -153,15 +145,15 @@ impl Outcome {
         self.runs.as_ref().ok()?.iter().map(|run| run.values[i]).collect()
     }
 
-    /// Mean of a figure over the runs.
-    pub fn mean(&self, figure: fn(&Run) -> f64) -> Option<f64> {
+    /// Mean force evaluations per simulated time over the runs, 1/ms.
+    pub fn evaluations(&self) -> Option<f64> {
         let runs = self.runs.as_ref().ok()?;
-        Some(runs.iter().map(figure).sum::<f64>() / runs.len() as f64)
+        Some(runs.iter().map(|run| run.evaluations).sum::<f64>() / runs.len() as f64)
     }
 }
 
 impl Outcomes {
-    /// Runs of all reference methods but that with index `without`.
+    /// Quantity `i` in the runs of all reference methods but that with index `without`.
     pub fn reference(&self, i: usize, without: Option<usize>) -> Option<Sample> {
         let methods = self.of.iter().enumerate().filter(|(m, o)| o.method.reference && Some(*m) != without);
         let values: Vec<f64> = methods.filter_map(|(_, outcome)| outcome.values(i)).flatten().collect();
