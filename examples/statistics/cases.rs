@@ -69,7 +69,7 @@ pub const NU2310: Case = Case {
     settling: 0.06,
     window: 0.12,
     interval: 1e-4,
-    runs: 5,
+    runs: 4,
     tolerance: 1e-5,
     more: &[],
 };
@@ -78,6 +78,7 @@ pub const NU2310: Case = Case {
 const WHIRL: Case = Case {
     settling: 0.05,
     window: 0.05,
+    runs: 5,
     tolerance: 1e-8,
     more: &[library("Dormand-Prince 1e-5", |_| json!({"dormand_prince": {"tolerance": 1e-5}}))],
     ..NU2310

@@ -158,10 +158,11 @@ fn reference(case: &Outcomes) -> Table {
 /// Differences from the reference in units of the band, one line per method.
 fn ratios(case: &Outcomes) -> Table {
     let shown: Vec<usize> = (0..QUANTITIES.len()).filter(|&i| case.reference(i, None).is_some()).collect();
-    let head = ["method", "evaluations per ms"].into_iter();
+    let head = ["method", "runs", "evaluations per ms"].into_iter();
     let head = head.chain(shown.iter().map(|&i| QUANTITIES[i].short)).map(str::to_owned).collect();
     let line = |(m, outcome): (usize, &Outcome)| {
-        let mut line = vec![label(outcome)];
+        let count = outcome.runs.as_ref().ok().map(|runs| runs.len().to_string());
+        let mut line = vec![label(outcome), optional(count)];
         line.push(optional(outcome.evaluations().map(|x| format!("{x:.0}"))));
         line.extend(shown.iter().map(|&i| optional(case.verdict(m, i).map(ratio))));
         line
