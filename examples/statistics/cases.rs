@@ -67,7 +67,7 @@ pub const NU2310: Case = Case {
     scene: "nu2310",
     set: &[],
     settling: 0.06,
-    window: 0.12,
+    window: 0.2,
     interval: 1e-4,
     runs: 4,
     tolerance: 1e-5,
@@ -88,21 +88,33 @@ const WHIRL: Case = Case {
 pub const CASES: [Case; 8] = [
     NU2310,
     Case { name: "5 um", set: &[("inner_ring.radial_clearance", "5e-6")], ..NU2310 },
-    Case { name: "40 kN", set: &[("inner_ring.motion.free.load.z.constant", "-40e3")], ..NU2310 },
+    Case {
+        name: "40 kN",
+        set: &[("inner_ring.motion.free.load.z.constant", "-40e3")],
+        window: 0.12,
+        runs: 4,
+        ..NU2310
+    },
     Case {
         name: "1000 rpm",
         set: &[("inner_ring.speed.constant", "-104.71975511965977")],
         settling: 0.1,
-        window: 0.2,
+        runs: 4,
         ..NU2310
     },
-    Case { name: "20 000 rpm", set: &[("inner_ring.speed.constant", "-2094.3951023931954")], ..NU2310 },
+    Case {
+        name: "20 000 rpm",
+        set: &[("inner_ring.speed.constant", "-2094.3951023931954")],
+        window: 0.12,
+        ..NU2310
+    },
     Case {
         name: "undamped",
         set: &[
             ("raceways.contact.damping", "null"),
             ("cage.pocket.lubricated_cylinder.contact.damping", "null"),
         ],
+        window: 0.12,
         more: &[leapfrog("leapfrog 1/8", 0.125)],
         ..NU2310
     },

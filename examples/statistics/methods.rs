@@ -42,12 +42,13 @@ const fn reference(name: &'static str, solver: Solver) -> Method {
 }
 
 /// Methods for all cases.
-pub const METHODS: [Method; 10] = [
+pub const METHODS: [Method; 11] = [
     reference("CVODE, reference", Solver::Cvode(cvode::Method::Bdf)),
     reference("Dormand-Prince, reference", Solver::Library(|t| json!({"dormand_prince": {"tolerance": t}}))),
     library("Rosenbrock 1e-5", |_| json!({"rosenbrock": {"tolerance": 1e-5}})),
     library("Rosenbrock 1e-4", |_| json!({"rosenbrock": {"tolerance": 1e-4}})),
     library("Rosenbrock 1e-3", |_| json!({"rosenbrock": {"tolerance": 1e-3}})),
+    Method { repeats: 2, ..library("auto", |_| json!({"auto": {}})) },
     leapfrog("leapfrog 1/4", 0.25),
     leapfrog("leapfrog 1/2", 0.5),
     leapfrog("leapfrog 1", 1.0),
