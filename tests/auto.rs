@@ -68,6 +68,14 @@ fn thin_film(file: &str, thickness: f64) -> Value {
     scene
 }
 
+/// A cage without pockets in a short bearing of thick oil, from a film of 1 um: explicit steps are limited by stability.
+fn stiff_film() -> Value {
+    let mut scene = thin_film("scenes/ball_short_bearing.json", 1e-6);
+    set(&mut scene, "lubricant.viscosity.constant", json!(0.1));
+    common::remove(&mut scene, "cage.pocket");
+    scene
+}
+
 #[test]
 fn it_is_the_default_and_its_checks_leave_the_run_alone() {
     let mut scene = nu2310(&[]);
@@ -124,6 +132,7 @@ fn error_control_costs_little_more_than_with_the_better_method() {
         ("grease guide", scene("scenes/grease_guide.json", &[]), None, 1e-6, 50e-3),
         ("cold grease", cold, None, 1e-6, 50e-3),
         ("short bearing", scene("scenes/ball_short_bearing.json", &[]), None, 1e-6, 50e-3),
+        ("stiff film", stiff_film(), None, 1e-6, 5e-3),
         ("NU2310", nu2310(&[]), Some(1e-4), 1e-4, 5e-3),
         ("NU2310, 40 kN", nu2310(&[load(40e3)]), Some(1e-5), 1e-5, 2e-3),
     ];
@@ -269,6 +278,7 @@ fn table() {
     let runs = [
         ("NU2310, 40 kN, 50 ms", nu2310(&[load(40e3)]), 50e-3),
         ("grease guide from a film of 1 um, 50 ms", thin_film("scenes/grease_guide.json", 1e-6), 50e-3),
+        ("cage in thick oil from 1 um, 5 ms", stiff_film(), 5e-3),
         ("NU2310 with grease guide from 1 um, 50 ms", thin_film("scenes/nu2310_grease.json", 1e-6), 50e-3),
     ];
     for (name, scene, duration) in runs {
