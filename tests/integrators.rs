@@ -310,192 +310,27 @@ fn stiff_damping_of_the_leapfrog_is_stable() {
     assert!((out[4] - 1.0).abs() < 1e-9, "{}", out[4]);
 }
 
-/// v' = -rate (v - cos t) with a position, coupled to a spoke of three velocities: stiff and driven.
-struct Driven {
-    rate: f64,
-}
-
-impl System for Driven {
-    type Fault = &'static str;
-
-    fn positions(&self) -> usize {
-        3
-    }
-    fn velocities(&self) -> usize {
-        4
-    }
-    fn accelerations(&mut self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> Result<(), &'static str> {
-        a[0] = -self.rate * (v[0] - t.cos()) - t.sin() + 0.3 * (q[1] - q[0]) - v[3] * v[0];
-        a[1] = -q[1] * q[1] * q[1] + 0.5 * q[0] - 0.2 * v[1] * v[2];
-        a[2] = -4.0 * q[2] + (t * q[1]).sin();
-        a[3] = v[0] - v[3] * v[3];
-        Ok(())
-    }
-    fn not_finite(&self, _: usize) -> &'static str {
-        "not finite"
-    }
-    fn next_event(&self, _: f64) -> f64 {
-        f64::INFINITY
-    }
-    fn groups(&self) -> usize {
-        0
-    }
-    fn group(&self, _: usize) -> [Option<usize>; 3] {
-        [None; 3]
-    }
-    fn structure(&self) -> Structure {
-        Structure { hub: [Some(0), None, None, None, None], spokes: vec![[1, 2, 3]] }
-    }
-    fn linearize(
-        &mut self,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
-        a: &mut [f64],
-        out: &mut Linearization,
-    ) -> Result<(), &'static str> {
-        self.accelerations(t, q, v, a)?;
-        out.clear();
-        let (k, d) = (&mut out.over_positions, &mut out.over_velocities);
-        k.hub[(0, 0)] = -0.3;
-        k.spokes[0].to_hub[(0, 0)] = 0.3;
-        d.hub[(0, 0)] = -self.rate - v[3];
-        d.spokes[0].to_hub[(0, 2)] = -v[0];
-        k.spokes[0].from_hub[(0, 0)] = 0.5;
-        k.spokes[0].own[(0, 0)] = -3.0 * q[1] * q[1];
-        d.spokes[0].own[(0, 0)] = -0.2 * v[2];
-        d.spokes[0].own[(0, 1)] = -0.2 * v[1];
-        k.spokes[0].own[(1, 0)] = t * (t * q[1]).cos();
-        k.spokes[0].own[(1, 1)] = -4.0;
-        d.spokes[0].from_hub[(2, 0)] = 1.0;
-        d.spokes[0].own[(2, 2)] = -2.0 * v[3];
-        out.over_time.copy_from_slice(&[-self.rate * t.sin() - t.cos(), 0.0, q[1] * (t * q[1]).cos(), 0.0]);
-        Ok(())
-    }
-    fn damping(&self, _: f64, _: &[f64], _: &[f64], _: &mut [DampingBlock]) {}
-}
-
-const DRIVEN_START: [f64; 7] = [0.0, 0.3, -0.2, 1.0, 0.1, 0.4, 0.5];
-
-/// State at t = 2 with Rosenbrock steps of size `h`.
-fn rosenbrock_at_two(rate: f64, h: f64) -> Vec<f64> {
-    let mut system = Driven { rate };
-    let mut m = Rosenbrock::new(&system, &[1.0; 7]);
-    Stepper::<Driven>::set_state(&mut m, &DRIVEN_START);
-    for i in 0..(2.0 / h).round() as usize {
-        m.attempt(&mut system, i as f64 * h, h, f64::INFINITY).unwrap();
-        Stepper::<Driven>::accept(&mut m);
-    }
-    Stepper::<Driven>::state(&m).to_vec()
-}
-
-#[test]
-fn rosenbrock_is_of_fourth_order_on_a_driven_structured_system() {
-    let mut system = Driven { rate: 3.0 };
-    let reference = DormandPrince::new(&system, &[1e-13; 7]);
-    let mut driver = Driver::new(Box::new(reference), limits(1e-3));
-    driver.start(0.0, &DRIVEN_START);
-    driver.advance(&mut system, 2.0).unwrap();
-    let mut exact = [0.0; 7];
-    driver.state_at(2.0, &mut exact);
-    let errors = [0.1, 0.05, 0.025].map(|h| {
-        let end = rosenbrock_at_two(3.0, h);
-        end.iter().zip(exact).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()))
-    });
-    for pair in errors.windows(2) {
-        let order = (pair[0] / pair[1]).log2();
-        assert!((order - 4.0).abs() < 0.2, "{errors:?}");
-    }
-}
-
-#[test]
-fn rosenbrock_takes_steps_far_beyond_stiff_rates() {
-    // The fast velocity follows the cosine whatever its rate.
-    for rate in [1e3, 1e6, 1e9] {
-        let (coarse, fine) = (rosenbrock_at_two(rate, 0.1), rosenbrock_at_two(rate, 0.01));
-        for (a, b) in coarse.iter().zip(&fine) {
-            assert!((a - b).abs() < 2e-4, "{rate}: {coarse:?} {fine:?}");
-        }
-        assert!((fine[3] - 2f64.cos()).abs() < 2.0 / rate + 1e-6);
-    }
-}
-
-#[test]
-fn rosenbrock_dense_output_is_of_third_order_and_ends_on_its_steps() {
+/// Local orders at the end and within a step of an implicit method.
+fn local_orders<M: Stepper<Oscillator>>(new: impl Fn(&Oscillator) -> M) -> [f64; 2] {
     let attempt = |h: f64, theta: f64| {
         let mut s = Oscillator::smooth();
-        let mut m = Rosenbrock::new(&s, &[1.0; 5]);
+        let mut m = new(&s);
         let mut out = [0.0; 5];
-        Stepper::<Oscillator>::set_state(&mut m, &START);
+        m.set_state(&START);
         m.attempt(&mut s, 0.0, h, f64::INFINITY).unwrap();
-        Stepper::<Oscillator>::accept(&mut m);
-        Stepper::<Oscillator>::interpolate(&m, theta, &mut out);
+        m.accept();
+        m.interpolate(theta, &mut out);
         let exact = s.exact(theta * h);
         (out[0] - exact[0]).abs().max((out[2] - exact[1]).abs())
     };
-    let order = |theta: f64| (attempt(0.2, theta) / attempt(0.1, theta)).log2();
+    [1.0, 0.4].map(|theta| (attempt(0.2, theta) / attempt(0.1, theta)).log2())
+}
+
+#[test]
+fn implicit_dense_output_is_of_third_order_and_ends_on_its_steps() {
     // Local errors are one order higher than the method's.
-    assert!(order(1.0) > 4.7, "{}", order(1.0));
-    assert!(order(0.4) > 3.7, "{}", order(0.4));
-}
-
-/// State at t = 2 with Radau steps of size `h`.
-fn radau_at_two(rate: f64, h: f64) -> Vec<f64> {
-    let mut system = Driven { rate };
-    let mut m = Radau::new(&system, &[1e-13; 7]);
-    Stepper::<Driven>::set_state(&mut m, &DRIVEN_START);
-    for i in 0..(2.0 / h).round() as usize {
-        m.attempt(&mut system, i as f64 * h, h, f64::INFINITY).unwrap();
-        Stepper::<Driven>::accept(&mut m);
-    }
-    Stepper::<Driven>::state(&m).to_vec()
-}
-
-#[test]
-fn radau_is_of_fifth_order_on_a_driven_structured_system() {
-    let mut system = Driven { rate: 3.0 };
-    let reference = DormandPrince::new(&system, &[1e-13; 7]);
-    let mut driver = Driver::new(Box::new(reference), limits(1e-3));
-    driver.start(0.0, &DRIVEN_START);
-    driver.advance(&mut system, 2.0).unwrap();
-    let mut exact = [0.0; 7];
-    driver.state_at(2.0, &mut exact);
-    let errors = [0.1, 0.05, 0.025].map(|h| {
-        let end = radau_at_two(3.0, h);
-        end.iter().zip(exact).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()))
-    });
-    for pair in errors.windows(2) {
-        let order = (pair[0] / pair[1]).log2();
-        assert!((order - 5.0).abs() < 0.2, "{errors:?}");
-    }
-}
-
-#[test]
-fn radau_takes_steps_far_beyond_stiff_rates() {
-    for rate in [1e3, 1e6, 1e9] {
-        let (coarse, fine) = (radau_at_two(rate, 0.1), radau_at_two(rate, 0.01));
-        for (a, b) in coarse.iter().zip(&fine) {
-            assert!((a - b).abs() < 1e-5, "{rate}: {coarse:?} {fine:?}");
-        }
-        assert!((fine[3] - 2f64.cos()).abs() < 2.0 / rate + 1e-6);
-    }
-}
-
-#[test]
-fn radau_dense_output_is_of_third_order_and_ends_on_its_steps() {
-    let attempt = |h: f64, theta: f64| {
-        let mut s = Oscillator::smooth();
-        let mut m = Radau::new(&s, &[1e-12; 5]);
-        let mut out = [0.0; 5];
-        Stepper::<Oscillator>::set_state(&mut m, &START);
-        m.attempt(&mut s, 0.0, h, f64::INFINITY).unwrap();
-        Stepper::<Oscillator>::accept(&mut m);
-        Stepper::<Oscillator>::interpolate(&m, theta, &mut out);
-        let exact = s.exact(theta * h);
-        (out[0] - exact[0]).abs().max((out[2] - exact[1]).abs())
-    };
-    let order = |theta: f64| (attempt(0.2, theta) / attempt(0.1, theta)).log2();
-    // Local errors are one order higher than the method's.
-    assert!(order(1.0) > 5.7, "{}", order(1.0));
-    assert!(order(0.4) > 3.7, "{}", order(0.4));
+    let [end, within] = local_orders(|s| Rosenbrock::new(s, &[1.0; 5]));
+    assert!(end > 4.7 && within > 3.7, "{end} {within}");
+    let [end, within] = local_orders(|s| Radau::new(s, &[1e-12; 5]));
+    assert!(end > 5.7 && within > 3.7, "{end} {within}");
 }
