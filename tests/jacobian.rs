@@ -14,12 +14,9 @@ use std::sync::Arc;
 const STEPS: [f64; 3] = [7e-6, 4e-6, 2e-6];
 /// Time in which the inputs change as much as the states by their scales, s.
 const TIME_SCALE: f64 = 1e-4;
-/// Agreement of the differences that counts as smooth, and of differences and derivatives.
+/// Agreement of the differences, and jump of a slope, that count as smooth; agreement of differences and derivatives.
 const SMOOTH: f64 = 2e-8;
 const TOLERANCE: f64 = 1e-7;
-/// A known defect: in one of these states the derivative of a rough layer is off by 6e-7; the cause is not found.
-const KNOWN_OUTLIERS: usize = 1;
-const OUTLIER_TOLERANCE: f64 = 1e-6;
 
 /// Rows: accelerations; columns: positions, velocities, time.
 fn dense(model: &Model, slope: &Linearization) -> Vec<Vec<f64>> {
@@ -63,26 +60,39 @@ fn dense(model: &Model, slope: &Linearization) -> Vec<Vec<f64>> {
     out
 }
 
-/// Column of the derivatives by a sixth-order difference with step `h`; the column after the last state is time. `None`
-/// where forces are undefined.
-fn difference(model: &Model, t: f64, state: &[f64], column: usize, h: f64) -> Option<Vec<f64>> {
+/// Column of the derivatives by differences: each slope, and how far it jumps at the state itself.
+struct Difference {
+    slope: Vec<f64>,
+    jump: Vec<f64>,
+}
+
+/// Differences of sixth order with step `h`; the column after the last state is time. `None` where forces are
+/// undefined.
+///
+/// On a kink every central difference gives the mean of both sides, and steps of all sizes agree. The jump tells: the
+/// slope ahead less that behind is jump + h f'' + O(h^3), and three steps leave the jump, with an error of fifth order.
+fn difference(model: &Model, t: f64, state: &[f64], column: usize, h: f64) -> Option<Difference> {
     let nq = model.layout().positions();
     let mut ws = Workspace::new(model);
-    let mut sum = vec![0.0; model.layout().velocities()];
-    for (offset, weight) in [(1.0, 45.0), (2.0, -9.0), (3.0, 1.0)] {
-        for side in [1.0, -1.0] {
-            let (mut moved, mut time) = (state.to_vec(), t);
-            *moved.get_mut(column).unwrap_or(&mut time) += side * offset * h;
-            let inputs = model.inputs_at(time, &HostInputs::default());
-            let (q, v) = moved.split_at(nq);
-            let mut a = vec![0.0; sum.len()];
-            model.accelerations(&inputs, q, v, &mut ws, &mut a).ok()?;
-            for (sum, a) in sum.iter_mut().zip(a) {
-                *sum += side * weight * a / (60.0 * h);
-            }
+    let mut at = |offset: f64| {
+        let (mut moved, mut time) = (state.to_vec(), t);
+        *moved.get_mut(column).unwrap_or(&mut time) += offset * h;
+        let inputs = model.inputs_at(time, &HostInputs::default());
+        let (q, v) = moved.split_at(nq);
+        let mut a = vec![0.0; v.len()];
+        model.accelerations(&inputs, q, v, &mut ws, &mut a).ok().map(|()| a)
+    };
+    let here = at(0.0)?;
+    let zero = vec![0.0; here.len()];
+    let mut out = Difference { slope: zero.clone(), jump: zero };
+    for (offset, central, one_sided) in [(1.0, 45.0, 2.5), (2.0, -9.0, -2.0), (3.0, 1.0, 0.5)] {
+        let (ahead, behind) = (at(offset)?, at(-offset)?);
+        for i in 0..here.len() {
+            out.slope[i] += central * (ahead[i] - behind[i]) / (60.0 * h);
+            out.jump[i] += one_sided * (ahead[i] - 2.0 * here[i] + behind[i]) / (offset * h);
         }
     }
-    Some(sum)
+    Some(out)
 }
 
 /// Derivatives of the accelerations at one state.
@@ -116,13 +126,14 @@ fn compare(model: &Model, t: f64, state: &[f64]) -> (usize, usize, f64, String) 
         };
         for row in 0..v.len() {
             let scale = sizes[row] / scales[column];
-            let spread = (coarse[row] - fine[row]).abs().max((middle[row] - fine[row]).abs());
-            if spread > SMOOTH * scale {
+            let slope = fine.slope[row];
+            let spread = (coarse.slope[row] - slope).abs().max((middle.slope[row] - slope).abs());
+            if spread.max(fine.jump[row].abs()) > SMOOTH * scale {
                 skipped += 1;
                 continue;
             }
             compared += 1;
-            let error = (exact[row][column] - fine[row]).abs() / scale;
+            let error = (exact[row][column] - slope).abs() / scale;
             if error.is_nan() || error > worst {
                 worst = error;
                 let infos = model.state_infos();
@@ -131,7 +142,7 @@ fn compare(model: &Model, t: f64, state: &[f64]) -> (usize, usize, f64, String) 
                     infos[nq + row].name,
                     infos.get(column).map_or("t", |info| &info.name),
                     exact[row][column],
-                    fine[row]
+                    slope
                 );
             }
         }
@@ -141,7 +152,7 @@ fn compare(model: &Model, t: f64, state: &[f64]) -> (usize, usize, f64, String) 
 
 #[test]
 fn derivatives_match_differences_in_every_combination() {
-    let (mut compared, mut skipped, mut outliers, mut largest) = (0, 0, 0, 0.0f64);
+    let (mut compared, mut skipped, mut largest) = (0, 0, 0.0f64);
     for (i, parts) in all().into_iter().enumerate() {
         // Everything that can change with time does.
         let mut scene = scene(parts);
@@ -157,18 +168,14 @@ fn derivatives_match_differences_in_every_combination() {
         for k in 1..=2 {
             sim.advance_to(1.1e-3 * f64::from(k) + 1e-5 * (i % 37) as f64).unwrap();
             let (n, missed, worst, place) = compare(&model, sim.time(), sim.state());
-            let rough = parts.roundness && parts.guide.contains("layer");
-            outliers += usize::from(rough && worst >= TOLERANCE);
-            let tolerance = if rough { OUTLIER_TOLERANCE } else { TOLERANCE };
-            assert!(worst < tolerance, "{parts:?} at {} s: {worst:e} in {place}", sim.time());
+            assert!(worst < TOLERANCE, "{parts:?} at {} s: {worst:e} in {place}", sim.time());
             compared += n;
             skipped += missed;
             largest = largest.max(worst);
         }
     }
     println!("{compared} derivatives compared, {skipped} skipped at kinks, largest error {largest:e}");
-    assert!(outliers <= KNOWN_OUTLIERS, "{outliers} states beyond {TOLERANCE:e}");
-    assert!(skipped < compared / 20, "{skipped} of {compared} skipped");
+    assert!(skipped < compared / 200, "{skipped} of {compared} skipped");
 }
 
 /// A state that the bearing of these parts reaches.
