@@ -56,6 +56,7 @@ impl GuideSide {
                 shear: f.shear.map(|x| -x),
                 solid: f.solid.map(|x| -x),
                 moment: -(f.moment + carried(f, m)),
+                film_moment: -(f.film_moment + carried(&f.of_film(), m)),
                 ..*f
             },
         }

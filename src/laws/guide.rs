@@ -69,6 +69,8 @@ pub struct GuideForce<T> {
     pub solid: [T; 2],
     /// Moment about the centre of the journal, N m.
     pub moment: T,
+    /// Part of it that the film makes, N m.
+    pub film_moment: T,
     /// Share of the film: 1 for a film alone, 0 for a solid contact alone.
     pub film_share: T,
     /// Smallest gap, m.
@@ -79,6 +81,11 @@ impl<T: Real> GuideForce<T> {
     /// Sum of all components (y, z), N.
     pub fn force(&self) -> [T; 2] {
         std::array::from_fn(|k| self.pressure[k] + self.shear[k] + self.solid[k])
+    }
+
+    /// What the film alone does.
+    pub fn of_film(&self) -> Self {
+        Self { solid: [T::constant(0.0); 2], moment: self.film_moment, ..*self }
     }
 }
 
@@ -188,6 +195,7 @@ fn from_film<T: Real>(film: FilmForce<T>, share: T) -> GuideForce<T> {
         shear: film.shear.map(|f| f * share),
         solid: [T::constant(0.0); 2],
         moment: film.moment * share,
+        film_moment: film.moment * share,
         film_share: share,
         minimum_film: film.minimum_film,
     }

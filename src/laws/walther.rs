@@ -7,6 +7,8 @@
 //!
 //! Valid for nu above about 2 mm^2/s, between and somewhat beyond the two points that fix A and B.
 
+use std::f64::consts::LN_10;
+
 /// mm^2/s per m^2/s.
 const MM2_PER_S: f64 = 1e6;
 /// The shift of the logarithm, mm^2/s.
@@ -38,11 +40,27 @@ impl Walther {
         let viscosity = nu / MM2_PER_S * self.density;
         if viscosity > 0.0 && viscosity.is_finite() { viscosity } else { f64::NAN }
     }
+
+    /// Derivative of ln eta0 over the temperature in 1/K at `temperature` in K, where the line gives a viscosity.
+    pub fn relative_slope(&self, temperature: f64) -> f64 {
+        let exponent = 10f64.powf(self.intercept - self.slope * temperature.log10());
+        let shifted = 10f64.powf(exponent);
+        -shifted / (shifted - SHIFT) * LN_10 * exponent * self.slope / temperature
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn its_slope_is_that_of_the_viscosity() {
+        let oil = Walther::new((313.15, 105e-6), (373.15, 12e-6), 880.0);
+        for t in [290.0, 313.15, 350.0, 390.0] {
+            let difference = (oil.viscosity(t + 1e-3) / oil.viscosity(t - 1e-3)).ln() / 2e-3;
+            assert!((oil.relative_slope(t) / difference - 1.0).abs() < 1e-8, "{t}");
+        }
+    }
 
     #[test]
     fn passes_through_its_points_and_falls_with_temperature() {

@@ -52,7 +52,8 @@ impl Model {
     }
 
     /// Derivatives of the accelerations at the last evaluated state (`q`, `v`) of `ws`, while the inputs change at
-    /// `rates` (see [`Model::input_rates_at`]). A change of the viscosity with time is left out.
+    /// `rates` (see [`Model::input_rates_at`]). A change of the viscosity with time is left out
+    /// in contacts of rollers and of lubricated pockets.
     ///
     /// # Panics
     /// When a slice is shorter than its shape, or `ws` or `out` was made for another model.
@@ -178,6 +179,29 @@ impl Model {
                 out.over_velocities.hub[(i, k)] += row.eps[HUB + k];
             }
             drift.hub[i] += row.eps[2 * HUB] * drift.rates.of(Input::RingSpeed);
+        }
+        let thickening = self.thickening(ws, drift.rates);
+        if thickening == 0.0 {
+            return;
+        }
+        // Films know the viscosity only in its products with velocities, so their derivative over its logarithm is the
+        // sum of those over each velocity times that velocity.
+        let [on_cage, on_ring] = cage.guide_side.wrenches(&force.of_film(), &motion);
+        let rows = [on_ring.force[0], on_ring.force[1], on_cage.force[0], on_cage.force[1], on_cage.moment];
+        let hub = self.hub();
+        for (i, row) in rows.into_iter().enumerate().skip(if ring_moves { 0 } else { CAGE }) {
+            let velocities = hub.iter().zip(&row.eps[HUB..2 * HUB]);
+            let by_motion: f64 = velocities.map(|(index, slope)| index.map_or(0.0, |i| v[i]) * slope).sum();
+            drift.hub[i] += thickening * (by_motion + bodies[1].speed * row.eps[2 * HUB]);
+        }
+    }
+
+    /// Rate of the logarithm of the viscosity, 1/s.
+    fn thickening(&self, ws: &Workspace, rates: &InputValues) -> f64 {
+        let warming = rates.of(Input::Temperature);
+        match &self.inputs.oil {
+            Some(oil) if warming != 0.0 => oil.law.relative_slope(ws.inputs.of(Input::Temperature)) * warming,
+            _ => 0.0,
         }
     }
 

@@ -13,6 +13,7 @@ mod whirl;
 
 use cases::{DRY, contacts, pressed, smooth};
 use cvode::Method;
+use serde_json::json;
 
 /// Tolerances at which methods with error control are compared.
 const LEVELS: [f64; 3] = [1e-4, 1e-6, 1e-8];
@@ -69,6 +70,28 @@ fn methods_with_error_control_have_their_order() {
         println!("{method}: orders {found:.2?}, errors {}", short(&errors));
         assert!(found.iter().all(|found| *found > order - 0.2), "{method}: {found:?}");
         assert!((found[2] - order).abs() < 0.2, "{method}: {found:?}");
+    }
+}
+
+/// Without the derivative of a warming film over time the order would be 1, and the errors hundreds of times larger.
+#[test]
+fn rosenbrock_follows_films_that_warm() {
+    let temperature = json!({"sine": {"mean": 333.15, "amplitude": 20.0, "frequency": 50.0, "phase": 0.2}});
+    let viscosity = json!({"walther": {
+        "cold": {"temperature": 313.15, "kinematic_viscosity": 105e-6},
+        "hot": {"temperature": 373.15, "kinematic_viscosity": 12e-6},
+        "density": 880.0, "temperature": {"over_time": temperature}
+    }});
+    for case in smooth() {
+        let scene = common::with(&case.scene, &[("lubricant.viscosity", viscosity.clone())]);
+        let case = cases::Case { scene, ..case };
+        let reference = case.reference().end;
+        let errors = [200.0, 400.0, 800.0]
+            .map(|n| case.distance(&case.fixed("rosenbrock", case.duration / n), &reference));
+        let found = orders(&errors, 2.0);
+        println!("{}, warming: orders {found:.2?}, errors {}", case.name, short(&errors));
+        assert!(found.iter().all(|order| *order > 2.0), "{}: {found:?}", case.name);
+        assert!(errors[2] < 5e-8, "{}: {errors:?}", case.name);
     }
 }
 
