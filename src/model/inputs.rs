@@ -2,7 +2,7 @@
 //! what follows from them: the prescribed motion of kinematic elements.
 
 use crate::laws::walther::Walther;
-use crate::scene::{Signal, SignalIntegral, interpolate};
+use crate::scene::{Signal, SignalIntegral, interpolate, slope};
 
 /// Number of inputs a model can have.
 pub const INPUTS: usize = 9;
@@ -119,13 +119,18 @@ impl InputSignals {
         now
     }
 
-    /// Rates of what [`InputSignals::at`] gives, per second; a temperature over the ring speed counts as constant.
+    /// Rates of what [`InputSignals::at`] gives, per second.
     pub(super) fn rates_at(&self, t: f64, host: &HostInputs) -> InputValues {
         let mut rates = InputValues::default();
         for (input, source) in &self.list {
-            if let (None, InputSource::Time(signal)) = (host.values[*input as usize], source) {
-                rates.values[*input as usize] = signal.rate(t);
-            }
+            rates.values[*input as usize] = match (host.values[*input as usize], source) {
+                (Some(_), _) => 0.0,
+                (None, InputSource::Time(signal)) => signal.rate(t),
+                (None, InputSource::RingSpeed(speed, value)) => {
+                    let now = self.at(t, host).of(Input::RingSpeed);
+                    slope(speed, value, now.abs()) * now.signum() * rates.of(Input::RingSpeed)
+                }
+            };
         }
         if let Some(orbit) = &self.orbit {
             let drive = rates.of(orbit.drive);

@@ -32,7 +32,7 @@ pub use lubricant::{Lubricant, Temperature, Viscosity, ViscosityPoint, WaltherVi
 pub use overrides::{parse_override, set_path};
 pub use rings::{FreeRing, InnerRing, Load, OuterRing, RingMotion};
 pub use run::{Auto, DormandPrince, Initial, Leapfrog, Method, Radau, Record, RingStart, Rosenbrock, Solver};
-pub use signal::{Signal, SignalIntegral, interpolate};
+pub use signal::{Signal, SignalIntegral, interpolate, slope};
 pub(crate) use validate::VISCOSITY;
 
 use crate::error::{Error, Result, Status};

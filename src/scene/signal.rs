@@ -199,6 +199,15 @@ pub fn interpolate(time: &[f64], value: &[f64], t: f64) -> f64 {
     }
 }
 
+/// Slope at `t` of what [`interpolate`] gives; at a point that of the line after it.
+pub fn slope(time: &[f64], value: &[f64], t: f64) -> f64 {
+    let next = time.partition_point(|&x| x <= t);
+    match (next.checked_sub(1), time.get(next)) {
+        (Some(last), Some(t1)) => (value[next] - value[last]) / (t1 - time[last]),
+        _ => 0.0,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
