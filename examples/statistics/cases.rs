@@ -69,7 +69,7 @@ pub const NU2310: Case = Case {
     settling: 0.06,
     window: 0.2,
     interval: 1e-4,
-    runs: 4,
+    runs: 5,
     tolerance: 1e-5,
     more: &[],
 };

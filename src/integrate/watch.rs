@@ -15,7 +15,7 @@ const INTERVAL: u64 = 512;
 const STRETCH: usize = 8;
 /// Largest error of a stretch in units of the norm, and the largest relative change of vibration. Measured on a
 /// roller bearing: with smaller errors the statistics of long runs stay within the scatter of the reference.
-const LARGEST_ERROR: f64 = 1.5e-4;
+const LARGEST_ERROR: f64 = 6e-5;
 const LARGEST_CHANGE: f64 = 0.25;
 /// A stretch with more than this many times the largest error is refined at once.
 const FAR_TOO_MUCH: f64 = 8.0;
