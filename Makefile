@@ -68,7 +68,7 @@ effects: tools
 	$(CARGO) run --release --locked --example effects -- --docs
 
 verify: tools
-	CAGEDYN_BLESS=1 $(CARGO) test --locked --test cvode -- --ignored --nocapture tables
+	CAGEDYN_BLESS=1 $(CARGO) test --locked --test cvode --test auto -- --ignored --nocapture --test-threads 1 table
 
 statistics: tools
 	$(CARGO) run --release --locked --example statistics -- --docs

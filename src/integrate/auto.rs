@@ -25,7 +25,7 @@ const LONG_PATIENCE: u64 = 12;
 /// At most this many changes for that reason before a step is accepted.
 const MOST_CHANGES: u64 = 4;
 /// Evaluations of error control between two probes whether the leapfrog would do.
-const PROBE_INTERVAL: f64 = 1000.0;
+const PROBE_INTERVAL: f64 = 500.0;
 
 /// How to follow a system.
 #[derive(Clone, Debug, PartialEq)]

@@ -27,9 +27,10 @@ const COMFORT: f64 = 1.0 / 8.0;
 const CLEAR_DIFFERENCE: f64 = 1.1;
 /// Passed checks in a row before the step is doubled.
 const PATIENCE: u64 = 16;
-/// Weight of the past in the running means, and the total weight, that of four checks, from which they count.
-const MEMORY: f64 = 15.0 / 16.0;
-const ENOUGH: f64 = 0.22;
+/// Weight of the past in the running means, and the total weight, that of twelve checks, from which they count: errors
+/// of single stretches scatter by twice their mean.
+const MEMORY: f64 = 31.0 / 32.0;
+const ENOUGH: f64 = 0.31;
 /// Below this share of critical damping the fastest vibration counts as undamped: half the step.
 const LIGHT_DAMPING: f64 = 0.01;
 /// Steps finer than by this many halvings cost as much as error control, which has no bias.

@@ -108,6 +108,13 @@ const BALL: &str = "scenes/ball_short_bearing.json";
 pub const DRY: &str = "dry guide";
 pub const GREASE: &str = "scenes/grease_guide.json";
 
+/// The cage alone in a short bearing of thick oil: smooth, and stiff.
+pub fn thick() -> Case {
+    let first = smooth().swap_remove(0);
+    let scene = with(&first.scene, &[("lubricant.viscosity.constant", json!(1.0))]);
+    Case { name: "short bearing, thick oil", scene, ..first }
+}
+
 /// The cage on its film alone: nothing touches, forces have all the derivatives that the methods need.
 pub fn smooth() -> Vec<Case> {
     let start = json!({

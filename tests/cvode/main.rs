@@ -11,15 +11,19 @@ mod driver;
 mod tables;
 mod whirl;
 
-use cases::{DRY, contacts, pressed, smooth};
+use cases::{DRY, contacts, pressed, smooth, thick};
 use cvode::Method;
 use serde_json::json;
 
 /// Tolerances at which methods with error control are compared.
 const LEVELS: [f64; 3] = [1e-4, 1e-6, 1e-8];
 /// The methods with error control, by their names in scenes and in words.
-const METHODS: [(&str, &str); 3] =
-    [("dormand_prince", "Dormand-Prince"), ("rosenbrock", "Rosenbrock"), ("auto", "auto")];
+const METHODS: [(&str, &str); 4] = [
+    ("dormand_prince", "Dormand-Prince"),
+    ("rosenbrock", "Rosenbrock"),
+    ("radau", "Radau"),
+    ("auto", "auto"),
+];
 /// Steps of given size on the pressed cage.
 const FIXED_SHARES: [f64; 4] = [125.0, 250.0, 500.0, 1000.0];
 
@@ -34,7 +38,7 @@ fn orders(errors: &[f64], ratio: f64) -> Vec<f64> {
 
 #[test]
 fn smooth_motion_agrees_with_cvode() {
-    for case in smooth() {
+    for case in smooth().into_iter().chain([thick()]) {
         let reference = case.reference();
         let doubt = reference.doubt;
         assert!(doubt < 1e-9, "{}: two methods of CVODE differ by {doubt:e}", case.name);

@@ -1,14 +1,11 @@
 //! The tables of the page on verification.
 
-use crate::cases::{Case, End, Reference, contacts, pressed, smooth};
-use crate::common::{read, repository};
+use crate::cases::{Case, End, Reference, contacts, pressed, smooth, thick};
+use crate::common::{replace_between, repository};
 use crate::cvode::Method;
 use crate::whirl::{mean, whirls};
 use crate::{FIXED_SHARES, LEVELS, METHODS, orders};
 use serde_json::json;
-
-const PAGE: &str = "docs/verification.md";
-const END: &str = "<!-- end -->";
 
 /// Rows of one scene.
 struct Rows<'a> {
@@ -84,6 +81,7 @@ fn tables() {
     for case in smooth() {
         table += &rows(&case, true);
     }
+    table += &rows(&thick(), false);
     table += &fixed_steps(&pressed());
     for case in contacts() {
         table += &rows(&case, false);
@@ -98,13 +96,8 @@ fn tables() {
     }
     println!("{table}\n{whirl}");
     if std::env::var_os("CAGEDYN_BLESS").is_some() {
-        let mut page = read(PAGE);
-        for (name, text) in [("errors", table), ("whirl", whirl)] {
-            let marker = format!("<!-- {name} -->\n");
-            let start = page.find(&marker).expect("a marker") + marker.len();
-            let length = page[start..].find(END).expect("an end");
-            page.replace_range(start..start + length, &format!("\n{text}\n"));
+        for (marker, text) in [("<!-- errors -->", table), ("<!-- whirl -->", whirl)] {
+            replace_between(&repository("docs/verification.md"), marker, &text);
         }
-        std::fs::write(repository(PAGE), page).expect("the page is written");
     }
 }
