@@ -246,7 +246,11 @@ impl Auto {
             true => Reason::Trial,
             false => Reason::Speed,
         };
-        self.change_to(kind, reason, system, t)
+        let step = self.change_to(kind, reason, system, t);
+        if step.is_none() {
+            self.race.give_up();
+        }
+        step
     }
 
     /// Whether a probe says that the leapfrog could go on from the present state.
