@@ -7,6 +7,7 @@ mod common;
 mod cvode;
 
 mod cases;
+mod combinations;
 mod driver;
 mod tables;
 mod whirl;
