@@ -4,7 +4,7 @@
 //!   it fails, or would need steps that cost as much as error control, the Rosenbrock method takes over until probes
 //!   say that the leapfrog would do again.
 //! - Any other system, or with a tolerance that was asked for, is followed in its trajectory: Dormand-Prince or the
-//!   Rosenbrock method, whichever advances further per evaluation ([`Race`]).
+//!   Rosenbrock method, whichever advances further per evaluation.
 
 use super::control::{Estimate, Law};
 use super::race::Race;
