@@ -33,7 +33,7 @@ const MEMORY: f64 = 31.0 / 32.0;
 const ENOUGH: f64 = 0.31;
 /// Below this share of critical damping the fastest vibration counts as undamped: half the step.
 const LIGHT_DAMPING: f64 = 0.01;
-/// Steps finer than by this many halvings cost as much as error control, which has no bias.
+/// Steps finer than by this many halvings cost as much as error control, without its bound on the bias.
 const FINEST: u64 = 1;
 /// The same holds where the highest frequency is more than this many times the expected one.
 const HIGHEST: f64 = 2.0;

@@ -17,11 +17,11 @@ const MAX_NOMINAL_STEP: f64 = 2e-5;
 /// First step of methods with error control in units of 1/(highest frequency).
 const FIRST_STEP: f64 = 0.1;
 /// Nominal leapfrog step in units of 1/(highest frequency), with and without contact damping. At 1 roller slip would be
-/// 1 % too low, and drag torque under heavy load far too high.
+/// 1 % too low, and drag torque under heavy load a fifth too high: see docs/statistics.md.
 const DAMPED_STEP: f64 = 0.6;
 const UNDAMPED_STEP: f64 = 0.3;
-/// Tolerance of `auto` where it controls errors and none is asked for: without rollers, and with rollers, whose
-/// statistics are right up to this tolerance in all cases of docs/statistics.md.
+/// Tolerance of `auto` where it controls errors and none is asked for: without rollers, and with rollers where the leapfrog
+/// will not do. In such cases of docs/statistics.md it is enough; it is not at 1000 rpm, where the leapfrog will do.
 const AUTO_TOLERANCE: f64 = 1e-6;
 const STATISTICS_TOLERANCE: f64 = 1e-3;
 
