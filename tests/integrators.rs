@@ -370,7 +370,7 @@ fn dense_output_has_the_order_of_its_method() {
             assert!((order - theory).abs() < 0.2, "{name}: {errors:?}");
         }
     }
-    check("leapfrog", 2.0, |s| Leapfrog::new(s));
+    check("leapfrog", 2.0, Leapfrog::new);
     check("Dormand-Prince", 5.0, |s| DormandPrince::new(s, &[1.0; 5]));
     check("Rosenbrock", 4.0, |s| Rosenbrock::new(s, &[1.0; 5]));
     check("Radau", 5.0, |s| Radau::new(s, &[1e-14; 5]));

@@ -163,20 +163,17 @@ fn derivatives_match_differences_in_every_combination() {
         if parts.rollers {
             scene["inner_ring"]["motion"]["free"]["load"]["z"] = swing(-4900.0);
         }
-        // A change of the viscosity is left out in line contacts.
-        if !parts.rollers && parts.pocket != "cylinder" {
-            let warming = if i % 2 == 0 {
-                let sine = json!({"mean": 330.0, "amplitude": 15.0, "frequency": 80.0, "phase": 0.7});
-                json!({"over_time": {"sine": sine}})
-            } else {
-                json!({"over_speed": {"speed": [0.0, 200.0, 400.0], "temperature": [300.0, 315.0, 345.0]}})
-            };
-            scene["lubricant"]["viscosity"] = json!({"walther": {
-                "cold": {"temperature": 313.15, "kinematic_viscosity": 105e-6},
-                "hot": {"temperature": 373.15, "kinematic_viscosity": 12e-6},
-                "density": 880.0, "temperature": warming
-            }});
-        }
+        let warming = if i % 2 == 0 {
+            let sine = json!({"mean": 330.0, "amplitude": 15.0, "frequency": 80.0, "phase": 0.7});
+            json!({"over_time": {"sine": sine}})
+        } else {
+            json!({"over_speed": {"speed": [0.0, 200.0, 400.0], "temperature": [300.0, 315.0, 345.0]}})
+        };
+        scene["lubricant"]["viscosity"] = json!({"walther": {
+            "cold": {"temperature": 313.15, "kinematic_viscosity": 105e-6},
+            "hot": {"temperature": 373.15, "kinematic_viscosity": 12e-6},
+            "density": 880.0, "temperature": warming
+        }});
         let model = Arc::new(Model::from_json(&scene.to_string()).unwrap());
         let mut sim = Sim::new(model.clone()).unwrap();
         for k in 1..=2 {

@@ -13,6 +13,7 @@
 //! The Ghosh-Pandey factor is only partly legible in the paper's text; its form here is the best reading.
 
 use super::normal_contact::ElasticLine;
+use super::relative_viscosity::RelativeViscosity;
 use crate::scalar::Real;
 use std::f64::consts::PI;
 
@@ -56,7 +57,7 @@ pub struct FilmThickness {
     pub thermal: Option<ThermalCorrection>,
 }
 
-/// Rolling and sliding speed of a contact, in the form the power laws need.
+/// Rolling and sliding speed of a contact and the viscosity at its inlet, in the form the power laws need.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Entrainment<T> {
     /// Smoothed |u|, m/s.
@@ -65,14 +66,16 @@ pub struct Entrainment<T> {
     pub direction: T,
     /// Slide-to-roll ratio s = |u1 - u2|/|u|.
     pub slide_roll: T,
+    /// eta0 over the eta0 of the law.
+    pub viscosity: RelativeViscosity<T>,
 }
 
 impl<T: Real> Entrainment<T> {
     /// From the surface speeds `u1`, `u2` relative to the contact, m/s.
-    pub fn new(u1: T, u2: T) -> Self {
+    pub fn new(u1: T, u2: T, viscosity: RelativeViscosity<T>) -> Self {
         let u = (u1 + u2) * 0.5;
         let speed = (u * u + ENTRAINMENT_FLOOR * ENTRAINMENT_FLOOR).sqrt();
-        Self { speed, direction: u / speed, slide_roll: (u1 - u2).abs() / speed }
+        Self { speed, direction: u / speed, slide_roll: (u1 - u2).abs() / speed, viscosity }
     }
 }
 
@@ -82,26 +85,21 @@ impl ThermalLoad {
         Self { factor: temperature_viscosity * viscosity / conductivity }
     }
 
-    /// With the viscosity times `ratio`.
-    pub fn scaled(&self, ratio: f64) -> Self {
-        Self { factor: self.factor * ratio }
-    }
-
-    /// L_T at the rolling speed `speed` in m/s.
-    pub fn parameter<T: Real>(&self, speed: T) -> T {
-        speed * speed * self.factor
+    /// L_T.
+    pub fn parameter<T: Real>(&self, e: &Entrainment<T>) -> T {
+        e.speed * e.speed * e.viscosity.ratio * self.factor
     }
 
     /// Gupta's factor T_R; `pressure` is P_max/E'. Not limited: it is negative far outside the fitted range.
     pub fn gupta<T: Real>(&self, pressure: T, e: &Entrainment<T>) -> T {
-        let l_t = self.parameter(e.speed);
+        let l_t = self.parameter(e);
         let slip = power_of_slip(e.slide_roll, 0.83) * 2.23 + 1.0;
         (-(pressure * l_t.powf(0.42) * 13.2) + 1.0) / (slip * l_t.powf(0.64) * 0.213 + 1.0)
     }
 
     /// Ghosh and Pandey's factor T_H; `load` is W.
     pub fn ghosh_pandey<T: Real>(&self, load: T, e: &Entrainment<T>) -> T {
-        let l_t = self.parameter(e.speed);
+        let l_t = self.parameter(e);
         let slip = power_of_slip(e.slide_roll, 0.96) * 3.96 + 1.0;
         T::constant(1.0) / (load.powf(0.152) * l_t.powf(0.379) * slip * 1.6 + 1.0)
     }
@@ -131,24 +129,16 @@ impl FilmThickness {
         }
     }
 
-    /// The same law with the viscosity times `ratio` > 0.
-    pub fn with_viscosity_scaled(&self, ratio: f64) -> Self {
-        let thermal = self.thermal.map(|correction| match correction {
-            ThermalCorrection::GhoshPandey(load) => ThermalCorrection::GhoshPandey(load.scaled(ratio)),
-            ThermalCorrection::Gupta(load) => ThermalCorrection::Gupta(load.scaled(ratio)),
-        });
-        Self { speed_factor: self.speed_factor * ratio, thermal, ..*self }
-    }
-
-    /// Isothermal central film thickness in m under the load `q` > 0 (N) at the rolling speed `speed` (m/s).
-    pub fn isothermal<T: Real>(&self, q: T, speed: T) -> T {
+    /// Isothermal central film thickness in m under the load `q` > 0 (N).
+    pub fn isothermal<T: Real>(&self, q: T, e: &Entrainment<T>) -> T {
         let constant = 2.922 * self.equivalent_radius * self.material.powf(0.470);
-        (q * self.load_factor).powf(-0.166) * (speed * self.speed_factor).powf(0.692) * constant
+        let u = e.speed * e.viscosity.ratio * self.speed_factor;
+        (q * self.load_factor).powf(-0.166) * u.powf(0.692) * constant
     }
 
     /// Central film thickness h_c in m under the load `q` > 0 (N); `mean_pressure` is P_mean in Pa.
     pub fn central<T: Real>(&self, q: T, mean_pressure: T, e: &Entrainment<T>) -> T {
-        let h = self.isothermal(q, e.speed);
+        let h = self.isothermal(q, e);
         match &self.thermal {
             None => h,
             Some(ThermalCorrection::GhoshPandey(load)) => h * load.ghosh_pandey(q * self.load_factor, e),
@@ -172,7 +162,7 @@ mod tests {
         for (re, expected) in [(6.4e-3, 1.1074e-6), (9.6e-3, 1.3420e-6)] {
             let line = ElasticLine::new(e, re, 0.024);
             let film = FilmThickness::new(&line, 0.05, 2e-8, None);
-            let h = film.isothermal(1000.0, 6.0319);
+            let h = film.isothermal(1000.0, &Entrainment::new(6.0319, 6.0319, RelativeViscosity::one()));
             assert!((h / expected - 1.0).abs() < 1e-4, "{h} instead of {expected}");
             assert!((film.material / 4527.5 - 1.0).abs() < 1e-4);
         }
@@ -181,7 +171,7 @@ mod tests {
     #[test]
     fn thermal_factors_start_at_one_and_fall_with_speed_and_slip() {
         let load = ThermalLoad::new(0.04, 0.06, 0.13);
-        let at = |u: f64, du: f64| Entrainment::new(u + du / 2.0, u - du / 2.0);
+        let at = |u: f64, du: f64| Entrainment::new(u + du / 2.0, u - du / 2.0, RelativeViscosity::one());
         assert!((load.ghosh_pandey(3e-5, &at(1e-3, 0.0)) - 1.0).abs() < 0.01);
         assert!((load.gupta(2e-3, &at(1e-3, 0.0)) - 1.0).abs() < 1e-3);
         for f in [
@@ -199,7 +189,7 @@ mod tests {
         let line = ElasticLine::new(2.26e11, 6e-3, 0.02);
         let thermal = Some(ThermalCorrection::GhoshPandey(ThermalLoad::new(0.04, 0.06, 0.13)));
         let film = FilmThickness::new(&line, 0.06, 2e-8, thermal);
-        let stop = Entrainment::new(1.0, -1.0);
+        let stop = Entrainment::new(1.0, -1.0, RelativeViscosity::one());
         let h = film.central(1000.0, 3e8, &stop);
         assert!(h > 0.0 && h < 1e-9, "{h}");
         assert_eq!(stop.direction, 0.0);

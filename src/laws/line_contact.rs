@@ -12,6 +12,7 @@ use super::contact_pair::{ContactForce, ContactMotion};
 use super::film_thickness::{Entrainment, FilmThickness};
 use super::lubrication_regime::LubricationRegime;
 use super::normal_contact::{ElasticLine, NormalDamping};
+use super::relative_viscosity::RelativeViscosity;
 use super::rolling_resistance::RollingResistance;
 use super::self_heating::SelfHeating;
 use super::traction::Traction;
@@ -41,20 +42,12 @@ pub struct LineContact {
 }
 
 impl LineContact {
-    /// The same contact with the lubricant's viscosity times `ratio` > 0.
-    pub fn with_viscosity_scaled(&self, ratio: f64) -> Self {
-        let mut scaled = *self;
-        scaled.film = self.film.map(|film| film.with_viscosity_scaled(ratio));
-        scaled.traction = self.traction.map(|traction| traction.with_viscosity_scaled(ratio));
-        scaled.rolling_resistance = self.rolling_resistance.map(|r| r.with_viscosity_scaled(ratio));
-        scaled
-    }
-
-    /// Forces of the contact. `friction_blend` replaces the share `w` of the traction coefficient by a given one:
+    /// Forces of the contact at a viscosity. `friction_blend` replaces the share `w` of the traction coefficient by a given one:
     /// mu (1 - w) + mu_given w; it serves pocket edges.
     pub fn force<T: Real>(
         &self,
         motion: &ContactMotion<T>,
+        viscosity: RelativeViscosity<T>,
         friction_blend: Option<(T, T)>,
     ) -> ContactForce<T> {
         let normal = self.elastic.normal_force(self.damping.as_ref(), motion.delta, motion.delta_dot);
@@ -73,7 +66,7 @@ impl LineContact {
         if self.film.is_some() || self.rolling_resistance.is_some() {
             let half_width = self.elastic.half_width(q);
             let mean_pressure = q / (half_width * (2.0 * self.elastic.length));
-            let entrainment = Entrainment::new(motion.u1, motion.u2);
+            let entrainment = Entrainment::new(motion.u1, motion.u2, viscosity);
             if let Some(film) = &self.film {
                 out.film = film.central(q, mean_pressure, &entrainment);
                 mu = self.traction_coefficient(
@@ -118,7 +111,7 @@ impl LineContact {
         if let Some(traction) = &self.traction
             && boundary_share.value() < 1.0
         {
-            let shear = traction.shear_state(mean_pressure, out.film, half_width, entrainment.speed, slip);
+            let shear = traction.shear_state(mean_pressure, out.film, half_width, entrainment, slip);
             let stress = match &self.self_heating {
                 None => shear.mean_shear(T::constant(0.0)).stress,
                 Some(heating) => {
@@ -196,11 +189,10 @@ mod tests {
         ] {
             let d: Vec<Dual<4>> = (0..4).map(|i| Dual::variable(x[i], i)).collect();
             let motion = ContactMotion { delta: d[0], delta_dot: d[1], u1: d[2], u2: d[3] };
-            let exact = components(&law.force(&motion, None));
+            let exact = components(&law.force(&motion, RelativeViscosity::one(), None));
             let value = |x: &[f64; 4]| {
-                components(
-                    &law.force(&ContactMotion { delta: x[0], delta_dot: x[1], u1: x[2], u2: x[3] }, None),
-                )
+                let motion = ContactMotion { delta: x[0], delta_dot: x[1], u1: x[2], u2: x[3] };
+                components(&law.force(&motion, RelativeViscosity::one(), None))
             };
             for i in 0..4 {
                 let h = [1e-5 * x[0], 1e-7, 1e-6, 1e-6][i];
@@ -224,7 +216,7 @@ mod tests {
         // it does for any power law but not for a jump.
         let law = raceway();
         let scan = |name: &str, at: &dyn Fn(f64) -> ContactMotion<f64>| {
-            let value = |x: f64| components(&law.force(&at(x), None));
+            let value = |x: f64| components(&law.force(&at(x), RelativeViscosity::one(), None));
             let n = 4000;
             let grid: Vec<_> = (0..=n).map(|i| value(i as f64 / n as f64)).collect();
             for k in 0..3 {
@@ -265,7 +257,8 @@ mod tests {
     fn friction_opposes_slip_and_rolling_resistance_opposes_rolling() {
         let law = raceway();
         for (u1, u2) in [(6.0, 5.0), (5.0, 6.0), (-6.0, -5.0), (-5.0, -6.0)] {
-            let f = law.force(&ContactMotion { delta: 1e-6, delta_dot: 0.0, u1, u2 }, None);
+            let motion = ContactMotion { delta: 1e-6, delta_dot: 0.0, u1, u2 };
+            let f = law.force(&motion, RelativeViscosity::one(), None);
             assert!(f.friction * (u1 - u2) < 0.0);
             assert!(f.rolling_resistance * (u1 + u2) < 0.0);
         }
@@ -282,7 +275,8 @@ mod tests {
             damping: None,
             ..raceway()
         };
-        let f = bare.force(&ContactMotion { delta: 1e-6, delta_dot: 1.0, u1: 6.0, u2: 1.0 }, None);
+        let motion = ContactMotion { delta: 1e-6, delta_dot: 1.0, u1: 6.0, u2: 1.0 };
+        let f = bare.force(&motion, RelativeViscosity::one(), None);
         assert_eq!(f.normal, bare.elastic.load(1e-6));
         assert_eq!([f.friction, f.rolling_resistance, f.film, f.damping], [0.0; 4]);
     }

@@ -65,11 +65,6 @@ impl RollingResistance {
         }
     }
 
-    /// The same law with the viscosity times `ratio` > 0.
-    pub fn with_viscosity_scaled(&self, ratio: f64) -> Self {
-        Self { speed_factor: self.speed_factor * ratio, thermal: self.thermal.scaled(ratio), ..*self }
-    }
-
     /// F_EHLr >= 0 in N under the load `q` > 0 (N) and mean pressure (Pa).
     pub fn force<T: Real>(&self, q: T, mean_pressure: T, e: &Entrainment<T>) -> T {
         let share = match self.extent {
@@ -81,8 +76,8 @@ impl RollingResistance {
         }
         let pressure = mean_pressure * (4.0 / PI / self.effective_modulus);
         let t_r = self.thermal.gupta(pressure, e).at_least(0.0);
-        let isothermal =
-            (e.speed * self.speed_factor).powf(0.648) * (q * self.load_factor).powf(0.246) * self.force_scale;
+        let g_u = e.speed * e.viscosity.ratio * self.speed_factor;
+        let isothermal = g_u.powf(0.648) * (q * self.load_factor).powf(0.246) * self.force_scale;
         isothermal * t_r * share
     }
 }
@@ -90,6 +85,7 @@ impl RollingResistance {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::laws::relative_viscosity::RelativeViscosity;
 
     fn law(extent: Extent) -> RollingResistance {
         let line = ElasticLine::new(2.263736e11, 6.4e-3, 0.024);
@@ -100,7 +96,7 @@ mod tests {
     fn matches_the_formula_at_a_hand_computed_point() {
         // U = 2.0817e-10, W = 2.8760e-5, G = 4527.5 at 1000 N and 6.0319 m/s (reference values of the film test).
         let q = 1000.0;
-        let e = Entrainment::new(6.0319, 6.0319);
+        let e = Entrainment::new(6.0319, 6.0319, RelativeViscosity::one());
         let isothermal =
             29.2 * 6.4e-3 * 0.024 / 2e-8 * (4527.5 * 2.0817e-10f64).powf(0.648) * 2.8760e-5f64.powf(0.246);
         let l_t: f64 = 0.04 * 0.05 / 0.13 * 6.0319f64.powi(2);
@@ -112,9 +108,9 @@ mod tests {
 
     #[test]
     fn never_drives_and_respects_its_extent() {
-        let e = Entrainment::new(500.0, 500.0);
+        let e = Entrainment::new(500.0, 500.0, RelativeViscosity::one());
         assert_eq!(law(Extent::All).force(1e5, 3e9, &e), 0.0);
-        let e = Entrainment::new(5.0, 5.0);
+        let e = Entrainment::new(5.0, 5.0, RelativeViscosity::one());
         let loaded = law(Extent::Loaded { threshold: 50.0 });
         let p = |q: f64| q / (2.0 * 5e-5 * 0.024);
         assert_eq!(loaded.force(40.0, p(40.0), &e), 0.0);

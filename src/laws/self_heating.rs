@@ -104,6 +104,8 @@ fn newton_step<T: Real>(s: MeanShear<T>, a: T, beta: f64, rise: T) -> T {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::laws::film_thickness::Entrainment;
+    use crate::laws::relative_viscosity::RelativeViscosity;
     use crate::laws::traction::Traction;
     use crate::scalar::Dual;
 
@@ -119,7 +121,8 @@ mod tests {
     fn solve<T: Real>(du: T, pressure: f64) -> HeatedShear<T> {
         let t = Traction::new(0.06, 2e-8, 5e6, 3e8);
         let (h, b, u) = (T::constant(6e-7), T::constant(8e-5), T::constant(6.0));
-        let shear = t.shear_state(T::constant(pressure), h, b, u, du);
+        let rolling = Entrainment::new(u, u, RelativeViscosity::one());
+        let shear = t.shear_state(T::constant(pressure), h, b, &rolling, du);
         let a = LAW.rise_per_stress(du, h, b, u, u);
         LAW.solve(&shear, a)
     }

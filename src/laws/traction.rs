@@ -10,6 +10,7 @@
 //! at asinh(Sigma); it is continuously differentiable at X_c = 2. Sigma/D does not depend on viscosity, and only
 //! ln(eta_P) enters, so pressures far above 1 GPa do not overflow. Source: NTN Eq. 6-8.
 
+use super::film_thickness::Entrainment;
 use crate::scalar::Real;
 use std::f64::consts::LN_2;
 
@@ -55,25 +56,21 @@ impl Traction {
         Self { ln_viscosity: viscosity.ln(), pressure_viscosity, eyring_stress, shear_modulus }
     }
 
-    /// The same law with the viscosity times `ratio` > 0.
-    pub fn with_viscosity_scaled(&self, ratio: f64) -> Self {
-        Self { ln_viscosity: self.ln_viscosity + ratio.ln(), ..*self }
-    }
-
-    /// The shear state at mean pressure (Pa), film thickness (m), half width (m), rolling speed and slip (m/s).
+    /// The shear state at mean pressure (Pa), film thickness (m), half width (m), rolling and slip (m/s).
     pub fn shear_state<T: Real>(
         &self,
         mean_pressure: T,
         film: T,
         half_width: T,
-        speed: T,
+        e: &Entrainment<T>,
         slip: T,
     ) -> ShearState<T> {
         let stress_film = film * self.eyring_stress;
         ShearState {
-            ln_rate_scale: mean_pressure * self.pressure_viscosity + self.ln_viscosity - stress_film.ln(),
+            ln_rate_scale: mean_pressure * self.pressure_viscosity + self.ln_viscosity + e.viscosity.ln_ratio
+                - stress_film.ln(),
             slip,
-            elastic_slope: slip * half_width * self.shear_modulus / (stress_film * speed),
+            elastic_slope: slip * half_width * self.shear_modulus / (stress_film * e.speed),
         }
     }
 }
@@ -102,6 +99,7 @@ impl<T: Real> ShearState<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::laws::relative_viscosity::RelativeViscosity;
 
     fn state(sigma: f64, d: f64) -> ShearState<f64> {
         ShearState { ln_rate_scale: sigma.ln(), slip: 1.0, elastic_slope: sigma / d }
@@ -143,7 +141,8 @@ mod tests {
         assert!((state(1e-4, 1e-5).mean_shear(0.0).stress / 1e-4 - 1.0).abs() < 1e-5);
         // A mean pressure of 100 GPa would overflow exp(alpha P).
         let t = Traction::new(0.06, 2e-8, 5e6, 3e8);
-        let s = t.shear_state(1e11, 1e-7, 1e-4, 5.0, 0.1).mean_shear(0.0).stress;
+        let e = Entrainment::new(5.0, 5.0, RelativeViscosity::one());
+        let s = t.shear_state(1e11, 1e-7, 1e-4, &e, 0.1).mean_shear(0.0).stress;
         assert!(s.is_finite() && s > 0.0);
     }
 

@@ -83,7 +83,7 @@ impl Model {
 
     /// -d(force, moment on the cage)/d(velocity, speed of the cage) of the guide, N s/m and its kin.
     fn guide_slope(&self, cage: &CageBody, q: &[f64], v: &[f64], ws: &Workspace) -> Matrix3<f64> {
-        let Some(law) = &self.present_laws(ws).guide else { return Matrix3::zeros() };
+        let Some(law) = &ws.guide_law else { return Matrix3::zeros() };
         let [body, ring] = self.guide_bodies(q, v, &ws.inputs);
         let constant = |x: [f64; 2]| x.map(Dual::<3>::constant);
         let moving = BodyMotion {

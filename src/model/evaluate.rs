@@ -4,13 +4,14 @@
 //! each law over its list; collect the forces on the bodies (`assemble`).
 
 use super::laws::{self, Laws, PocketLaws, count_line_contacts};
-use super::workspace::{ElementSite, Loaded, PocketSite, ScaledLaws, Workspace};
+use super::workspace::{ElementSite, Loaded, PocketSite, Workspace};
 use super::{CageBody, ElementKind, Fault, Input, InputValues, Model, RingBody, RollerSet};
 use crate::contact::guide::BodyMotion;
 use crate::contact::pocket::Pillar;
 use crate::contact::{Wrench, rotate};
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
 use crate::laws::guide::GuideLaw;
+use crate::laws::relative_viscosity::RelativeViscosity;
 
 impl Model {
     /// Accelerations `a` (shape: velocities; m/s^2 or rad/s^2) at positions `q` and velocities `v`.
@@ -29,21 +30,20 @@ impl Model {
         a: &mut [f64],
     ) -> Result<(), Fault> {
         ws.inputs = *inputs;
-        match ws.scaled.take() {
-            None => self.evaluate(&self.laws, q, v, ws, a),
-            Some(mut scaled) => {
-                let heated = self.heat(&mut scaled, ws);
-                let result = heated.and_then(|()| self.evaluate(&scaled.laws, q, v, ws, a));
-                ws.scaled = Some(scaled);
-                result
-            }
+        self.heat(ws)?;
+        self.locate(q, v, ws)?;
+        self.apply_laws(q, v, ws)?;
+        self.assemble(q, v, ws, a);
+        match a.iter().position(|x| !x.is_finite()) {
+            None => Ok(()),
+            Some(velocity) => Err(Fault::NotFinite { velocity, contact: self.contact_not_finite(ws) }),
         }
     }
 
-    /// Brings the laws to the viscosity of the present temperature.
-    fn heat(&self, scaled: &mut ScaledLaws, ws: &mut Workspace) -> Result<(), Fault> {
+    /// Finds the viscosity at the present temperature.
+    fn heat(&self, ws: &mut Workspace) -> Result<(), Fault> {
         let temperature = ws.inputs.of(Input::Temperature);
-        let Some(oil) = self.inputs.oil.as_ref().filter(|_| temperature != scaled.temperature) else {
+        let Some(oil) = self.inputs.oil.as_ref().filter(|_| temperature != ws.temperature) else {
             return Ok(());
         };
         ws.counts[laws::VISCOSITY_TEMPERATURE] += u64::from(ws.counting);
@@ -51,26 +51,13 @@ impl Model {
         if ratio.is_nan() {
             return Err(Fault::NoViscosity { temperature });
         }
-        scaled.laws.scale_viscosity(&self.laws, ratio);
-        scaled.temperature = temperature;
-        Ok(())
-    }
-
-    fn evaluate(
-        &self,
-        laws: &Laws,
-        q: &[f64],
-        v: &[f64],
-        ws: &mut Workspace,
-        a: &mut [f64],
-    ) -> Result<(), Fault> {
-        self.locate(laws, q, v, ws)?;
-        self.apply_laws(laws, q, v, ws)?;
-        self.assemble(q, v, ws, a);
-        match a.iter().position(|x| !x.is_finite()) {
-            None => Ok(()),
-            Some(velocity) => Err(Fault::NotFinite { velocity, contact: self.contact_not_finite(ws) }),
+        ws.viscosity = RelativeViscosity { ratio, ln_ratio: ratio.ln() };
+        ws.temperature = temperature;
+        let films = (ws.guide_law.as_mut(), self.laws.guide.as_ref());
+        if let (Some(GuideLaw { film: Some(present), .. }), Some(GuideLaw { film: Some(film), .. })) = films {
+            *present.viscosity_mut() = film.viscosity() * ratio;
         }
+        Ok(())
     }
 
     /// The first contact whose force is not finite, as a place in [`Model::contact_names`].
@@ -87,11 +74,6 @@ impl Model {
         found.map(|(element, place, _)| element * self.contacts_per_element() + place)
     }
 
-    /// The laws as the last evaluation used them.
-    pub(super) fn present_laws<'a>(&'a self, ws: &'a Workspace) -> &'a Laws {
-        ws.scaled.as_deref().map_or(&self.laws, |scaled| &scaled.laws)
-    }
-
     /// Ring position and velocity, global frame.
     pub(super) fn ring_motion(&self, q: &[f64], v: &[f64]) -> ([f64; 2], [f64; 2]) {
         match (self.ring, self.layout.ring) {
@@ -104,10 +86,11 @@ impl Model {
     }
 
     /// Evaluates every law over its list.
-    fn apply_laws(&self, laws: &Laws, q: &[f64], v: &[f64], ws: &mut Workspace) -> Result<(), Fault> {
+    fn apply_laws(&self, q: &[f64], v: &[f64], ws: &mut Workspace) -> Result<(), Fault> {
+        let (laws, viscosity) = (&self.laws, ws.viscosity);
         if let Some(raceways) = &laws.raceways {
-            ws.outer.force.extend(ws.outer.motion.iter().map(|m| raceways.outer.force(m, None)));
-            ws.inner.force.extend(ws.inner.motion.iter().map(|m| raceways.inner.force(m, None)));
+            ws.outer.force.extend(ws.outer.motion.iter().map(|m| raceways.outer.force(m, viscosity, None)));
+            ws.inner.force.extend(ws.inner.motion.iter().map(|m| raceways.inner.force(m, viscosity, None)));
         }
         match &laws.pocket {
             None => {}
@@ -120,16 +103,17 @@ impl Model {
                     wall.motion
                         .iter()
                         .zip(&wall.site)
-                        .map(|(m, site)| pocket.wall.force(m, friction(m, site.edge_share))),
+                        .map(|(m, site)| pocket.wall.force(m, viscosity, friction(m, site.edge_share))),
                 );
                 let edge = &mut ws.edge;
-                edge.force.extend(edge.motion.iter().map(|m| pocket.edge.force(m, friction(m, 1.0))));
+                edge.force
+                    .extend(edge.motion.iter().map(|m| pocket.edge.force(m, viscosity, friction(m, 1.0))));
             }
             Some(PocketLaws::Plane(pocket)) => {
                 ws.plane.force.extend(ws.plane.motion.iter().map(|m| pocket.contact.force(m)));
             }
         }
-        if let Some(guide) = &laws.guide
+        if let Some(guide) = &ws.guide_law
             && let Some(cage) = &self.cage
         {
             let bodies = self.guide_bodies(q, v, &ws.inputs);

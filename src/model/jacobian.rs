@@ -15,18 +15,21 @@ use crate::contact::{Wrench, rotate};
 use crate::integrate::arrowhead::HUB;
 use crate::integrate::{Linearization, Structure};
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
+use crate::laws::relative_viscosity::RelativeViscosity;
 use crate::scalar::{Dual, Real};
 use nalgebra::{Matrix3, Matrix5, Vector5};
 
 /// First cage coordinate in the hub, after ring y, z.
 const CAGE: usize = 2;
 
-/// A number with derivatives over what a contact law sees: approach, approach speed, u1, u2, edge share.
-type LawDual = Dual<5>;
+/// A number with derivatives over what a contact law sees: approach, approach speed, u1, u2, edge share, logarithm of the
+/// viscosity.
+type LawDual = Dual<6>;
 /// A number with derivatives over the coordinates of a contact: element (rho, travel), their rates, spin; hub positions;
-/// hub velocities; speed of the inner ring.
-type PairDual = Dual<16>;
+/// hub velocities; speed of the inner ring; logarithm of the viscosity.
+type PairDual = Dual<17>;
 const RING_SPEED: usize = 15;
+const VISCOSITY: usize = 16;
 
 /// Forces on the roller of a pair (radial, circumferential, moment) and on the shared bodies (ring y, z; cage y, z,
 /// moment), with their derivatives.
@@ -52,8 +55,7 @@ impl Model {
     }
 
     /// Derivatives of the accelerations at the last evaluated state (`q`, `v`) of `ws`, while the inputs change at
-    /// `rates` (see [`Model::input_rates_at`]). A change of the viscosity with time is left out
-    /// in contacts of rollers and of lubricated pockets.
+    /// `rates` (see [`Model::input_rates_at`]).
     ///
     /// # Panics
     /// When a slice is shorter than its shape, or `ws` or `out` was made for another model.
@@ -65,9 +67,9 @@ impl Model {
         rates: &InputValues,
         out: &mut Linearization,
     ) {
-        let laws = self.present_laws(ws);
+        let laws = &self.laws;
         out.clear();
-        let mut drift = Drift { hub: Vector5::zeros(), rates };
+        let mut drift = Drift { hub: Vector5::zeros(), rates, thickening: self.thickening(ws, rates) };
         for j in 0..ws.elements.len() {
             let pair = Pair::new(self, j, q, v, ws);
             let mut add = |force: PairForce| self.add_pair(j, &force, &mut drift, out);
@@ -76,7 +78,7 @@ impl Model {
             }
             pair.pocket(laws, &mut add);
         }
-        self.add_guide(laws, q, v, ws, &mut drift, out);
+        self.add_guide(q, v, ws, &mut drift, out);
         self.add_loads(&mut drift);
         self.divide_by_inertias(q, v, ws, &drift, out);
     }
@@ -93,7 +95,10 @@ impl Model {
     fn add_pair(&self, j: usize, force: &PairForce, drift: &mut Drift<'_>, out: &mut Linearization) {
         // Columns: own positions 0..2, own velocities 2..5, hub positions 5..10, hub velocities 10..15, ring speed.
         let rates = drift.rates;
-        let by_itself = |row: &PairDual| row.eps[RING_SPEED] * rates.of(Input::RingSpeed);
+        let thickening = drift.thickening;
+        let by_itself = |row: &PairDual| {
+            row.eps[RING_SPEED] * rates.of(Input::RingSpeed) + row.eps[VISCOSITY] * thickening
+        };
         let (k, d) = (&mut out.over_positions, &mut out.over_velocities);
         for (i, row) in force.shared.iter().enumerate() {
             for c in 0..HUB {
@@ -137,14 +142,13 @@ impl Model {
 
     fn add_guide(
         &self,
-        laws: &Laws,
         q: &[f64],
         v: &[f64],
         ws: &Workspace,
         drift: &mut Drift<'_>,
         out: &mut Linearization,
     ) {
-        let (Some(law), Some(cage)) = (&laws.guide, &self.cage) else { return };
+        let (Some(law), Some(cage)) = (&ws.guide_law, &self.cage) else { return };
         let bodies = self.guide_bodies(q, v, &ws.inputs);
         // Ring y, z, cage y, z, angle; then their rates.
         let lift = |body: &BodyMotion<f64>, at: usize, angle: bool, moves: bool| {
@@ -180,7 +184,7 @@ impl Model {
             }
             drift.hub[i] += row.eps[2 * HUB] * drift.rates.of(Input::RingSpeed);
         }
-        let thickening = self.thickening(ws, drift.rates);
+        let thickening = drift.thickening;
         if thickening == 0.0 {
             return;
         }
@@ -296,6 +300,8 @@ impl Model {
 struct Drift<'a> {
     hub: Vector5<f64>,
     rates: &'a InputValues,
+    /// Rate of the logarithm of the viscosity, 1/s.
+    thickening: f64,
 }
 
 /// The coordinates of one element and of the shared bodies as variables.
@@ -306,6 +312,7 @@ struct Pair {
     lead: (PairDual, PairDual),
     ring: BodyMotion<PairDual>,
     cage: Option<BodyMotion<PairDual>>,
+    viscosity: RelativeViscosity<LawDual>,
 }
 
 impl Pair {
@@ -354,6 +361,7 @@ impl Pair {
             lead: turn(site.lead, behind),
             ring,
             cage,
+            viscosity: RelativeViscosity::from_ln(LawDual::variable(ws.viscosity.ln_ratio, 5)),
         }
     }
 
@@ -370,7 +378,8 @@ impl Pair {
         let zero = PairDual::constant(0.0);
         if self.motion.radial_offset.value() > geometry.gap {
             let (motion, frame) = geometry.outer(&self.motion);
-            let force = chain(&laws.outer.force(&law_variables(&motion), None), &motion, zero);
+            let force =
+                chain(&laws.outer.force(&law_variables(&motion), self.viscosity, None), &motion, zero);
             let [on_roller, _] = frame.wrenches(&force);
             add(PairForce { own: components(&on_roller), shared: [zero; HUB] });
         }
@@ -381,7 +390,8 @@ impl Pair {
         };
         let (motion, frame) = geometry.inner(&self.motion, &ring);
         if motion.delta.value() > 0.0 {
-            let force = chain(&laws.inner.force(&law_variables(&motion), None), &motion, zero);
+            let force =
+                chain(&laws.inner.force(&law_variables(&motion), self.viscosity, None), &motion, zero);
             let [on_roller, on_ring] = frame.wrenches(&force);
             let [y, z] = self.to_global(on_ring.force);
             add(PairForce { own: components(&on_roller), shared: [y, z, zero, zero, zero] });
@@ -413,7 +423,7 @@ impl Pair {
             };
             let Some(contact) = contact else { continue };
             let force = match pocket {
-                PocketLaws::Cylinder(laws) => cylinder_force(laws, &contact),
+                PocketLaws::Cylinder(laws) => cylinder_force(laws, &contact, self.viscosity),
                 PocketLaws::Plane(laws) => {
                     let law = laws.contact.force(&law_variables(&contact.motion));
                     chain(&law, &contact.motion, contact.edge_share)
@@ -443,7 +453,11 @@ impl Pair {
 }
 
 /// Force of a wall or an edge of a cylindrical pocket.
-fn cylinder_force(laws: &CylinderLaws, contact: &PillarContact<PairDual>) -> ContactForce<PairDual> {
+fn cylinder_force(
+    laws: &CylinderLaws,
+    contact: &PillarContact<PairDual>,
+    viscosity: RelativeViscosity<LawDual>,
+) -> ContactForce<PairDual> {
     let motion = law_variables(&contact.motion);
     let on_edge = contact.edge_share.value() >= 1.0;
     let (law, share) = if on_edge {
@@ -452,7 +466,7 @@ fn cylinder_force(laws: &CylinderLaws, contact: &PillarContact<PairDual>) -> Con
         (&laws.wall, LawDual::variable(contact.edge_share.value(), 4))
     };
     let blend = (share.value() > 0.0).then(|| (share, laws.edge_friction.at(motion.u1.abs())));
-    chain(&law.force(&motion, blend), &contact.motion, contact.edge_share)
+    chain(&law.force(&motion, viscosity, blend), &contact.motion, contact.edge_share)
 }
 
 /// What a law sees, as its variables.
@@ -471,7 +485,8 @@ fn chain(
     motion: &ContactMotion<PairDual>,
     edge_share: PairDual,
 ) -> ContactForce<PairDual> {
-    let inner = [motion.delta, motion.delta_dot, motion.u1, motion.u2, edge_share];
+    let viscosity = PairDual::variable(0.0, VISCOSITY);
+    let inner = [motion.delta, motion.delta_dot, motion.u1, motion.u2, edge_share, viscosity];
     let over_coordinates = |f: LawDual| {
         let mut out = PairDual::constant(f.re);
         for (slope, x) in f.eps.iter().zip(&inner) {

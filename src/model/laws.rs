@@ -44,24 +44,6 @@ pub(super) struct PlaneLaws {
     pub(super) contact: SolidContact,
 }
 
-impl Laws {
-    /// Takes over the laws `from` with the lubricant's viscosity times `ratio`.
-    pub(super) fn scale_viscosity(&mut self, from: &Laws, ratio: f64) {
-        self.raceways = from.raceways.map(|r| RacewayLaws {
-            outer: r.outer.with_viscosity_scaled(ratio),
-            inner: r.inner.with_viscosity_scaled(ratio),
-        });
-        if let Some(PocketLaws::Cylinder(laws)) = &from.pocket {
-            let wall = laws.wall.with_viscosity_scaled(ratio);
-            self.pocket = Some(PocketLaws::Cylinder(CylinderLaws { wall, ..*laws }));
-        }
-        let films = (self.guide.as_mut(), from.guide.as_ref());
-        if let (Some(GuideLaw { film: Some(mine), .. }), Some(GuideLaw { film: Some(theirs), .. })) = films {
-            *mine.viscosity_mut() = theirs.viscosity() * ratio;
-        }
-    }
-}
-
 /// Laws whose evaluations are counted.
 pub const LAWS: [&str; 13] = [
     "outer_raceway",

@@ -2,7 +2,7 @@
 //!
 //! A contact that is apart costs its distance check.
 
-use super::laws::{Laws, PocketLaws};
+use super::laws::PocketLaws;
 use super::workspace::{Batch, ElementSite, PocketSite, Workspace};
 use super::{ElementKind, Fault, Input, KinematicSet, Model, RollerSet};
 use crate::contact::pocket::{CageMotion, Pillar, PillarContact, PocketMotion, PocketPlace};
@@ -16,7 +16,8 @@ const LOST_BODY: f64 = 1.0;
 
 impl Model {
     /// Fills the sites of the elements and the lists of touching contacts.
-    pub(super) fn locate(&self, laws: &Laws, q: &[f64], v: &[f64], ws: &mut Workspace) -> Result<(), Fault> {
+    pub(super) fn locate(&self, q: &[f64], v: &[f64], ws: &mut Workspace) -> Result<(), Fault> {
+        let laws = &self.laws;
         ws.clear();
         let reach = LOST_BODY * self.elements.pitch_radius;
         if self.layout.cage.is_some_and(|c| q[c].hypot(q[c + 1]) > reach) {

@@ -1,14 +1,15 @@
 //! Memory of a force evaluation: the touching contacts of every law, gathered for it, and their forces.
 
-use super::laws::{LAWS, LawCounts, Laws, PocketLaws};
+use super::laws::{LAWS, LawCounts, PocketLaws};
 use super::{InputValues, Model};
 use crate::contact::pocket::Pillar;
 use crate::contact::raceway::RollerMotion;
 use crate::contact::{PairFrame, Wrench, rotate};
 use crate::integrate::Vibration;
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
-use crate::laws::guide::GuideForce;
+use crate::laws::guide::{GuideForce, GuideLaw};
 use crate::laws::journal::JournalMotion;
+use crate::laws::relative_viscosity::RelativeViscosity;
 
 /// The touching contacts of one law. Capacity is fixed at creation, so filling it does not allocate.
 #[derive(Clone, Debug)]
@@ -128,16 +129,12 @@ pub struct Workspace {
     pub(super) counts: LawCounts,
     /// Whether evaluations are counted now.
     pub(super) counting: bool,
-    /// The laws at the present viscosity, where it follows the temperature.
-    pub(super) scaled: Option<Box<ScaledLaws>>,
-}
-
-/// Laws at the viscosity of one temperature.
-#[derive(Clone, Debug)]
-pub(super) struct ScaledLaws {
-    pub(super) laws: Laws,
-    /// K.
+    /// Temperature of the last evaluation, K; NaN before the first and where the viscosity is constant.
     pub(super) temperature: f64,
+    /// Viscosity at that temperature.
+    pub(super) viscosity: RelativeViscosity<f64>,
+    /// The guide at that viscosity.
+    pub(super) guide_law: Option<GuideLaw>,
 }
 
 impl Workspace {
@@ -164,10 +161,9 @@ impl Workspace {
             on_cage: Wrench::default(),
             counts: [0; LAWS.len()],
             counting: true,
-            scaled: model
-                .inputs
-                .oil
-                .map(|oil| Box::new(ScaledLaws { laws: model.laws.clone(), temperature: oil.built_at.0 })),
+            temperature: model.inputs.oil.map_or(f64::NAN, |oil| oil.built_at.0),
+            viscosity: RelativeViscosity::one(),
+            guide_law: model.laws.guide.clone(),
         }
     }
 
