@@ -13,7 +13,11 @@
 //! The cost is linear in the number of spokes. Rows and columns may differ in scale by many orders: pivots are
 //! chosen as if both were scaled to one. Inverses are never formed: with stiff, nearly singular groups they would
 //! lose what cancels between hub and spokes.
+//!
+//! A singular spoke in a matrix that is not singular stops this elimination; such a matrix is solved as a dense one.
 
+use super::dense::DenseFactors;
+use faer::traits::ComplexField as DenseField;
 use nalgebra::{ComplexField, SMatrix, SVector};
 
 /// Unknowns of the hub.
@@ -25,9 +29,9 @@ pub const SPOKE: usize = 3;
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// Real and complex numbers.
-pub trait Number: ComplexField<RealField = f64> + Copy {}
+pub trait Number: ComplexField<RealField = f64> + DenseField + Copy {}
 
-impl<T: ComplexField<RealField = f64> + Copy> Number for T {}
+impl<T: ComplexField<RealField = f64> + DenseField + Copy> Number for T {}
 
 /// The part of the matrix that belongs to one spoke.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,11 +99,13 @@ impl<T: Number> Arrowhead<T> {
     }
 }
 
-/// The factors of an [`Arrowhead`]. Memory is taken once.
+/// The factors of an [`Arrowhead`]. Memory is taken once, but for the dense fallback.
 #[derive(Clone, Debug)]
 pub struct Factors<T: Number = f64> {
     hub: Lu<T, HUB>,
     spokes: Vec<SpokeFactors<T>>,
+    /// Factors of the last matrix, if the others are of no use.
+    dense: Option<DenseFactors<T>>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -116,7 +122,7 @@ impl<T: Number> Factors<T> {
     pub fn new(spokes: usize) -> Self {
         let zero = [[T::zero(); HUB]; SPOKE];
         let spoke = SpokeFactors { own: Lu::identity(), to_hub: zero, response: zero };
-        Self { hub: Lu::identity(), spokes: vec![spoke; spokes] }
+        Self { hub: Lu::identity(), spokes: vec![spoke; spokes], dense: None }
     }
 
     /// Factorises a matrix. False when it is singular within rounding or not finite; the factors are then of no use.
@@ -126,6 +132,16 @@ impl<T: Number> Factors<T> {
     #[must_use]
     pub fn factorize(&mut self, a: &Arrowhead<T>) -> bool {
         assert_eq!(a.spokes.len(), self.spokes.len());
+        self.dense = None;
+        if self.eliminate(a) {
+            return true;
+        }
+        self.dense = DenseFactors::new(a);
+        self.dense.is_some()
+    }
+
+    /// Factorises by blocks; false when a block has no inverse.
+    fn eliminate(&mut self, a: &Arrowhead<T>) -> bool {
         // Columns of the Schur complement.
         let mut schur: [[T; HUB]; HUB] = a.hub.data.0;
         for (spoke, factors) in a.spokes.iter().zip(&mut self.spokes) {
@@ -155,6 +171,9 @@ impl<T: Number> Factors<T> {
     /// If the numbers of spokes differ.
     pub fn solve(&self, hub: &mut SVector<T, HUB>, spokes: &mut [SVector<T, SPOKE>]) {
         assert_eq!(spokes.len(), self.spokes.len());
+        if let Some(dense) = &self.dense {
+            return dense.solve(hub, spokes);
+        }
         let mut s: [T; HUB] = hub.data.0[0];
         for (factors, x) in self.spokes.iter().zip(spokes.iter_mut()) {
             let y = factors.own.solve(&x.data.0[0].map(|x| [x]));

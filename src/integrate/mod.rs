@@ -3,6 +3,7 @@
 pub mod arrowhead;
 pub mod auto;
 pub mod control;
+mod dense;
 mod dormand_prince;
 mod driver;
 mod leapfrog;

@@ -1,0 +1,69 @@
+//! Dense elimination with row exchanges over the whole matrix, for the arrowheads that elimination by blocks fails on: a
+//! singular spoke in a regular matrix. Rare, so it takes its memory when it is needed.
+
+use super::arrowhead::{Arrowhead, HUB, Number, SPOKE};
+use faer::linalg::solvers::{PartialPivLu, Solve};
+use nalgebra::SVector;
+
+/// The factors of an [`Arrowhead`] as a dense matrix, rows and columns scaled to about one.
+#[derive(Clone, Debug)]
+pub(super) struct DenseFactors<T: Number> {
+    lu: PartialPivLu<T>,
+    rows: Vec<f64>,
+    columns: Vec<f64>,
+}
+
+impl<T: Number> DenseFactors<T> {
+    /// Factorises a matrix; `None` when it is singular within rounding or not finite.
+    pub(super) fn new(a: &Arrowhead<T>) -> Option<Self> {
+        let n = HUB + SPOKE * a.spokes.len();
+        let mut matrix = faer::Mat::<T>::zeros(n, n);
+        for i in 0..HUB {
+            for j in 0..HUB {
+                matrix[(i, j)] = a.hub[(i, j)];
+            }
+        }
+        for (first, spoke) in (HUB..).step_by(SPOKE).zip(&a.spokes) {
+            for i in 0..SPOKE {
+                for j in 0..SPOKE {
+                    matrix[(first + i, first + j)] = spoke.own[(i, j)];
+                }
+                for j in 0..HUB {
+                    matrix[(j, first + i)] = spoke.to_hub[(j, i)];
+                    matrix[(first + i, j)] = spoke.from_hub[(i, j)];
+                }
+            }
+        }
+        let size = |i: usize, j: usize| matrix[(i, j)].norm1();
+        let columns: Vec<f64> = (0..n).map(|j| 1.0 / (0..n).map(|i| size(i, j)).sum::<f64>()).collect();
+        let weighted = |i: usize| (0..n).map(|j| size(i, j) * columns[j]).sum::<f64>();
+        let rows: Vec<f64> = (0..n).map(|i| 1.0 / weighted(i)).collect();
+        // A row or column of zeros, or something that is not finite.
+        if !rows.iter().chain(&columns).all(|x| x.is_normal()) {
+            return None;
+        }
+        for j in 0..n {
+            for i in 0..n {
+                matrix[(i, j)] = matrix[(i, j)].scale(rows[i] * columns[j]);
+            }
+        }
+        let lu = matrix.partial_piv_lu();
+        let rounding = f64::EPSILON * n as f64;
+        let regular = (0..n).all(|i| lu.U()[(i, i)].norm1() > rounding);
+        regular.then_some(Self { lu, rows, columns })
+    }
+
+    /// Replaces the right-hand side (`hub`, `spokes`) by the solution.
+    pub(super) fn solve(&self, hub: &mut SVector<T, HUB>, spokes: &mut [SVector<T, SPOKE>]) {
+        let values = hub.iter().chain(spokes.iter().flatten()).zip(&self.rows);
+        let mut right = faer::Mat::<T>::zeros(self.rows.len(), 1);
+        for (i, (x, scale)) in values.enumerate() {
+            right[(i, 0)] = x.scale(*scale);
+        }
+        let solution = self.lu.solve(&right);
+        let places = hub.iter_mut().chain(spokes.iter_mut().flatten()).zip(&self.columns);
+        for (i, (x, scale)) in places.enumerate() {
+            *x = solution[(i, 0)].scale(*scale);
+        }
+    }
+}
