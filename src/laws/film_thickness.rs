@@ -13,8 +13,7 @@
 //! The Ghosh-Pandey factor is only partly legible in the paper's text; its form here is the best reading.
 
 use super::normal_contact::ElasticLine;
-use super::relative_viscosity::RelativeViscosity;
-use crate::scalar::Real;
+use crate::scalar::Numeric;
 use std::f64::consts::PI;
 
 /// Smoothing speed of |u| at rest, m/s: |u| is taken as sqrt(u^2 + floor^2), so that film thickness, thermal
@@ -24,11 +23,15 @@ pub const ENTRAINMENT_FLOOR: f64 = 1e-6;
 /// Smallest Gupta factor of the film thickness: beyond the range of the fit the formula turns negative.
 pub const GUPTA_FLOOR: f64 = 1e-3;
 
+/// Added to |u1 - u2| in m/s, so that friction and its slope are defined at zero slip; far below round-off of any
+/// surface speed.
+pub(super) const SLIP_FLOOR: f64 = 1e-12;
+
 /// Lubricant constants of the thermal load parameter L_T.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ThermalLoad {
-    /// beta eta0 / k', s^2/m^2.
-    pub factor: f64,
+    /// ln(beta eta0 / k'), in s^2/m^2.
+    pub ln_factor: f64,
 }
 
 /// Thermal correction of the film thickness.
@@ -43,14 +46,10 @@ pub enum ThermalCorrection {
 /// Film thickness law of one contact pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilmThickness {
-    /// Equivalent radius R_e, m.
-    pub equivalent_radius: f64,
-    /// 1/(E' R_e l), 1/N.
-    pub load_factor: f64,
-    /// eta0/(E' R_e), s/m.
-    pub speed_factor: f64,
-    /// G = alpha E'.
-    pub material: f64,
+    /// ln(2.922 R_e W^-0.166 U^0.692 G^0.470) at Q = 1 N, |u| = 1 m/s, R_e in m.
+    pub ln_scale: f64,
+    /// ln(1/(E' R_e l)), 1/N.
+    pub ln_load_factor: f64,
     /// Effective modulus E', Pa.
     pub effective_modulus: f64,
     /// Optional thermal correction.
@@ -64,50 +63,59 @@ pub struct Entrainment<T> {
     pub speed: T,
     /// u divided by the smoothed |u|: the direction of rolling, smooth through zero.
     pub direction: T,
-    /// Slide-to-roll ratio s = |u1 - u2|/|u|.
-    pub slide_roll: T,
-    /// eta0 over the eta0 of the law.
-    pub viscosity: RelativeViscosity<T>,
+    /// |u1 - u2| > 0, m/s.
+    pub slip: T,
+    /// ln |u|.
+    pub ln_speed: T,
+    /// ln |u1 - u2|.
+    pub ln_slip: T,
+    /// ln of eta0 over the eta0 that the law was made with.
+    pub thickening: T,
 }
 
-impl<T: Real> Entrainment<T> {
-    /// From the surface speeds `u1`, `u2` relative to the contact, m/s.
-    pub fn new(u1: T, u2: T, viscosity: RelativeViscosity<T>) -> Self {
+impl<T: Numeric> Entrainment<T> {
+    /// From the surface speeds `u1`, `u2` relative to the contact, m/s, and ln of the relative viscosity.
+    #[inline(always)]
+    pub fn new(u1: T, u2: T, thickening: T) -> Self {
         let u = (u1 + u2) * 0.5;
         let speed = (u * u + ENTRAINMENT_FLOOR * ENTRAINMENT_FLOOR).sqrt();
-        Self { speed, direction: u / speed, slide_roll: (u1 - u2).abs() / speed, viscosity }
+        let slip = (u1 - u2).abs() + SLIP_FLOOR;
+        Self { speed, direction: u / speed, slip, ln_speed: speed.ln(), ln_slip: slip.ln(), thickening }
+    }
+
+    /// `s^p` of the slide-to-roll ratio s.
+    #[inline(always)]
+    fn power_of_slide_roll(&self, p: f64) -> T {
+        ((self.ln_slip - self.ln_speed) * p).exp()
     }
 }
 
 impl ThermalLoad {
     /// From beta (1/K), eta0 (Pa s) and k' (W/(m K)).
     pub fn new(temperature_viscosity: f64, viscosity: f64, conductivity: f64) -> Self {
-        Self { factor: temperature_viscosity * viscosity / conductivity }
+        Self { ln_factor: (temperature_viscosity * viscosity / conductivity).ln() }
     }
 
-    /// L_T.
-    pub fn parameter<T: Real>(&self, e: &Entrainment<T>) -> T {
-        e.speed * e.speed * e.viscosity.ratio * self.factor
+    /// ln(L_T).
+    #[inline(always)]
+    pub fn ln_parameter<T: Numeric>(&self, e: &Entrainment<T>) -> T {
+        e.ln_speed * 2.0 + e.thickening + self.ln_factor
     }
 
     /// Gupta's factor T_R; `pressure` is P_max/E'. Not limited: it is negative far outside the fitted range.
-    pub fn gupta<T: Real>(&self, pressure: T, e: &Entrainment<T>) -> T {
-        let l_t = self.parameter(e);
-        let slip = power_of_slip(e.slide_roll, 0.83) * 2.23 + 1.0;
-        (-(pressure * l_t.powf(0.42) * 13.2) + 1.0) / (slip * l_t.powf(0.64) * 0.213 + 1.0)
+    #[inline(always)]
+    pub fn gupta<T: Numeric>(&self, pressure: T, e: &Entrainment<T>) -> T {
+        let ln_l_t = self.ln_parameter(e);
+        let slip = e.power_of_slide_roll(0.83) * 2.23 + 1.0;
+        (-(pressure * (ln_l_t * 0.42).exp() * 13.2) + 1.0) / (slip * (ln_l_t * 0.64).exp() * 0.213 + 1.0)
     }
 
-    /// Ghosh and Pandey's factor T_H; `load` is W.
-    pub fn ghosh_pandey<T: Real>(&self, load: T, e: &Entrainment<T>) -> T {
-        let l_t = self.parameter(e);
-        let slip = power_of_slip(e.slide_roll, 0.96) * 3.96 + 1.0;
-        T::constant(1.0) / (load.powf(0.152) * l_t.powf(0.379) * slip * 1.6 + 1.0)
+    /// 1/T_H - 1 of Ghosh and Pandey's factor T_H at ln(W).
+    #[inline(always)]
+    pub fn ghosh_pandey<T: Numeric>(&self, ln_load: T, e: &Entrainment<T>) -> T {
+        let slip = e.power_of_slide_roll(0.96) * 3.96 + 1.0;
+        (ln_load * 0.152 + self.ln_parameter(e) * 0.379).exp() * slip * 1.6
     }
-}
-
-/// `s^p` for 0 < p < 1 without the infinite slope at s = 0 (shifted by 1e-12, far below any physical slip).
-fn power_of_slip<T: Real>(s: T, p: f64) -> T {
-    (s + 1e-12).powf(p)
 }
 
 impl FilmThickness {
@@ -119,32 +127,32 @@ impl FilmThickness {
         thermal: Option<ThermalCorrection>,
     ) -> Self {
         let e_r = line.effective_modulus * line.equivalent_radius;
-        Self {
-            equivalent_radius: line.equivalent_radius,
-            load_factor: 1.0 / (e_r * line.length),
-            speed_factor: viscosity / e_r,
-            material: pressure_viscosity * line.effective_modulus,
-            effective_modulus: line.effective_modulus,
-            thermal,
-        }
+        let material = pressure_viscosity * line.effective_modulus;
+        let ln_load_factor = -(e_r * line.length).ln();
+        let ln_scale = (2.922 * line.equivalent_radius).ln() - 0.166 * ln_load_factor
+            + 0.692 * (viscosity / e_r).ln()
+            + 0.470 * material.ln();
+        Self { ln_scale, ln_load_factor, effective_modulus: line.effective_modulus, thermal }
     }
 
-    /// Isothermal central film thickness in m under the load `q` > 0 (N).
-    pub fn isothermal<T: Real>(&self, q: T, e: &Entrainment<T>) -> T {
-        let constant = 2.922 * self.equivalent_radius * self.material.powf(0.470);
-        let u = e.speed * e.viscosity.ratio * self.speed_factor;
-        (q * self.load_factor).powf(-0.166) * u.powf(0.692) * constant
+    /// ln of the isothermal central film thickness in m at ln(Q), Q in N.
+    #[inline(always)]
+    pub fn ln_isothermal<T: Numeric>(&self, ln_q: T, e: &Entrainment<T>) -> T {
+        ln_q * -0.166 + (e.ln_speed + e.thickening) * 0.692 + self.ln_scale
     }
 
-    /// Central film thickness h_c in m under the load `q` > 0 (N); `mean_pressure` is P_mean in Pa.
-    pub fn central<T: Real>(&self, q: T, mean_pressure: T, e: &Entrainment<T>) -> T {
-        let h = self.isothermal(q, e);
+    /// ln(h_c), h_c in m, at ln(Q), Q in N; `mean_pressure` is P_mean in Pa.
+    #[inline(always)]
+    pub fn ln_central<T: Numeric>(&self, ln_q: T, mean_pressure: T, e: &Entrainment<T>) -> T {
+        let ln_h = self.ln_isothermal(ln_q, e);
         match &self.thermal {
-            None => h,
-            Some(ThermalCorrection::GhoshPandey(load)) => h * load.ghosh_pandey(q * self.load_factor, e),
+            None => ln_h,
+            Some(ThermalCorrection::GhoshPandey(load)) => {
+                ln_h - load.ghosh_pandey(ln_q + self.ln_load_factor, e).ln_1p()
+            }
             Some(ThermalCorrection::Gupta(load)) => {
                 let pressure = mean_pressure * (4.0 / PI / self.effective_modulus);
-                h * load.gupta(pressure, e).at_least(GUPTA_FLOOR)
+                ln_h + load.gupta(pressure, e).floored(GUPTA_FLOOR).ln()
             }
         }
     }
@@ -155,6 +163,10 @@ mod tests {
     use super::*;
     use crate::laws::normal_contact::effective_modulus;
 
+    fn at(u: f64, du: f64) -> Entrainment<f64> {
+        Entrainment::new(u + du / 2.0, u - du / 2.0, 0.0)
+    }
+
     #[test]
     fn pan_hamrock_reference_values() {
         // Roller r = 8 mm, l = 24 mm, races 32 and 48 mm, 1000 N, eta0 = 0.05 Pa s, u = 6.0319 m/s.
@@ -162,20 +174,19 @@ mod tests {
         for (re, expected) in [(6.4e-3, 1.1074e-6), (9.6e-3, 1.3420e-6)] {
             let line = ElasticLine::new(e, re, 0.024);
             let film = FilmThickness::new(&line, 0.05, 2e-8, None);
-            let h = film.isothermal(1000.0, &Entrainment::new(6.0319, 6.0319, RelativeViscosity::one()));
+            let h = film.ln_isothermal(1000f64.ln(), &at(6.0319, 0.0)).exp();
             assert!((h / expected - 1.0).abs() < 1e-4, "{h} instead of {expected}");
-            assert!((film.material / 4527.5 - 1.0).abs() < 1e-4);
         }
     }
 
     #[test]
     fn thermal_factors_start_at_one_and_fall_with_speed_and_slip() {
         let load = ThermalLoad::new(0.04, 0.06, 0.13);
-        let at = |u: f64, du: f64| Entrainment::new(u + du / 2.0, u - du / 2.0, RelativeViscosity::one());
-        assert!((load.ghosh_pandey(3e-5, &at(1e-3, 0.0)) - 1.0).abs() < 0.01);
+        let ln_load = 3e-5f64.ln();
+        assert!(load.ghosh_pandey(ln_load, &at(1e-3, 0.0)) < 0.01);
         assert!((load.gupta(2e-3, &at(1e-3, 0.0)) - 1.0).abs() < 1e-3);
         for f in [
-            |l: &ThermalLoad, e: &Entrainment<f64>| l.ghosh_pandey(3e-5, e),
+            |l: &ThermalLoad, e: &Entrainment<f64>| 1.0 / (1.0 + l.ghosh_pandey(3e-5f64.ln(), e)),
             |l: &ThermalLoad, e: &Entrainment<f64>| l.gupta(2e-3, e),
         ] {
             let (slow, fast, sliding) =
@@ -185,12 +196,24 @@ mod tests {
     }
 
     #[test]
+    fn thermal_factors_match_the_formulas() {
+        let load = ThermalLoad::new(0.04, 0.06, 0.13);
+        let e = at(6.0, 0.3);
+        let (l_t, s) = (0.04 * 0.06 / 0.13 * 36.0f64, 0.05f64);
+        let h = 1.6 * 3e-5f64.powf(0.152) * l_t.powf(0.379) * (1.0 + 3.96 * s.powf(0.96));
+        assert!((load.ghosh_pandey(3e-5f64.ln(), &e) / h - 1.0).abs() < 1e-10);
+        let r = (1.0 - 13.2 * 2e-3 * l_t.powf(0.42))
+            / (1.0 + 0.213 * (1.0 + 2.23 * s.powf(0.83)) * l_t.powf(0.64));
+        assert!((load.gupta(2e-3, &e) / r - 1.0).abs() < 1e-10);
+    }
+
+    #[test]
     fn film_stays_finite_when_rolling_stops() {
         let line = ElasticLine::new(2.26e11, 6e-3, 0.02);
         let thermal = Some(ThermalCorrection::GhoshPandey(ThermalLoad::new(0.04, 0.06, 0.13)));
         let film = FilmThickness::new(&line, 0.06, 2e-8, thermal);
-        let stop = Entrainment::new(1.0, -1.0, RelativeViscosity::one());
-        let h = film.central(1000.0, 3e8, &stop);
+        let stop = at(0.0, 2.0);
+        let h = film.ln_central(1000f64.ln(), 3e8, &stop).exp();
         assert!(h > 0.0 && h < 1e-9, "{h}");
         assert_eq!(stop.direction, 0.0);
     }

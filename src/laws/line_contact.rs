@@ -5,22 +5,18 @@
 //!                                                                                          -> F_EHLr
 //! ```
 //!
-//! Each part is optional and costs one predictable branch when absent. Friction is F_T = mu Q against the slip
-//! (NTN Eq. 10).
+//! Each part is optional and costs one predictable branch when absent. Friction is F_T = mu Q against the slip (NTN
+//! Eq. 10). There are no branches on numbers, so that one call can serve a group of contacts. The logarithms of load,
+//! rolling speed and slip are taken once and serve all power laws.
 
 use super::contact_pair::{ContactForce, ContactMotion};
 use super::film_thickness::{Entrainment, FilmThickness};
 use super::lubrication_regime::LubricationRegime;
 use super::normal_contact::{ElasticLine, NormalDamping};
-use super::relative_viscosity::RelativeViscosity;
 use super::rolling_resistance::RollingResistance;
 use super::self_heating::SelfHeating;
 use super::traction::Traction;
-use crate::scalar::Real;
-
-/// Added to |du| in m/s, so that friction and its slope are defined at zero slip; far below round-off of any
-/// surface speed.
-const SLIP_FLOOR: f64 = 1e-12;
+use crate::scalar::Numeric;
 
 /// The laws of one kind of line contact (for example all roller and inner ring contacts).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,90 +37,99 @@ pub struct LineContact {
     pub rolling_resistance: Option<RollingResistance>,
 }
 
+/// A share of friction that follows another law; it serves pocket edges.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrictionBlend<T> {
+    /// w, the share; may be 0.
+    pub share: T,
+    /// mu of the other law.
+    pub coefficient: T,
+}
+
+/// Load and pressure of a contact. One that is apart has some load, so that everything is defined.
+#[derive(Clone, Copy)]
+struct Pressed<T> {
+    ln_load: T,
+    half_width: T,
+    mean_pressure: T,
+}
+
 impl LineContact {
-    /// Forces of the contact at a viscosity. `friction_blend` replaces the share `w` of the traction coefficient by a given one:
-    /// mu (1 - w) + mu_given w; it serves pocket edges.
-    pub fn force<T: Real>(
+    /// Forces, with the viscosity e^`thickening` times that of the laws. `blend` replaces a share w of the traction coefficient: mu (1 - w) + mu_other w.
+    #[inline(always)]
+    pub fn force<T: Numeric>(
         &self,
         motion: &ContactMotion<T>,
-        viscosity: RelativeViscosity<T>,
-        friction_blend: Option<(T, T)>,
+        thickening: T,
+        blend: Option<FrictionBlend<T>>,
     ) -> ContactForce<T> {
+        let zero = motion.delta.like(0.0);
         let normal = self.elastic.normal_force(self.damping.as_ref(), motion.delta, motion.delta_dot);
-        let mut out = ContactForce::apart();
-        if normal.force.value() == 0.0 {
-            return out;
-        }
-        let q = normal.force;
-        out.normal = q;
+        let mut out = ContactForce::none(zero);
+        out.normal = normal.force;
         out.stiffness = normal.stiffness;
         out.damping = normal.damping;
+        // A NaN counts as contact and is passed on.
+        let apart = normal.force.at_most(0.0);
 
-        let du = motion.u1 - motion.u2;
-        let slip = du.abs() + SLIP_FLOOR;
-        let mut mu = T::constant(0.0);
+        let rolling = Entrainment::new(motion.u1, motion.u2, thickening);
+        let mut mu = zero;
         if self.film.is_some() || self.rolling_resistance.is_some() {
-            let half_width = self.elastic.half_width(q);
-            let mean_pressure = q / (half_width * (2.0 * self.elastic.length));
-            let entrainment = Entrainment::new(motion.u1, motion.u2, viscosity);
+            let load = T::select(apart, zero.like(1.0), normal.force);
+            let half_width = self.elastic.half_width(load);
+            let mean_pressure = load / (half_width * (2.0 * self.elastic.length));
+            let pressed = Pressed { ln_load: load.ln(), half_width, mean_pressure };
             if let Some(film) = &self.film {
-                out.film = film.central(q, mean_pressure, &entrainment);
-                mu = self.traction_coefficient(
-                    motion,
-                    slip,
-                    half_width,
-                    mean_pressure,
-                    &entrainment,
-                    &mut out,
-                );
+                mu = self.traction_coefficient(film, motion, &rolling, &pressed, &mut out);
             }
-            if let Some(rolling) = &self.rolling_resistance {
-                out.rolling_resistance =
-                    -(rolling.force(q, mean_pressure, &entrainment) * entrainment.direction);
+            if let Some(law) = &self.rolling_resistance {
+                let force = law.force(load, pressed.ln_load, mean_pressure, &rolling);
+                out.rolling_resistance = T::select(apart, zero, -(force * rolling.direction));
             }
         }
-        if let Some((share, given)) = friction_blend {
-            mu += (given - mu) * share;
+        if let Some(blend) = blend {
+            mu += (blend.coefficient - mu) * blend.share;
         }
-        let magnitude = mu * q;
-        out.friction_coefficient = mu;
-        out.friction_secant = magnitude / slip;
-        out.friction = -(out.friction_secant * du);
+        let secant = mu * out.normal / rolling.slip;
+        out.friction_coefficient = T::select(apart, zero, mu);
+        out.friction_secant = T::select(apart, zero, secant);
+        out.friction = T::select(apart, zero, -(secant * (motion.u1 - motion.u2)));
+        out.film = T::select(apart, zero, out.film);
+        out.film_ratio = T::select(apart, zero, out.film_ratio);
+        out.temperature_rise = T::select(apart, zero, out.temperature_rise);
         out
     }
 
-    /// mu of the film whose thickness is in `out`; also sets film ratio and temperature rise there.
-    fn traction_coefficient<T: Real>(
+    /// mu of a film; also sets film thickness, film ratio and temperature rise.
+    #[inline(always)]
+    fn traction_coefficient<T: Numeric>(
         &self,
+        film: &FilmThickness,
         motion: &ContactMotion<T>,
-        slip: T,
-        half_width: T,
-        mean_pressure: T,
-        entrainment: &Entrainment<T>,
+        rolling: &Entrainment<T>,
+        pressed: &Pressed<T>,
         out: &mut ContactForce<T>,
     ) -> T {
-        let mut mu = T::constant(0.0);
-        let boundary_share = self.regime.as_ref().map_or(T::constant(0.0), |regime| {
-            out.film_ratio = regime.film_ratio(out.film);
-            regime.boundary_share(out.film_ratio)
-        });
-        if let Some(traction) = &self.traction
-            && boundary_share.value() < 1.0
-        {
-            let shear = traction.shear_state(mean_pressure, out.film, half_width, entrainment, slip);
+        let ln_film = film.ln_central(pressed.ln_load, pressed.mean_pressure, rolling);
+        out.film = ln_film.exp();
+        let mut mu = ln_film.like(0.0);
+        if let Some(traction) = &self.traction {
+            let (p, b) = (pressed.mean_pressure, pressed.half_width);
+            let shear = traction.shear_state(p, out.film, ln_film, b, rolling);
             let stress = match &self.self_heating {
-                None => shear.mean_shear(T::constant(0.0)).stress,
+                None => shear.mean_shear(mu).stress,
                 Some(heating) => {
-                    let rise = heating.rise_per_stress(slip, out.film, half_width, motion.u1, motion.u2);
+                    let rise = heating.rise_per_stress(rolling.slip, out.film, b, motion.u1, motion.u2);
                     let heated = heating.solve(&shear, rise);
                     out.temperature_rise = heated.temperature_rise;
                     heated.stress
                 }
             };
-            mu = stress * traction.eyring_stress / mean_pressure;
+            mu = stress * traction.eyring_stress / p;
         }
         if let Some(regime) = &self.regime {
-            mu += (regime.boundary.at(slip) - mu) * boundary_share;
+            out.film_ratio = regime.film_ratio(out.film);
+            mu += (regime.boundary.at(rolling.slip) - mu) * regime.boundary_share(out.film_ratio);
         }
         mu
     }
@@ -137,7 +142,7 @@ mod tests {
     use crate::laws::normal_contact::effective_modulus;
     use crate::laws::rolling_resistance::Extent;
     use crate::laws::solid_friction::SolidFriction;
-    use crate::scalar::Dual;
+    use crate::scalar::{Dual, Real};
 
     /// The inner raceway contact of the NU2310 example.
     pub fn raceway() -> LineContact {
@@ -161,6 +166,7 @@ mod tests {
                 eyring_stress: 5e6,
                 thermal_product_1: steel,
                 thermal_product_2: steel,
+                accuracy: 1e-14,
             }),
             regime: Some(LubricationRegime {
                 boundary: SolidFriction { coefficient: 0.1, transition_speed: 0.02 },
@@ -189,10 +195,10 @@ mod tests {
         ] {
             let d: Vec<Dual<4>> = (0..4).map(|i| Dual::variable(x[i], i)).collect();
             let motion = ContactMotion { delta: d[0], delta_dot: d[1], u1: d[2], u2: d[3] };
-            let exact = components(&law.force(&motion, RelativeViscosity::one(), None));
+            let exact = components(&law.force(&motion, Dual::constant(0.0), None));
             let value = |x: &[f64; 4]| {
                 let motion = ContactMotion { delta: x[0], delta_dot: x[1], u1: x[2], u2: x[3] };
-                components(&law.force(&motion, RelativeViscosity::one(), None))
+                components(&law.force(&motion, 0.0, None))
             };
             for i in 0..4 {
                 let h = [1e-5 * x[0], 1e-7, 1e-6, 1e-6][i];
@@ -216,7 +222,7 @@ mod tests {
         // it does for any power law but not for a jump.
         let law = raceway();
         let scan = |name: &str, at: &dyn Fn(f64) -> ContactMotion<f64>| {
-            let value = |x: f64| components(&law.force(&at(x), RelativeViscosity::one(), None));
+            let value = |x: f64| components(&law.force(&at(x), 0.0, None));
             let n = 4000;
             let grid: Vec<_> = (0..=n).map(|i| value(i as f64 / n as f64)).collect();
             for k in 0..3 {
@@ -258,7 +264,7 @@ mod tests {
         let law = raceway();
         for (u1, u2) in [(6.0, 5.0), (5.0, 6.0), (-6.0, -5.0), (-5.0, -6.0)] {
             let motion = ContactMotion { delta: 1e-6, delta_dot: 0.0, u1, u2 };
-            let f = law.force(&motion, RelativeViscosity::one(), None);
+            let f = law.force(&motion, 0.0, None);
             assert!(f.friction * (u1 - u2) < 0.0);
             assert!(f.rolling_resistance * (u1 + u2) < 0.0);
         }
@@ -276,7 +282,7 @@ mod tests {
             ..raceway()
         };
         let motion = ContactMotion { delta: 1e-6, delta_dot: 1.0, u1: 6.0, u2: 1.0 };
-        let f = bare.force(&motion, RelativeViscosity::one(), None);
+        let f = bare.force(&motion, 0.0, None);
         assert_eq!(f.normal, bare.elastic.load(1e-6));
         assert_eq!([f.friction, f.rolling_resistance, f.film, f.damping], [0.0; 4]);
     }

@@ -11,7 +11,7 @@
 //! ([`super::solid_friction`]); that smoothing is an assumption of this library.
 
 use super::solid_friction::SolidFriction;
-use crate::scalar::Real;
+use crate::scalar::Numeric;
 
 /// Mixed and boundary friction of one contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,21 +28,17 @@ pub struct LubricationRegime {
 
 impl LubricationRegime {
     /// Film ratio Lambda of the film thickness `film` in m.
-    pub fn film_ratio<T: Real>(&self, film: T) -> T {
+    #[inline(always)]
+    pub fn film_ratio<T: Numeric>(&self, film: T) -> T {
         film / self.roughness
     }
 
     /// Share of boundary friction, 1 at and below L_bd, 0 at and above L_hd.
-    pub fn boundary_share<T: Real>(&self, film_ratio: T) -> T {
+    #[inline(always)]
+    pub fn boundary_share<T: Numeric>(&self, film_ratio: T) -> T {
         let x = (film_ratio - self.lambda_full) / (self.lambda_boundary - self.lambda_full);
-        if x.value() >= 1.0 {
-            T::constant(1.0)
-        } else if x.value() <= 0.0 {
-            T::constant(0.0)
-        } else {
-            let cube = x * x * x;
-            cube * cube
-        }
+        let cube = x * x * x;
+        T::select(x.at_least(1.0), x.like(1.0), T::select(x.at_most(0.0), x.like(0.0), cube * cube))
     }
 }
 

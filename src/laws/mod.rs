@@ -15,7 +15,6 @@ pub mod line_contact;
 pub mod lubricant_layer;
 pub mod lubrication_regime;
 pub mod normal_contact;
-pub mod relative_viscosity;
 pub mod rolling_resistance;
 pub mod self_heating;
 pub mod short_bearing;

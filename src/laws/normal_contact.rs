@@ -11,7 +11,7 @@
 //! Technical Review 71 (2004), Eq. 1 and 4. Damping is an assumption of this library (the paper names none):
 //! it is proportional to stiffness, and the factor s lets Q start continuously at first touch.
 
-use crate::scalar::Real;
+use crate::scalar::Numeric;
 use std::f64::consts::PI;
 
 /// Effective modulus `E' = 2 / [(1 - nu_a^2)/E_a + (1 - nu_b^2)/E_b]` in Pa (NTN Eq. 4).
@@ -30,6 +30,8 @@ pub struct ElasticLine {
     pub length: f64,
     /// Palmgren constant K, m/N^0.9.
     pub compliance: f64,
+    /// Its logarithm.
+    ln_compliance: f64,
 }
 
 /// Damping of the normal motion, proportional to the elastic stiffness.
@@ -56,7 +58,7 @@ impl ElasticLine {
     /// Constants from E' (Pa), R_e (m) and effective length (m), all > 0.
     pub fn new(effective_modulus: f64, equivalent_radius: f64, length: f64) -> Self {
         let compliance = 0.39 * (8.0 / effective_modulus).powf(0.9) / length.powf(0.8);
-        Self { effective_modulus, equivalent_radius, length, compliance }
+        Self { effective_modulus, equivalent_radius, length, compliance, ln_compliance: compliance.ln() }
     }
 
     /// Elastic approach delta in m under the load `q` >= 0 in N.
@@ -65,8 +67,10 @@ impl ElasticLine {
     }
 
     /// Elastic load Q_el in N at the approach `delta` in m; zero for delta <= 0.
-    pub fn load<T: Real>(&self, delta: T) -> T {
-        if delta.value() <= 0.0 { T::constant(0.0) } else { (delta / self.compliance).powf(10.0 / 9.0) }
+    #[inline(always)]
+    pub fn load<T: Numeric>(&self, delta: T) -> T {
+        let loaded = ((delta.ln() - self.ln_compliance) * (10.0 / 9.0)).exp();
+        T::select(delta.at_most(0.0), delta.like(0.0), loaded)
     }
 
     /// Elastic stiffness dQ_el/d(delta) in N/m under the load `q` > 0 in N.
@@ -75,17 +79,14 @@ impl ElasticLine {
     }
 
     /// Normal force at the approach `delta` (m) and approach speed `delta_dot` (m/s).
-    pub fn normal_force<T: Real>(
+    #[inline(always)]
+    pub fn normal_force<T: Numeric>(
         &self,
         damping: Option<&NormalDamping>,
         delta: T,
         delta_dot: T,
     ) -> NormalForce<T> {
-        let zero = T::constant(0.0);
-        // Written so that a NaN approach is passed on and not taken for "apart".
-        if delta.value() <= 0.0 {
-            return NormalForce { force: zero, stiffness: zero, damping: zero };
-        }
+        let zero = delta.like(0.0);
         let elastic = self.load(delta);
         let stiffness = elastic * (10.0 / 9.0) / delta;
         let coefficient = match damping {
@@ -93,14 +94,18 @@ impl ElasticLine {
             None => zero,
         };
         let force = elastic + coefficient * delta_dot;
-        if force.value() <= 0.0 {
-            return NormalForce { force: zero, stiffness: zero, damping: zero };
+        // Written so that a NaN is passed on and not taken for "apart".
+        let apart = delta.at_most(0.0) | force.at_most(0.0);
+        NormalForce {
+            force: T::select(apart, zero, force),
+            stiffness: T::select(apart, zero, stiffness),
+            damping: T::select(apart, zero, coefficient),
         }
-        NormalForce { force, stiffness, damping: coefficient }
     }
 
     /// Half width b of the Hertz contact in m under the load `q` > 0 in N.
-    pub fn half_width<T: Real>(&self, q: T) -> T {
+    #[inline(always)]
+    pub fn half_width<T: Numeric>(&self, q: T) -> T {
         (q * (8.0 * self.equivalent_radius / (PI * self.length * self.effective_modulus))).sqrt()
     }
 }

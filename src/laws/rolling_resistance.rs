@@ -14,7 +14,7 @@
 
 use super::film_thickness::{Entrainment, ThermalLoad};
 use super::normal_contact::ElasticLine;
-use crate::scalar::{Real, smoothstep};
+use crate::scalar::{Numeric, smoothstep};
 use std::f64::consts::PI;
 
 /// Where rolling resistance acts.
@@ -32,12 +32,8 @@ pub enum Extent {
 /// Rolling resistance law of one contact pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RollingResistance {
-    /// 29.2 R_e l / alpha, N.
-    pub force_scale: f64,
-    /// G eta0/(E' R_e), s/m.
-    pub speed_factor: f64,
-    /// 1/(E' R_e l), 1/N.
-    pub load_factor: f64,
+    /// ln(29.2 R_e l (G U)^0.648 W^0.246 / alpha) at Q = 1 N, |u| = 1 m/s, the force in N.
+    pub ln_scale: f64,
     /// Effective modulus E', Pa.
     pub effective_modulus: f64,
     /// Thermal load constant of T_R.
@@ -55,37 +51,35 @@ impl RollingResistance {
         thermal: ThermalLoad,
         extent: Extent,
     ) -> Self {
+        let g_u = pressure_viscosity * viscosity / line.equivalent_radius;
+        let w = 1.0 / (line.effective_modulus * line.equivalent_radius * line.length);
         Self {
-            force_scale: 29.2 * line.equivalent_radius * line.length / pressure_viscosity,
-            speed_factor: pressure_viscosity * viscosity / line.equivalent_radius,
-            load_factor: 1.0 / (line.effective_modulus * line.equivalent_radius * line.length),
+            ln_scale: (29.2 * line.equivalent_radius * line.length / pressure_viscosity).ln()
+                + 0.648 * g_u.ln()
+                + 0.246 * w.ln(),
             effective_modulus: line.effective_modulus,
             thermal,
             extent,
         }
     }
 
-    /// F_EHLr >= 0 in N under the load `q` > 0 (N) and mean pressure (Pa).
-    pub fn force<T: Real>(&self, q: T, mean_pressure: T, e: &Entrainment<T>) -> T {
+    /// F_EHLr >= 0 in N under the load `q` > 0 (N), of which ln is `ln_q`, and mean pressure (Pa).
+    #[inline(always)]
+    pub fn force<T: Numeric>(&self, q: T, ln_q: T, mean_pressure: T, e: &Entrainment<T>) -> T {
         let share = match self.extent {
-            Extent::All => T::constant(1.0),
+            Extent::All => q.like(1.0),
             Extent::Loaded { threshold } => smoothstep((q - threshold) / threshold),
         };
-        if share.value() == 0.0 {
-            return share;
-        }
         let pressure = mean_pressure * (4.0 / PI / self.effective_modulus);
-        let t_r = self.thermal.gupta(pressure, e).at_least(0.0);
-        let g_u = e.speed * e.viscosity.ratio * self.speed_factor;
-        let isothermal = g_u.powf(0.648) * (q * self.load_factor).powf(0.246) * self.force_scale;
-        isothermal * t_r * share
+        let t_r = self.thermal.gupta(pressure, e).floored(0.0);
+        let ln_isothermal = (e.ln_speed + e.thickening) * 0.648 + ln_q * 0.246 + self.ln_scale;
+        ln_isothermal.exp() * t_r * share
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laws::relative_viscosity::RelativeViscosity;
 
     fn law(extent: Extent) -> RollingResistance {
         let line = ElasticLine::new(2.263736e11, 6.4e-3, 0.024);
@@ -96,24 +90,27 @@ mod tests {
     fn matches_the_formula_at_a_hand_computed_point() {
         // U = 2.0817e-10, W = 2.8760e-5, G = 4527.5 at 1000 N and 6.0319 m/s (reference values of the film test).
         let q = 1000.0;
-        let e = Entrainment::new(6.0319, 6.0319, RelativeViscosity::one());
+        let e = Entrainment::new(6.0319, 6.0319, 0.0);
         let isothermal =
             29.2 * 6.4e-3 * 0.024 / 2e-8 * (4527.5 * 2.0817e-10f64).powf(0.648) * 2.8760e-5f64.powf(0.246);
         let l_t: f64 = 0.04 * 0.05 / 0.13 * 6.0319f64.powi(2);
         let p_max = 484.31e6;
         let t_r = (1.0 - 13.2 * p_max / 2.263736e11 * l_t.powf(0.42)) / (1.0 + 0.213 * l_t.powf(0.64));
-        let f = law(Extent::All).force(q, p_max * PI / 4.0, &e);
+        let f = law(Extent::All).force(q, q.ln(), p_max * PI / 4.0, &e);
         assert!((f / (isothermal * t_r) - 1.0).abs() < 1e-4, "{f} {}", isothermal * t_r);
     }
 
     #[test]
     fn never_drives_and_respects_its_extent() {
-        let e = Entrainment::new(500.0, 500.0, RelativeViscosity::one());
-        assert_eq!(law(Extent::All).force(1e5, 3e9, &e), 0.0);
-        let e = Entrainment::new(5.0, 5.0, RelativeViscosity::one());
+        let e = Entrainment::new(500.0, 500.0, 0.0);
+        assert_eq!(law(Extent::All).force(1e5, 1e5f64.ln(), 3e9, &e), 0.0);
+        let e = Entrainment::new(5.0, 5.0, 0.0);
         let loaded = law(Extent::Loaded { threshold: 50.0 });
         let p = |q: f64| q / (2.0 * 5e-5 * 0.024);
-        assert_eq!(loaded.force(40.0, p(40.0), &e), 0.0);
-        assert_eq!(loaded.force(100.0, p(100.0), &e), law(Extent::All).force(100.0, p(100.0), &e));
+        assert_eq!(loaded.force(40.0, 40f64.ln(), p(40.0), &e), 0.0);
+        assert_eq!(
+            loaded.force(100.0, 100f64.ln(), p(100.0), &e),
+            law(Extent::All).force(100.0, 100f64.ln(), p(100.0), &e)
+        );
     }
 }

@@ -32,7 +32,7 @@ pub struct SolidContact {
 impl SolidContact {
     /// Normal force and friction of the pair. `motion.delta` is the depth d.
     pub fn force<T: Real>(&self, motion: &ContactMotion<T>) -> ContactForce<T> {
-        let mut out = ContactForce::apart();
+        let mut out = ContactForce::none(T::constant(0.0));
         // Written so that a NaN depth is passed on and not taken for "apart".
         if motion.delta.value() <= 0.0 {
             return out;
@@ -87,7 +87,7 @@ mod tests {
 
     #[test]
     fn touches_continuously_and_never_pulls() {
-        assert_eq!(at(-1e-9, 1.0, 1.0), ContactForce::apart());
+        assert_eq!(at(-1e-9, 1.0, 1.0), ContactForce::none(0.0));
         assert!(at(1e-12, 1.0, 1.0).normal < 1e-5);
         assert_eq!(at(1e-6, -10.0, 1.0).normal, 0.0);
         assert!(at(f64::NAN, 0.0, 0.0).normal.is_nan());

@@ -7,7 +7,7 @@
 //! Coulomb's law jumps at zero slip; the transition speed v_s makes it continuous. It is an assumption: below
 //! about v_s the surfaces creep instead of sticking.
 
-use crate::scalar::Real;
+use crate::scalar::Numeric;
 
 /// Friction coefficient that fades to zero below a transition speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,7 +20,8 @@ pub struct SolidFriction {
 
 impl SolidFriction {
     /// mu at the slip speed `slip` >= 0 in m/s.
-    pub fn at<T: Real>(&self, slip: T) -> T {
+    #[inline(always)]
+    pub fn at<T: Numeric>(&self, slip: T) -> T {
         (slip / self.transition_speed).tanh() * self.coefficient
     }
 }

@@ -11,7 +11,7 @@
 //! ln(eta_P) enters, so pressures far above 1 GPa do not overflow. Source: NTN Eq. 6-8.
 
 use super::film_thickness::Entrainment;
-use crate::scalar::Real;
+use crate::scalar::Numeric;
 use std::f64::consts::LN_2;
 
 /// Above this ln(Sigma), asinh(Sigma) equals ln(2 Sigma) to round-off.
@@ -20,8 +20,8 @@ const ASINH_ASYMPTOTE: f64 = 20.0;
 /// Lubricant constants of the traction law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Traction {
-    /// ln(eta0), eta0 in Pa s.
-    pub ln_viscosity: f64,
+    /// ln(eta0/tau0), in s.
+    pub ln_time: f64,
     /// alpha, 1/Pa.
     pub pressure_viscosity: f64,
     /// tau0, characteristic (Eyring) stress, Pa.
@@ -33,10 +33,8 @@ pub struct Traction {
 /// Conditions of one contact under which the mean shear stress is wanted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShearState<T> {
-    /// ln(eta_P / (tau0 h_c)) without self-heating, eta_P in Pa s, tau0 in Pa, h_c in m.
-    pub ln_rate_scale: T,
-    /// Slip speed |du| > 0, m/s.
-    pub slip: T,
+    /// ln(Sigma) without self-heating.
+    pub ln_sigma: T,
     /// Sigma/D, the elastic slope.
     pub elastic_slope: T,
 }
@@ -48,50 +46,55 @@ pub struct MeanShear<T> {
     pub stress: T,
     /// dS/d(ln eta_P).
     pub slope: T,
+    /// d2S/d(ln eta_P)2; it jumps where S turns from elastic to viscous.
+    pub curvature: T,
 }
 
 impl Traction {
     /// From eta0 (Pa s), alpha (1/Pa), tau0 (Pa) and G_l (Pa), all > 0.
     pub fn new(viscosity: f64, pressure_viscosity: f64, eyring_stress: f64, shear_modulus: f64) -> Self {
-        Self { ln_viscosity: viscosity.ln(), pressure_viscosity, eyring_stress, shear_modulus }
+        Self { ln_time: (viscosity / eyring_stress).ln(), pressure_viscosity, eyring_stress, shear_modulus }
     }
 
-    /// The shear state at mean pressure (Pa), film thickness (m), half width (m), rolling and slip (m/s).
-    pub fn shear_state<T: Real>(
+    /// The shear state at mean pressure (Pa), film thickness (m) and its ln, and half width (m).
+    #[inline(always)]
+    pub fn shear_state<T: Numeric>(
         &self,
         mean_pressure: T,
         film: T,
+        ln_film: T,
         half_width: T,
         e: &Entrainment<T>,
-        slip: T,
     ) -> ShearState<T> {
-        let stress_film = film * self.eyring_stress;
+        let ln_viscosity_time = mean_pressure * self.pressure_viscosity + e.thickening + self.ln_time;
+        let stiffness = self.shear_modulus / self.eyring_stress;
         ShearState {
-            ln_rate_scale: mean_pressure * self.pressure_viscosity + self.ln_viscosity + e.viscosity.ln_ratio
-                - stress_film.ln(),
-            slip,
-            elastic_slope: slip * half_width * self.shear_modulus / (stress_film * e.speed),
+            ln_sigma: ln_viscosity_time + e.ln_slip - ln_film,
+            elastic_slope: e.slip * half_width * stiffness / (film * e.speed),
         }
     }
 }
 
-impl<T: Real> ShearState<T> {
+impl<T: Numeric> ShearState<T> {
     /// S when the film is warmer than the inlet so that ln(eta_P) falls by `cooling` (= beta dT).
+    #[inline(always)]
     pub fn mean_shear(&self, cooling: T) -> MeanShear<T> {
-        let ln_scale = self.ln_rate_scale - cooling;
-        let ln_sigma = ln_scale.value() + self.slip.value().ln();
+        let ln_sigma = self.ln_sigma - cooling;
+        let steep = ln_sigma.above(ASINH_ASYMPTOTE);
+        let one = ln_sigma.like(1.0);
+        let sigma = T::select(steep, one, ln_sigma).exp();
+        let cap = T::select(steep, ln_sigma + LN_2, sigma.asinh());
         // d asinh(Sigma)/d ln(Sigma) = Sigma/sqrt(1 + Sigma^2) = tanh(asinh(Sigma)).
-        let (cap, cap_slope) = if ln_sigma > ASINH_ASYMPTOTE {
-            (ln_scale + self.slip.ln() + LN_2, T::constant(1.0))
-        } else {
-            let sigma = ln_scale.exp() * self.slip;
-            (sigma.asinh(), sigma / (sigma * sigma + 1.0).sqrt())
-        };
-        if cap.value() >= 2.0 * self.elastic_slope.value() {
-            MeanShear { stress: self.elastic_slope, slope: T::constant(0.0) }
-        } else {
-            let x_c = cap / self.elastic_slope;
-            MeanShear { stress: cap * (-x_c * 0.25 + 1.0), slope: cap_slope * (-x_c * 0.5 + 1.0) }
+        let cap_slope = T::select(steep, one, sigma / (sigma * sigma + 1.0).sqrt());
+        let x_c = cap / self.elastic_slope;
+        let elastic = x_c.at_least(2.0);
+        let (zero, ramp) = (one.like(0.0), -x_c * 0.5 + 1.0);
+        let square = cap_slope * cap_slope;
+        let curvature = (cap_slope - cap_slope * square) * ramp - square / (self.elastic_slope * 2.0);
+        MeanShear {
+            stress: T::select(elastic, self.elastic_slope, cap * (-x_c * 0.25 + 1.0)),
+            slope: T::select(elastic, zero, cap_slope * ramp),
+            curvature: T::select(elastic, zero, curvature),
         }
     }
 }
@@ -99,10 +102,9 @@ impl<T: Real> ShearState<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laws::relative_viscosity::RelativeViscosity;
 
     fn state(sigma: f64, d: f64) -> ShearState<f64> {
-        ShearState { ln_rate_scale: sigma.ln(), slip: 1.0, elastic_slope: sigma / d }
+        ShearState { ln_sigma: sigma.ln(), elastic_slope: sigma / d }
     }
 
     /// Mean over 0 < X < 2 of min(X Sigma/D, asinh Sigma) by the midpoint rule.
@@ -141,8 +143,8 @@ mod tests {
         assert!((state(1e-4, 1e-5).mean_shear(0.0).stress / 1e-4 - 1.0).abs() < 1e-5);
         // A mean pressure of 100 GPa would overflow exp(alpha P).
         let t = Traction::new(0.06, 2e-8, 5e6, 3e8);
-        let e = Entrainment::new(5.0, 5.0, RelativeViscosity::one());
-        let s = t.shear_state(1e11, 1e-7, 1e-4, &e, 0.1).mean_shear(0.0).stress;
+        let e = Entrainment::new(5.05, 4.95, 0.0);
+        let s = t.shear_state(1e11, 1e-7, 1e-7f64.ln(), 1e-4, &e).mean_shear(0.0).stress;
         assert!(s.is_finite() && s > 0.0);
     }
 
@@ -152,7 +154,10 @@ mod tests {
             let s = state(sigma, d);
             let h = 1e-6;
             let difference = (s.mean_shear(-h).stress - s.mean_shear(h).stress) / (2.0 * h);
-            assert!((s.mean_shear(0.0).slope - difference).abs() < 1e-6 * (1.0 + difference.abs()));
+            let here = s.mean_shear(0.0);
+            assert!((here.slope - difference).abs() < 1e-6 * (1.0 + difference.abs()));
+            let bend = (s.mean_shear(-h).slope - s.mean_shear(h).slope) / (2.0 * h);
+            assert!((here.curvature - bend).abs() < 1e-6 * (1.0 + bend.abs()));
         }
     }
 }

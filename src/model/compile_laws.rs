@@ -177,6 +177,7 @@ impl Builder<'_> {
                 eyring_stress: self.eyring_stress("self_heating")?,
                 thermal_product_1: self.thermal_product(element.material, "self_heating")?,
                 thermal_product_2: self.thermal_product(mate, "self_heating")?,
+                accuracy: 1e-14,
             }),
         };
         let damping = laws.damping.as_ref().map(|d| NormalDamping {

@@ -25,11 +25,11 @@ impl Model {
             blocks[roller].implicit += normal * 0.5 + friction;
         };
         for contact in ws.outer.iter().chain(ws.inner.iter()) {
-            collect(contact.element, contact.frame.normal, contact.force);
+            collect(contact.element, contact.frame.normal, &contact.force);
         }
         for contact in ws.pocket_contacts() {
             let (sin, cos) = ws.elements[contact.element].lead;
-            collect(contact.element, rotate(contact.frame.normal, -sin, cos), contact.force);
+            collect(contact.element, rotate(contact.frame.normal, -sin, cos), &contact.force);
         }
         // From force over speed in the local frame to acceleration over rate of the coordinates.
         for (block, site) in blocks.iter_mut().zip(&ws.elements) {

@@ -9,9 +9,11 @@ use super::{CageBody, ElementKind, Fault, Input, InputValues, Model, RingBody, R
 use crate::contact::guide::BodyMotion;
 use crate::contact::pocket::Pillar;
 use crate::contact::{Wrench, rotate};
-use crate::laws::contact_pair::{ContactForce, ContactMotion};
+use crate::laws::contact_pair::ContactForce;
 use crate::laws::guide::GuideLaw;
-use crate::laws::relative_viscosity::RelativeViscosity;
+use crate::laws::line_contact::FrictionBlend;
+use crate::scalar::{GROUP, Group, Numeric, Pack, dispatch};
+use pulp::Simd;
 
 impl Model {
     /// Accelerations `a` (shape: velocities; m/s^2 or rad/s^2) at positions `q` and velocities `v`.
@@ -51,7 +53,7 @@ impl Model {
         if ratio.is_nan() {
             return Err(Fault::NoViscosity { temperature });
         }
-        ws.viscosity = RelativeViscosity { ratio, ln_ratio: ratio.ln() };
+        ws.thickening = ratio.ln();
         ws.temperature = temperature;
         let films = (ws.guide_law.as_mut(), self.laws.guide.as_ref());
         if let (Some(GuideLaw { film: Some(present), .. }), Some(GuideLaw { film: Some(film), .. })) = films {
@@ -62,7 +64,7 @@ impl Model {
 
     /// The first contact whose force is not finite, as a place in [`Model::contact_names`].
     fn contact_not_finite(&self, ws: &Workspace) -> Option<usize> {
-        let bad = |f: &ContactForce<f64>| !(f.normal + f.friction + f.rolling_resistance).is_finite();
+        let bad = |f: ContactForce<f64>| !(f.normal + f.friction + f.rolling_resistance).is_finite();
         let raceways = [&ws.outer, &ws.inner].into_iter().enumerate();
         let mut on_raceway =
             raceways.flat_map(|(k, batch)| batch.iter().map(move |c| (c.element, k, c.force)));
@@ -87,32 +89,8 @@ impl Model {
 
     /// Evaluates every law over its list.
     fn apply_laws(&self, q: &[f64], v: &[f64], ws: &mut Workspace) -> Result<(), Fault> {
-        let (laws, viscosity) = (&self.laws, ws.viscosity);
-        if let Some(raceways) = &laws.raceways {
-            ws.outer.force.extend(ws.outer.motion.iter().map(|m| raceways.outer.force(m, viscosity, None)));
-            ws.inner.force.extend(ws.inner.motion.iter().map(|m| raceways.inner.force(m, viscosity, None)));
-        }
-        match &laws.pocket {
-            None => {}
-            Some(PocketLaws::Cylinder(pocket)) => {
-                let friction = |m: &ContactMotion<f64>, share: f64| {
-                    (share > 0.0).then(|| (share, pocket.edge_friction.at(m.u1.abs())))
-                };
-                let wall = &mut ws.wall;
-                wall.force.extend(
-                    wall.motion
-                        .iter()
-                        .zip(&wall.site)
-                        .map(|(m, site)| pocket.wall.force(m, viscosity, friction(m, site.edge_share))),
-                );
-                let edge = &mut ws.edge;
-                edge.force
-                    .extend(edge.motion.iter().map(|m| pocket.edge.force(m, viscosity, friction(m, 1.0))));
-            }
-            Some(PocketLaws::Plane(pocket)) => {
-                ws.plane.force.extend(ws.plane.motion.iter().map(|m| pocket.contact.force(m)));
-            }
-        }
+        let (laws, instructions) = (&self.laws, ws.instructions);
+        dispatch(instructions, ApplyLaws { laws, ws });
         if let Some(guide) = &ws.guide_law
             && let Some(cage) = &self.cage
         {
@@ -150,11 +128,11 @@ impl Model {
         let mut on_cage = Wrench::default();
         ws.on_roller.fill(Wrench::default());
         for contact in ws.outer.iter() {
-            let [on_roller, _] = contact.frame.wrenches(contact.force);
+            let [on_roller, _] = contact.frame.wrenches(&contact.force);
             add(&mut ws.on_roller[contact.element], on_roller.force, on_roller.moment);
         }
         for contact in ws.inner.iter() {
-            let [on_roller, reaction] = contact.frame.wrenches(contact.force);
+            let [on_roller, reaction] = contact.frame.wrenches(&contact.force);
             add(&mut ws.on_roller[contact.element], on_roller.force, on_roller.moment);
             let reaction = ws.elements[contact.element].to_global(reaction.force);
             on_ring[0] += reaction[0];
@@ -228,6 +206,55 @@ impl Model {
     }
 }
 
+/// The contact laws over their lists.
+struct ApplyLaws<'a> {
+    laws: &'a Laws,
+    ws: &'a mut Workspace,
+}
+
+impl Group for ApplyLaws<'_> {
+    #[inline(always)]
+    fn run<S: Simd, const K: usize>(self, simd: S) {
+        let Self { laws, ws } = self;
+        let thickening = Pack::<S, K>::all(simd, ws.thickening);
+        if let Some(raceways) = &laws.raceways {
+            for (law, batch) in [(&raceways.outer, &mut ws.outer), (&raceways.inner, &mut ws.inner)] {
+                for (motion, force) in batch.motion.iter().zip(&mut batch.force) {
+                    let motion = motion.map(|x| Pack::load(simd, x));
+                    law.force(&motion, thickening, None).store(force);
+                }
+            }
+        }
+        match &laws.pocket {
+            None => {}
+            Some(PocketLaws::Cylinder(pocket)) => {
+                for (law, batch) in [(&pocket.wall, &mut ws.wall), (&pocket.edge, &mut ws.edge)] {
+                    let sites = batch.site.chunks(GROUP);
+                    for ((motion, force), sites) in batch.motion.iter().zip(&mut batch.force).zip(sites) {
+                        let mut share = [0.0; GROUP];
+                        for (share, site) in share.iter_mut().zip(sites) {
+                            *share = site.edge_share;
+                        }
+                        let motion = motion.map(|x| Pack::load(simd, x));
+                        let blend = share.iter().any(|share| *share > 0.0).then(|| FrictionBlend {
+                            share: Pack::load(simd, &share),
+                            coefficient: pocket.edge_friction.at(motion.u1.abs()),
+                        });
+                        law.force(&motion, thickening, blend).store(force);
+                    }
+                }
+            }
+            Some(PocketLaws::Plane(pocket)) => {
+                for (motion, force) in ws.plane.motion.iter().zip(&mut ws.plane.force) {
+                    for i in 0..GROUP {
+                        force.set(i, &pocket.contact.force(&motion.get(i)));
+                    }
+                }
+            }
+        }
+    }
+}
+
 impl CageBody {
     /// Centre of mass relative to the geometric centre at the cage angle `angle` (rad), global axes, m; `None` for a
     /// balanced cage.
@@ -270,7 +297,7 @@ pub(super) fn pocket_wrenches(
     contact: &Loaded<'_, PocketSite>,
     site: &ElementSite,
 ) -> (Wrench<f64>, Wrench<f64>) {
-    let [on_element, _] = contact.frame.wrenches(contact.force);
+    let [on_element, _] = contact.frame.wrenches(&contact.force);
     let (sin, cos) = site.lead;
     let force = rotate(on_element.force, -sin, cos);
     let [along_r, along_c] = on_element.force;

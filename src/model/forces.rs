@@ -139,7 +139,7 @@ impl Model {
         let site = &ws.elements[contact.element];
         let [on_roller, on_mate] = contact
             .frame
-            .wrenches(contact.force)
+            .wrenches(&contact.force)
             .map(|w| Wrench { force: site.to_global(w.force), moment: w.moment });
         add(&mut out.bodies[self.element_body(contact.element)][source], &on_roller);
         add(&mut out.bodies[mate][source], &on_mate);
@@ -205,7 +205,7 @@ fn add(sum: &mut [f64; 3], w: &Wrench<f64>) {
 
 fn quantities<S>(contact: &Loaded<'_, S>) -> ContactForces {
     let (f, m) = (contact.force, contact.motion);
-    let [pressure_roller, pressure_mate] = contact.frame.film_pressure_forces(f);
+    let [pressure_roller, pressure_mate] = contact.frame.film_pressure_forces(&f);
     [
         f.normal,
         m.delta,

@@ -15,8 +15,8 @@ use crate::contact::{Wrench, rotate};
 use crate::integrate::arrowhead::HUB;
 use crate::integrate::{Linearization, Structure};
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
-use crate::laws::relative_viscosity::RelativeViscosity;
-use crate::scalar::{Dual, Real};
+use crate::laws::line_contact::FrictionBlend;
+use crate::scalar::{Dual, Numeric, Real};
 use nalgebra::{Matrix3, Matrix5, Vector5};
 
 /// First cage coordinate in the hub, after ring y, z.
@@ -312,7 +312,8 @@ struct Pair {
     lead: (PairDual, PairDual),
     ring: BodyMotion<PairDual>,
     cage: Option<BodyMotion<PairDual>>,
-    viscosity: RelativeViscosity<LawDual>,
+    /// ln of the relative viscosity.
+    thickening: LawDual,
 }
 
 impl Pair {
@@ -361,7 +362,7 @@ impl Pair {
             lead: turn(site.lead, behind),
             ring,
             cage,
-            viscosity: RelativeViscosity::from_ln(LawDual::variable(ws.viscosity.ln_ratio, 5)),
+            thickening: LawDual::variable(ws.thickening, 5),
         }
     }
 
@@ -379,7 +380,7 @@ impl Pair {
         if self.motion.radial_offset.value() > geometry.gap {
             let (motion, frame) = geometry.outer(&self.motion);
             let force =
-                chain(&laws.outer.force(&law_variables(&motion), self.viscosity, None), &motion, zero);
+                chain(&laws.outer.force(&law_variables(&motion), self.thickening, None), &motion, zero);
             let [on_roller, _] = frame.wrenches(&force);
             add(PairForce { own: components(&on_roller), shared: [zero; HUB] });
         }
@@ -391,7 +392,7 @@ impl Pair {
         let (motion, frame) = geometry.inner(&self.motion, &ring);
         if motion.delta.value() > 0.0 {
             let force =
-                chain(&laws.inner.force(&law_variables(&motion), self.viscosity, None), &motion, zero);
+                chain(&laws.inner.force(&law_variables(&motion), self.thickening, None), &motion, zero);
             let [on_roller, on_ring] = frame.wrenches(&force);
             let [y, z] = self.to_global(on_ring.force);
             add(PairForce { own: components(&on_roller), shared: [y, z, zero, zero, zero] });
@@ -423,7 +424,7 @@ impl Pair {
             };
             let Some(contact) = contact else { continue };
             let force = match pocket {
-                PocketLaws::Cylinder(laws) => cylinder_force(laws, &contact, self.viscosity),
+                PocketLaws::Cylinder(laws) => cylinder_force(laws, &contact, self.thickening),
                 PocketLaws::Plane(laws) => {
                     let law = laws.contact.force(&law_variables(&contact.motion));
                     chain(&law, &contact.motion, contact.edge_share)
@@ -456,7 +457,7 @@ impl Pair {
 fn cylinder_force(
     laws: &CylinderLaws,
     contact: &PillarContact<PairDual>,
-    viscosity: RelativeViscosity<LawDual>,
+    thickening: LawDual,
 ) -> ContactForce<PairDual> {
     let motion = law_variables(&contact.motion);
     let on_edge = contact.edge_share.value() >= 1.0;
@@ -465,8 +466,9 @@ fn cylinder_force(
     } else {
         (&laws.wall, LawDual::variable(contact.edge_share.value(), 4))
     };
-    let blend = (share.value() > 0.0).then(|| (share, laws.edge_friction.at(motion.u1.abs())));
-    chain(&law.force(&motion, viscosity, blend), &contact.motion, contact.edge_share)
+    let blend = (share.value() > 0.0)
+        .then(|| FrictionBlend { share, coefficient: laws.edge_friction.at(motion.u1.abs()) });
+    chain(&law.force(&motion, thickening, blend), &contact.motion, contact.edge_share)
 }
 
 /// What a law sees, as its variables.
@@ -500,7 +502,7 @@ fn chain(
         normal: over_coordinates(force.normal),
         friction: over_coordinates(force.friction),
         rolling_resistance: over_coordinates(force.rolling_resistance),
-        ..ContactForce::apart()
+        ..ContactForce::none(PairDual::constant(0.0))
     }
 }
 

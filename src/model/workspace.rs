@@ -9,35 +9,37 @@ use crate::integrate::Vibration;
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
 use crate::laws::guide::{GuideForce, GuideLaw};
 use crate::laws::journal::JournalMotion;
-use crate::laws::relative_viscosity::RelativeViscosity;
+use crate::scalar::GROUP;
 
-/// The touching contacts of one law. Capacity is fixed at creation, so filling it does not allocate.
+/// The touching contacts of one law, their motions and forces in groups. Capacity is fixed at creation, so filling it
+/// does not allocate.
 #[derive(Clone, Debug)]
 pub(super) struct Batch<S> {
     pub(super) element: Vec<usize>,
-    pub(super) motion: Vec<ContactMotion<f64>>,
     pub(super) frame: Vec<PairFrame<f64>>,
     pub(super) site: Vec<S>,
-    pub(super) force: Vec<ContactForce<f64>>,
+    /// Unused places of the last group are apart.
+    pub(super) motion: Vec<ContactMotion<[f64; GROUP]>>,
+    pub(super) force: Vec<ContactForce<[f64; GROUP]>>,
 }
 
 impl<S> Batch<S> {
     fn with_capacity(n: usize) -> Self {
+        let apart = ContactForce::none([0.0; GROUP]);
         Self {
             element: Vec::with_capacity(n),
-            motion: Vec::with_capacity(n),
             frame: Vec::with_capacity(n),
             site: Vec::with_capacity(n),
-            force: Vec::with_capacity(n),
+            motion: Vec::with_capacity(n.div_ceil(GROUP)),
+            force: vec![apart; n.div_ceil(GROUP)],
         }
     }
 
     pub(super) fn clear(&mut self) {
         self.element.clear();
-        self.motion.clear();
         self.frame.clear();
         self.site.clear();
-        self.force.clear();
+        self.motion.clear();
     }
 
     pub(super) fn len(&self) -> usize {
@@ -51,28 +53,37 @@ impl<S> Batch<S> {
         frame: PairFrame<f64>,
         site: S,
     ) {
+        let place = self.len() % GROUP;
+        if place == 0 {
+            let apart = ContactMotion { delta: -1.0, delta_dot: 0.0, u1: 0.0, u2: 0.0 };
+            self.motion.push(apart.map(|x| [*x; GROUP]));
+        }
+        if let Some(group) = self.motion.last_mut() {
+            group.set(place, &motion);
+        }
         self.element.push(element);
-        self.motion.push(motion);
         self.frame.push(frame);
         self.site.push(site);
     }
 
     /// Contacts with their forces, in the order of the elements.
     pub(super) fn iter(&self) -> impl Iterator<Item = Loaded<'_, S>> {
-        let kinematics = self.element.iter().zip(&self.motion).zip(&self.frame);
-        kinematics.zip(self.site.iter().zip(&self.force)).map(
-            |(((&element, motion), frame), (site, force))| Loaded { element, motion, frame, site, force },
-        )
+        let kinematics = self.element.iter().zip(&self.frame).zip(&self.site);
+        kinematics.enumerate().map(|(n, ((&element, frame), site))| {
+            let place = n % GROUP;
+            let (motion, force) = (self.motion[n / GROUP].get(place), self.force[n / GROUP].get(place));
+            Loaded { element, motion, frame, site, force }
+        })
     }
 }
 
 /// One contact of a batch.
 pub(super) struct Loaded<'a, S> {
     pub(super) element: usize,
-    pub(super) motion: &'a ContactMotion<f64>,
+    pub(super) motion: ContactMotion<f64>,
     pub(super) frame: &'a PairFrame<f64>,
     pub(super) site: &'a S,
-    pub(super) force: &'a ContactForce<f64>,
+    pub(super) force: ContactForce<f64>,
 }
 
 /// What a pocket contact needs besides its motion.
@@ -131,10 +142,12 @@ pub struct Workspace {
     pub(super) counting: bool,
     /// Temperature of the last evaluation, K; NaN before the first and where the viscosity is constant.
     pub(super) temperature: f64,
-    /// Viscosity at that temperature.
-    pub(super) viscosity: RelativeViscosity<f64>,
+    /// ln of the viscosity at that temperature over that of the laws.
+    pub(super) thickening: f64,
     /// The guide at that viscosity.
     pub(super) guide_law: Option<GuideLaw>,
+    /// Vector instructions of this machine.
+    pub(super) instructions: pulp::Arch,
 }
 
 impl Workspace {
@@ -162,8 +175,9 @@ impl Workspace {
             counts: [0; LAWS.len()],
             counting: true,
             temperature: model.inputs.oil.map_or(f64::NAN, |oil| oil.built_at.0),
-            viscosity: RelativeViscosity::one(),
+            thickening: 0.0,
             guide_law: model.laws.guide.clone(),
+            instructions: pulp::Arch::new(),
         }
     }
 
@@ -175,8 +189,8 @@ impl Workspace {
 
     /// Normal speeds of the touching raceway contacts at the last evaluated state.
     pub(crate) fn vibration(&self) -> Vibration {
-        let motions = self.outer.motion.iter().chain(&self.inner.motion);
-        let squares = motions.map(|m| m.delta_dot * m.delta_dot).sum();
+        let speeds = self.outer.motion.iter().chain(&self.inner.motion).flat_map(|m| m.delta_dot);
+        let squares = speeds.map(|v| v * v).sum();
         Vibration { squares, count: (self.outer.len() + self.inner.len()) as f64 }
     }
 

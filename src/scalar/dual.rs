@@ -1,142 +1,205 @@
 //! Forward-mode dual numbers with `N` independent directions.
 
-use super::Real;
+use super::{Base, Numeric, Real};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-/// A value with its `N` partial derivatives.
+/// A value with its `N` partial derivatives; or several side by side, for another `B`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Dual<const N: usize> {
+pub struct Dual<const N: usize, B = f64> {
     /// Value.
-    pub re: f64,
+    pub re: B,
     /// Partial derivatives with respect to the `N` variables.
-    pub eps: [f64; N],
+    pub eps: [B; N],
 }
 
-impl<const N: usize> Dual<N> {
+impl<const N: usize, B: Base> Dual<N, B> {
     /// The independent variable number `index` at `value`.
-    pub fn variable(value: f64, index: usize) -> Self {
-        let mut eps = [0.0; N];
-        eps[index] = 1.0;
+    #[inline(always)]
+    pub fn variable(value: B, index: usize) -> Self {
+        let mut eps = [value.splat(0.0); N];
+        eps[index] = value.splat(1.0);
         Self { re: value, eps }
     }
 
     /// Chain rule: the result has value `re` and derivative `slope` times that of `self`.
-    fn chain(self, re: f64, slope: f64) -> Self {
-        Self { re, eps: self.eps.map(|e| slope * e) }
+    #[inline(always)]
+    fn chain(self, re: B, slope: B) -> Self {
+        let mut eps = self.eps;
+        for e in &mut eps {
+            *e = slope * *e;
+        }
+        Self { re, eps }
     }
 
-    fn combine(self, other: Self, re: f64, a: f64, b: f64) -> Self {
-        let mut eps = [0.0; N];
-        for ((e, x), y) in eps.iter_mut().zip(self.eps).zip(other.eps) {
-            *e = a * x + b * y;
+    #[inline(always)]
+    fn combine(self, other: Self, re: B, a: B, b: B) -> Self {
+        let mut eps = self.eps;
+        for (e, y) in eps.iter_mut().zip(other.eps) {
+            *e = a * *e + b * y;
         }
         Self { re, eps }
     }
 }
 
-impl<const N: usize> Add for Dual<N> {
+impl<const N: usize, B: Base> Add for Dual<N, B> {
     type Output = Self;
+    #[inline(always)]
     fn add(self, o: Self) -> Self {
-        self.combine(o, self.re + o.re, 1.0, 1.0)
+        let mut eps = self.eps;
+        for (e, y) in eps.iter_mut().zip(o.eps) {
+            *e += y;
+        }
+        Self { re: self.re + o.re, eps }
     }
 }
 
-impl<const N: usize> Sub for Dual<N> {
+impl<const N: usize, B: Base> Sub for Dual<N, B> {
     type Output = Self;
+    #[inline(always)]
     fn sub(self, o: Self) -> Self {
-        self.combine(o, self.re - o.re, 1.0, -1.0)
+        let mut eps = self.eps;
+        for (e, y) in eps.iter_mut().zip(o.eps) {
+            *e -= y;
+        }
+        Self { re: self.re - o.re, eps }
     }
 }
 
-impl<const N: usize> Mul for Dual<N> {
+impl<const N: usize, B: Base> Mul for Dual<N, B> {
     type Output = Self;
+    #[inline(always)]
     fn mul(self, o: Self) -> Self {
         self.combine(o, self.re * o.re, o.re, self.re)
     }
 }
 
-impl<const N: usize> Div for Dual<N> {
+impl<const N: usize, B: Base> Div for Dual<N, B> {
     type Output = Self;
+    #[inline(always)]
     fn div(self, o: Self) -> Self {
         let q = self.re / o.re;
-        self.combine(o, q, 1.0 / o.re, -q / o.re)
+        let inverse = o.re.splat(1.0) / o.re;
+        self.combine(o, q, inverse, -q * inverse)
     }
 }
 
-impl<const N: usize> Neg for Dual<N> {
+impl<const N: usize, B: Base> Neg for Dual<N, B> {
     type Output = Self;
+    #[inline(always)]
     fn neg(self) -> Self {
-        self.chain(-self.re, -1.0)
+        let mut eps = self.eps;
+        for e in &mut eps {
+            *e = -*e;
+        }
+        Self { re: -self.re, eps }
     }
 }
 
-impl<const N: usize> AddAssign for Dual<N> {
+impl<const N: usize, B: Base> AddAssign for Dual<N, B> {
+    #[inline(always)]
     fn add_assign(&mut self, o: Self) {
         *self = *self + o;
     }
 }
 
-impl<const N: usize> SubAssign for Dual<N> {
+impl<const N: usize, B: Base> SubAssign for Dual<N, B> {
+    #[inline(always)]
     fn sub_assign(&mut self, o: Self) {
         *self = *self - o;
     }
 }
 
-impl<const N: usize> Add<f64> for Dual<N> {
+impl<const N: usize, B: Base> Add<f64> for Dual<N, B> {
     type Output = Self;
+    #[inline(always)]
     fn add(self, o: f64) -> Self {
-        self.chain(self.re + o, 1.0)
+        Self { re: self.re + o, ..self }
     }
 }
 
-impl<const N: usize> Sub<f64> for Dual<N> {
+impl<const N: usize, B: Base> Sub<f64> for Dual<N, B> {
     type Output = Self;
+    #[inline(always)]
     fn sub(self, o: f64) -> Self {
-        self.chain(self.re - o, 1.0)
+        Self { re: self.re - o, ..self }
     }
 }
 
-impl<const N: usize> Mul<f64> for Dual<N> {
+impl<const N: usize, B: Base> Mul<f64> for Dual<N, B> {
     type Output = Self;
+    #[inline(always)]
     fn mul(self, o: f64) -> Self {
-        self.chain(self.re * o, o)
+        let mut eps = self.eps;
+        for e in &mut eps {
+            *e = *e * o;
+        }
+        Self { re: self.re * o, eps }
     }
 }
 
-impl<const N: usize> Div<f64> for Dual<N> {
+impl<const N: usize, B: Base> Div<f64> for Dual<N, B> {
     type Output = Self;
+    #[inline(always)]
     fn div(self, o: f64) -> Self {
-        self.chain(self.re / o, 1.0 / o)
+        self * (1.0 / o)
     }
 }
 
-impl<const N: usize> Real for Dual<N> {
-    fn constant(value: f64) -> Self {
-        Self { re: value, eps: [0.0; N] }
-    }
-    fn value(self) -> f64 {
+impl<const N: usize, B: Base> Numeric for Dual<N, B> {
+    const DERIVATIVES: bool = true;
+    type Base = B;
+    type Mask = B::Mask;
+
+    #[inline(always)]
+    fn base(self) -> B {
         self.re
     }
+    #[inline(always)]
+    fn lift(base: B) -> Self {
+        Self { re: base, eps: [base.splat(0.0); N] }
+    }
+    #[inline(always)]
+    fn select(condition: B::Mask, yes: Self, no: Self) -> Self {
+        let mut out = no;
+        out.re = B::select(condition, yes.re, no.re);
+        for (e, yes) in out.eps.iter_mut().zip(yes.eps) {
+            *e = B::select(condition, yes, *e);
+        }
+        out
+    }
+    #[inline(always)]
     fn sqrt(self) -> Self {
         let r = self.re.sqrt();
-        self.chain(r, 0.5 / r)
+        self.chain(r, r.splat(0.5) / r)
     }
+    #[inline(always)]
     fn ln(self) -> Self {
-        self.chain(self.re.ln(), 1.0 / self.re)
+        self.chain(self.re.ln(), self.re.splat(1.0) / self.re)
     }
+    #[inline(always)]
+    fn ln_1p(self) -> Self {
+        self.chain(self.re.ln_1p(), self.re.splat(1.0) / (self.re + 1.0))
+    }
+    #[inline(always)]
     fn exp(self) -> Self {
         let e = self.re.exp();
         self.chain(e, e)
     }
-    fn powf(self, p: f64) -> Self {
-        self.chain(self.re.powf(p), p * self.re.powf(p - 1.0))
-    }
+    #[inline(always)]
     fn tanh(self) -> Self {
         let t = self.re.tanh();
-        self.chain(t, 1.0 - t * t)
+        self.chain(t, -(t * t) + 1.0)
     }
+    #[inline(always)]
     fn asinh(self) -> Self {
-        self.chain(self.re.asinh(), 1.0 / self.re.hypot(1.0))
+        let root = (self.re * self.re + 1.0).sqrt();
+        self.chain(self.re.asinh(), root.splat(1.0) / root)
+    }
+}
+
+impl<const N: usize> Real for Dual<N> {
+    fn powf(self, p: f64) -> Self {
+        self.chain(Real::powf(self.re, p), p * Real::powf(self.re, p - 1.0))
     }
     fn sin_cos(self) -> (Self, Self) {
         let (s, c) = self.re.sin_cos();
@@ -155,7 +218,7 @@ mod tests {
     /// Every operation of the trait in one expression, each with a non-trivial argument.
     fn expression<T: Real>(x: T, y: T) -> T {
         let (s, c) = (x * y).sin_cos();
-        let a = (x / y).sqrt() + (x + 1.5).ln() * (-y).exp() - (x * 0.5).powf(1.3);
+        let a = (x / y).sqrt() + (x + 1.5).ln() * (-y).exp() * x.ln_1p() - (x * 0.5).powf(1.3);
         let b = (y - 2.0).tanh() / (x.asinh() + 3.0) + s.atan2(c + 2.0) - x.squared() / 4.0;
         let mut sum = a;
         sum += b;
