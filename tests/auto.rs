@@ -102,7 +102,7 @@ fn rollers_get_the_method_and_the_step_that_their_scene_needs() {
         ("1000 rpm", nu2310(&[rpm(1000.0)]), (Kind::Leapfrog, 0.6..=0.6)),
         ("3000 rpm", nu2310(&[]), (Kind::Leapfrog, 0.6..=0.6)),
         ("40 kN", nu2310(&[load(40e3)]), (Kind::Leapfrog, 0.3..=0.6)),
-        ("5000 rpm", nu2310(&[rpm(5000.0)]), (Kind::Leapfrog, 0.3..=0.3)),
+        ("8000 rpm", nu2310(&[rpm(8000.0)]), (Kind::Leapfrog, 0.3..=0.3)),
         // The leapfrog would need an eighth of its own step or less.
         ("20 000 rpm", nu2310(&[rpm(20e3)]), (Kind::Rosenbrock, 0.3..=0.3)),
         ("undamped", undamped(), (Kind::Rosenbrock, 0.3..=0.3)),
@@ -226,7 +226,7 @@ fn choices_continue_with_the_same_bits_after_saving() {
 
 #[test]
 fn a_set_state_is_met_without_memory_and_inputs_with_it() {
-    let scene = nu2310(&[rpm(5000.0)]);
+    let scene = nu2310(&[rpm(8000.0)]);
     let mut sim = run(&scene, auto(), 30e-3);
     let step = choice(&sim).leapfrog_step;
     let first = self::sim(&scene, auto()).nominal_step();

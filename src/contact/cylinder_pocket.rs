@@ -26,9 +26,18 @@ pub struct CylinderPocket {
     pub half_angle: f64,
     /// Angle before the edge over which friction changes, rad.
     pub edge_blend: f64,
+    /// Sine and cosine of the angles where the wall ends and where friction begins to change.
+    edge: (f64, f64),
+    blend: (f64, f64),
 }
 
 impl CylinderPocket {
+    /// From the place, the clearance in m, the half angle of the wall and the angle of the blend in rad.
+    pub fn new(place: PocketPlace, clearance: f64, half_angle: f64, edge_blend: f64) -> Self {
+        let (edge, blend) = (half_angle.sin_cos(), (half_angle - edge_blend).sin_cos());
+        Self { place, clearance, half_angle, edge_blend, edge, blend }
+    }
+
     /// True when no pillar can touch a roller at `offset`.
     pub fn apart<T: Real>(&self, offset: [T; 2]) -> bool {
         let (a, b) = (offset[0].value(), offset[1].value());
@@ -41,9 +50,13 @@ impl CylinderPocket {
         // Coordinates towards the pillar and radially outward.
         let (towards, radial) = (m.offset[1] * sign, m.offset[0]);
         let distance = (towards * towards + radial * radial).sqrt();
-        let angle = radial.atan2(towards);
-        let (delta, normal, edge_share) = if angle.value().abs() <= self.half_angle {
-            let share = if self.edge_blend > 0.0 {
+        let (sin, cos) = self.edge;
+        // |phi| <= phi_p without the angle, which is needed near the edge only.
+        let on_wall = radial.value().abs() * cos <= towards.value() * sin;
+        let (delta, normal, edge_share) = if on_wall {
+            let (blend_sin, blend_cos) = self.blend;
+            let share = if radial.value().abs() * blend_cos > towards.value() * blend_sin {
+                let angle = radial.atan2(towards);
                 smoothstep((angle.abs() + (self.edge_blend - self.half_angle)) / self.edge_blend)
             } else {
                 T::constant(0.0)
@@ -51,8 +64,7 @@ impl CylinderPocket {
             (distance - self.clearance, [radial / distance, m.offset[1] / distance], share)
         } else {
             let pocket_radius = radius + self.clearance;
-            let (sin, cos) = self.half_angle.sin_cos();
-            let edge = [pocket_radius * sin * angle.sign(), pocket_radius * cos];
+            let edge = [pocket_radius * sin * radial.sign(), pocket_radius * cos];
             let to_edge = [-radial + edge[0], -towards + edge[1]];
             let reach = (to_edge[0] * to_edge[0] + to_edge[1] * to_edge[1]).sqrt();
             // R_b - |d - R_p e| without the difference of two radii.
@@ -73,12 +85,10 @@ impl CylinderPocket {
 mod tests {
     use super::*;
 
-    const P: CylinderPocket = CylinderPocket {
-        place: PocketPlace { pitch_radius: 0.04, element_radius: 0.0075 },
-        clearance: 0.15e-3,
-        half_angle: 0.436,
-        edge_blend: 0.02,
-    };
+    fn pocket() -> CylinderPocket {
+        let place = PocketPlace { pitch_radius: 0.04, element_radius: 0.0075 };
+        CylinderPocket::new(place, 0.15e-3, 0.436, 0.02)
+    }
 
     fn at(offset: [f64; 2]) -> PocketMotion<f64> {
         PocketMotion { offset, velocity: [0.1, -0.2], spin: 800.0 }
@@ -86,15 +96,15 @@ mod tests {
 
     #[test]
     fn wall_contact_follows_the_gap() {
-        let c = P.pillar(Pillar::Front, &at([0.0, 0.151e-3])).unwrap();
+        let c = pocket().pillar(Pillar::Front, &at([0.0, 0.151e-3])).unwrap();
         assert!((c.motion.delta - 1e-6).abs() < 1e-18);
         assert_eq!(c.frame.normal, [0.0, 1.0]);
         assert_eq!(c.edge_share, 0.0);
         assert_eq!(c.motion.delta_dot, -0.2);
         // Front pillar: t points inwards, the surface slides with -v_r + R_b w.
         assert!((c.motion.u1 - (-0.1 + 0.0075 * 800.0)).abs() < 1e-14);
-        assert!(P.pillar(Pillar::Back, &at([0.0, 0.151e-3])).is_none());
-        let back = P.pillar(Pillar::Back, &at([0.0, -0.152e-3])).unwrap();
+        assert!(pocket().pillar(Pillar::Back, &at([0.0, 0.151e-3])).is_none());
+        let back = pocket().pillar(Pillar::Back, &at([0.0, -0.152e-3])).unwrap();
         assert!((back.motion.delta - 2e-6).abs() < 1e-18);
         assert_eq!(back.frame.normal, [0.0, -1.0]);
     }
@@ -104,8 +114,8 @@ mod tests {
         let d = 0.155e-3;
         for side in [Pillar::Front, Pillar::Back] {
             let s = if side == Pillar::Front { 1.0 } else { -1.0 };
-            for edge in [P.half_angle, -P.half_angle] {
-                let get = |phi: f64| P.pillar(side, &at([d * phi.sin(), s * d * phi.cos()])).unwrap();
+            for edge in [pocket().half_angle, -pocket().half_angle] {
+                let get = |phi: f64| pocket().pillar(side, &at([d * phi.sin(), s * d * phi.cos()])).unwrap();
                 let (a, b) = (get(edge * (1.0 - 1e-9)), get(edge * (1.0 + 1e-9)));
                 assert!((a.motion.delta - b.motion.delta).abs() < 1e-15);
                 assert!((a.frame.normal[0] - b.frame.normal[0]).abs() < 1e-7);
@@ -119,13 +129,14 @@ mod tests {
     fn a_roller_pushed_outwards_rests_on_both_pillars() {
         // At d = clearance/sin(phi_p) (to first order) the edges are reached.
         let d = 0.4e-3;
-        let (front, back) = (P.pillar(Pillar::Front, &at([d, 0.0])), P.pillar(Pillar::Back, &at([d, 0.0])));
+        let (front, back) =
+            (pocket().pillar(Pillar::Front, &at([d, 0.0])), pocket().pillar(Pillar::Back, &at([d, 0.0])));
         let (front, back) = (front.unwrap(), back.unwrap());
         assert!((front.motion.delta - back.motion.delta).abs() < 1e-18);
         assert!((front.frame.normal[1] + back.frame.normal[1]).abs() < 1e-15);
         assert!((front.frame.normal[0] - back.frame.normal[0]).abs() < 1e-15);
         let expected = {
-            let (s, c) = P.half_angle.sin_cos();
+            let (s, c) = pocket().half_angle.sin_cos();
             let r = 0.00765;
             0.0075 - (r * s - d).hypot(r * c)
         };
@@ -137,8 +148,10 @@ mod tests {
         for i in 0..100 {
             let phi = i as f64 * 0.0628;
             let m = at([0.1499e-3 * phi.sin(), 0.1499e-3 * phi.cos()]);
-            assert!(P.apart(m.offset));
-            assert!(P.pillar(Pillar::Front, &m).is_none() && P.pillar(Pillar::Back, &m).is_none());
+            assert!(pocket().apart(m.offset));
+            assert!(
+                pocket().pillar(Pillar::Front, &m).is_none() && pocket().pillar(Pillar::Back, &m).is_none()
+            );
         }
     }
 }

@@ -58,6 +58,13 @@ impl Leapfrog {
     }
 }
 
+/// Solution of three equations by Cramer's rule; not finite where there is none.
+fn solve(matrix: &Matrix3<f64>, right: &Vector3<f64>) -> Vector3<f64> {
+    let [a, b, c] = [0, 1, 2].map(|k| matrix.column(k).into_owned());
+    let (bc, ca, ab) = (b.cross(&c), c.cross(&a), a.cross(&b));
+    Vector3::new(bc.dot(right), ca.dot(right), ab.dot(right)) / a.dot(&bc)
+}
+
 impl<S: System> Stepper<S> for Leapfrog {
     fn set_state(&mut self, state: &[f64]) {
         self.start.copy_from_slice(state);
@@ -89,9 +96,7 @@ impl<S: System> Stepper<S> for Leapfrog {
             let known = Vector3::from_fn(|k, _| at[k].map_or(0.0, |i| self.a[i]));
             let predicted = Vector3::from_fn(|k, _| at[k].map_or(0.0, |i| self.predicted[i] - v[i]));
             let matrix = Matrix3::identity() + damping.implicit * h;
-            let solution = matrix.lu().solve(&(known + damping.full * predicted));
-            let first = at.iter().flatten().next().copied().unwrap_or(0);
-            let solution = solution.ok_or_else(|| system.not_finite(first))?;
+            let solution = solve(&matrix, &(known + damping.full * predicted));
             for (i, a) in at.iter().zip(solution.iter()).filter_map(|(i, a)| i.map(|i| (i, *a))) {
                 if !a.is_finite() {
                     return Err(system.not_finite(i));

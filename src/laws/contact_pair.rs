@@ -1,6 +1,6 @@
 //! What contact laws share: the motion of a pair of surfaces in, normal and tangential force out.
 
-use crate::scalar::{GROUP, Pack};
+use crate::scalar::Pack;
 use pulp::Simd;
 
 /// Motion of a contact pair, as the laws see it.
@@ -73,50 +73,41 @@ impl<T> ContactForce<T> {
     }
 }
 
-impl<S: Simd, const K: usize> ContactForce<Pack<S, K>> {
-    /// Writes the forces of a group.
+impl ContactMotion<Vec<f64>> {
+    /// Sets the motion of contact `i`.
+    ///
+    /// # Panics
+    /// If there is no such place.
     #[inline(always)]
-    pub fn store(&self, out: &mut ContactForce<[f64; GROUP]>) {
-        self.normal.store(&mut out.normal);
-        self.stiffness.store(&mut out.stiffness);
-        self.damping.store(&mut out.damping);
-        self.film.store(&mut out.film);
-        self.film_ratio.store(&mut out.film_ratio);
-        self.temperature_rise.store(&mut out.temperature_rise);
-        self.friction_coefficient.store(&mut out.friction_coefficient);
-        self.friction.store(&mut out.friction);
-        self.friction_secant.store(&mut out.friction_secant);
-        self.rolling_resistance.store(&mut out.rolling_resistance);
-    }
-}
-
-impl<T: Copy, const N: usize> ContactMotion<[T; N]> {
-    /// Motion of one contact of a group.
-    #[inline(always)]
-    pub fn get(&self, i: usize) -> ContactMotion<T> {
-        self.map(|x| x[i])
-    }
-
-    /// Sets the motion of one contact of a group.
-    #[inline(always)]
-    pub fn set(&mut self, i: usize, motion: &ContactMotion<T>) {
+    pub fn set(&mut self, i: usize, motion: &ContactMotion<f64>) {
         self.delta[i] = motion.delta;
         self.delta_dot[i] = motion.delta_dot;
         self.u1[i] = motion.u1;
         self.u2[i] = motion.u2;
     }
+
+    /// Motions of the contacts from the first one on, as many as fit.
+    ///
+    /// # Panics
+    /// If there are not as many.
+    #[inline(always)]
+    pub fn load<S: Simd, const K: usize>(&self, simd: S, first: usize) -> ContactMotion<Pack<S, K>> {
+        ContactMotion {
+            delta: Pack::load(simd, &self.delta[first..]),
+            delta_dot: Pack::load(simd, &self.delta_dot[first..]),
+            u1: Pack::load(simd, &self.u1[first..]),
+            u2: Pack::load(simd, &self.u2[first..]),
+        }
+    }
 }
 
-impl<T: Copy, const N: usize> ContactForce<[T; N]> {
-    /// Force of one contact of a group.
+impl ContactForce<Vec<f64>> {
+    /// Sets the force of contact `i`.
+    ///
+    /// # Panics
+    /// If there is no such place.
     #[inline(always)]
-    pub fn get(&self, i: usize) -> ContactForce<T> {
-        self.map(|x| x[i])
-    }
-
-    /// Sets the force of one contact of a group.
-    #[inline(always)]
-    pub fn set(&mut self, i: usize, force: &ContactForce<T>) {
+    pub fn set(&mut self, i: usize, force: &ContactForce<f64>) {
         self.normal[i] = force.normal;
         self.stiffness[i] = force.stiffness;
         self.damping[i] = force.damping;
@@ -127,6 +118,24 @@ impl<T: Copy, const N: usize> ContactForce<[T; N]> {
         self.friction[i] = force.friction;
         self.friction_secant[i] = force.friction_secant;
         self.rolling_resistance[i] = force.rolling_resistance;
+    }
+
+    /// Sets the forces of the contacts from the first one on.
+    ///
+    /// # Panics
+    /// If there are not as many places.
+    #[inline(always)]
+    pub fn store<S: Simd, const K: usize>(&mut self, first: usize, force: &ContactForce<Pack<S, K>>) {
+        force.normal.store(&mut self.normal[first..]);
+        force.stiffness.store(&mut self.stiffness[first..]);
+        force.damping.store(&mut self.damping[first..]);
+        force.film.store(&mut self.film[first..]);
+        force.film_ratio.store(&mut self.film_ratio[first..]);
+        force.temperature_rise.store(&mut self.temperature_rise[first..]);
+        force.friction_coefficient.store(&mut self.friction_coefficient[first..]);
+        force.friction.store(&mut self.friction[first..]);
+        force.friction_secant.store(&mut self.friction_secant[first..]);
+        force.rolling_resistance.store(&mut self.rolling_resistance[first..]);
     }
 }
 

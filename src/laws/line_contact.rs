@@ -15,8 +15,9 @@ use super::lubrication_regime::LubricationRegime;
 use super::normal_contact::{ElasticLine, NormalDamping};
 use super::rolling_resistance::RollingResistance;
 use super::self_heating::SelfHeating;
+use super::solid_friction::SolidFriction;
 use super::traction::Traction;
-use crate::scalar::Numeric;
+use crate::scalar::{Base, Numeric};
 
 /// The laws of one kind of line contact (for example all roller and inner ring contacts).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,8 +43,8 @@ pub struct LineContact {
 pub struct FrictionBlend<T> {
     /// w, the share; may be 0.
     pub share: T,
-    /// mu of the other law.
-    pub coefficient: T,
+    /// The other law.
+    pub other: SolidFriction,
 }
 
 /// Load and pressure of a contact. One that is apart has some load, so that everything is defined.
@@ -87,8 +88,10 @@ impl LineContact {
                 out.rolling_resistance = T::select(apart, zero, -(force * rolling.direction));
             }
         }
-        if let Some(blend) = blend {
-            mu += (blend.coefficient - mu) * blend.share;
+        if let Some(FrictionBlend { share, other }) = blend
+            && T::Base::any(share.above(0.0))
+        {
+            mu += (other.at(rolling.slip) - mu) * share;
         }
         let secant = mu * out.normal / rolling.slip;
         out.friction_coefficient = T::select(apart, zero, mu);
@@ -129,7 +132,11 @@ impl LineContact {
         }
         if let Some(regime) = &self.regime {
             out.film_ratio = regime.film_ratio(out.film);
-            mu += (regime.boundary.at(rolling.slip) - mu) * regime.boundary_share(out.film_ratio);
+            let share = regime.boundary_share(out.film_ratio);
+            // In groups of full films only.
+            if T::Base::any(share.above(0.0)) {
+                mu += (regime.boundary.at(rolling.slip) - mu) * share;
+            }
         }
         mu
     }
@@ -141,7 +148,6 @@ mod tests {
     use crate::laws::film_thickness::{ThermalCorrection, ThermalLoad};
     use crate::laws::normal_contact::effective_modulus;
     use crate::laws::rolling_resistance::Extent;
-    use crate::laws::solid_friction::SolidFriction;
     use crate::scalar::{Dual, Real};
 
     /// The inner raceway contact of the NU2310 example.
@@ -166,7 +172,6 @@ mod tests {
                 eyring_stress: 5e6,
                 thermal_product_1: steel,
                 thermal_product_2: steel,
-                accuracy: 1e-14,
             }),
             regime: Some(LubricationRegime {
                 boundary: SolidFriction { coefficient: 0.1, transition_speed: 0.02 },

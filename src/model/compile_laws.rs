@@ -177,7 +177,6 @@ impl Builder<'_> {
                 eyring_stress: self.eyring_stress("self_heating")?,
                 thermal_product_1: self.thermal_product(element.material, "self_heating")?,
                 thermal_product_2: self.thermal_product(mate, "self_heating")?,
-                accuracy: 1e-14,
             }),
         };
         let damping = laws.damping.as_ref().map(|d| NormalDamping {
@@ -236,12 +235,8 @@ impl Builder<'_> {
                 contact: solid(&pocket.contact),
             })),
             scene::Pocket::LubricatedCylinder(pocket) => {
-                let shape = CylinderPocket {
-                    place,
-                    clearance: pocket.radial_clearance,
-                    half_angle: pocket.half_angle,
-                    edge_blend: pocket.edge_blend,
-                };
+                let (half_angle, edge_blend) = (pocket.half_angle, pocket.edge_blend);
+                let shape = CylinderPocket::new(place, pocket.radial_clearance, half_angle, edge_blend);
                 let pocket_radius = element_radius + pocket.radial_clearance;
                 let equivalent_radius = element_radius * pocket_radius / pocket.radial_clearance;
                 let mate =

@@ -5,7 +5,6 @@ use super::{CageBody, ElementKind, Model, RingBody};
 use crate::contact::guide::BodyMotion;
 use crate::contact::rotate;
 use crate::integrate::{DampingBlock, implicit_share};
-use crate::laws::contact_pair::ContactForce;
 use crate::scalar::{Dual, Real};
 use nalgebra::{Matrix3, Vector3};
 
@@ -16,30 +15,44 @@ impl Model {
         let ElementKind::Rollers(rollers) = &self.elements.kind else { return };
         blocks.fill(DampingBlock::default());
         let radius = rollers.geometry.roller_radius;
-        let mut collect = |roller: usize, [nr, nc]: [f64; 2], force: &ContactForce<f64>| {
-            let n = Vector3::new(nr, nc, 0.0);
-            let d = Vector3::new(-nc, nr, radius);
-            let normal = n * n.transpose() * force.damping;
-            let friction = d * d.transpose() * force.friction_secant;
-            blocks[roller].full += normal + friction;
-            blocks[roller].implicit += normal * 0.5 + friction;
+        // Upper triangles: contact damping in `full`, friction in `implicit`.
+        let mut collect = |roller: usize, [nr, nc]: [f64; 2], [damping, secant]: [f64; 2]| {
+            let DampingBlock { full, implicit } = &mut blocks[roller];
+            full[(0, 0)] += damping * nr * nr;
+            full[(0, 1)] += damping * nr * nc;
+            full[(1, 1)] += damping * nc * nc;
+            let d = [-nc, nr, radius];
+            for i in 0..3 {
+                for k in i..3 {
+                    implicit[(i, k)] += secant * d[i] * d[k];
+                }
+            }
         };
-        for contact in ws.outer.iter().chain(ws.inner.iter()) {
-            collect(contact.element, contact.frame.normal, &contact.force);
+        for (element, frame, (), rates) in ws.outer.damping().chain(ws.inner.damping()) {
+            collect(element, frame.normal, rates);
         }
-        for contact in ws.pocket_contacts() {
-            let (sin, cos) = ws.elements[contact.element].lead;
-            collect(contact.element, rotate(contact.frame.normal, -sin, cos), &contact.force);
+        for batch in [&ws.wall, &ws.edge, &ws.plane] {
+            for (element, frame, _, rates) in batch.damping() {
+                let (sin, cos) = ws.elements[element].lead;
+                collect(element, rotate(frame.normal, -sin, cos), rates);
+            }
         }
         // From force over speed in the local frame to acceleration over rate of the coordinates.
         for (block, site) in blocks.iter_mut().zip(&ws.elements) {
             let r = rollers.geometry.pitch_radius + site.motion.radial_offset;
-            let speed = Matrix3::from_diagonal(&Vector3::new(1.0, r, 1.0));
-            let mass = rollers.mass;
-            let inertia = Vector3::new(mass, mass * r, rollers.inertia);
-            let inverse = Matrix3::from_diagonal(&inertia.map(|m| 1.0 / m));
-            block.full = inverse * block.full * speed;
-            block.implicit = inverse * block.implicit * speed;
+            let speed = [1.0, r, 1.0];
+            let inverse = [1.0 / rollers.mass, 1.0 / (rollers.mass * r), 1.0 / rollers.inertia];
+            for i in 0..3 {
+                for k in i..3 {
+                    let (normal, friction) = (block.full[(i, k)], block.implicit[(i, k)]);
+                    let (full, implicit) = (normal + friction, 0.5 * normal + friction);
+                    let (here, mirrored) = (inverse[i] * speed[k], inverse[k] * speed[i]);
+                    block.full[(i, k)] = full * here;
+                    block.full[(k, i)] = full * mirrored;
+                    block.implicit[(i, k)] = implicit * here;
+                    block.implicit[(k, i)] = implicit * mirrored;
+                }
+            }
         }
     }
 
@@ -109,14 +122,12 @@ impl Model {
 /// The same of the pockets, from contact damping and the secant slope of friction.
 fn pocket_slope(ws: &Workspace) -> Matrix3<f64> {
     let mut slope = Matrix3::zeros();
-    for contact in ws.pocket_contacts() {
-        let site = &ws.elements[contact.element];
+    let contacts = ws.wall.damping().chain(ws.edge.damping()).chain(ws.plane.damping());
+    for (element, frame, pocket, [damping, secant]) in contacts {
+        let site = &ws.elements[element];
         let (sin, cos) = site.lead;
-        let lever = contact.site.lever;
-        for (direction, rate) in [
-            (contact.frame.normal, contact.force.damping),
-            (contact.frame.tangent(), contact.force.friction_secant),
-        ] {
+        let lever = pocket.lever;
+        for (direction, rate) in [(frame.normal, damping), (frame.tangent(), secant)] {
             let [y, z] = site.to_global(rotate(direction, -sin, cos));
             let g = Vector3::new(y, z, lever[0] * direction[1] - lever[1] * direction[0]);
             slope += g * g.transpose() * rate;

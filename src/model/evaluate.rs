@@ -4,15 +4,16 @@
 //! each law over its list; collect the forces on the bodies (`assemble`).
 
 use super::laws::{self, Laws, PocketLaws, count_line_contacts};
-use super::workspace::{ElementSite, Loaded, PocketSite, Workspace};
+use super::workspace::{Batch, ElementSite, PocketSite, Workspace};
 use super::{CageBody, ElementKind, Fault, Input, InputValues, Model, RingBody, RollerSet};
 use crate::contact::guide::BodyMotion;
 use crate::contact::pocket::Pillar;
-use crate::contact::{Wrench, rotate};
-use crate::laws::contact_pair::ContactForce;
+use crate::contact::{PairFrame, Wrench, rotate};
+use crate::laws::contact_pair::{ContactForce, ContactMotion};
 use crate::laws::guide::GuideLaw;
-use crate::laws::line_contact::FrictionBlend;
-use crate::scalar::{GROUP, Group, Numeric, Pack, dispatch};
+use crate::laws::line_contact::{FrictionBlend, LineContact};
+use crate::laws::solid_friction::SolidFriction;
+use crate::scalar::{Columns, Pack, WIDEST, dispatch};
 use pulp::Simd;
 
 impl Model {
@@ -89,8 +90,27 @@ impl Model {
 
     /// Evaluates every law over its list.
     fn apply_laws(&self, q: &[f64], v: &[f64], ws: &mut Workspace) -> Result<(), Fault> {
-        let (laws, instructions) = (&self.laws, ws.instructions);
-        dispatch(instructions, ApplyLaws { laws, ws });
+        let (laws, instructions, thickening) = (&self.laws, ws.instructions, ws.thickening);
+        if let Some(raceways) = &laws.raceways {
+            for (law, batch) in [(&raceways.outer, &mut ws.outer), (&raceways.inner, &mut ws.inner)] {
+                dispatch(instructions, LineContacts::new(law, batch, thickening));
+            }
+        }
+        match &laws.pocket {
+            None => {}
+            Some(PocketLaws::Cylinder(pocket)) => {
+                for (law, batch) in [(&pocket.wall, &mut ws.wall), (&pocket.edge, &mut ws.edge)] {
+                    let friction = pocket.edge_friction;
+                    dispatch(instructions, LineContacts::in_pockets(law, batch, thickening, friction));
+                }
+            }
+            Some(PocketLaws::Plane(pocket)) => {
+                for i in 0..ws.plane.len() {
+                    let force = pocket.contact.force(&ws.plane.motion.map(|x| x[i]));
+                    ws.plane.force.set(i, &force);
+                }
+            }
+        }
         if let Some(guide) = &ws.guide_law
             && let Some(cage) = &self.cage
         {
@@ -127,23 +147,25 @@ impl Model {
         let mut on_ring = [0.0; 2];
         let mut on_cage = Wrench::default();
         ws.on_roller.fill(Wrench::default());
-        for contact in ws.outer.iter() {
-            let [on_roller, _] = contact.frame.wrenches(&contact.force);
-            add(&mut ws.on_roller[contact.element], on_roller.force, on_roller.moment);
+        for (element, frame, (), force) in ws.outer.forces() {
+            let [on_roller, _] = frame.wrenches(&force);
+            add(&mut ws.on_roller[element], on_roller.force, on_roller.moment);
         }
-        for contact in ws.inner.iter() {
-            let [on_roller, reaction] = contact.frame.wrenches(&contact.force);
-            add(&mut ws.on_roller[contact.element], on_roller.force, on_roller.moment);
-            let reaction = ws.elements[contact.element].to_global(reaction.force);
+        for (element, frame, (), force) in ws.inner.forces() {
+            let [on_roller, reaction] = frame.wrenches(&force);
+            add(&mut ws.on_roller[element], on_roller.force, on_roller.moment);
+            let reaction = ws.elements[element].to_global(reaction.force);
             on_ring[0] += reaction[0];
             on_ring[1] += reaction[1];
         }
-        for contact in ws.wall.iter().chain(ws.edge.iter()).chain(ws.plane.iter()) {
-            let (on_element, reaction) = pocket_wrenches(&contact, &ws.elements[contact.element]);
-            if let Some(on_roller) = ws.on_roller.get_mut(contact.element) {
-                add(on_roller, on_element.force, on_element.moment);
+        for batch in [&ws.wall, &ws.edge, &ws.plane] {
+            for (element, frame, site, force) in batch.forces() {
+                let (on_element, reaction) = pocket_wrenches(frame, &force, site, &ws.elements[element]);
+                if let Some(on_roller) = ws.on_roller.get_mut(element) {
+                    add(on_roller, on_element.force, on_element.moment);
+                }
+                add(&mut on_cage, reaction.force, reaction.moment);
             }
-            add(&mut on_cage, reaction.force, reaction.moment);
         }
         if let (Some(cage), Some(c)) = (&self.cage, self.layout.cage) {
             if let (Some(force), Some(motion)) = (&ws.guide, &ws.journal) {
@@ -206,52 +228,56 @@ impl Model {
     }
 }
 
-/// The contact laws over their lists.
-struct ApplyLaws<'a> {
-    laws: &'a Laws,
-    ws: &'a mut Workspace,
+/// A law over a batch of line contacts.
+struct LineContacts<'a> {
+    law: &'a LineContact,
+    motion: &'a ContactMotion<Vec<f64>>,
+    force: &'a mut ContactForce<Vec<f64>>,
+    rows: usize,
+    /// ln of the relative viscosity.
+    thickening: f64,
+    /// In pockets, where friction follows that of the edges in a share of the wall.
+    pockets: Option<(&'a [PocketSite], SolidFriction)>,
 }
 
-impl Group for ApplyLaws<'_> {
+impl<'a> LineContacts<'a> {
+    fn new<S>(law: &'a LineContact, batch: &'a mut Batch<S>, thickening: f64) -> Self {
+        batch.pad();
+        let rows = batch.len();
+        Self { law, motion: &batch.motion, force: &mut batch.force, rows, thickening, pockets: None }
+    }
+
+    fn in_pockets(
+        law: &'a LineContact,
+        batch: &'a mut Batch<PocketSite>,
+        thickening: f64,
+        edge_friction: SolidFriction,
+    ) -> Self {
+        batch.pad();
+        let pockets = Some((batch.site.as_slice(), edge_friction));
+        let rows = batch.len();
+        Self { law, motion: &batch.motion, force: &mut batch.force, rows, thickening, pockets }
+    }
+}
+
+impl Columns for LineContacts<'_> {
+    fn rows(&self) -> usize {
+        self.rows
+    }
+
     #[inline(always)]
-    fn run<S: Simd, const K: usize>(self, simd: S) {
-        let Self { laws, ws } = self;
-        let thickening = Pack::<S, K>::all(simd, ws.thickening);
-        if let Some(raceways) = &laws.raceways {
-            for (law, batch) in [(&raceways.outer, &mut ws.outer), (&raceways.inner, &mut ws.inner)] {
-                for (motion, force) in batch.motion.iter().zip(&mut batch.force) {
-                    let motion = motion.map(|x| Pack::load(simd, x));
-                    law.force(&motion, thickening, None).store(force);
-                }
+    fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
+        let mut blend = None;
+        if let Some((sites, other)) = self.pockets {
+            let mut share = [0.0; WIDEST];
+            for (share, site) in share.iter_mut().zip(&sites[first..]) {
+                *share = site.edge_share;
             }
+            blend = Some(FrictionBlend { share: Pack::load(simd, &share), other });
         }
-        match &laws.pocket {
-            None => {}
-            Some(PocketLaws::Cylinder(pocket)) => {
-                for (law, batch) in [(&pocket.wall, &mut ws.wall), (&pocket.edge, &mut ws.edge)] {
-                    let sites = batch.site.chunks(GROUP);
-                    for ((motion, force), sites) in batch.motion.iter().zip(&mut batch.force).zip(sites) {
-                        let mut share = [0.0; GROUP];
-                        for (share, site) in share.iter_mut().zip(sites) {
-                            *share = site.edge_share;
-                        }
-                        let motion = motion.map(|x| Pack::load(simd, x));
-                        let blend = share.iter().any(|share| *share > 0.0).then(|| FrictionBlend {
-                            share: Pack::load(simd, &share),
-                            coefficient: pocket.edge_friction.at(motion.u1.abs()),
-                        });
-                        law.force(&motion, thickening, blend).store(force);
-                    }
-                }
-            }
-            Some(PocketLaws::Plane(pocket)) => {
-                for (motion, force) in ws.plane.motion.iter().zip(&mut ws.plane.force) {
-                    for i in 0..GROUP {
-                        force.set(i, &pocket.contact.force(&motion.get(i)));
-                    }
-                }
-            }
-        }
+        let motion = self.motion.load::<S, K>(simd, first);
+        let force = self.law.force(&motion, Pack::all(simd, self.thickening), blend);
+        self.force.store(first, &force);
     }
 }
 
@@ -294,14 +320,16 @@ fn add(sum: &mut Wrench<f64>, force: [f64; 2], moment: f64) {
 
 /// Wrench on the element in its local frame and on the cage in the global frame.
 pub(super) fn pocket_wrenches(
-    contact: &Loaded<'_, PocketSite>,
+    frame: &PairFrame<f64>,
+    force: &ContactForce<f64>,
+    pocket: &PocketSite,
     site: &ElementSite,
 ) -> (Wrench<f64>, Wrench<f64>) {
-    let [on_element, _] = contact.frame.wrenches(&contact.force);
+    let [on_element, _] = frame.wrenches(force);
     let (sin, cos) = site.lead;
     let force = rotate(on_element.force, -sin, cos);
     let [along_r, along_c] = on_element.force;
-    let lever = contact.site.lever;
+    let lever = pocket.lever;
     let [y, z] = site.to_global(force);
     (
         Wrench { force, moment: on_element.moment },

@@ -120,7 +120,7 @@ impl Model {
             };
             out.contacts[per_element * contact.element + pillar] = quantities(&contact);
             let site = &ws.elements[contact.element];
-            let (on_element, on_cage) = pocket_wrenches(&contact, site);
+            let (on_element, on_cage) = pocket_wrenches(contact.frame, &contact.force, contact.site, site);
             let on_element = Wrench { force: site.to_global(on_element.force), ..on_element };
             add(&mut out.bodies[self.element_body(contact.element)][POCKET], &on_element);
             add(&mut out.bodies[CAGE_BODY][POCKET], &on_cage);

@@ -16,7 +16,7 @@ use crate::integrate::arrowhead::HUB;
 use crate::integrate::{Linearization, Structure};
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
 use crate::laws::line_contact::FrictionBlend;
-use crate::scalar::{Dual, Numeric, Real};
+use crate::scalar::{Dual, Real};
 use nalgebra::{Matrix3, Matrix5, Vector5};
 
 /// First cage coordinate in the hub, after ring y, z.
@@ -466,8 +466,7 @@ fn cylinder_force(
     } else {
         (&laws.wall, LawDual::variable(contact.edge_share.value(), 4))
     };
-    let blend = (share.value() > 0.0)
-        .then(|| FrictionBlend { share, coefficient: laws.edge_friction.at(motion.u1.abs()) });
+    let blend = (share.value() > 0.0).then_some(FrictionBlend { share, other: laws.edge_friction });
     chain(&law.force(&motion, thickening, blend), &contact.motion, contact.edge_share)
 }
 

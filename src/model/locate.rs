@@ -84,6 +84,7 @@ impl Model {
         if ring_position[0].hypot(ring_position[1]) > LOST_BODY * geometry.pitch_radius {
             return Err(Fault::LostRing);
         }
+        self.turn(pockets, q, ws);
         for j in 0..self.layout.count {
             let i = self.layout.roller(j);
             let motion = RollerMotion {
@@ -95,11 +96,8 @@ impl Model {
             if motion.radial_offset.abs() > LOST_ROLLER * geometry.pitch_radius {
                 return Err(Fault::LostRoller { roller: j, radial_offset: motion.radial_offset });
             }
-            let (sin, cos) = (self.elements.reference_angles[j] + q[i + 1]).sin_cos();
-            let lead = match self.layout.cage {
-                Some(c) if pockets => (q[i + 1] - q[c + 2]).sin_cos(),
-                _ => (0.0, 1.0),
-            };
+            let (sin, cos) = ws.azimuths.direction(j);
+            let lead = ws.leads.direction(j);
             let site = ElementSite { motion, sin, cos, lead, pocket_offset: [0.0; 2] };
 
             if touching(motion.radial_offset - geometry.gap) {
@@ -116,6 +114,24 @@ impl Model {
             ws.elements.push(site);
         }
         Ok(())
+    }
+
+    /// Directions of the rollers and their leads over the pockets.
+    fn turn(&self, pockets: bool, q: &[f64], ws: &mut Workspace) {
+        let n = self.layout.count;
+        let travel = |j: usize| q[self.layout.roller(j) + 1];
+        for (j, (angle, reference)) in
+            ws.azimuths.angle.iter_mut().zip(&self.elements.reference_angles).enumerate()
+        {
+            *angle = reference + travel(j);
+        }
+        ws.azimuths.turn(n, ws.instructions);
+        if let (Some(c), true) = (self.layout.cage, pockets) {
+            for (j, angle) in ws.leads.angle.iter_mut().enumerate().take(n) {
+                *angle = travel(j) - q[c + 2];
+            }
+            ws.leads.turn(n, ws.instructions);
+        }
     }
 
     /// Sites of kinematic elements. All lead their pockets by the same angle.

@@ -9,29 +9,34 @@ use crate::integrate::Vibration;
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
 use crate::laws::guide::{GuideForce, GuideLaw};
 use crate::laws::journal::JournalMotion;
-use crate::scalar::GROUP;
+use crate::scalar::elementary::{ANGLE_LARGEST, sin_cos};
+use crate::scalar::{Columns, Pack, WIDEST, dispatch};
+use pulp::Simd;
+use std::f64::consts::TAU;
 
-/// The touching contacts of one law, their motions and forces in groups. Capacity is fixed at creation, so filling it
-/// does not allocate.
+/// The touching contacts of one law, in columns. Room is taken at creation, so filling it does not allocate.
 #[derive(Clone, Debug)]
 pub(super) struct Batch<S> {
     pub(super) element: Vec<usize>,
     pub(super) frame: Vec<PairFrame<f64>>,
     pub(super) site: Vec<S>,
-    /// Unused places of the last group are apart.
-    pub(super) motion: Vec<ContactMotion<[f64; GROUP]>>,
-    pub(super) force: Vec<ContactForce<[f64; GROUP]>>,
+    /// As long as the batch may become, and more: what is beyond its end is apart.
+    pub(super) motion: ContactMotion<Vec<f64>>,
+    pub(super) force: ContactForce<Vec<f64>>,
 }
+
+/// A motion without contact.
+const APART: ContactMotion<f64> = ContactMotion { delta: -1.0, delta_dot: 0.0, u1: 0.0, u2: 0.0 };
 
 impl<S> Batch<S> {
     fn with_capacity(n: usize) -> Self {
-        let apart = ContactForce::none([0.0; GROUP]);
+        let room = n.next_multiple_of(WIDEST);
         Self {
             element: Vec::with_capacity(n),
             frame: Vec::with_capacity(n),
             site: Vec::with_capacity(n),
-            motion: Vec::with_capacity(n.div_ceil(GROUP)),
-            force: vec![apart; n.div_ceil(GROUP)],
+            motion: APART.map(|x| vec![*x; room]),
+            force: ContactForce::none(0.0).map(|x: &f64| vec![*x; room]),
         }
     }
 
@@ -39,7 +44,6 @@ impl<S> Batch<S> {
         self.element.clear();
         self.frame.clear();
         self.site.clear();
-        self.motion.clear();
     }
 
     pub(super) fn len(&self) -> usize {
@@ -53,26 +57,49 @@ impl<S> Batch<S> {
         frame: PairFrame<f64>,
         site: S,
     ) {
-        let place = self.len() % GROUP;
-        if place == 0 {
-            let apart = ContactMotion { delta: -1.0, delta_dot: 0.0, u1: 0.0, u2: 0.0 };
-            self.motion.push(apart.map(|x| [*x; GROUP]));
-        }
-        if let Some(group) = self.motion.last_mut() {
-            group.set(place, &motion);
-        }
+        self.motion.set(self.len(), &motion);
         self.element.push(element);
         self.frame.push(frame);
         self.site.push(site);
     }
 
-    /// Contacts with their forces, in the order of the elements.
+    /// Makes the places up to the next whole group apart.
+    pub(super) fn pad(&mut self) {
+        for i in self.len()..self.len().next_multiple_of(WIDEST) {
+            self.motion.set(i, &APART);
+        }
+    }
+
+    /// Element, frame and site of each contact with its normal force, friction and rolling resistance, N.
+    pub(super) fn forces(&self) -> impl Iterator<Item = (usize, &PairFrame<f64>, &S, ContactForce<f64>)> {
+        let f = &self.force;
+        let kinematics = self.element.iter().zip(&self.frame).zip(&self.site);
+        let forces = f.normal.iter().zip(&f.friction).zip(&f.rolling_resistance);
+        kinematics.zip(forces).map(
+            |(((element, frame), site), ((&normal, &friction), &rolling_resistance))| {
+                let force = ContactForce { normal, friction, rolling_resistance, ..ContactForce::none(0.0) };
+                (*element, frame, site, force)
+            },
+        )
+    }
+
+    /// Element, frame and site of each contact with its normal damping and its secant slope of friction, N s/m.
+    pub(super) fn damping(&self) -> impl Iterator<Item = (usize, &PairFrame<f64>, &S, [f64; 2])> {
+        let kinematics = self.element.iter().zip(&self.frame).zip(&self.site);
+        kinematics
+            .zip(self.force.damping.iter().zip(&self.force.friction_secant))
+            .map(|(((element, frame), site), (damping, secant))| (*element, frame, site, [*damping, *secant]))
+    }
+
+    /// Contacts with all that is known of them, in the order of the elements.
     pub(super) fn iter(&self) -> impl Iterator<Item = Loaded<'_, S>> {
         let kinematics = self.element.iter().zip(&self.frame).zip(&self.site);
-        kinematics.enumerate().map(|(n, ((&element, frame), site))| {
-            let place = n % GROUP;
-            let (motion, force) = (self.motion[n / GROUP].get(place), self.force[n / GROUP].get(place));
-            Loaded { element, motion, frame, site, force }
+        kinematics.enumerate().map(|(i, ((&element, frame), site))| Loaded {
+            element,
+            motion: self.motion.map(|x| x[i]),
+            frame,
+            site,
+            force: self.force.map(|x| x[i]),
         })
     }
 }
@@ -84,6 +111,52 @@ pub(super) struct Loaded<'a, S> {
     pub(super) frame: &'a PairFrame<f64>,
     pub(super) site: &'a S,
     pub(super) force: ContactForce<f64>,
+}
+
+/// Angles with their sines and cosines, in columns.
+#[derive(Clone, Debug)]
+pub(super) struct Directions {
+    /// rad
+    pub(super) angle: Vec<f64>,
+    sin: Vec<f64>,
+    cos: Vec<f64>,
+}
+
+impl Directions {
+    fn new(n: usize) -> Self {
+        let room = n.next_multiple_of(WIDEST);
+        Self { angle: vec![0.0; room], sin: vec![0.0; room], cos: vec![1.0; room] }
+    }
+
+    /// Sine and cosine.
+    pub(super) fn direction(&self, j: usize) -> (f64, f64) {
+        (self.sin[j], self.cos[j])
+    }
+
+    /// Finds sine and cosine of the first `n` angles.
+    pub(super) fn turn(&mut self, n: usize, instructions: pulp::Arch) {
+        for angle in &mut self.angle[..n] {
+            if angle.abs() > ANGLE_LARGEST {
+                *angle %= TAU;
+            }
+        }
+        dispatch(instructions, Turn(self, n));
+    }
+}
+
+struct Turn<'a>(&'a mut Directions, usize);
+
+impl Columns for Turn<'_> {
+    fn rows(&self) -> usize {
+        self.1
+    }
+
+    #[inline(always)]
+    fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
+        let (sin, cos) = sin_cos(Pack::<S, K>::load(simd, &self.0.angle[first..]));
+        sin.store(&mut self.0.sin[first..]);
+        cos.store(&mut self.0.cos[first..]);
+    }
 }
 
 /// What a pocket contact needs besides its motion.
@@ -122,6 +195,9 @@ impl ElementSite {
 /// Memory of a force evaluation and its results. One per simulation; never shared.
 #[derive(Clone, Debug)]
 pub struct Workspace {
+    /// Directions of rollers, and by how much they lead their pockets.
+    pub(super) azimuths: Directions,
+    pub(super) leads: Directions,
     pub(super) elements: Vec<ElementSite>,
     pub(super) outer: Batch<()>,
     pub(super) inner: Batch<()>,
@@ -161,6 +237,8 @@ impl Workspace {
             Some(PocketLaws::Plane(_)) => (0, 2 * n),
         };
         Self {
+            azimuths: Directions::new(rollers),
+            leads: Directions::new(rollers),
             elements: Vec::with_capacity(n),
             outer: Batch::with_capacity(rollers),
             inner: Batch::with_capacity(rollers),
@@ -189,8 +267,9 @@ impl Workspace {
 
     /// Normal speeds of the touching raceway contacts at the last evaluated state.
     pub(crate) fn vibration(&self) -> Vibration {
-        let speeds = self.outer.motion.iter().chain(&self.inner.motion).flat_map(|m| m.delta_dot);
-        let squares = speeds.map(|v| v * v).sum();
+        let speeds =
+            |batch: &Batch<()>| batch.motion.delta_dot[..batch.len()].iter().map(|v| v * v).sum::<f64>();
+        let squares = speeds(&self.outer) + speeds(&self.inner);
         Vibration { squares, count: (self.outer.len() + self.inner.len()) as f64 }
     }
 

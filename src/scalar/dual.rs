@@ -14,7 +14,7 @@ pub struct Dual<const N: usize, B = f64> {
 
 impl<const N: usize, B: Base> Dual<N, B> {
     /// The independent variable number `index` at `value`.
-    #[inline(always)]
+    #[inline]
     pub fn variable(value: B, index: usize) -> Self {
         let mut eps = [value.splat(0.0); N];
         eps[index] = value.splat(1.0);
@@ -22,7 +22,7 @@ impl<const N: usize, B: Base> Dual<N, B> {
     }
 
     /// Chain rule: the result has value `re` and derivative `slope` times that of `self`.
-    #[inline(always)]
+    #[inline]
     fn chain(self, re: B, slope: B) -> Self {
         let mut eps = self.eps;
         for e in &mut eps {
@@ -31,7 +31,7 @@ impl<const N: usize, B: Base> Dual<N, B> {
         Self { re, eps }
     }
 
-    #[inline(always)]
+    #[inline]
     fn combine(self, other: Self, re: B, a: B, b: B) -> Self {
         let mut eps = self.eps;
         for (e, y) in eps.iter_mut().zip(other.eps) {
@@ -43,7 +43,7 @@ impl<const N: usize, B: Base> Dual<N, B> {
 
 impl<const N: usize, B: Base> Add for Dual<N, B> {
     type Output = Self;
-    #[inline(always)]
+    #[inline]
     fn add(self, o: Self) -> Self {
         let mut eps = self.eps;
         for (e, y) in eps.iter_mut().zip(o.eps) {
@@ -55,7 +55,7 @@ impl<const N: usize, B: Base> Add for Dual<N, B> {
 
 impl<const N: usize, B: Base> Sub for Dual<N, B> {
     type Output = Self;
-    #[inline(always)]
+    #[inline]
     fn sub(self, o: Self) -> Self {
         let mut eps = self.eps;
         for (e, y) in eps.iter_mut().zip(o.eps) {
@@ -67,7 +67,7 @@ impl<const N: usize, B: Base> Sub for Dual<N, B> {
 
 impl<const N: usize, B: Base> Mul for Dual<N, B> {
     type Output = Self;
-    #[inline(always)]
+    #[inline]
     fn mul(self, o: Self) -> Self {
         self.combine(o, self.re * o.re, o.re, self.re)
     }
@@ -75,7 +75,7 @@ impl<const N: usize, B: Base> Mul for Dual<N, B> {
 
 impl<const N: usize, B: Base> Div for Dual<N, B> {
     type Output = Self;
-    #[inline(always)]
+    #[inline]
     fn div(self, o: Self) -> Self {
         let q = self.re / o.re;
         let inverse = o.re.splat(1.0) / o.re;
@@ -85,7 +85,7 @@ impl<const N: usize, B: Base> Div for Dual<N, B> {
 
 impl<const N: usize, B: Base> Neg for Dual<N, B> {
     type Output = Self;
-    #[inline(always)]
+    #[inline]
     fn neg(self) -> Self {
         let mut eps = self.eps;
         for e in &mut eps {
@@ -96,14 +96,14 @@ impl<const N: usize, B: Base> Neg for Dual<N, B> {
 }
 
 impl<const N: usize, B: Base> AddAssign for Dual<N, B> {
-    #[inline(always)]
+    #[inline]
     fn add_assign(&mut self, o: Self) {
         *self = *self + o;
     }
 }
 
 impl<const N: usize, B: Base> SubAssign for Dual<N, B> {
-    #[inline(always)]
+    #[inline]
     fn sub_assign(&mut self, o: Self) {
         *self = *self - o;
     }
@@ -111,7 +111,7 @@ impl<const N: usize, B: Base> SubAssign for Dual<N, B> {
 
 impl<const N: usize, B: Base> Add<f64> for Dual<N, B> {
     type Output = Self;
-    #[inline(always)]
+    #[inline]
     fn add(self, o: f64) -> Self {
         Self { re: self.re + o, ..self }
     }
@@ -119,7 +119,7 @@ impl<const N: usize, B: Base> Add<f64> for Dual<N, B> {
 
 impl<const N: usize, B: Base> Sub<f64> for Dual<N, B> {
     type Output = Self;
-    #[inline(always)]
+    #[inline]
     fn sub(self, o: f64) -> Self {
         Self { re: self.re - o, ..self }
     }
@@ -127,7 +127,7 @@ impl<const N: usize, B: Base> Sub<f64> for Dual<N, B> {
 
 impl<const N: usize, B: Base> Mul<f64> for Dual<N, B> {
     type Output = Self;
-    #[inline(always)]
+    #[inline]
     fn mul(self, o: f64) -> Self {
         let mut eps = self.eps;
         for e in &mut eps {
@@ -139,7 +139,7 @@ impl<const N: usize, B: Base> Mul<f64> for Dual<N, B> {
 
 impl<const N: usize, B: Base> Div<f64> for Dual<N, B> {
     type Output = Self;
-    #[inline(always)]
+    #[inline]
     fn div(self, o: f64) -> Self {
         self * (1.0 / o)
     }
@@ -150,15 +150,15 @@ impl<const N: usize, B: Base> Numeric for Dual<N, B> {
     type Base = B;
     type Mask = B::Mask;
 
-    #[inline(always)]
+    #[inline]
     fn base(self) -> B {
         self.re
     }
-    #[inline(always)]
+    #[inline]
     fn lift(base: B) -> Self {
         Self { re: base, eps: [base.splat(0.0); N] }
     }
-    #[inline(always)]
+    #[inline]
     fn select(condition: B::Mask, yes: Self, no: Self) -> Self {
         let mut out = no;
         out.re = B::select(condition, yes.re, no.re);
@@ -167,30 +167,30 @@ impl<const N: usize, B: Base> Numeric for Dual<N, B> {
         }
         out
     }
-    #[inline(always)]
+    #[inline]
     fn sqrt(self) -> Self {
         let r = self.re.sqrt();
         self.chain(r, r.splat(0.5) / r)
     }
-    #[inline(always)]
+    #[inline]
     fn ln(self) -> Self {
         self.chain(self.re.ln(), self.re.splat(1.0) / self.re)
     }
-    #[inline(always)]
+    #[inline]
     fn ln_1p(self) -> Self {
         self.chain(self.re.ln_1p(), self.re.splat(1.0) / (self.re + 1.0))
     }
-    #[inline(always)]
+    #[inline]
     fn exp(self) -> Self {
         let e = self.re.exp();
         self.chain(e, e)
     }
-    #[inline(always)]
+    #[inline]
     fn tanh(self) -> Self {
         let t = self.re.tanh();
         self.chain(t, -(t * t) + 1.0)
     }
-    #[inline(always)]
+    #[inline]
     fn asinh(self) -> Self {
         let root = (self.re * self.re + 1.0).sqrt();
         self.chain(self.re.asinh(), root.splat(1.0) / root)

@@ -9,7 +9,7 @@ pub mod elementary;
 mod pack;
 
 pub use dual::Dual;
-pub use pack::{GROUP, Group, Pack, dispatch};
+pub use pack::{Columns, Pack, WIDEST, dispatch};
 
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Sub, SubAssign};
 
@@ -101,6 +101,12 @@ pub trait Base: Numeric<Base = Self> {
     fn less(self, other: Self) -> Self::Mask;
     /// self <= `other`
     fn less_or_equal(self, other: Self) -> Self::Mask;
+    /// The numbers, or the nearer end of a range. NaN stays.
+    #[inline(always)]
+    fn within(self, [low, high]: [f64; 2]) -> Self {
+        let raised = Self::select(self.below(low), self.splat(low), self);
+        Self::select(raised.above(high), self.splat(high), raised)
+    }
     /// Whether any is true.
     fn any(mask: Self::Mask) -> bool;
     /// 2^self of whole numbers from -1022 to 1023.
@@ -161,23 +167,18 @@ impl Numeric for f64 {
     fn sqrt(self) -> Self {
         self.sqrt()
     }
-    #[inline(always)]
     fn ln(self) -> Self {
         elementary::ln(self)
     }
-    #[inline(always)]
     fn ln_1p(self) -> Self {
         elementary::ln_1p(self)
     }
-    #[inline(always)]
     fn exp(self) -> Self {
         elementary::exp(self)
     }
-    #[inline(always)]
     fn tanh(self) -> Self {
         elementary::tanh(self)
     }
-    #[inline(always)]
     fn asinh(self) -> Self {
         elementary::asinh(self)
     }
