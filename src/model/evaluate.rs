@@ -336,3 +336,42 @@ pub(super) fn pocket_wrenches(
         Wrench { force: [-y, -z], moment: -(lever[0] * along_c - lever[1] * along_r) },
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Sim;
+    use crate::model::HostInputs;
+    use pulp::Arch;
+    use std::sync::Arc;
+
+    /// Accelerations at a state with these instructions.
+    fn accelerations(sim: &Sim, instructions: Arch) -> Vec<u64> {
+        let model = sim.model();
+        let (q, v) = sim.state().split_at(model.layout().positions());
+        let mut ws = Workspace::new(model);
+        ws.instructions = instructions;
+        let mut a = vec![0.0; v.len()];
+        let inputs = model.inputs_at(sim.time(), &HostInputs::default());
+        model.accelerations(&inputs, q, v, &mut ws, &mut a).unwrap();
+        a.into_iter().map(f64::to_bits).collect()
+    }
+
+    #[test]
+    fn all_instructions_give_the_same_bits() {
+        for scene in ["nu2310", "nu2310_grease", "grease_guide"] {
+            let path = format!("{}/scenes/{scene}.json", env!("CARGO_MANIFEST_DIR"));
+            let model = Model::from_json(&std::fs::read_to_string(path).unwrap()).unwrap();
+            let mut sim = Sim::new(Arc::new(model)).unwrap();
+            for step in 1..=20 {
+                sim.advance_to(0.5e-3 * f64::from(step)).unwrap();
+                let portable = accelerations(&sim, Arch::Scalar);
+                assert_eq!(portable, accelerations(&sim, Arch::new()), "{scene}");
+                #[cfg(target_arch = "x86_64")]
+                if let Some(v3) = pulp::x86::V3::try_new() {
+                    assert_eq!(portable, accelerations(&sim, Arch::V3(v3)), "{scene}");
+                }
+            }
+        }
+    }
+}
