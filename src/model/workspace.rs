@@ -216,7 +216,7 @@ pub struct Workspace {
     pub(super) counts: LawCounts,
     /// Whether evaluations are counted now.
     pub(super) counting: bool,
-    /// Temperature of the last evaluation, K; NaN before the first and where the viscosity is constant.
+    /// Temperature that the viscosity belongs to, K; NaN where the viscosity is constant.
     pub(super) temperature: f64,
     /// ln of the viscosity at that temperature over that of the laws.
     pub(super) thickening: f64,
