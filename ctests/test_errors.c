@@ -31,6 +31,8 @@ static void check_null_handles(void)
     double x[3] = {1.0, 2.0, 3.0};
     const int32_t null = CAGEDYN_ERR_NULL_ARGUMENT;
     CHECK(cagedyn_sim_new(NULL) == NULL);
+    CHECK(cagedyn_sim_new_with_preset(NULL, CAGEDYN_PRESET_DRAFT) == NULL);
+    CHECK(cagedyn_error_status() == CAGEDYN_ERR_NULL_ARGUMENT);
     CHECK_FAILS(cagedyn_model_state_count(NULL), null, "model");
     CHECK_FAILS(cagedyn_model_position_count(NULL), null, "model");
     CHECK_FAILS(cagedyn_model_velocity_count(NULL), null, "model");
@@ -162,6 +164,31 @@ static void check_limits(const cagedyn_model *m)
     cagedyn_model_free(limited);
 }
 
+/* A preset is one of three, and a coarser one takes fewer steps. */
+static void check_presets(const cagedyn_model *m)
+{
+    double steps[2] = {0.0, 0.0}, all[64];
+    const int32_t presets[2] = {CAGEDYN_PRESET_DRAFT, CAGEDYN_PRESET_ENGINEERING};
+    const int64_t count = cagedyn_statistic_count();
+    CHECK(count > 0 && count <= 64);
+    for (int i = 0; i < 2; i++) {
+        cagedyn_sim *sim = cagedyn_sim_new_with_preset(m, presets[i]);
+        CHECK(sim != NULL);
+        CHECK(cagedyn_sim_step(sim, 1e-3) == CAGEDYN_OK);
+        CHECK(cagedyn_sim_statistics(sim, all, count) == CAGEDYN_OK);
+        for (int64_t k = 0; k < count; k++) {
+            if (strcmp(cagedyn_statistic_name(k), "steps") == 0) steps[i] = all[k];
+        }
+        cagedyn_sim_free(sim);
+    }
+    CHECK(steps[0] > 0.0 && steps[0] < steps[1]);
+    for (int32_t wrong = -1; wrong <= 3; wrong += 4) {
+        CHECK(cagedyn_sim_new_with_preset(m, wrong) == NULL);
+        CHECK(cagedyn_error_status() == CAGEDYN_ERR_BAD_VALUE);
+        CHECK(strstr(cagedyn_error_message(), "preset") != NULL);
+    }
+}
+
 int main(int argc, char **argv)
 {
     cagedyn_model *model = load_model(argc, argv);
@@ -173,6 +200,7 @@ int main(int argc, char **argv)
     check_jacobian(model, sim);
     check_values(sim);
     check_limits(model);
+    check_presets(model);
     cagedyn_sim_free(sim);
     cagedyn_model_free(model);
     return failures != 0;

@@ -46,6 +46,15 @@
 // Patch version of the library this header belongs to.
 #define CAGEDYN_VERSION_PATCH 0
 
+// Preset for searching: many cases, trends, the kind of motion.
+#define CAGEDYN_PRESET_DRAFT 0
+
+// Preset for results; the default.
+#define CAGEDYN_PRESET_ENGINEERING 1
+
+// Preset for comparing: trajectories with controlled errors.
+#define CAGEDYN_PRESET_REFERENCE 2
+
 // Success.
 #define CAGEDYN_OK 0
 
@@ -232,6 +241,11 @@ int64_t cagedyn_model_find_force_source(const cagedyn_model *model,
 // Creates a simulation at the start of the model's scene. It keeps what it needs of the model. Returns NULL on
 // failure. Free it with cagedyn_sim_free().
 cagedyn_sim *cagedyn_sim_new(const cagedyn_model *model);
+
+// As cagedyn_sim_new(), with a preset (CAGEDYN_PRESET_...) instead of that of the scene: how accurate the simulation
+// is to be where the scene's method leaves that open.
+cagedyn_sim *cagedyn_sim_new_with_preset(const cagedyn_model *model,
+                                         int32_t preset);
 
 // Frees a simulation. NULL is ignored.
 void cagedyn_sim_free(cagedyn_sim *sim);

@@ -20,6 +20,13 @@ pub const CAGEDYN_VERSION_MINOR: i32 = 1;
 /// Patch version of the library this header belongs to.
 pub const CAGEDYN_VERSION_PATCH: i32 = 0;
 
+/// Preset for searching: many cases, trends, the kind of motion.
+pub const CAGEDYN_PRESET_DRAFT: i32 = 0;
+/// Preset for results; the default.
+pub const CAGEDYN_PRESET_ENGINEERING: i32 = 1;
+/// Preset for comparing: trajectories with controlled errors.
+pub const CAGEDYN_PRESET_REFERENCE: i32 = 2;
+
 /// Success.
 pub const CAGEDYN_OK: i32 = 0;
 /// A required pointer is NULL.

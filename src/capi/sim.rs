@@ -2,9 +2,12 @@
 
 use super::guard::{check_array, count, exclusive, guard, index, read_array, shared, status, write_array};
 use super::model::cagedyn_model;
-use crate::error::Result;
+use crate::error::{Error, Result, Status};
+use crate::model::Model;
+use crate::scene::Preset;
 use crate::sim::Sim;
 use std::ffi::CString;
+use std::sync::Arc;
 
 /// A running simulation. May be used by one thread at a time.
 #[allow(non_camel_case_types)]
@@ -27,18 +30,16 @@ unsafe fn with(sim: *mut cagedyn_sim, entry: impl FnOnce(&mut cagedyn_sim) -> Re
     status(|| entry(unsafe { exclusive("sim", sim) }?))
 }
 
-/// Creates a simulation at the start of the model's scene. It keeps what it needs of the model. Returns NULL on
-/// failure. Free it with cagedyn_sim_free().
+/// A handle to what `make` makes of a model, or NULL.
 ///
 /// # Safety
 /// `model` is NULL or a live handle.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cagedyn_sim_new(model: *const cagedyn_model) -> *mut cagedyn_sim {
+unsafe fn new(model: *const cagedyn_model, make: impl FnOnce(Arc<Model>) -> Result<Sim>) -> *mut cagedyn_sim {
     guard(
         |_| std::ptr::null_mut(),
         || {
             // SAFETY: see above.
-            let sim = Sim::new(unsafe { shared("model", model) }?.model.clone())?;
+            let sim = make(unsafe { shared("model", model) }?.model.clone())?;
             let (states, outputs) = (sim.state().len(), sim.channels().len());
             let (state, result) = (vec![0.0; states], vec![0.0; states.max(outputs)]);
             Ok(Box::into_raw(Box::new(cagedyn_sim {
@@ -50,6 +51,39 @@ pub unsafe extern "C" fn cagedyn_sim_new(model: *const cagedyn_model) -> *mut ca
             })))
         },
     )
+}
+
+/// Creates a simulation at the start of the model's scene. It keeps what it needs of the model. Returns NULL on
+/// failure. Free it with cagedyn_sim_free().
+///
+/// # Safety
+/// `model` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_new(model: *const cagedyn_model) -> *mut cagedyn_sim {
+    // SAFETY: see above.
+    unsafe { new(model, Sim::new) }
+}
+
+/// As cagedyn_sim_new(), with a preset (CAGEDYN_PRESET_...) instead of that of the scene: how accurate the simulation
+/// is to be where the scene's method leaves that open.
+///
+/// # Safety
+/// `model` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_new_with_preset(
+    model: *const cagedyn_model,
+    preset: i32,
+) -> *mut cagedyn_sim {
+    let make = |model| {
+        let place = usize::try_from(preset).ok().filter(|i| *i < Preset::ALL.len());
+        let place = place.ok_or_else(|| {
+            let text = format!("preset: {preset} is none of the CAGEDYN_PRESET_ numbers, 0 to 2");
+            Error::new(Status::BadValue, text)
+        })?;
+        Sim::with_preset(model, Preset::ALL[place])
+    };
+    // SAFETY: see above.
+    unsafe { new(model, make) }
 }
 
 /// Frees a simulation. NULL is ignored.

@@ -13,9 +13,7 @@ use super::{Leapfrog, Linearization, Reader, Stepper, System, Vibration};
 const INTERVAL: u64 = 512;
 /// Steps of a stretch: about one period of the fastest vibration.
 const STRETCH: usize = 8;
-/// Largest error of a stretch in units of the norm, and the largest relative change of vibration. Measured on a
-/// roller bearing: with smaller errors the statistics of long runs stay within the scatter of the reference.
-const LARGEST_ERROR: f64 = 6e-5;
+/// Largest relative change of vibration. Measured on a roller bearing, as the largest errors of the presets.
 const LARGEST_CHANGE: f64 = 0.25;
 /// A stretch with more than this many times the largest error is refined at once.
 const FAR_TOO_MUCH: f64 = 8.0;
@@ -49,6 +47,8 @@ pub struct Expectation {
     pub share: f64,
     /// Largest step, s.
     pub largest_step: f64,
+    /// Largest error of a stretch, in units of the norm.
+    pub largest_error: f64,
 }
 
 impl Expectation {
@@ -186,7 +186,7 @@ impl Watch {
         self.level = self.level.max(floor);
         // A step that is far too coarse is refined at once, others after some checks have agreed.
         while let Some(error) = self.check(system, main, t, t_last) {
-            if error <= FAR_TOO_MUCH * LARGEST_ERROR || self.level > FINEST {
+            if error <= FAR_TOO_MUCH * self.expected.largest_error || self.level > FINEST {
                 break;
             }
             self.refine();
@@ -235,7 +235,8 @@ impl Watch {
 
     /// Whether the running means are below this share of what is allowed.
     fn accurate(&self, share: f64) -> bool {
-        self.error <= share * LARGEST_ERROR * self.weight && self.change_of_vibration() <= LARGEST_CHANGE
+        self.error <= share * self.expected.largest_error * self.weight
+            && self.change_of_vibration() <= LARGEST_CHANGE
     }
 
     fn refine(&mut self) {
@@ -308,7 +309,8 @@ impl Watch {
         }
         self.error = MEMORY * self.error + (1.0 - MEMORY) * error;
         self.weight = MEMORY * self.weight + (1.0 - MEMORY);
-        let comfortable = error <= COMFORT * LARGEST_ERROR && self.change_of_vibration() <= COMFORT;
+        let error_allowed = COMFORT * self.expected.largest_error;
+        let comfortable = error <= error_allowed && self.change_of_vibration() <= COMFORT;
         self.comfortable = if comfortable { self.comfortable + 1 } else { 0 };
     }
 

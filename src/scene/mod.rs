@@ -31,7 +31,7 @@ pub use elements::{ElementMotion, KinematicElements, Rollers};
 pub use lubricant::{Lubricant, Temperature, Viscosity, ViscosityPoint, WaltherViscosity};
 pub use overrides::{parse_override, set_path};
 pub use rings::{FreeRing, InnerRing, Load, OuterRing, RingMotion};
-pub use run::{Auto, DormandPrince, Initial, Leapfrog, Method, Radau, Record, RingStart, Rosenbrock, Solver};
+pub use run::{Auto, ErrorControl, Initial, Leapfrog, Method, Preset, Record, RingStart, Solver};
 pub use signal::{Signal, SignalIntegral, interpolate, slope};
 pub(crate) use validate::VISCOSITY;
 

@@ -37,10 +37,40 @@ pub enum RingStart {
     Equilibrium,
 }
 
+/// How accurate a run is to be, by its purpose. Fills in every step and tolerance that the method leaves open;
+/// docs/accuracy.md has the measured error and cost.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Preset {
+    /// For searching: many cases, trends, the kind of motion.
+    Draft,
+    /// For results: statistics of rollers within their scatter, everything else to a millionth of the clearance.
+    #[default]
+    Engineering,
+    /// For comparing: trajectories with controlled errors, also where they are chaotic.
+    Reference,
+}
+
+impl Preset {
+    /// All presets, from the fastest to the most accurate.
+    pub const ALL: [Self; 3] = [Self::Draft, Self::Engineering, Self::Reference];
+
+    /// Name, as in scenes.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Draft => "draft",
+            Self::Engineering => "engineering",
+            Self::Reference => "reference",
+        }
+    }
+}
+
 /// Integration method and limits.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Solver {
+    /// How accurate, where the method leaves it open.
+    pub preset: Preset,
     /// Method.
     pub method: Method,
     /// Largest step of methods with error control, s. Absent: 0.1 ms; without rollers at most half the time of a
@@ -56,7 +86,7 @@ pub struct Solver {
 impl Default for Solver {
     fn default() -> Self {
         let method = Method::Auto(Auto { tolerance: None });
-        Self { method, max_step: None, min_step: 1e-12, max_steps: 200_000_000 }
+        Self { preset: Preset::default(), method, max_step: None, min_step: 1e-12, max_steps: 200_000_000 }
     }
 }
 
@@ -69,13 +99,13 @@ pub enum Method {
     /// Semi-implicit leapfrog of fixed step: one force evaluation per step; the choice for statistics of long runs.
     Leapfrog(Leapfrog),
     /// Dormand-Prince 5(4) with error control: the choice for accurate trajectories.
-    DormandPrince(DormandPrince),
+    DormandPrince(ErrorControl),
     /// Rosenbrock method of order 4(3) on the exact derivatives, with error control: the choice for accurate
     /// trajectories of stiff scenes, such as thin films and heavy loads.
-    Rosenbrock(Rosenbrock),
+    Rosenbrock(ErrorControl),
     /// Radau IIA method of order 5 on the exact derivatives, with error control: the choice for extreme accuracy where
     /// films are stiff and nothing else touches.
-    Radau(Radau),
+    Radau(ErrorControl),
 }
 
 /// Parameters of the choice.
@@ -83,7 +113,7 @@ pub enum Method {
 #[serde(deny_unknown_fields)]
 pub struct Auto {
     /// Local error in units of the model's reference clearance (see docs/model.md), for accurate trajectories. Absent:
-    /// rollers are followed in their statistics, everything else with 1e-6.
+    /// by the preset, which may follow rollers in their statistics only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
 }
@@ -92,33 +122,18 @@ pub struct Auto {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Leapfrog {
-    /// Step size, s. Absent: chosen from the highest contact frequency of the model.
+    /// Step size, s. Absent: by the preset, in units of the highest contact frequency of the model.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub step: Option<f64>,
 }
 
-/// Parameters of the Dormand-Prince method.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+/// Parameters of a method with error control.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct DormandPrince {
-    /// Local error in units of the model's reference clearance (see docs/model.md); 1e-5 suits most scenes.
-    pub tolerance: f64,
-}
-
-/// Parameters of the Rosenbrock method.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Rosenbrock {
-    /// Local error in units of the model's reference clearance (see docs/model.md); 1e-5 suits most scenes.
-    pub tolerance: f64,
-}
-
-/// Parameters of the Radau method.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Radau {
-    /// Local error in units of the model's reference clearance (see docs/model.md); 1e-5 suits most scenes.
-    pub tolerance: f64,
+pub struct ErrorControl {
+    /// Local error in units of the model's reference clearance (see docs/model.md). Absent: by the preset.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
 }
 
 /// Length of the run and times of the records.

@@ -243,13 +243,13 @@ impl Scene {
                 optional("solver.method.leapfrog.step", m.step, allowed)?;
             }
             Method::Rosenbrock(m) => {
-                number("solver.method.rosenbrock.tolerance", m.tolerance, tolerance())?;
+                optional("solver.method.rosenbrock.tolerance", m.tolerance, tolerance())?;
             }
             Method::Radau(m) => {
-                number("solver.method.radau.tolerance", m.tolerance, tolerance())?;
+                optional("solver.method.radau.tolerance", m.tolerance, tolerance())?;
             }
             Method::DormandPrince(m) => {
-                number("solver.method.dormand_prince.tolerance", m.tolerance, tolerance())?;
+                optional("solver.method.dormand_prince.tolerance", m.tolerance, tolerance())?;
             }
         }
         if self.solver.max_steps == 0 {

@@ -1,11 +1,12 @@
 //! From the scene's choice of a method to a running one, and back to words.
 
 use super::bearing::Bearing;
+use super::preset::{Numbers, UNDAMPED_SHARE, numbers};
 use crate::integrate::auto::{Aim, Auto, Choice, Kind, Reason};
 use crate::integrate::watch::Expectation;
 use crate::integrate::{DormandPrince, Leapfrog, Limits, Radau, Rosenbrock, Stepper};
 use crate::model::Model;
-use crate::scene::Method;
+use crate::scene::{Method, Solver};
 
 /// Largest step of methods with error control, unless the scene says otherwise, in units of 1/(highest frequency): half
 /// the time of a contact, so that none is jumped over except by a graze. Not with rollers, whose loaded contacts keep
@@ -16,21 +17,14 @@ const MAX_STEP: f64 = 1e-4;
 const MAX_NOMINAL_STEP: f64 = 2e-5;
 /// First step of methods with error control in units of 1/(highest frequency).
 const FIRST_STEP: f64 = 0.1;
-/// Nominal leapfrog step in units of 1/(highest frequency), with and without contact damping. At 1 roller slip would be
-/// 1 % too low, and drag torque under heavy load a fifth too high: see docs/statistics.md.
-const DAMPED_STEP: f64 = 0.6;
-const UNDAMPED_STEP: f64 = 0.3;
-/// Tolerance of `auto` where it controls errors and none is asked for: without rollers, and with rollers where the leapfrog
-/// will not do. In such cases of docs/statistics.md it is enough; it is not at 1000 rpm, where the leapfrog will do.
-const AUTO_TOLERANCE: f64 = 1e-6;
-const STATISTICS_TOLERANCE: f64 = 1e-3;
 
-/// The method that the scene asks for.
-pub(super) fn stepper(model: &Model, bearing: &Bearing) -> Box<dyn Stepper<Bearing> + Send> {
+/// The method that is asked for.
+pub(super) fn stepper(model: &Model, solver: &Solver, bearing: &Bearing) -> Box<dyn Stepper<Bearing> + Send> {
     let units = model.state_scales();
-    let tolerance = |t: f64| units.iter().map(|unit| t * unit).collect::<Vec<_>>();
-    match &model.scene().solver.method {
-        Method::Auto(_) => Box::new(Auto::new(bearing, aim(model))),
+    let usual = numbers(solver.preset).tolerance;
+    let tolerance = |t: Option<f64>| units.iter().map(|unit| t.unwrap_or(usual) * unit).collect::<Vec<_>>();
+    match &solver.method {
+        Method::Auto(_) => Box::new(Auto::new(bearing, aim(model, solver))),
         Method::Leapfrog(_) => Box::new(Leapfrog::new(bearing)),
         Method::DormandPrince(m) => Box::new(DormandPrince::new(bearing, &tolerance(m.tolerance))),
         Method::Rosenbrock(m) => Box::new(Rosenbrock::new(bearing, &tolerance(m.tolerance))),
@@ -39,56 +33,60 @@ pub(super) fn stepper(model: &Model, bearing: &Bearing) -> Box<dyn Stepper<Beari
 }
 
 /// Steps and limits that a run starts with.
-pub(super) fn limits(model: &Model) -> Limits {
-    let solver = &model.scene().solver;
+pub(super) fn limits(model: &Model, solver: &Solver) -> Limits {
     let nominal_step = match &solver.method {
-        Method::Auto(_) => aim(model).nominal_step(),
+        Method::Auto(_) => aim(model, solver).nominal_step(),
         Method::Leapfrog(m) => m.step.unwrap_or_else(|| {
-            let share = if model.damped() { DAMPED_STEP } else { UNDAMPED_STEP };
+            let damped = numbers(solver.preset).leapfrog_step;
+            let share = if model.damped() { damped } else { UNDAMPED_SHARE * damped };
             (share / model.highest_frequency()).min(MAX_NOMINAL_STEP)
         }),
-        Method::DormandPrince(_) | Method::Rosenbrock(_) | Method::Radau(_) => first_step(model),
+        Method::DormandPrince(_) | Method::Rosenbrock(_) | Method::Radau(_) => first_step(model, solver),
     };
     Limits {
         nominal_step: nominal_step.max(solver.min_step),
         min_step: solver.min_step,
-        max_step: largest_step(model).max(solver.min_step),
+        max_step: largest_step(model, solver).max(solver.min_step),
         max_steps: solver.max_steps,
     }
 }
 
 /// Largest step of error control, s.
-fn largest_step(model: &Model) -> f64 {
-    model.scene().solver.max_step.unwrap_or_else(|| match model.has_rollers() {
+fn largest_step(model: &Model, solver: &Solver) -> f64 {
+    solver.max_step.unwrap_or_else(|| match model.has_rollers() {
         true => MAX_STEP,
         false => (LARGEST_SHARE / model.highest_frequency()).min(MAX_STEP),
     })
 }
 
 /// First step of error control, s.
-fn first_step(model: &Model) -> f64 {
-    (FIRST_STEP / model.highest_frequency()).min(MAX_NOMINAL_STEP).min(largest_step(model))
+fn first_step(model: &Model, solver: &Solver) -> f64 {
+    (FIRST_STEP / model.highest_frequency()).min(MAX_NOMINAL_STEP).min(largest_step(model, solver))
 }
 
 /// Rollers between raceways vibrate all the time and make the motion chaotic within milliseconds, so their statistics
-/// are what can be had; everything else is smooth between contacts.
-fn aim(model: &Model) -> Aim {
-    let asked = match &model.scene().solver.method {
+/// are what can be had at little cost; everything else is smooth between contacts.
+fn aim(model: &Model, solver: &Solver) -> Aim {
+    let asked = match &solver.method {
         Method::Auto(auto) => auto.tolerance,
         _ => None,
     };
-    let usual = if model.has_rollers() { STATISTICS_TOLERANCE } else { AUTO_TOLERANCE };
+    let Numbers { statistics, leapfrog_step, stretch_error, tolerance, statistics_tolerance } =
+        numbers(solver.preset);
+    let statistics = statistics && model.has_rollers() && asked.is_none();
+    let usual = if statistics { statistics_tolerance } else { tolerance };
     Aim {
-        statistics: model.has_rollers() && asked.is_none(),
+        statistics,
         expected: Expectation {
             frequency: model.highest_frequency(),
             damped: model.damped(),
-            share: DAMPED_STEP,
+            share: leapfrog_step,
             largest_step: MAX_NOMINAL_STEP,
+            largest_error: stretch_error,
         },
         units: model.state_scales(),
         tolerance: asked.unwrap_or(usual),
-        first_step: first_step(model),
+        first_step: first_step(model, solver),
     }
 }
 

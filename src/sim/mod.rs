@@ -3,6 +3,7 @@
 mod bearing;
 mod jacobian;
 mod method;
+mod preset;
 mod recording;
 mod snapshot;
 mod statistics;
@@ -15,6 +16,7 @@ pub use whirl::{CageMotion, WhirlRecord, WhirlSummary};
 use crate::error::{Error, Result, Status};
 use crate::integrate::{Driver, Failure};
 use crate::model::{Channel, FAULTS, Fault, Forces, Input, Model};
+use crate::scene::{Preset, Solver};
 use bearing::Bearing;
 use std::sync::Arc;
 
@@ -27,6 +29,7 @@ const MAX_TIME: f64 = 1e6;
 pub struct Sim {
     bearing: Bearing,
     driver: Driver<Bearing>,
+    solver: Solver,
     time: f64,
     state: Vec<f64>,
     channels: Arc<[Channel]>,
@@ -44,15 +47,31 @@ impl Sim {
     /// [`Status::BadScene`] when the initial state cannot be found, [`Status::BadState`] when forces are undefined
     /// there.
     pub fn new(model: Arc<Model>) -> Result<Self> {
+        let solver = model.scene().solver.clone();
+        Self::with_solver(model, solver)
+    }
+
+    /// A simulation at the start of the scene, with this preset instead of the scene's; what else the scene says about
+    /// its solver stays.
+    ///
+    /// # Errors
+    /// As [`Sim::new`].
+    pub fn with_preset(model: Arc<Model>, preset: Preset) -> Result<Self> {
+        let solver = Solver { preset, ..model.scene().solver.clone() };
+        Self::with_solver(model, solver)
+    }
+
+    fn with_solver(model: Arc<Model>, solver: Solver) -> Result<Self> {
         let state = model.initial_state()?;
         let bearing = Bearing::new(model.clone());
-        let driver = Driver::new(method::stepper(&model, &bearing), method::limits(&model));
+        let driver = Driver::new(method::stepper(&model, &solver, &bearing), method::limits(&model, &solver));
         let mut sim = Self {
             channels: model.channels().into(),
-            fingerprint: snapshot::fingerprint(&model),
+            fingerprint: snapshot::fingerprint(&model, &solver),
             accelerations: vec![0.0; model.layout().velocities()],
             bearing,
             driver,
+            solver,
             time: 0.0,
             state,
             forces: Forces::default(),
@@ -66,6 +85,11 @@ impl Sim {
     /// The model.
     pub fn model(&self) -> &Arc<Model> {
         self.bearing.model()
+    }
+
+    /// How accurate it is, where the method leaves that open.
+    pub fn preset(&self) -> Preset {
+        self.solver.preset
     }
 
     /// Simulated time, s.
@@ -242,7 +266,7 @@ impl Sim {
 
     /// Step that runs start with, s; a method without error control keeps it.
     pub fn nominal_step(&self) -> f64 {
-        method::limits(self.model()).nominal_step
+        method::limits(self.model(), &self.solver).nominal_step
     }
 
     /// Counts since creation or reset; a restored simulation goes on from the saved counts.
@@ -260,7 +284,7 @@ impl Sim {
     pub fn report(&self) -> String {
         let mut text = match self.driver.choice() {
             Some(choice) => method::describe(&choice),
-            None => method::named(&self.model().scene().solver.method).to_owned(),
+            None => method::named(&self.solver.method).to_owned(),
         };
         let rms = self.driver.statistics().vibration.rms();
         if rms > 0.0 {

@@ -4,6 +4,7 @@ use super::Sim;
 use crate::error::{Error, Result, Status};
 use crate::integrate::Reader;
 use crate::model::{FaultCounts, HostInputs, LawCounts, Model};
+use crate::scene::Solver;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// First number of a snapshot; changes when its content changes.
@@ -96,11 +97,12 @@ impl Sim {
     }
 }
 
-/// Scene and library version, hashed into two numbers that fit exactly into f64.
-pub(super) fn fingerprint(model: &Model) -> [f64; 2] {
+/// Scene, preset and library version, hashed into two numbers that fit exactly into f64.
+pub(super) fn fingerprint(model: &Model, solver: &Solver) -> [f64; 2] {
     let mut hasher = DefaultHasher::new();
     env!("CARGO_PKG_VERSION").hash(&mut hasher);
     model.scene().to_json().hash(&mut hasher);
+    solver.preset.hash(&mut hasher);
     let bits = hasher.finish();
     [(bits >> 32) as f64, (bits & 0xffff_ffff) as f64]
 }

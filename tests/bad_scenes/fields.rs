@@ -50,6 +50,13 @@ pub fn rows() -> Vec<Row> {
             &["unknown field `rtol`"],
         ),
         json_row(
+            "unknown preset",
+            "solver",
+            json!({"preset": "fast"}),
+            "solver.preset",
+            &["unknown variant `fast`", "`draft`", "`engineering`", "`reference`"],
+        ),
+        json_row(
             "unknown signal",
             "inner_ring.speed",
             json!({"cosine": 1.0}),

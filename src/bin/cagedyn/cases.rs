@@ -99,9 +99,10 @@ fn run_case<'a>(
     args: &CasesArgs,
     base: &Path,
     case: &'a Case,
-    scene: Scene,
+    mut scene: Scene,
 ) -> Result<(Done<'a>, Option<cagedyn::Error>)> {
-    let run = run::simulate(scene, args.until, &case.name, &case.name)?;
+    args.instead.apply(&mut scene);
+    let run = run::simulate(scene, &case.name, &case.name)?;
     let folder: PathBuf = args.out.join(&case.name);
     run::make_folder(&folder)?;
     let set = case.set.iter().map(|(path, value)| format!("{path}={value}")).collect();

@@ -14,7 +14,8 @@ mod summary;
 mod table;
 mod terminal;
 
-use cagedyn::Result;
+use cagedyn::scene::Preset;
+use cagedyn::{Result, Scene};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -48,9 +49,8 @@ pub struct RunArgs {
     /// Folder for the results; made if it does not exist.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Simulated time in s, instead of the scene's.
-    #[arg(long, value_name = "T", allow_negative_numbers = true, value_parser = parse_time)]
-    until: Option<f64>,
+    #[command(flatten)]
+    instead: Instead,
     #[command(flatten)]
     sets: Sets,
 }
@@ -63,9 +63,26 @@ pub struct CasesArgs {
     /// Folder for the results; every case gets a folder of its own in it.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Simulated time in s, instead of that of the scenes.
+    #[command(flatten)]
+    instead: Instead,
+}
+
+/// What stands in for what a scene says.
+#[derive(Args)]
+pub struct Instead {
+    /// Simulated time in s, instead of the scene's.
     #[arg(long, value_name = "T", allow_negative_numbers = true, value_parser = parse_time)]
     until: Option<f64>,
+    #[arg(long, value_parser = parse_preset, value_name = "PRESET", help = preset_help())]
+    preset: Option<Preset>,
+}
+
+impl Instead {
+    /// Changes a scene.
+    pub fn apply(&self, scene: &mut Scene) {
+        scene.record.duration = self.until.unwrap_or(scene.record.duration);
+        scene.solver.preset = self.preset.unwrap_or(scene.solver.preset);
+    }
 }
 
 /// Arguments of `info`.
@@ -138,6 +155,20 @@ fn parse_set(text: &str) -> std::result::Result<(String, String), String> {
     }
 }
 
+/// A preset by its name.
+fn parse_preset(text: &str) -> std::result::Result<Preset, String> {
+    let named = Preset::ALL.into_iter().find(|preset| preset.name() == text);
+    named.ok_or_else(|| format!("must be one of {}", preset_names()))
+}
+
+fn preset_names() -> String {
+    Preset::ALL.map(Preset::name).join(", ")
+}
+
+fn preset_help() -> String {
+    format!("How accurate, instead of the scene's solver.preset: {}", preset_names())
+}
+
 /// A time in s, positive and finite.
 fn parse_time(text: &str) -> std::result::Result<f64, String> {
     match text.parse::<f64>() {
@@ -173,6 +204,14 @@ mod tests {
         let cli = Cli::try_parse_from(line).unwrap();
         let Command::Run(args) = cli.command else { panic!("not a run") };
         assert_eq!(args.sets.pairs().collect::<Vec<_>>(), [("a", "1"), ("b.c", "-2")]);
+    }
+
+    #[test]
+    fn presets_have_the_names_of_scenes() {
+        for preset in Preset::ALL {
+            assert_eq!(parse_preset(preset.name()), Ok(preset));
+        }
+        assert_eq!(parse_preset("fast"), Err("must be one of draft, engineering, reference".to_owned()));
     }
 
     #[test]

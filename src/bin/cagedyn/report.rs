@@ -120,7 +120,7 @@ fn effort(run: &Run, summary: &Summary, folder: &Path) -> Vec<Vec<String>> {
         number(summary.simulated_over_wall)
     );
     let mut rows = vec![
-        ("method", i.method.replace('_', "-")),
+        ("method", format!("{}, preset {}", i.method.replace('_', "-"), i.preset)),
         ("why", run.report.clone()),
         ("steps", steps),
         ("force evaluations", grouped(i.evaluations)),

@@ -93,10 +93,11 @@ impl Run {
 /// A scene or folder that cannot be used. A failure during the run is printed here, after the results so far.
 pub fn command(args: &RunArgs) -> Result<ExitCode> {
     let text = read(&args.scene)?;
-    let scene = Scene::from_json_with(&text, args.sets.pairs()).map_err(|e| in_file(&args.scene, e))?;
+    let mut scene = Scene::from_json_with(&text, args.sets.pairs()).map_err(|e| in_file(&args.scene, e))?;
+    args.instead.apply(&mut scene);
     terminal::listen_for_interrupt()?;
     make_folder(&args.out)?;
-    let run = simulate(scene, args.until, &stem(&args.scene), "run").map_err(|e| in_file(&args.scene, e))?;
+    let run = simulate(scene, &stem(&args.scene), "run").map_err(|e| in_file(&args.scene, e))?;
     let set = args.sets.pairs().map(|(path, value)| format!("{path}={value}")).collect();
     let mut summary = Summary::new(&run, &args.scene, None, set);
     output::write(&run, &mut summary, &args.out)?;
@@ -108,14 +109,11 @@ pub fn command(args: &RunArgs) -> Result<ExitCode> {
     Ok(if run.interrupted { ExitCode::from(INTERRUPTED) } else { ExitCode::SUCCESS })
 }
 
-/// Simulates a scene until its end, or until `until` seconds. Only what prevents the start is an error.
+/// Simulates a scene until its end. Only what prevents the start is an error.
 ///
 /// # Errors
 /// As [`Model::new`] and [`Sim::new`].
-pub fn simulate(mut scene: Scene, until: Option<f64>, fallback_title: &str, label: &str) -> Result<Run> {
-    if let Some(until) = until {
-        scene.record.duration = until;
-    }
+pub fn simulate(scene: Scene, fallback_title: &str, label: &str) -> Result<Run> {
     let (duration, interval) = (scene.record.duration, scene.record.interval);
     let title = scene.title.clone().unwrap_or_else(|| fallback_title.to_owned());
     let model = Arc::new(Model::new(scene)?);

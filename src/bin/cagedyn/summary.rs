@@ -71,6 +71,8 @@ pub struct States {
 /// Counts of the integration.
 #[derive(Serialize)]
 pub struct Integration {
+    /// How accurate, where the method leaves it open.
+    pub preset: &'static str,
     /// Method, as in the scene.
     pub method: &'static str,
     /// What the integration did and why.
@@ -220,6 +222,7 @@ fn integration(run: &Run) -> Integration {
         Method::Radau(_) => "radau",
     };
     Integration {
+        preset: run.model.scene().solver.preset.name(),
         method,
         report: run.report.clone(),
         steps: driver.steps,

@@ -1,0 +1,53 @@
+//! What the presets of a scene stand for, in numbers.
+//!
+//! Chosen from the work-precision diagrams of docs/accuracy.md, which has the error and the cost of each.
+
+use crate::scene::Preset;
+
+/// Numbers that a preset stands for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Numbers {
+    /// Whether rollers are followed in their statistics only, by the leapfrog.
+    pub statistics: bool,
+    /// Leapfrog step in units of 1/(highest frequency), with contact damping; without it takes half.
+    pub leapfrog_step: f64,
+    /// Largest error of a stretch of leapfrog steps, in units of the state scales: see `integrate::watch`.
+    pub stretch_error: f64,
+    /// Tolerance of error control.
+    pub tolerance: f64,
+    /// Tolerance of error control for rollers where the leapfrog will not do and statistics are all that is wanted.
+    pub statistics_tolerance: f64,
+}
+
+/// Leapfrog step without contact damping, relative to that with it.
+pub(super) const UNDAMPED_SHARE: f64 = 0.5;
+
+/// Rosenbrock at 1e-3 is enough in those cases of docs/statistics.md where the leapfrog gives way; it is not at 1000 rpm,
+/// where the leapfrog does not.
+const ENGINEERING: Numbers = Numbers {
+    statistics: true,
+    leapfrog_step: 0.6,
+    stretch_error: 6e-5,
+    tolerance: 1e-6,
+    statistics_tolerance: 1e-3,
+};
+
+/// Errors of a stretch grow with the cube of the step.
+const DRAFT: Numbers = Numbers { leapfrog_step: 1.0, stretch_error: 2.8e-4, tolerance: 1e-4, ..ENGINEERING };
+
+const REFERENCE: Numbers = Numbers {
+    statistics: false,
+    leapfrog_step: 0.15,
+    tolerance: 1e-8,
+    statistics_tolerance: 1e-8,
+    ..ENGINEERING
+};
+
+/// The numbers of a preset.
+pub(super) fn numbers(preset: Preset) -> Numbers {
+    match preset {
+        Preset::Draft => DRAFT,
+        Preset::Engineering => ENGINEERING,
+        Preset::Reference => REFERENCE,
+    }
+}
