@@ -43,6 +43,9 @@ static void check_null_handles(void)
     CHECK_FAILS(cagedyn_sim_set_state(NULL, 0.0, x, 3), null, "sim");
     CHECK_FAILS(cagedyn_sim_derivative(NULL, 0.0, x, x, 3), null, "sim");
     CHECK_FAILS(cagedyn_sim_jacobian(NULL, 0.0, x, 3, x, 3), null, "sim");
+    CHECK_FAILS(cagedyn_sim_linearize(NULL, 0.0, x, 3), null, "sim");
+    CHECK_FAILS(cagedyn_sim_factorize(NULL, 1e-6), null, "sim");
+    CHECK_FAILS(cagedyn_sim_solve(NULL, x, 3), null, "sim");
     CHECK_FAILS(cagedyn_sim_step(NULL, 0.0), null, "sim");
     CHECK_FAILS(cagedyn_sim_advance_to(NULL, 0.0), null, "sim");
     CHECK_FAILS(cagedyn_sim_accelerations(NULL, x, 3), null, "sim");
@@ -101,6 +104,30 @@ static void check_arrays(const cagedyn_model *m, cagedyn_sim *sim)
     CHECK(cagedyn_sim_get_state(sim, x, n) == CAGEDYN_OK);
     CHECK(memcmp(x, before, (size_t)n * sizeof(double)) == 0);
     free(x), free(y), free(before);
+}
+
+static void check_newton(const cagedyn_model *m, cagedyn_sim *sim)
+{
+    int64_t n = cagedyn_model_state_count(m);
+    double *state = numbers(n), *x = numbers(n);
+    CHECK_FAILS(cagedyn_sim_factorize(sim, 1e-6), CAGEDYN_ERR_BAD_STATE, "linearize");
+    CHECK(cagedyn_sim_get_state(sim, state, n) == CAGEDYN_OK);
+    CHECK_FAILS(cagedyn_sim_linearize(sim, 0.0, state, n + 1), CAGEDYN_ERR_WRONG_SIZE, "state");
+    CHECK_FAILS(cagedyn_sim_linearize(sim, 0.0, NULL, n), CAGEDYN_ERR_NULL_ARGUMENT, "state");
+    CHECK(cagedyn_sim_linearize(sim, 0.0, state, n) == CAGEDYN_OK);
+    CHECK_FAILS(cagedyn_sim_factorize(sim, -1.0), CAGEDYN_ERR_BAD_VALUE, "gamma");
+    CHECK_FAILS(cagedyn_sim_solve(sim, x, n), CAGEDYN_ERR_BAD_STATE, "factorize");
+    CHECK(cagedyn_sim_factorize(sim, 1e-6) == CAGEDYN_OK);
+    CHECK_FAILS(cagedyn_sim_solve(sim, NULL, n), CAGEDYN_ERR_NULL_ARGUMENT, "x");
+    CHECK_FAILS(cagedyn_sim_solve(sim, x, n - 1), CAGEDYN_ERR_WRONG_SIZE, "x");
+    CHECK(x[0] == 0.0);
+
+    /* A speed of the cage hardly changes within a microsecond, and moves it. */
+    int64_t y = cagedyn_model_find_state(m, "cage.y"), v = cagedyn_model_position_count(m) + y;
+    x[v] = 1e-3;
+    CHECK(cagedyn_sim_solve(sim, x, n) == CAGEDYN_OK);
+    CHECK(fabs(x[v] - 1e-3) < 1e-6 && fabs(x[y] - 1e-6 * x[v]) < 1e-18);
+    free(state), free(x);
 }
 
 static void check_jacobian(const cagedyn_model *m, cagedyn_sim *sim)
@@ -198,6 +225,7 @@ int main(int argc, char **argv)
     check_null_handles();
     check_arrays(model, sim);
     check_jacobian(model, sim);
+    check_newton(model, sim);
     check_values(sim);
     check_limits(model);
     check_presets(model);

@@ -279,6 +279,24 @@ int32_t cagedyn_sim_jacobian(cagedyn_sim *sim,
                              double *jacobian,
                              int64_t jacobian_length);
 
+// Evaluates the exact derivatives J of what cagedyn_sim_derivative() gives, at an arbitrary state and time `t` (s), and
+// keeps them for cagedyn_sim_factorize(): the first of three functions that solve the linear systems of a host's own
+// implicit integrator in time proportional to the number of rollers. `length` is the length of the state. The
+// simulation's own state does not change. The first call takes memory.
+int32_t cagedyn_sim_linearize(cagedyn_sim *sim,
+                              double t,
+                              const double *state,
+                              int64_t length);
+
+// Factorizes I - gamma J with the derivatives of the last cagedyn_sim_linearize(); `gamma` in s, above zero. Can be
+// repeated with another `gamma`.
+int32_t cagedyn_sim_factorize(cagedyn_sim *sim,
+                              double gamma);
+
+// Replaces the right-hand side in `x` by the solution of (I - gamma J) x = b with the factors of the last
+// cagedyn_sim_factorize(). `length` is the length of the state.
+int32_t cagedyn_sim_solve(cagedyn_sim *sim, double *x, int64_t length);
+
 // Advances by `dt` >= 0 seconds. On failure time and state do not change.
 int32_t cagedyn_sim_step(cagedyn_sim *sim, double dt);
 

@@ -68,6 +68,14 @@ fn nothing_is_allocated_while_a_simulation_runs() {
             0,
             "second Jacobian, {solver}"
         );
+        let mut x = state.clone();
+        let mut newton = || {
+            sim.linearize(0.0, &state).unwrap();
+            sim.factorize(1e-6).unwrap();
+            sim.solve(&mut x).unwrap();
+        };
+        newton();
+        assert_eq!(allocations(newton), 0, "second Newton system, {solver}");
         assert_eq!(allocations(|| sim.set_state(0.0, &state).unwrap()), 0, "state, {solver}");
         assert_eq!(allocations(|| sim.set_input(0, -300.0).unwrap()), 0, "input, {solver}");
     }

@@ -325,6 +325,72 @@ fn a_jacobian_that_cannot_be_had_changes_nothing() {
     assert_eq!(sim.statistics(), before);
 }
 
+/// Solutions put back into the dense matrix give the right-hand side again, for small and large `gamma`.
+#[test]
+fn newton_systems_are_solved_in_every_combination() {
+    let mut random = Random::new(3);
+    let mut largest = 0.0_f64;
+    for parts in all() {
+        let mut sim = moving(parts);
+        let (t, state, scales) = (sim.time(), sim.state().to_vec(), sim.model().state_scales());
+        let n = state.len();
+        let mut jacobian = vec![0.0; n * n];
+        sim.jacobian(t, &state, &mut jacobian).unwrap();
+        sim.linearize(t, &state).unwrap();
+        for gamma in [1e-9, 3e-7, 1e-6] {
+            sim.factorize(gamma).unwrap_or_else(|e| panic!("{parts:?}: {e}"));
+            let right: Vec<f64> = scales.iter().map(|scale| scale * random.around_zero(1.0)).collect();
+            let mut x = right.clone();
+            sim.solve(&mut x).unwrap();
+            for row in 0..n {
+                let products = (0..n).map(|column| gamma * jacobian[column * n + row] * x[column]);
+                let size = products.clone().fold(x[row].abs().max(right[row].abs()), |m, p| m.max(p.abs()));
+                let rest = (x[row] - products.sum::<f64>() - right[row]).abs() / size;
+                assert!(rest < 1e-13, "{parts:?}, gamma {gamma:e}, row {row}: {rest:e}");
+                largest = largest.max(rest);
+            }
+        }
+    }
+    println!("largest residual of a row relative to its largest term: {largest:.1e}");
+}
+
+#[test]
+fn newton_systems_without_a_solution_are_refused() {
+    let mut sim = Sim::new(Arc::new(Model::from_json(&example_text()).unwrap())).unwrap();
+    let state = sim.state().to_vec();
+    let mut x = vec![7.0; state.len()];
+    let refused = |result: cagedyn::Result<()>, status: Status, text: &str| {
+        let error = result.unwrap_err();
+        assert_eq!(error.status, status, "{error}");
+        assert!(error.message.contains(text), "{error}");
+    };
+    refused(sim.factorize(1e-6), Status::BadState, "linearize comes first");
+    refused(sim.solve(&mut x), Status::BadState, "factorize comes first");
+    sim.linearize(0.0, &state).unwrap();
+    refused(sim.solve(&mut x), Status::BadState, "factorize comes first");
+    for gamma in [0.0, -1e-6, f64::NAN, f64::INFINITY, 1e-310] {
+        refused(sim.factorize(gamma), Status::BadValue, "gamma");
+    }
+    sim.factorize(1e-6).unwrap();
+    refused(sim.solve(&mut x[1..]), Status::WrongSize, "x:");
+    x[3] = f64::NAN;
+    refused(sim.solve(&mut x), Status::BadValue, "x[3]");
+    x[3] = 7.0;
+    let mut huge = vec![1e300; state.len()];
+    refused(sim.solve(&mut huge), Status::BadState, "not finite");
+    assert!(huge.iter().all(|x| *x == 1e300) && x.iter().all(|x| *x == 7.0));
+    // What was there is gone after a failure.
+    let mut far = state.clone();
+    far[2] = 1e-3;
+    refused(sim.linearize(0.0, &far), Status::BadState, "film");
+    refused(sim.factorize(1e-6), Status::BadState, "linearize comes first");
+    sim.linearize(0.0, &state).unwrap();
+    sim.factorize(1e-6).unwrap();
+    sim.solve(&mut x).unwrap();
+    assert_eq!(sim.time(), 0.0);
+    assert_eq!(sim.state(), state);
+}
+
 #[test]
 fn asking_for_jacobians_does_not_change_a_run() {
     for solver in ["leapfrog", "dormand_prince", "rosenbrock"] {
@@ -339,6 +405,8 @@ fn asking_for_jacobians_does_not_change_a_run() {
             alone.advance_to(5e-5 * f64::from(i)).unwrap();
             asked.advance_to(5e-5 * f64::from(i)).unwrap();
             asked.jacobian(0.3, &start, &mut out).unwrap();
+            asked.linearize(0.3, &start).unwrap();
+            asked.factorize(1e-6).unwrap();
             assert_eq!(alone.forces().unwrap(), asked.forces().unwrap());
         }
         assert_eq!(alone.state(), asked.state());

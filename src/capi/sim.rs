@@ -211,6 +211,57 @@ pub unsafe extern "C" fn cagedyn_sim_jacobian(
     }
 }
 
+/// Evaluates the exact derivatives J of what cagedyn_sim_derivative() gives, at an arbitrary state and time `t` (s), and
+/// keeps them for cagedyn_sim_factorize(): the first of three functions that solve the linear systems of a host's own
+/// implicit integrator in time proportional to the number of rollers. `length` is the length of the state. The
+/// simulation's own state does not change. The first call takes memory.
+///
+/// # Safety
+/// `sim` is NULL or a live handle, `state` NULL or an array of `length` numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_linearize(
+    sim: *mut cagedyn_sim,
+    t: f64,
+    state: *const f64,
+    length: i64,
+) -> i32 {
+    // SAFETY: see above.
+    unsafe {
+        with(sim, |s| {
+            read_array("state", state, length, &mut s.state)?;
+            s.sim.linearize(t, &s.state)
+        })
+    }
+}
+
+/// Factorizes I - gamma J with the derivatives of the last cagedyn_sim_linearize(); `gamma` in s, above zero. Can be
+/// repeated with another `gamma`.
+///
+/// # Safety
+/// `sim` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_factorize(sim: *mut cagedyn_sim, gamma: f64) -> i32 {
+    // SAFETY: see above.
+    unsafe { with(sim, |s| s.sim.factorize(gamma)) }
+}
+
+/// Replaces the right-hand side in `x` by the solution of (I - gamma J) x = b with the factors of the last
+/// cagedyn_sim_factorize(). `length` is the length of the state.
+///
+/// # Safety
+/// `sim` is NULL or a live handle, `x` NULL or an array of `length` numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_solve(sim: *mut cagedyn_sim, x: *mut f64, length: i64) -> i32 {
+    // SAFETY: see above.
+    unsafe {
+        with(sim, |s| {
+            read_array("x", x, length, &mut s.state)?;
+            s.sim.solve(&mut s.state)?;
+            write_array("x", &s.state, x, length)
+        })
+    }
+}
+
 /// Advances by `dt` >= 0 seconds. On failure time and state do not change.
 ///
 /// # Safety

@@ -12,7 +12,7 @@ mod pack;
 mod race;
 mod radau;
 mod rosenbrock;
-mod shifted;
+pub(crate) mod shifted;
 pub mod watch;
 
 pub use dormand_prince::DormandPrince;

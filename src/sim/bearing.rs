@@ -15,8 +15,6 @@ pub(super) struct Bearing {
     last_fault: Option<(f64, Fault)>,
     /// Steps rejected because of each group.
     rejections: Vec<u64>,
-    /// Made when derivatives are first asked for.
-    slopes: Option<Slopes>,
 }
 
 impl Bearing {
@@ -31,7 +29,6 @@ impl Bearing {
             fault_counts: FaultCounts::default(),
             last_fault: None,
             rejections: vec![0; groups],
-            slopes: None,
             model,
         }
     }
@@ -120,13 +117,18 @@ impl Bearing {
     }
 
     /// Accelerations of a state vector and their derivatives; not counted as an evaluation of the integration.
-    pub(super) fn linearize_at(&mut self, t: f64, state: &[f64], a: &mut [f64]) -> Result<&Slopes, Fault> {
+    pub(super) fn linearize_at(
+        &mut self,
+        t: f64,
+        state: &[f64],
+        a: &mut [f64],
+        slopes: &mut Slopes,
+    ) -> Result<(), Fault> {
         self.accelerations_at(t, state, a)?;
         let (q, v) = state.split_at(self.model.layout().positions());
         let rates = self.model.input_rates_at(t, &self.host);
-        let slopes = self.slopes.get_or_insert_with(|| Slopes::new(&self.model));
         self.model.linearize(q, v, &self.workspace, &rates, &mut slopes.linearization);
-        Ok(slopes)
+        Ok(())
     }
 
     pub(super) fn report(&self, state: &[f64], a: &[f64], out: &mut Forces) {

@@ -8,7 +8,7 @@ use crate::model::{Fault, Model};
 
 /// Memory for derivatives of the accelerations.
 pub(super) struct Slopes {
-    structure: Structure,
+    pub(super) structure: Structure,
     pub(super) linearization: Linearization,
 }
 
@@ -20,7 +20,7 @@ impl Slopes {
     }
 
     /// The fault of the first acceleration without finite derivatives.
-    fn check(&self) -> std::result::Result<(), Fault> {
+    pub(super) fn check(&self) -> std::result::Result<(), Fault> {
         let Linearization { over_positions, over_velocities, .. } = &self.linearization;
         for part in [over_positions, over_velocities] {
             if let Some((velocity, ..)) = entries(&self.structure, part).find(|(.., x)| !x.is_finite()) {
@@ -91,10 +91,10 @@ impl Sim {
         }
         self.forces_current = false;
         let positions = self.model().layout().positions();
-        let linearized = self.bearing.linearize_at(t, state, &mut self.accelerations);
-        let checked = linearized.and_then(|slopes| slopes.check().map(|()| slopes));
-        match checked {
-            Ok(slopes) => {
+        let slopes = self.slopes.get_or_insert_with(|| Slopes::new(self.bearing.model()));
+        let linearized = self.bearing.linearize_at(t, state, &mut self.accelerations, slopes);
+        match linearized.and_then(|()| slopes.check()) {
+            Ok(()) => {
                 slopes.write(positions, out);
                 Ok(())
             }

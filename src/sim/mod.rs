@@ -3,6 +3,7 @@
 mod bearing;
 mod jacobian;
 mod method;
+mod newton;
 mod preset;
 mod recording;
 mod snapshot;
@@ -18,6 +19,8 @@ use crate::integrate::{Driver, Failure};
 use crate::model::{Channel, FAULTS, Fault, Forces, Input, Model};
 use crate::scene::{Preset, Solver};
 use bearing::Bearing;
+use jacobian::Slopes;
+use newton::Newton;
 use std::sync::Arc;
 
 /// Largest simulated time, s: beyond it a step of a nanosecond is lost in round-off.
@@ -35,6 +38,9 @@ pub struct Sim {
     channels: Arc<[Channel]>,
     forces: Forces,
     accelerations: Vec<f64>,
+    /// Made when they are first asked for.
+    slopes: Option<Slopes>,
+    newton: Option<Box<Newton>>,
     /// Whether `forces` and the workspace belong to the current state.
     forces_current: bool,
     fingerprint: [f64; 2],
@@ -75,6 +81,8 @@ impl Sim {
             time: 0.0,
             state,
             forces: Forces::default(),
+            slopes: None,
+            newton: None,
             forces_current: false,
         };
         sim.restart();
