@@ -5,7 +5,7 @@
 #[path = "../examples/statistics/cases.rs"]
 mod cases;
 mod common;
-#[path = "common/cvode.rs"]
+#[path = "common/cvode/mod.rs"]
 mod cvode;
 #[path = "../examples/statistics/judge.rs"]
 mod judge;

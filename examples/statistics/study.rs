@@ -1,7 +1,7 @@
 //! Runs of all cases with all methods, and how far each is from the reference.
 
 use crate::cases::Case;
-use crate::cvode;
+use crate::cvode::{self, Derivatives};
 use crate::judge::{LEVEL, Sample, Verdict};
 use crate::methods::{METHODS, Method, Solver};
 use crate::readings::{QUANTITIES, Record};
@@ -135,7 +135,7 @@ fn integrate(case: &Case, sim: &mut Sim, method: cvode::Method, times: &[f64]) -
         max_step: CVODE_STEP,
     };
     let mut rates = |t: f64, x: &[f64], rate: &mut [f64]| sim.derivative(t, x, rate).map_err(|_| ());
-    cvode::solve(&options, 0.0, &start, times, &mut rates, None)
+    cvode::solve(&options, 0.0, &start, times, &mut rates, Derivatives::Quotients)
         .map_err(|e| Error::new(Status::StepTooSmall, e))
 }
 

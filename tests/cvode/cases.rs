@@ -1,7 +1,7 @@
 //! Scenes, the library's methods and CVODE on them, and the distance of their ends.
 
 use crate::common::{example, read, with};
-use crate::cvode::{self, Method, Options};
+use crate::cvode::{self, Derivatives, Method, Options};
 use cagedyn::integrate::{
     DampingBlock, DormandPrince, Driver, Limits, Linearization, Rosenbrock, Stepper, Structure, System,
 };
@@ -74,8 +74,9 @@ impl Case {
         let start = sim.state().to_vec();
         let options = Options { method, relative, absolute: &scales, max_steps: 10_000_000, max_step };
         let mut rates = |t: f64, x: &[f64], rate: &mut [f64]| sim.derivative(t, x, rate).map_err(|_| ());
-        let solution = cvode::solve(&options, 0.0, &start, &[self.duration], &mut rates, None)
-            .unwrap_or_else(|e| panic!("{}, {method:?} at {relative:e}, {absolute:e}: {e}", self.name));
+        let solution =
+            cvode::solve(&options, 0.0, &start, &[self.duration], &mut rates, Derivatives::Quotients)
+                .unwrap_or_else(|e| panic!("{}, {method:?} at {relative:e}, {absolute:e}: {e}", self.name));
         let statistics = solution.statistics;
         End {
             state: solution.states[0].clone(),

@@ -3,7 +3,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
-#[path = "../common/cvode.rs"]
+#[path = "../common/cvode/mod.rs"]
 mod cvode;
 
 mod cases;

@@ -1,7 +1,7 @@
 //! Mean whirl speed on the greased guide, over starts that differ by next to nothing.
 
 use crate::cases::{Case, GREASE, scene};
-use crate::cvode::{self, Method, Options};
+use crate::cvode::{self, Derivatives, Method, Options};
 use cagedyn::Sim;
 use serde_json::{Value, json};
 
@@ -71,7 +71,8 @@ pub fn whirls() -> Vec<Whirl> {
         let times: Vec<f64> = (1..=1000).map(|i| f64::from(i) * 1e-4).collect();
         let start = sim.state().to_vec();
         let mut rates = |t: f64, x: &[f64], rate: &mut [f64]| sim.derivative(t, x, rate).map_err(|_| ());
-        let solution = cvode::solve(&options, 0.0, &start, &times, &mut rates, None).expect("a run");
+        let solution =
+            cvode::solve(&options, 0.0, &start, &times, &mut rates, Derivatives::Quotients).expect("a run");
         whirl(&mut |i| solution.states[i - 1].clone(), &mut sim)
     };
     let step = turned(0).sim(&json!({"method": {"leapfrog": {}}})).nominal_step();

@@ -2,6 +2,11 @@
 
 #![allow(unsafe_code)]
 
+mod algebra;
+mod handles;
+
+use algebra::Algebra;
+use handles::{Context, Memory, Vector};
 use std::any::Any;
 use std::ffi::{c_int, c_long, c_void};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
@@ -54,9 +59,39 @@ pub struct Solution {
 /// Writes what it is for at a time and a state; a failure makes CVODE try a smaller step.
 pub type Function<'a> = dyn FnMut(f64, &[f64], &mut [f64]) -> Result<(), ()> + 'a;
 
+/// Where backward differences get the derivatives J of the rates from, and who solves their linear systems.
+pub enum Derivatives<'a, 'f> {
+    /// Difference quotients, a dense matrix and a dense solver, all of CVODE.
+    Quotients,
+    /// This writes J by columns; the matrix is dense and the solver CVODE's.
+    Dense(&'a mut Function<'f>),
+    /// No matrix at all.
+    Newton(&'a mut dyn Newton),
+}
+
+/// A solver of `(I - gamma J) x = b`. A failure makes CVODE try a smaller step.
+pub trait Newton {
+    /// Gets ready for `gamma`, with derivatives at this time and state, or, where `again`, with those of last time.
+    fn prepare(&mut self, t: f64, state: &[f64], gamma: f64, again: bool) -> Result<(), ()>;
+    /// Replaces the right-hand side `x` by the solution.
+    fn solve(&mut self, x: &mut [f64]) -> Result<(), ()>;
+}
+
+/// The structured solver of the library.
+impl Newton for cagedyn::Sim {
+    fn prepare(&mut self, t: f64, state: &[f64], gamma: f64, again: bool) -> Result<(), ()> {
+        if !again {
+            self.linearize(t, state).map_err(|_| ())?;
+        }
+        self.factorize(gamma).map_err(|_| ())
+    }
+
+    fn solve(&mut self, x: &mut [f64]) -> Result<(), ()> {
+        cagedyn::Sim::solve(self, x).map_err(|_| ())
+    }
+}
+
 /// Integrates `state` from `start` to each of `times`, which grow. Rates are never asked for after the last time.
-///
-/// `jacobian` writes the matrix of derivatives of the rates by columns; without it CVODE takes difference quotients.
 ///
 /// # Errors
 /// What CVODE refused or where it gave up.
@@ -66,7 +101,7 @@ pub fn solve(
     state: &[f64],
     times: &[f64],
     rates: &mut Function<'_>,
-    jacobian: Option<&mut Function<'_>>,
+    derivatives: Derivatives<'_, '_>,
 ) -> Result<Solution, String> {
     let n = state.len();
     assert_eq!(options.absolute.len(), n, "one absolute tolerance per state");
@@ -74,11 +109,11 @@ pub fn solve(
     let context = Context::new()?;
     let mut y = Vector::new(&context, state)?;
     let absolute = Vector::new(&context, options.absolute)?;
-    let has_jacobian = jacobian.is_some();
-    let mut callbacks = Callbacks { n, rates, jacobian, panic: None };
-    let algebra = match options.method {
-        Method::Bdf => Algebra::dense(&context, &y)?,
-        Method::Adams => Algebra::fixed_point(&context, &y)?,
+    let mut callbacks = Callbacks { n, rates, derivatives, panic: None };
+    let algebra = match (options.method, &callbacks.derivatives) {
+        (Method::Adams, _) => Algebra::fixed_point(&context, &y)?,
+        (Method::Bdf, Derivatives::Newton(_)) => Algebra::newton(&context)?,
+        (Method::Bdf, _) => Algebra::dense(&context, &y)?,
     };
     let memory = Memory::new(&context, options.method)?;
 
@@ -96,8 +131,15 @@ pub fn solve(
             Method::Bdf => {
                 let set = sys::CVodeSetLinearSolver(mem, algebra.linear, algebra.matrix);
                 check("CVodeSetLinearSolver", set)?;
-                if has_jacobian {
-                    check("CVodeSetJacFn", sys::CVodeSetJacFn(mem, Some(jacobian_for_cvode)))?;
+                match callbacks.derivatives {
+                    Derivatives::Quotients => {}
+                    Derivatives::Dense(_) => {
+                        check("CVodeSetJacFn", sys::CVodeSetJacFn(mem, Some(jacobian_for_cvode)))?;
+                    }
+                    Derivatives::Newton(_) => {
+                        algebra.give(data);
+                        check("CVodeSetLinSysFn", sys::CVodeSetLinSysFn(mem, Some(newton_for_cvode)))?;
+                    }
                 }
             }
             Method::Adams => {
@@ -132,23 +174,17 @@ fn not_null<T>(what: &str, pointer: *mut T) -> Result<*mut T, String> {
     if pointer.is_null() { Err(format!("{what} failed")) } else { Ok(pointer) }
 }
 
-struct Callbacks<'a, 'r, 'j> {
+struct Callbacks<'a, 'r, 'd, 'j> {
     n: usize,
     rates: &'a mut Function<'r>,
-    jacobian: Option<&'a mut Function<'j>>,
+    derivatives: Derivatives<'d, 'j>,
     /// A panic of a callback, kept until CVODE has returned.
     panic: Option<Box<dyn Any + Send>>,
 }
 
 /// The answer that CVODE understands: 0 success, 1 try again with a smaller step, -1 give up.
-fn answer(
-    panic: &mut Option<Box<dyn Any + Send>>,
-    function: &mut Function<'_>,
-    t: f64,
-    state: &[f64],
-    out: &mut [f64],
-) -> c_int {
-    match catch_unwind(AssertUnwindSafe(|| function(t, state, out))) {
+fn answer(panic: &mut Option<Box<dyn Any + Send>>, call: impl FnOnce() -> Result<(), ()>) -> c_int {
+    match catch_unwind(AssertUnwindSafe(call)) {
         Ok(Ok(())) => 0,
         Ok(Err(())) => 1,
         Err(payload) => {
@@ -167,10 +203,10 @@ unsafe extern "C" fn rates_for_cvode(
     // SAFETY: `data` is the `Callbacks` that `solve` registered, alive and borrowed by nobody else while CVode runs.
     // Both vectors are distinct clones of its serial vector of `n` numbers.
     unsafe {
-        let callbacks = &mut *data.cast::<Callbacks<'_, '_, '_>>();
+        let callbacks = &mut *data.cast::<Callbacks<'_, '_, '_, '_>>();
         let state = std::slice::from_raw_parts(sys::N_VGetArrayPointer(y), callbacks.n);
         let out = std::slice::from_raw_parts_mut(sys::N_VGetArrayPointer(rates), callbacks.n);
-        answer(&mut callbacks.panic, callbacks.rates, t, state, out)
+        answer(&mut callbacks.panic, || (callbacks.rates)(t, state, out))
     }
 }
 
@@ -187,143 +223,62 @@ unsafe extern "C" fn jacobian_for_cvode(
 ) -> c_int {
     // SAFETY: as in `rates_for_cvode`; the matrix is the dense one of `n` by `n` numbers, stored by columns.
     unsafe {
-        let callbacks = &mut *data.cast::<Callbacks<'_, '_, '_>>();
+        let callbacks = &mut *data.cast::<Callbacks<'_, '_, '_, '_>>();
         let n = callbacks.n;
         let state = std::slice::from_raw_parts(sys::N_VGetArrayPointer(y), n);
         let out = std::slice::from_raw_parts_mut(sys::SUNDenseMatrix_Data(matrix), n * n);
-        match callbacks.jacobian.as_deref_mut() {
-            Some(jacobian) => answer(&mut callbacks.panic, jacobian, t, state, out),
-            None => -1,
+        match &mut callbacks.derivatives {
+            Derivatives::Dense(jacobian) => answer(&mut callbacks.panic, || jacobian(t, state, out)),
+            _ => -1,
         }
     }
 }
 
-struct Context(sys::SUNContext);
-
-impl Context {
-    fn new() -> Result<Self, String> {
-        let mut context = ptr::null_mut();
-        // SAFETY: the pointer is written during the call. Handlers that print are taken off: errors are returned.
-        unsafe {
-            check("SUNContext_Create", sys::SUNContext_Create(sys::comm_no_mpi(), &mut context))?;
-            let context = Self(context);
-            check("SUNContext_ClearErrHandlers", sys::SUNContext_ClearErrHandlers(context.0))?;
-            Ok(context)
-        }
-    }
-}
-
-impl Drop for Context {
-    fn drop(&mut self) {
-        // SAFETY: everything made with it was declared later and is gone.
-        unsafe { sys::SUNContext_Free(&mut self.0) };
-    }
-}
-
-struct Vector(sys::N_Vector, usize);
-
-impl Vector {
-    fn new(context: &Context, values: &[f64]) -> Result<Self, String> {
-        let length = i64::try_from(values.len()).map_err(|e| e.to_string())?;
-        // SAFETY: the context is alive.
-        let vector = not_null("N_VNew_Serial", unsafe { sys::N_VNew_Serial(length, context.0) })?;
-        let mut vector = Self(vector, values.len());
-        vector.values().copy_from_slice(values);
-        Ok(vector)
-    }
-
-    fn values(&mut self) -> &mut [f64] {
-        // SAFETY: a serial vector of this many numbers, borrowed with `self`.
-        unsafe { std::slice::from_raw_parts_mut(sys::N_VGetArrayPointer(self.0), self.1) }
-    }
-}
-
-impl Drop for Vector {
-    fn drop(&mut self) {
-        // SAFETY: made by `new`, freed once.
-        unsafe { sys::N_VDestroy(self.0) };
-    }
-}
-
-/// Solver of the implicit equations; null where the method needs none.
-struct Algebra {
-    matrix: sys::SUNMatrix,
-    linear: sys::SUNLinearSolver,
-    nonlinear: sys::SUNNonlinearSolver,
-}
-
-impl Algebra {
-    const NONE: Self = Self { matrix: ptr::null_mut(), linear: ptr::null_mut(), nonlinear: ptr::null_mut() };
-
-    fn dense(context: &Context, y: &Vector) -> Result<Self, String> {
-        let n = i64::try_from(y.1).map_err(|e| e.to_string())?;
-        let mut algebra = Self::NONE;
-        // SAFETY: context and vector are alive; the solver keeps the matrix, which is freed after it.
-        unsafe {
-            algebra.matrix = not_null("SUNDenseMatrix", sys::SUNDenseMatrix(n, n, context.0))?;
-            let linear = sys::SUNLinSol_Dense(y.0, algebra.matrix, context.0);
-            algebra.linear = not_null("SUNLinSol_Dense", linear)?;
-        }
-        Ok(algebra)
-    }
-
-    fn fixed_point(context: &Context, y: &Vector) -> Result<Self, String> {
-        // SAFETY: context and vector are alive.
-        let nonlinear = unsafe { sys::SUNNonlinSol_FixedPoint(y.0, 0, context.0) };
-        Ok(Self { nonlinear: not_null("SUNNonlinSol_FixedPoint", nonlinear)?, ..Self::NONE })
-    }
-}
-
-impl Drop for Algebra {
-    fn drop(&mut self) {
-        // SAFETY: each was made once and is freed once; the memory of CVODE that used them is gone.
-        unsafe {
-            if !self.linear.is_null() {
-                sys::SUNLinSolFree(self.linear);
+#[allow(clippy::similar_names)]
+unsafe extern "C" fn newton_for_cvode(
+    t: f64,
+    y: sys::N_Vector,
+    _rates: sys::N_Vector,
+    _: sys::SUNMatrix,
+    again: c_int,
+    current: *mut c_int,
+    gamma: f64,
+    data: *mut c_void,
+    _: sys::N_Vector,
+    _: sys::N_Vector,
+    _: sys::N_Vector,
+) -> c_int {
+    // SAFETY: as in `rates_for_cvode`; `current` is written during the call.
+    unsafe {
+        let callbacks = &mut *data.cast::<Callbacks<'_, '_, '_, '_>>();
+        let state = std::slice::from_raw_parts(sys::N_VGetArrayPointer(y), callbacks.n);
+        *current = c_int::from(again == 0);
+        match &mut callbacks.derivatives {
+            Derivatives::Newton(newton) => {
+                answer(&mut callbacks.panic, || newton.prepare(t, state, gamma, again != 0))
             }
-            if !self.nonlinear.is_null() {
-                sys::SUNNonlinSolFree(self.nonlinear);
-            }
-            if !self.matrix.is_null() {
-                sys::SUNMatDestroy(self.matrix);
-            }
+            _ => -1,
         }
     }
 }
 
-struct Memory(*mut c_void);
-
-impl Memory {
-    fn new(context: &Context, method: Method) -> Result<Self, String> {
-        let method = match method {
-            Method::Bdf => sys::CV_BDF,
-            Method::Adams => sys::CV_ADAMS,
-        };
-        // SAFETY: the context is alive.
-        Ok(Self(not_null("CVodeCreate", unsafe { sys::CVodeCreate(method, context.0) })?))
-    }
-
-    fn statistics(&self, method: Method) -> Result<Statistics, String> {
-        type Count = unsafe extern "C" fn(*mut c_void, *mut c_long) -> c_int;
-        let count = |get: Count| {
-            let mut value = 0;
-            // SAFETY: the memory is alive; the number is written during the call.
-            check("statistics", unsafe { get(self.0, &mut value) })?;
-            u64::try_from(value).map_err(|e| e.to_string())
-        };
-        let quotients = if method == Method::Bdf { count(sys::CVodeGetNumLinRhsEvals)? } else { 0 };
-        Ok(Statistics {
-            steps: count(sys::CVodeGetNumSteps)?,
-            evaluations: count(sys::CVodeGetNumRhsEvals)? + quotients,
-            rejected: count(sys::CVodeGetNumErrTestFails)?,
-            newton_failures: count(sys::CVodeGetNumNonlinSolvConvFails)?,
-        })
-    }
-}
-
-impl Drop for Memory {
-    fn drop(&mut self) {
-        // SAFETY: made by `new`, freed once.
-        unsafe { sys::CVodeFree(&mut self.0) };
+/// Solves for CVODE; the content of the solver is what `solve` gave it.
+unsafe extern "C" fn solve_for_cvode(
+    solver: sys::SUNLinearSolver,
+    _: sys::SUNMatrix,
+    x: sys::N_Vector,
+    b: sys::N_Vector,
+    _: f64,
+) -> c_int {
+    // SAFETY: as in `rates_for_cvode`; both vectors are serial ones of `n` numbers, and may be the same.
+    unsafe {
+        let callbacks = &mut *(*solver).content.cast::<Callbacks<'_, '_, '_, '_>>();
+        let (from, to) = (sys::N_VGetArrayPointer(b), sys::N_VGetArrayPointer(x));
+        ptr::copy(from, to, callbacks.n);
+        let x = std::slice::from_raw_parts_mut(to, callbacks.n);
+        match &mut callbacks.derivatives {
+            Derivatives::Newton(newton) => answer(&mut callbacks.panic, || newton.solve(x)),
+            _ => -1,
+        }
     }
 }
