@@ -6,6 +6,7 @@
 # make effects   cost of every effect and what it changes: docs/effects.md
 # make verify    errors of the integration methods against CVODE: docs/verification.md
 # make statistics  long runs of all methods in their statistics: docs/statistics.md
+# make accuracy  what accuracy costs in time, beside other solvers: docs/accuracy.md
 # make bench     time of a force evaluation and of a step
 # make header    writes include/cagedyn.h and schemas/ anew after a change
 # make install   library, header and pkg-config file below $(DESTDIR)$(PREFIX)
@@ -15,7 +16,7 @@ DESTDIR ?=
 VERSION := $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -n 1)
 CARGO ?= cargo
 
-.PHONY: test tools fmt lint unit run cases pictures example effects verify statistics bench header install clean
+.PHONY: test tools fmt lint unit run cases pictures example effects verify statistics accuracy bench header install clean
 
 test: tools fmt lint unit
 
@@ -34,7 +35,7 @@ fmt:
 	$(CARGO) fmt --check
 
 lint:
-	$(CARGO) clippy --locked --all-targets -- -D warnings
+	$(CARGO) clippy --locked --workspace --all-targets -- -D warnings
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --locked --no-deps --quiet
 
 unit:
@@ -72,6 +73,10 @@ verify: tools
 
 statistics: tools
 	$(CARGO) run --release --locked --example statistics -- --docs
+
+accuracy: tools
+	tools/fetch_peers.sh out/peers
+	PEERS_LIB=out/peers $(CARGO) run --release --locked --package cagedyn-accuracy -- --docs
 
 bench:
 	$(CARGO) bench --locked

@@ -245,17 +245,21 @@ fn the_page_describes_every_field_and_no_other() {
 fn every_dependency_has_its_reason() {
     let page = read("docs/dependencies.md");
     let mut in_list = false;
-    let mut count = 0;
-    for line in read("Cargo.toml").lines() {
+    let mut names = BTreeSet::new();
+    let manifests = ["Cargo.toml", "accuracy/Cargo.toml"].map(read).concat();
+    for line in manifests.lines() {
         if line.starts_with('[') {
             in_list = line.ends_with("dependencies]");
-        } else if in_list && let Some((name, _)) = line.split_once(" = ") {
+        } else if in_list
+            && let Some((name, _)) = line.split_once(" = ")
+            && name != "cagedyn"
+        {
             assert!(page.contains(&format!("| `{name}` |")), "{name} is not in docs/dependencies.md");
-            count += 1;
+            names.insert(name.to_owned());
         }
     }
     let rows = page.lines().filter(|line| line.starts_with("| `")).count();
-    assert_eq!(rows, count, "docs/dependencies.md lists something that Cargo.toml does not");
+    assert_eq!(rows, names.len(), "docs/dependencies.md lists something that Cargo.toml does not");
 }
 
 /// README and the pages in `docs/`, relative to the repository.

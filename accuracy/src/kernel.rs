@@ -1,0 +1,91 @@
+//! What an evaluation of the forces costs, with and without derivatives, and a linear system.
+
+use crate::problem::Problem;
+use crate::scenes;
+use cagedyn::scene::{Auto, Method};
+use cagedyn::{Result, Scene, Sim};
+use std::hint::black_box;
+use std::time::Instant;
+
+/// States of a run over which costs are averaged, and rounds of which the fastest counts.
+const STATES: u32 = 200;
+const ROUNDS: u32 = 40;
+/// Step of the linear systems, s.
+const GAMMA: f64 = 1e-6;
+
+/// Wall times, s.
+#[derive(Clone, Copy, Debug)]
+pub struct Costs {
+    /// Rates of a state.
+    pub forces: f64,
+    /// Rates and exact Jacobian.
+    pub jacobian: f64,
+    /// Factors.
+    pub factorize: f64,
+    /// Solution.
+    pub solve: f64,
+    /// Mean number of contacts that touch.
+    pub contacts: f64,
+}
+
+/// Costs in the developed motion of a scene.
+///
+/// # Errors
+/// Those of the scene and of the run.
+pub fn costs(scene: Scene) -> Result<Costs> {
+    let problem = Problem::new(scene, 10e-3, STATES)?.developed(0.05)?;
+    let mut sim = problem.sim(Method::Auto(Auto::default()))?;
+    let (mut states, mut contacts) = (Vec::new(), 0.0);
+    for t in &problem.times {
+        sim.advance_to(*t)?;
+        contacts +=
+            sim.forces()?.contacts.iter().filter(|contact| contact.iter().any(|x| *x != 0.0)).count() as f64;
+        states.push(sim.state().to_vec());
+    }
+    let mut rate = vec![0.0; problem.start.len()];
+    let forces = each(&states, &mut sim, |sim, x| sim.derivative(0.0, x, &mut rate))?;
+    let jacobian = each(&states, &mut sim, |sim, x| sim.linearize(0.0, x))?;
+    sim.linearize(0.0, &problem.start)?;
+    let factorize = each(&states, &mut sim, |sim, _| sim.factorize(GAMMA))?;
+    let mut right = problem.scales.clone();
+    let solve = each(&states, &mut sim, |sim, _| {
+        right.copy_from_slice(&problem.scales);
+        sim.solve(black_box(&mut right))
+    })?;
+    Ok(Costs { forces, jacobian, factorize, solve, contacts: contacts / f64::from(STATES) })
+}
+
+/// Seconds per call, the mean over the states in the fastest round.
+fn each(
+    states: &[Vec<f64>],
+    sim: &mut Sim,
+    mut call: impl FnMut(&mut Sim, &[f64]) -> Result<()>,
+) -> Result<f64> {
+    let mut best = f64::INFINITY;
+    for _ in 0..ROUNDS {
+        let started = Instant::now();
+        for state in states {
+            call(sim, black_box(state))?;
+        }
+        best = best.min(started.elapsed().as_secs_f64() / states.len() as f64);
+    }
+    Ok(best)
+}
+
+/// Wall time of the twelve cases of the paper at `engineering`, 0.3 s each, together and longest, s.
+///
+/// # Errors
+/// Those of the case set and the runs.
+pub fn twelve_cases() -> Result<(f64, f64)> {
+    let (mut total, mut longest) = (0.0, 0.0_f64);
+    for scene in scenes::twelve()? {
+        let end = scene.record.duration;
+        let mut sim = Sim::new(std::sync::Arc::new(cagedyn::Model::new(scene)?))?;
+        let started = Instant::now();
+        sim.advance_to(end)?;
+        let seconds = started.elapsed().as_secs_f64();
+        total += seconds;
+        longest = longest.max(seconds);
+    }
+    Ok((total, longest))
+}
