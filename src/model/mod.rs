@@ -11,10 +11,13 @@ mod forces;
 mod initial;
 mod inputs;
 mod jacobian;
+mod law_slopes;
 mod laws;
 mod layout;
 mod locate;
 mod names;
+mod pocket_slopes;
+mod raceway_slopes;
 mod scales;
 mod workspace;
 

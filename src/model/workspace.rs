@@ -1,5 +1,6 @@
 //! Memory of a force evaluation: the touching contacts of every law, gathered for it, and their forces.
 
+use super::law_slopes::LawSlopes;
 use super::laws::{LAWS, LawCounts, PocketLaws};
 use super::{InputValues, Model};
 use crate::contact::pocket::Pillar;
@@ -23,6 +24,8 @@ pub(super) struct Batch<S> {
     /// As long as the batch may become, and more: what is beyond its end is apart.
     pub(super) motion: ContactMotion<Vec<f64>>,
     pub(super) force: ContactForce<Vec<f64>>,
+    /// Derivatives of the forces, where they are found by the batch.
+    pub(super) slopes: LawSlopes,
 }
 
 /// A motion without contact.
@@ -37,7 +40,12 @@ impl<S> Batch<S> {
             site: Vec::with_capacity(n),
             motion: APART.map(|x| vec![*x; room]),
             force: ContactForce::none(0.0).map(|x: &f64| vec![*x; room]),
+            slopes: LawSlopes::default(),
         }
+    }
+
+    fn with_slopes(self) -> Self {
+        Self { slopes: LawSlopes::new(self.motion.delta.len()), ..self }
     }
 
     pub(super) fn clear(&mut self) {
@@ -240,8 +248,8 @@ impl Workspace {
             azimuths: Directions::new(rollers),
             leads: Directions::new(rollers),
             elements: Vec::with_capacity(n),
-            outer: Batch::with_capacity(rollers),
-            inner: Batch::with_capacity(rollers),
+            outer: Batch::with_capacity(rollers).with_slopes(),
+            inner: Batch::with_capacity(rollers).with_slopes(),
             wall: Batch::with_capacity(cylinder),
             edge: Batch::with_capacity(cylinder),
             plane: Batch::with_capacity(plane),

@@ -1,201 +1,220 @@
 //! Forward-mode dual numbers with `N` independent directions.
 
+#![allow(clippy::needless_range_loop)]
+
 use super::{Base, Numeric, Real};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-/// A value with its `N` partial derivatives; or several side by side, for another `B`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Dual<const N: usize, B = f64> {
-    /// Value.
-    pub re: B,
-    /// Partial derivatives with respect to the `N` variables.
-    pub eps: [B; N],
-}
-
-impl<const N: usize, B: Base> Dual<N, B> {
-    /// The independent variable number `index` at `value`.
-    #[inline]
-    pub fn variable(value: B, index: usize) -> Self {
-        let mut eps = [value.splat(0.0); N];
-        eps[index] = value.splat(1.0);
-        Self { re: value, eps }
+/// A type of dual numbers whose operations are inlined as said. Loops, no closures: they would not always be inlined.
+macro_rules! dual_numbers {
+    ($name:ident, $inline:meta, $(#[$text:meta])*) => {
+            $(#[$text])*
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct $name<const N: usize, B = f64> {
+        /// Value.
+        pub re: B,
+        /// Partial derivatives with respect to the `N` variables.
+        pub eps: [B; N],
     }
 
-    /// Chain rule: the result has value `re` and derivative `slope` times that of `self`.
-    #[inline]
-    fn chain(self, re: B, slope: B) -> Self {
-        let mut eps = self.eps;
-        for e in &mut eps {
-            *e = slope * *e;
+    impl<const N: usize, B: Base> $name<N, B> {
+        /// The independent variable number `index` at `value`.
+        #[$inline]
+        pub fn variable(value: B, index: usize) -> Self {
+            let mut eps = [value.splat(0.0); N];
+            eps[index] = value.splat(1.0);
+            Self { re: value, eps }
         }
-        Self { re, eps }
-    }
 
-    #[inline]
-    fn combine(self, other: Self, re: B, a: B, b: B) -> Self {
-        let mut eps = self.eps;
-        for (e, y) in eps.iter_mut().zip(other.eps) {
-            *e = a * *e + b * y;
+        /// Chain rule: the result has value `re` and derivative `slope` times that of `self`.
+        #[$inline]
+        fn chain(self, re: B, slope: B) -> Self {
+            let mut eps = self.eps;
+            for i in 0..N {
+                eps[i] = slope * eps[i];
+            }
+            Self { re, eps }
         }
-        Self { re, eps }
-    }
-}
 
-impl<const N: usize, B: Base> Add for Dual<N, B> {
-    type Output = Self;
-    #[inline]
-    fn add(self, o: Self) -> Self {
-        let mut eps = self.eps;
-        for (e, y) in eps.iter_mut().zip(o.eps) {
-            *e += y;
+        #[$inline]
+        fn combine(self, other: Self, re: B, a: B, b: B) -> Self {
+            let mut eps = self.eps;
+            for i in 0..N {
+                eps[i] = a * eps[i] + b * other.eps[i];
+            }
+            Self { re, eps }
         }
-        Self { re: self.re + o.re, eps }
     }
-}
 
-impl<const N: usize, B: Base> Sub for Dual<N, B> {
-    type Output = Self;
-    #[inline]
-    fn sub(self, o: Self) -> Self {
-        let mut eps = self.eps;
-        for (e, y) in eps.iter_mut().zip(o.eps) {
-            *e -= y;
+    impl<const N: usize, B: Base> Add for $name<N, B> {
+        type Output = Self;
+        #[$inline]
+        fn add(self, o: Self) -> Self {
+            let mut eps = self.eps;
+            for i in 0..N {
+                eps[i] += o.eps[i];
+            }
+            Self { re: self.re + o.re, eps }
         }
-        Self { re: self.re - o.re, eps }
     }
-}
 
-impl<const N: usize, B: Base> Mul for Dual<N, B> {
-    type Output = Self;
-    #[inline]
-    fn mul(self, o: Self) -> Self {
-        self.combine(o, self.re * o.re, o.re, self.re)
-    }
-}
-
-impl<const N: usize, B: Base> Div for Dual<N, B> {
-    type Output = Self;
-    #[inline]
-    fn div(self, o: Self) -> Self {
-        let q = self.re / o.re;
-        let inverse = o.re.splat(1.0) / o.re;
-        self.combine(o, q, inverse, -q * inverse)
-    }
-}
-
-impl<const N: usize, B: Base> Neg for Dual<N, B> {
-    type Output = Self;
-    #[inline]
-    fn neg(self) -> Self {
-        let mut eps = self.eps;
-        for e in &mut eps {
-            *e = -*e;
+    impl<const N: usize, B: Base> Sub for $name<N, B> {
+        type Output = Self;
+        #[$inline]
+        fn sub(self, o: Self) -> Self {
+            let mut eps = self.eps;
+            for i in 0..N {
+                eps[i] -= o.eps[i];
+            }
+            Self { re: self.re - o.re, eps }
         }
-        Self { re: -self.re, eps }
     }
-}
 
-impl<const N: usize, B: Base> AddAssign for Dual<N, B> {
-    #[inline]
-    fn add_assign(&mut self, o: Self) {
-        *self = *self + o;
-    }
-}
-
-impl<const N: usize, B: Base> SubAssign for Dual<N, B> {
-    #[inline]
-    fn sub_assign(&mut self, o: Self) {
-        *self = *self - o;
-    }
-}
-
-impl<const N: usize, B: Base> Add<f64> for Dual<N, B> {
-    type Output = Self;
-    #[inline]
-    fn add(self, o: f64) -> Self {
-        Self { re: self.re + o, ..self }
-    }
-}
-
-impl<const N: usize, B: Base> Sub<f64> for Dual<N, B> {
-    type Output = Self;
-    #[inline]
-    fn sub(self, o: f64) -> Self {
-        Self { re: self.re - o, ..self }
-    }
-}
-
-impl<const N: usize, B: Base> Mul<f64> for Dual<N, B> {
-    type Output = Self;
-    #[inline]
-    fn mul(self, o: f64) -> Self {
-        let mut eps = self.eps;
-        for e in &mut eps {
-            *e = *e * o;
+    impl<const N: usize, B: Base> Mul for $name<N, B> {
+        type Output = Self;
+        #[$inline]
+        fn mul(self, o: Self) -> Self {
+            self.combine(o, self.re * o.re, o.re, self.re)
         }
-        Self { re: self.re * o, eps }
     }
-}
 
-impl<const N: usize, B: Base> Div<f64> for Dual<N, B> {
-    type Output = Self;
-    #[inline]
-    fn div(self, o: f64) -> Self {
-        self * (1.0 / o)
-    }
-}
-
-impl<const N: usize, B: Base> Numeric for Dual<N, B> {
-    const DERIVATIVES: bool = true;
-    type Base = B;
-    type Mask = B::Mask;
-
-    #[inline]
-    fn base(self) -> B {
-        self.re
-    }
-    #[inline]
-    fn lift(base: B) -> Self {
-        Self { re: base, eps: [base.splat(0.0); N] }
-    }
-    #[inline]
-    fn select(condition: B::Mask, yes: Self, no: Self) -> Self {
-        let mut out = no;
-        out.re = B::select(condition, yes.re, no.re);
-        for (e, yes) in out.eps.iter_mut().zip(yes.eps) {
-            *e = B::select(condition, yes, *e);
+    impl<const N: usize, B: Base> Div for $name<N, B> {
+        type Output = Self;
+        #[$inline]
+        fn div(self, o: Self) -> Self {
+            let q = self.re / o.re;
+            let inverse = o.re.splat(1.0) / o.re;
+            self.combine(o, q, inverse, -q * inverse)
         }
-        out
     }
-    #[inline]
-    fn sqrt(self) -> Self {
-        let r = self.re.sqrt();
-        self.chain(r, r.splat(0.5) / r)
+
+    impl<const N: usize, B: Base> Neg for $name<N, B> {
+        type Output = Self;
+        #[$inline]
+        fn neg(self) -> Self {
+            let mut eps = self.eps;
+            for i in 0..N {
+                eps[i] = -eps[i];
+            }
+            Self { re: -self.re, eps }
+        }
     }
-    #[inline]
-    fn ln(self) -> Self {
-        self.chain(self.re.ln(), self.re.splat(1.0) / self.re)
+
+    impl<const N: usize, B: Base> AddAssign for $name<N, B> {
+        #[$inline]
+        fn add_assign(&mut self, o: Self) {
+            *self = *self + o;
+        }
     }
-    #[inline]
-    fn ln_1p(self) -> Self {
-        self.chain(self.re.ln_1p(), self.re.splat(1.0) / (self.re + 1.0))
+
+    impl<const N: usize, B: Base> SubAssign for $name<N, B> {
+        #[$inline]
+        fn sub_assign(&mut self, o: Self) {
+            *self = *self - o;
+        }
     }
-    #[inline]
-    fn exp(self) -> Self {
-        let e = self.re.exp();
-        self.chain(e, e)
+
+    impl<const N: usize, B: Base> Add<f64> for $name<N, B> {
+        type Output = Self;
+        #[$inline]
+        fn add(self, o: f64) -> Self {
+            Self { re: self.re + o, ..self }
+        }
     }
-    #[inline]
-    fn tanh(self) -> Self {
-        let t = self.re.tanh();
-        self.chain(t, -(t * t) + 1.0)
+
+    impl<const N: usize, B: Base> Sub<f64> for $name<N, B> {
+        type Output = Self;
+        #[$inline]
+        fn sub(self, o: f64) -> Self {
+            Self { re: self.re - o, ..self }
+        }
     }
-    #[inline]
-    fn asinh(self) -> Self {
-        let root = (self.re * self.re + 1.0).sqrt();
-        self.chain(self.re.asinh(), root.splat(1.0) / root)
+
+    impl<const N: usize, B: Base> Mul<f64> for $name<N, B> {
+        type Output = Self;
+        #[$inline]
+        fn mul(self, o: f64) -> Self {
+            let mut eps = self.eps;
+            for i in 0..N {
+                eps[i] = eps[i] * o;
+            }
+            Self { re: self.re * o, eps }
+        }
     }
+
+    impl<const N: usize, B: Base> Div<f64> for $name<N, B> {
+        type Output = Self;
+        #[$inline]
+        fn div(self, o: f64) -> Self {
+            self * (1.0 / o)
+        }
+    }
+
+    impl<const N: usize, B: Base> Numeric for $name<N, B> {
+        const DERIVATIVES: bool = true;
+        type Base = B;
+        type Mask = B::Mask;
+
+        #[$inline]
+        fn base(self) -> B {
+            self.re
+        }
+        #[$inline]
+        fn lift(base: B) -> Self {
+            Self { re: base, eps: [base.splat(0.0); N] }
+        }
+        #[$inline]
+        fn select(condition: B::Mask, yes: Self, no: Self) -> Self {
+            let mut out = no;
+            out.re = B::select(condition, yes.re, no.re);
+            for i in 0..N {
+                out.eps[i] = B::select(condition, yes.eps[i], out.eps[i]);
+            }
+            out
+        }
+        #[$inline]
+        fn sqrt(self) -> Self {
+            let r = self.re.sqrt();
+            self.chain(r, r.splat(0.5) / r)
+        }
+        #[$inline]
+        fn ln(self) -> Self {
+            self.chain(self.re.ln(), self.re.splat(1.0) / self.re)
+        }
+        #[$inline]
+        fn ln_1p(self) -> Self {
+            self.chain(self.re.ln_1p(), self.re.splat(1.0) / (self.re + 1.0))
+        }
+        #[$inline]
+        fn exp(self) -> Self {
+            let e = self.re.exp();
+            self.chain(e, e)
+        }
+        #[$inline]
+        fn tanh(self) -> Self {
+            let t = self.re.tanh();
+            self.chain(t, -(t * t) + 1.0)
+        }
+        #[$inline]
+        fn asinh(self) -> Self {
+            let root = (self.re * self.re + 1.0).sqrt();
+            self.chain(self.re.asinh(), root.splat(1.0) / root)
+        }
+    }
+    };
 }
+
+dual_numbers!(
+    Dual,
+    inline,
+    /// A value with its `N` partial derivatives.
+);
+dual_numbers!(
+    Duals,
+    inline(always),
+    /// Values side by side with their `N` partial derivatives. Every operation is inlined, as [`Columns`](super::Columns)
+    /// need it; in other places that would bloat the code.
+);
 
 impl<const N: usize> Real for Dual<N> {
     fn powf(self, p: f64) -> Self {

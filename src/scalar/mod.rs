@@ -1,14 +1,14 @@
 //! The number types of the force laws.
 //!
 //! Laws are generic. Those of line contacts take any [`Numeric`] and have no branches: called with `f64` they give the
-//! force of one contact, with [`Pack`] those of several contacts at once, with [`Dual`] of either the same forces and
-//! their exact derivatives. The other laws take a [`Real`], one number that they may branch on.
+//! force of one contact, with [`Pack`] those of several contacts at once, with
+//! [`Dual`] and [`Duals`] the same forces and their exact derivatives. The other laws take a [`Real`], one number that they may branch on.
 
 mod dual;
 pub mod elementary;
 mod pack;
 
-pub use dual::Dual;
+pub use dual::{Dual, Duals};
 pub use pack::{Columns, Pack, WIDEST, dispatch};
 
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Sub, SubAssign};

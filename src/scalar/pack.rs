@@ -10,6 +10,8 @@ pub const WIDEST: usize = 16;
 
 /// Work on columns of numbers, group by group.
 pub trait Columns {
+    /// Whether two registers are worked on at a time while there is work for them, so that one does not wait for the other.
+    const PAIRED: bool = true;
     /// Number of rows.
     fn rows(&self) -> usize;
     /// Does the work for the group of `K` registers from row `first` on; it may go beyond the last row, up to the next
@@ -18,8 +20,7 @@ pub trait Columns {
     fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize);
 }
 
-/// Does `work` with these instructions: two registers at a time while there is work for them, so that one does not wait
-/// for the other; then one.
+/// Does `work` with these instructions.
 #[inline(always)]
 pub fn dispatch(instructions: Arch, work: impl Columns) {
     struct Work<C>(C);
@@ -31,7 +32,7 @@ pub fn dispatch(instructions: Arch, work: impl Columns) {
             let mut first = 0;
             while first < rows {
                 let rest = rows - first;
-                if S::F64_LANES > 1 && rest > S::F64_LANES {
+                if C::PAIRED && S::F64_LANES > 1 && rest > S::F64_LANES {
                     self.0.group::<S, 2>(simd, first);
                     first += 2 * S::F64_LANES;
                 } else {

@@ -127,7 +127,7 @@ impl Bearing {
         self.accelerations_at(t, state, a)?;
         let (q, v) = state.split_at(self.model.layout().positions());
         let rates = self.model.input_rates_at(t, &self.host);
-        self.model.linearize(q, v, &self.workspace, &rates, &mut slopes.linearization);
+        self.model.linearize(q, v, &mut self.workspace, &rates, &mut slopes.linearization);
         Ok(())
     }
 
@@ -198,7 +198,7 @@ impl System for Bearing {
     ) -> Result<(), Fault> {
         self.accelerations(t, q, v, a)?;
         let rates = self.model.input_rates_at(t, &self.host);
-        self.model.linearize(q, v, &self.workspace, &rates, out);
+        self.model.linearize(q, v, &mut self.workspace, &rates, out);
         Ok(())
     }
 

@@ -1,0 +1,220 @@
+//! Derivatives of the raceway forces: those of the laws, which come in columns, chained with those of the kinematics, by
+//! dual numbers over the few coordinates that a contact sees.
+//!
+//! In the frame of the roller the azimuth psi moves nothing but the ring, whose centre and velocity x turn backwards:
+//!
+//! ```text
+//! dx_r/dpsi = x_c,  dx_c/dpsi = -x_r;   a force on the ring, turned into global axes: d(e_r F_r + e_c F_c)/dpsi adds e_c F_r - e_r F_c
+//! ```
+
+use super::jacobian::Drift;
+use super::law_slopes::{DIRECTIONS, FORCES};
+use super::workspace::{Batch, Workspace};
+use super::{Input, Model, RollerSet};
+use crate::contact::Wrench;
+use crate::contact::raceway::{RingMotion, RollerMotion};
+use crate::integrate::Linearization;
+use crate::integrate::arrowhead::HUB;
+use crate::laws::contact_pair::{ContactForce, ContactMotion};
+use crate::scalar::{Dual, Real};
+
+/// Radial offset, radial speed, orbit speed, spin speed, logarithm of the viscosity.
+type OuterDual = Dual<5>;
+/// The same but the last; centre and velocity of the ring in the frame of the roller, its speed; the viscosity.
+type InnerDual = Dual<10>;
+const RING_POSITION: usize = 4;
+const RING_VELOCITY: usize = 6;
+const RING_SPEED: usize = 8;
+
+impl Model {
+    /// Adds the derivatives of all raceway contacts. Those of their laws are in the batches.
+    pub(super) fn add_raceways(
+        &self,
+        rollers: &RollerSet,
+        (q, v): (&[f64], &[f64]),
+        ws: &Workspace,
+        drift: &mut Drift<'_>,
+        out: &mut Linearization,
+    ) {
+        for i in 0..ws.outer.len() {
+            let j = ws.outer.element[i];
+            let roller = lift::<5>(&ws.elements[j].motion);
+            let (motion, frame) = rollers.geometry.outer(&roller);
+            let [on_roller, _] = frame.wrenches(&chain(&ws.outer, i, &motion));
+            self.add_outer(j, &components(&on_roller), drift, out);
+        }
+        let (position, velocity) = self.ring_motion(q, v);
+        for i in 0..ws.inner.len() {
+            let j = ws.inner.element[i];
+            let site = &ws.elements[j];
+            let [x, v] = [site.to_local(position), site.to_local(velocity)];
+            let vector = |x: [f64; 2], at: usize| [0, 1].map(|k| InnerDual::variable(x[k], at + k));
+            let ring = RingMotion {
+                position: vector(x, RING_POSITION),
+                velocity: vector(v, RING_VELOCITY),
+                speed: InnerDual::variable(ws.inputs.of(Input::RingSpeed), RING_SPEED),
+            };
+            let (motion, frame) = rollers.geometry.inner(&lift::<10>(&site.motion), &ring);
+            let [on_roller, on_ring] = frame.wrenches(&chain(&ws.inner, i, &motion));
+            let turn = |row: &InnerDual| {
+                let [position, velocity] =
+                    [RING_POSITION, RING_VELOCITY].map(|at| [row.eps[at], row.eps[at + 1]]);
+                position[0] * x[1] - position[1] * x[0] + velocity[0] * v[1] - velocity[1] * v[0]
+            };
+            let own = components(&on_roller)
+                .map(|row| self.inner_row(&row, turn(&row), |x| site.to_global(x), drift));
+            let [radial, across] = on_ring.force;
+            let turned = [turn(&radial) - across.re, turn(&across) + radial.re];
+            let both = [&radial, &across];
+            let turned = site.to_global(turned);
+            let shared = [0, 1].map(|k| {
+                let mut row = InnerDual::constant(0.0);
+                for d in 0..row.eps.len() {
+                    row.eps[d] = site.to_global(both.map(|f| f.eps[d]))[k];
+                }
+                self.inner_row(&row, turned[k], |x| site.to_global(x), drift)
+            });
+            self.add_inner(j, &own, &shared, drift, out);
+        }
+    }
+
+    fn add_outer(&self, j: usize, rows: &[OuterDual; 3], drift: &Drift<'_>, out: &mut Linearization) {
+        let (Some(k), Some(d)) =
+            (out.over_positions.spokes.get_mut(j), out.over_velocities.spokes.get_mut(j))
+        else {
+            return;
+        };
+        let places = self.places(j);
+        for (i, row) in rows.iter().enumerate() {
+            k.own[(i, 0)] += row.eps[0];
+            for c in 0..3 {
+                d.own[(i, c)] += row.eps[1 + c];
+            }
+            out.over_time[places[i]] += row.eps[4] * drift.thickening;
+        }
+    }
+
+    /// A row of derivatives in the coordinates of the state; `turned` is that over the azimuth.
+    fn inner_row(
+        &self,
+        row: &InnerDual,
+        turned: f64,
+        to_global: impl Fn([f64; 2]) -> [f64; 2],
+        drift: &Drift<'_>,
+    ) -> Row {
+        let e = &row.eps;
+        Row {
+            own_positions: [e[0], turned],
+            own_velocities: [e[1], e[2], e[3]],
+            ring_position: to_global([e[RING_POSITION], e[RING_POSITION + 1]]),
+            ring_velocity: to_global([e[RING_VELOCITY], e[RING_VELOCITY + 1]]),
+            time: e[RING_SPEED] * drift.rates.of(Input::RingSpeed) + e[9] * drift.thickening,
+        }
+    }
+
+    fn add_inner(
+        &self,
+        j: usize,
+        own: &[Row; 3],
+        shared: &[Row; 2],
+        drift: &mut Drift<'_>,
+        out: &mut Linearization,
+    ) {
+        let ring_moves = self.layout.ring.is_some();
+        let (positions, velocities) = (&mut out.over_positions, &mut out.over_velocities);
+        let (Some(k), Some(d)) = (positions.spokes.get_mut(j), velocities.spokes.get_mut(j)) else { return };
+        let places = self.places(j);
+        for (i, row) in own.iter().enumerate() {
+            for (c, slope) in row.own_positions.into_iter().enumerate() {
+                k.own[(i, c)] += slope;
+            }
+            for (c, slope) in row.own_velocities.into_iter().enumerate() {
+                d.own[(i, c)] += slope;
+            }
+            if ring_moves {
+                for c in 0..2 {
+                    k.from_hub[(i, c)] += row.ring_position[c];
+                    d.from_hub[(i, c)] += row.ring_velocity[c];
+                }
+            }
+            out.over_time[places[i]] += row.time;
+        }
+        if !ring_moves {
+            return;
+        }
+        for (i, row) in shared.iter().enumerate() {
+            for (c, slope) in row.own_positions.into_iter().enumerate() {
+                k.to_hub[(i, c)] += slope;
+            }
+            for (c, slope) in row.own_velocities.into_iter().enumerate() {
+                d.to_hub[(i, c)] += slope;
+            }
+            for c in 0..2 {
+                positions.hub[(i, c)] += row.ring_position[c];
+                velocities.hub[(i, c)] += row.ring_velocity[c];
+            }
+            drift.hub[i] += row.time;
+        }
+    }
+
+    /// Velocities of roller `j`.
+    pub(super) fn places(&self, j: usize) -> [usize; 3] {
+        [self.layout.roller(j), self.layout.roller(j) + 1, self.layout.spin(j)]
+    }
+}
+
+/// Derivatives of one force over the coordinates that a contact with the inner raceway sees.
+struct Row {
+    /// Radial offset, travel.
+    own_positions: [f64; 2],
+    /// Radial speed, orbit speed, spin speed.
+    own_velocities: [f64; 3],
+    /// Of the ring, global axes.
+    ring_position: [f64; 2],
+    ring_velocity: [f64; 2],
+    /// By the inputs.
+    time: f64,
+}
+
+// A hub without a place for the ring would have no room for the rows above.
+const _: () = assert!(HUB >= 2 && FORCES == 3);
+
+fn lift<const N: usize>(m: &RollerMotion<f64>) -> RollerMotion<Dual<N>> {
+    RollerMotion {
+        radial_offset: Dual::variable(m.radial_offset, 0),
+        radial_speed: Dual::variable(m.radial_speed, 1),
+        orbit_speed: Dual::variable(m.orbit_speed, 2),
+        spin_speed: Dual::variable(m.spin_speed, 3),
+    }
+}
+
+/// The forces of contact `i` over the coordinates: chain rule; the viscosity comes last.
+fn chain<const N: usize>(
+    batch: &Batch<()>,
+    i: usize,
+    motion: &ContactMotion<Dual<N>>,
+) -> ContactForce<Dual<N>> {
+    let force = &batch.force;
+    let slopes = batch.slopes.of(i);
+    let inner = [&motion.delta, &motion.delta_dot, &motion.u1, &motion.u2];
+    let over_coordinates = |value: f64, slopes: &[f64; DIRECTIONS]| {
+        let mut out = Dual::<N>::constant(value);
+        for (slope, x) in slopes.iter().zip(inner) {
+            for (e, dx) in out.eps.iter_mut().zip(x.eps) {
+                *e += slope * dx;
+            }
+        }
+        out.eps[N - 1] += slopes[DIRECTIONS - 1];
+        out
+    };
+    ContactForce {
+        normal: over_coordinates(force.normal[i], &slopes[0]),
+        friction: over_coordinates(force.friction[i], &slopes[1]),
+        rolling_resistance: over_coordinates(force.rolling_resistance[i], &slopes[2]),
+        ..ContactForce::none(Dual::constant(0.0))
+    }
+}
+
+fn components<const N: usize>(wrench: &Wrench<Dual<N>>) -> [Dual<N>; 3] {
+    [wrench.force[0], wrench.force[1], wrench.moment]
+}
