@@ -1,6 +1,12 @@
 //! Simulations: determinism, saving, threads, inputs, events, failures, odd but valid scenes.
 
+mod common;
+
+use cagedyn::model::PARTS;
+use cagedyn::sim::STATISTICS;
 use cagedyn::{Model, Scene, Sim, Status};
+use common::{example_text, example_with};
+use serde_json::{Value, json};
 use std::sync::Arc;
 
 const STIFF: (&str, &str) = ("solver", r#"{"method": {"rosenbrock": {"tolerance": 1e-5}}}"#);
@@ -410,4 +416,44 @@ fn recordings_refuse_intervals_that_never_end() {
         let e = recording.run(&mut s, 1e-3, interval, |_| true).unwrap_err();
         assert_eq!(e.status, Status::BadValue, "{interval}");
     }
+}
+
+#[test]
+fn parts_of_an_evaluation_are_timed_without_leaving_a_trace() {
+    let text = example_text();
+    let times = |text: &str| {
+        let mut sim = Sim::new(Arc::new(Model::from_json(text).unwrap())).unwrap();
+        sim.advance_to(1e-3).unwrap();
+        let (before, saved) = (sim.statistics(), sim.save());
+        let times = sim.time_parts(&[(sim.time(), sim.state().to_vec())], 10).unwrap();
+        assert_eq!(sim.time_parts(&[], 10).unwrap(), [0.0; PARTS.len()]);
+        let far = vec![f64::NAN; sim.state().len()];
+        assert_eq!(sim.time_parts(&[(0.0, far)], 10).unwrap_err().status, Status::BadValue);
+        assert_eq!((sim.statistics(), sim.save()), (before, saved));
+        times
+    };
+    let all = times(&text);
+    assert!(all.iter().all(|t| *t > 0.0 && *t < 1e-2), "{all:?}");
+    let loose = example_with(&[("cage.pocket", Value::Null), ("cage.guide", Value::Null)]).to_string();
+    let part = |name: &str| PARTS.iter().position(|part| *part == name).unwrap();
+    let some = times(&loose);
+    assert_eq!([some[part("pockets")], some[part("guide")]], [0.0; 2]);
+    assert!(some[part("outer_raceway")] > 0.0);
+}
+
+#[test]
+fn derivatives_are_counted() {
+    let count = |method: &str| {
+        let solver = json!({"method": {method: {}}});
+        let text = example_with(&[("solver", solver)]).to_string();
+        let mut sim = Sim::new(Arc::new(Model::from_json(&text).unwrap())).unwrap();
+        sim.advance_to(1e-4).unwrap();
+        let statistics = sim.statistics();
+        let place = STATISTICS.iter().position(|name| *name == "jacobians").unwrap();
+        assert_eq!(statistics.values()[place], statistics.jacobians as f64);
+        (statistics.jacobians, statistics.driver.steps)
+    };
+    assert_eq!(count("leapfrog").0, 0);
+    let (jacobians, steps) = count("rosenbrock");
+    assert!(jacobians >= steps && steps > 0, "{jacobians} {steps}");
 }

@@ -32,6 +32,7 @@ const STATISTIC_NAMES: [&CStr; STATISTICS.len()] = [
     c"failed_lost_cage",
     c"failed_not_finite",
     c"failed_no_slope",
+    c"jacobians",
 ];
 
 /// Names of [`LAWS`], NUL-terminated.

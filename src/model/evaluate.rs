@@ -90,27 +90,22 @@ impl Model {
 
     /// Evaluates every law over its list.
     fn apply_laws(&self, q: &[f64], v: &[f64], ws: &mut Workspace) -> Result<(), Fault> {
-        let (laws, instructions, thickening) = (&self.laws, ws.instructions, ws.thickening);
-        if let Some(raceways) = &laws.raceways {
-            for (law, batch) in [(&raceways.outer, &mut ws.outer), (&raceways.inner, &mut ws.inner)] {
-                dispatch(instructions, LineContacts::new(law, batch, thickening));
-            }
+        if let Some(raceways) = &self.laws.raceways {
+            ws.apply_to_outer(&raceways.outer);
+            ws.apply_to_inner(&raceways.inner);
         }
-        match &laws.pocket {
-            None => {}
-            Some(PocketLaws::Cylinder(pocket)) => {
-                for (law, batch) in [(&pocket.wall, &mut ws.wall), (&pocket.edge, &mut ws.edge)] {
-                    let friction = pocket.edge_friction;
-                    dispatch(instructions, LineContacts::in_pockets(law, batch, thickening, friction));
-                }
-            }
-            Some(PocketLaws::Plane(pocket)) => {
-                for i in 0..ws.plane.len() {
-                    let force = pocket.contact.force(&ws.plane.motion.map(|x| x[i]));
-                    ws.plane.force.set(i, &force);
-                }
-            }
+        if let Some(pocket) = &self.laws.pocket {
+            ws.apply_to_pockets(pocket);
         }
+        self.apply_guide(q, v, ws)?;
+        if ws.counting {
+            count(&self.laws, ws);
+        }
+        Ok(())
+    }
+
+    /// Evaluates the guide.
+    pub(super) fn apply_guide(&self, q: &[f64], v: &[f64], ws: &mut Workspace) -> Result<(), Fault> {
         if let Some(guide) = &ws.guide_law
             && let Some(cage) = &self.cage
         {
@@ -119,9 +114,6 @@ impl Model {
             ws.journal = Some(motion);
             let force = guide.force(&motion);
             ws.guide = Some(force.map_err(|e| Fault::NoGuideFilm { minimum_film: e.minimum_film })?);
-        }
-        if ws.counting {
-            count(laws, ws);
         }
         Ok(())
     }
@@ -143,7 +135,7 @@ impl Model {
     }
 
     /// Collects forces on the bodies and divides by the inertias.
-    fn assemble(&self, q: &[f64], v: &[f64], ws: &mut Workspace, a: &mut [f64]) {
+    pub(super) fn assemble(&self, q: &[f64], v: &[f64], ws: &mut Workspace, a: &mut [f64]) {
         let mut on_ring = [0.0; 2];
         let mut on_cage = Wrench::default();
         ws.on_roller.fill(Wrench::default());
@@ -224,6 +216,37 @@ impl Model {
             a[i] = wrench.force[0] / rollers.mass + weight[0] + r * orbit * orbit;
             a[i + 1] = (wrench.force[1] / rollers.mass + weight[1] - 2.0 * radial_speed * orbit) / r;
             a[self.layout.spin(j)] = wrench.moment / rollers.inertia;
+        }
+    }
+}
+
+impl Workspace {
+    /// Evaluates the contacts with the outer raceway.
+    pub(super) fn apply_to_outer(&mut self, law: &LineContact) {
+        dispatch(self.instructions, LineContacts::new(law, &mut self.outer, self.thickening));
+    }
+
+    /// Evaluates the contacts with the inner raceway.
+    pub(super) fn apply_to_inner(&mut self, law: &LineContact) {
+        dispatch(self.instructions, LineContacts::new(law, &mut self.inner, self.thickening));
+    }
+
+    /// Evaluates the contacts with pockets.
+    pub(super) fn apply_to_pockets(&mut self, pocket: &PocketLaws) {
+        let (instructions, thickening) = (self.instructions, self.thickening);
+        match pocket {
+            PocketLaws::Cylinder(pocket) => {
+                for (law, batch) in [(&pocket.wall, &mut self.wall), (&pocket.edge, &mut self.edge)] {
+                    let friction = pocket.edge_friction;
+                    dispatch(instructions, LineContacts::in_pockets(law, batch, thickening, friction));
+                }
+            }
+            PocketLaws::Plane(pocket) => {
+                for i in 0..self.plane.len() {
+                    let force = pocket.contact.force(&self.plane.motion.map(|x| x[i]));
+                    self.plane.force.set(i, &force);
+                }
+            }
         }
     }
 }

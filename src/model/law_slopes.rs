@@ -55,6 +55,7 @@ impl Columns for Differentiate<'_> {
     }
 
     #[inline(always)]
+    #[expect(clippy::needless_range_loop, reason = "iterators might not be inlined")]
     fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
         let motion = self.motion.load::<S, K>(simd, first);
         let motion = ContactMotion {

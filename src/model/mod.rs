@@ -4,6 +4,7 @@
 mod channels;
 mod compile;
 mod compile_laws;
+mod costs;
 mod damping;
 mod evaluate;
 mod fault;
@@ -22,6 +23,7 @@ mod scales;
 mod workspace;
 
 pub use channels::Channel;
+pub use costs::{PARTS, PartTimes};
 pub use fault::{FAULTS, Fault, FaultCounts};
 pub use forces::{
     BodyForces, CONTACT_QUANTITIES, ContactForces, FORCE_SOURCES, Forces, GuideReport, Quantity,

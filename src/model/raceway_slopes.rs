@@ -8,13 +8,12 @@
 //! ```
 
 use super::jacobian::Drift;
-use super::law_slopes::{DIRECTIONS, FORCES};
-use super::workspace::{Batch, Workspace};
+use super::law_slopes::DIRECTIONS;
+use super::workspace::{Batch, ElementSite, Workspace};
 use super::{Input, Model, RollerSet};
 use crate::contact::Wrench;
 use crate::contact::raceway::{RingMotion, RollerMotion};
 use crate::integrate::Linearization;
-use crate::integrate::arrowhead::HUB;
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
 use crate::scalar::{Dual, Real};
 
@@ -61,8 +60,7 @@ impl Model {
                     [RING_POSITION, RING_VELOCITY].map(|at| [row.eps[at], row.eps[at + 1]]);
                 position[0] * x[1] - position[1] * x[0] + velocity[0] * v[1] - velocity[1] * v[0]
             };
-            let own = components(&on_roller)
-                .map(|row| self.inner_row(&row, turn(&row), |x| site.to_global(x), drift));
+            let own = components(&on_roller).map(|row| Row::new(&row, turn(&row), site, drift));
             let [radial, across] = on_ring.force;
             let turned = [turn(&radial) - across.re, turn(&across) + radial.re];
             let both = [&radial, &across];
@@ -72,7 +70,7 @@ impl Model {
                 for d in 0..row.eps.len() {
                     row.eps[d] = site.to_global(both.map(|f| f.eps[d]))[k];
                 }
-                self.inner_row(&row, turned[k], |x| site.to_global(x), drift)
+                Row::new(&row, turned[k], site, drift)
             });
             self.add_inner(j, &own, &shared, drift, out);
         }
@@ -91,24 +89,6 @@ impl Model {
                 d.own[(i, c)] += row.eps[1 + c];
             }
             out.over_time[places[i]] += row.eps[4] * drift.thickening;
-        }
-    }
-
-    /// A row of derivatives in the coordinates of the state; `turned` is that over the azimuth.
-    fn inner_row(
-        &self,
-        row: &InnerDual,
-        turned: f64,
-        to_global: impl Fn([f64; 2]) -> [f64; 2],
-        drift: &Drift<'_>,
-    ) -> Row {
-        let e = &row.eps;
-        Row {
-            own_positions: [e[0], turned],
-            own_velocities: [e[1], e[2], e[3]],
-            ring_position: to_global([e[RING_POSITION], e[RING_POSITION + 1]]),
-            ring_velocity: to_global([e[RING_VELOCITY], e[RING_VELOCITY + 1]]),
-            time: e[RING_SPEED] * drift.rates.of(Input::RingSpeed) + e[9] * drift.thickening,
         }
     }
 
@@ -176,8 +156,19 @@ struct Row {
     time: f64,
 }
 
-// A hub without a place for the ring would have no room for the rows above.
-const _: () = assert!(HUB >= 2 && FORCES == 3);
+impl Row {
+    /// From the derivatives in the frame of the roller at `site`; `turned` is that over the azimuth.
+    fn new(row: &InnerDual, turned: f64, site: &ElementSite, drift: &Drift<'_>) -> Self {
+        let e = &row.eps;
+        Self {
+            own_positions: [e[0], turned],
+            own_velocities: [e[1], e[2], e[3]],
+            ring_position: site.to_global([e[RING_POSITION], e[RING_POSITION + 1]]),
+            ring_velocity: site.to_global([e[RING_VELOCITY], e[RING_VELOCITY + 1]]),
+            time: e[RING_SPEED] * drift.rates.of(Input::RingSpeed) + e[9] * drift.thickening,
+        }
+    }
+}
 
 fn lift<const N: usize>(m: &RollerMotion<f64>) -> RollerMotion<Dual<N>> {
     RollerMotion {

@@ -2,7 +2,9 @@
 
 use super::jacobian::Slopes;
 use crate::integrate::{DampingBlock, Linearization, Structure, System, Vibration};
-use crate::model::{Channel, Fault, FaultCounts, Forces, HostInputs, Input, LawCounts, Model, Workspace};
+use crate::model::{
+    Channel, Fault, FaultCounts, Forces, HostInputs, Input, LawCounts, Model, PartTimes, Workspace,
+};
 use std::sync::Arc;
 
 pub(super) struct Bearing {
@@ -10,6 +12,7 @@ pub(super) struct Bearing {
     workspace: Workspace,
     host: HostInputs,
     evaluations: u64,
+    jacobians: u64,
     /// Failed attempts by cause, and the last one with its time in s.
     fault_counts: FaultCounts,
     last_fault: Option<(f64, Fault)>,
@@ -26,6 +29,7 @@ impl Bearing {
             workspace,
             host: HostInputs::default(),
             evaluations: 0,
+            jacobians: 0,
             fault_counts: FaultCounts::default(),
             last_fault: None,
             rejections: vec![0; groups],
@@ -58,8 +62,12 @@ impl Bearing {
         self.workspace.law_counts()
     }
 
-    pub(super) fn set_counts(&mut self, evaluations: u64, law_counts: LawCounts) {
-        self.evaluations = evaluations;
+    pub(super) fn jacobians(&self) -> u64 {
+        self.jacobians
+    }
+
+    pub(super) fn set_counts(&mut self, [evaluations, jacobians]: [u64; 2], law_counts: LawCounts) {
+        (self.evaluations, self.jacobians) = (evaluations, jacobians);
         self.workspace.set_law_counts(law_counts);
     }
 
@@ -101,7 +109,7 @@ impl Bearing {
 
     pub(super) fn reset(&mut self) {
         self.host = HostInputs::default();
-        self.set_counts(0, LawCounts::default());
+        self.set_counts([0; 2], LawCounts::default());
         self.set_fault_counts(FaultCounts::default());
         self.rejections.fill(0);
     }
@@ -129,6 +137,16 @@ impl Bearing {
         let rates = self.model.input_rates_at(t, &self.host);
         self.model.linearize(q, v, &mut self.workspace, &rates, &mut slopes.linearization);
         Ok(())
+    }
+
+    /// Wall time of each part of an evaluation at a state, s; not counted.
+    pub(super) fn time_parts(&mut self, t: f64, state: &[f64], repeats: u32) -> Result<PartTimes, Fault> {
+        let state = state.split_at(self.model.layout().positions());
+        let inputs = self.model.inputs_at(t, &self.host);
+        self.workspace.set_counting(false);
+        let times = self.model.time_parts(&inputs, state, &mut self.workspace, repeats);
+        self.workspace.set_counting(true);
+        times
     }
 
     pub(super) fn report(&self, state: &[f64], a: &[f64], out: &mut Forces) {
@@ -197,6 +215,7 @@ impl System for Bearing {
         out: &mut Linearization,
     ) -> Result<(), Fault> {
         self.accelerations(t, q, v, a)?;
+        self.jacobians += 1;
         let rates = self.model.input_rates_at(t, &self.host);
         self.model.linearize(q, v, &mut self.workspace, &rates, out);
         Ok(())

@@ -16,7 +16,7 @@ pub use whirl::{CageMotion, WhirlRecord, WhirlSummary};
 
 use crate::error::{Error, Result, Status};
 use crate::integrate::{Driver, Failure};
-use crate::model::{Channel, FAULTS, Fault, Forces, Input, Model};
+use crate::model::{Channel, FAULTS, Fault, Forces, Input, Model, PartTimes};
 use crate::scene::{Preset, Solver};
 use bearing::Bearing;
 use jacobian::Slopes;
@@ -284,8 +284,30 @@ impl Sim {
             choice: self.driver.choice(),
             faults: *self.bearing.fault_counts(),
             evaluations: self.bearing.evaluations(),
+            jacobians: self.bearing.jacobians(),
             laws: *self.bearing.law_counts(),
         }
+    }
+
+    /// Wall time of each of [`PARTS`](crate::model::PARTS) of one force evaluation, s: the mean over these times (s) and
+    /// states, each measured `repeats` times. The simulation's own state is not touched, and nothing is counted. Zeros
+    /// without states.
+    ///
+    /// # Errors
+    /// As [`Sim::derivative`].
+    pub fn time_parts(&mut self, states: &[(f64, Vec<f64>)], repeats: u32) -> Result<PartTimes> {
+        let mut mean = PartTimes::default();
+        for (t, state) in states {
+            check_time("t", *t)?;
+            self.check_state(state)?;
+            self.forces_current = false;
+            let times =
+                self.bearing.time_parts(*t, state, repeats).map_err(|fault| self.bad_state(*t, fault))?;
+            for (mean, time) in mean.iter_mut().zip(times) {
+                *mean += time / states.len() as f64;
+            }
+        }
+        Ok(mean)
     }
 
     /// What the integration does and why, and what went wrong on the way, in one line for people.

@@ -35,7 +35,7 @@ pub struct Spread {
 
 impl Recording {
     /// Advances `sim` and records its outputs at its present time and every `interval` seconds after, up to `until` (s).
-    /// `keep_going` is called with the time after every record and ends the run by returning false.
+    /// `keep_going` is called after every record and ends the run by returning false.
     ///
     /// # Errors
     /// [`Status::BadValue`] for an interval that is not positive or gives too many records, and as
@@ -45,7 +45,7 @@ impl Recording {
         sim: &mut Sim,
         until: f64,
         interval: f64,
-        mut keep_going: impl FnMut(f64) -> bool,
+        mut keep_going: impl FnMut(&Sim) -> bool,
     ) -> Result<()> {
         let start = sim.time();
         let records = (until - start) / interval;
@@ -66,7 +66,7 @@ impl Recording {
             for (column, value) in self.columns.iter_mut().zip(&row) {
                 column.push(*value);
             }
-            if !keep_going(sim.time()) {
+            if !keep_going(sim) {
                 break;
             }
         }

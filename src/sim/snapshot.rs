@@ -8,14 +8,14 @@ use crate::scene::Solver;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// First number of a snapshot; changes when its content changes.
-const FORMAT: f64 = 3.0;
+const FORMAT: f64 = 4.0;
 
 impl Sim {
     /// Everything the future of this simulation depends on, for the same model in the same build of the library.
     pub fn save(&self) -> Vec<f64> {
         let mut out = vec![FORMAT];
         out.extend(self.fingerprint);
-        out.extend([self.time, self.bearing.evaluations() as f64]);
+        out.extend([self.time, self.bearing.evaluations() as f64, self.bearing.jacobians() as f64]);
         out.extend(self.bearing.law_counts().iter().map(|n| *n as f64));
         out.extend(self.bearing.fault_counts().iter().chain(self.bearing.rejections()).map(|n| *n as f64));
         let host = self.bearing.host();
@@ -61,7 +61,7 @@ impl Sim {
     fn load(&mut self, snapshot: &[f64]) -> Option<()> {
         let mut from = Reader::new(snapshot.get(1 + self.fingerprint.len()..)?);
         let time = from.number().filter(|t| *t >= 0.0)?;
-        let evaluations = from.count()?;
+        let counts = [from.count()?, from.count()?];
         let mut law_counts = LawCounts::default();
         for count in &mut law_counts {
             *count = from.count()?;
@@ -90,7 +90,7 @@ impl Sim {
         }
         self.time = time;
         *self.bearing.host_mut() = host;
-        self.bearing.set_counts(evaluations, law_counts);
+        self.bearing.set_counts(counts, law_counts);
         self.bearing.set_fault_counts(fault_counts);
         self.forces_current = false;
         Some(())

@@ -11,6 +11,8 @@ pub struct RunStatistics {
     pub driver: Statistics,
     /// Force evaluations of the integration.
     pub evaluations: u64,
+    /// Derivatives of the forces, for implicit methods and checks.
+    pub jacobians: u64,
     /// What `auto` has chosen; absent with other methods.
     pub choice: Option<Choice>,
     /// Failed attempts by cause, in the order of [`crate::model::FAULTS`].
@@ -20,7 +22,7 @@ pub struct RunStatistics {
 }
 
 /// Names of [`RunStatistics::values`].
-pub const STATISTICS: [&str; 24] = [
+pub const STATISTICS: [&str; 25] = [
     "steps",
     "rejected_steps",
     "failed_steps",
@@ -45,6 +47,7 @@ pub const STATISTICS: [&str; 24] = [
     "failed_lost_cage",
     "failed_not_finite",
     "failed_no_slope",
+    "jacobians",
 ];
 
 impl RunStatistics {
@@ -63,7 +66,8 @@ impl RunStatistics {
             values[13..15].copy_from_slice(&[found.mean_error, found.largest_error]);
             values[15..17].copy_from_slice(&[found.vibration_ratio(), found.frequency]);
         }
-        values[17..].copy_from_slice(&self.faults.map(|n| n as f64));
+        values[17..24].copy_from_slice(&self.faults.map(|n| n as f64));
+        values[24] = self.jacobians as f64;
         values
     }
 }
@@ -75,7 +79,7 @@ mod tests {
 
     #[test]
     fn failures_are_named_as_faults() {
-        let names = STATISTICS[17..].iter().map(|name| name.strip_prefix("failed_"));
+        let names = STATISTICS[17..24].iter().map(|name| name.strip_prefix("failed_"));
         assert!(names.eq(FAULTS.map(Some)));
     }
 }

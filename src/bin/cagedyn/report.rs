@@ -123,9 +123,10 @@ fn effort(run: &Run, summary: &Summary, folder: &Path) -> Vec<Vec<String>> {
         ("method", format!("{}, preset {}", i.method.replace('_', "-"), i.preset)),
         ("why", run.report.clone()),
         ("steps", steps),
-        ("force evaluations", grouped(i.evaluations)),
+        ("force evaluations", format!("{}, {} Jacobians", grouped(i.evaluations), grouped(i.jacobians))),
         ("law evaluations", law_evaluations(&i.law_evaluations)),
         ("time", time),
+        ("where it goes", time_shares(&i.time_shares)),
     ];
     if run.interrupted {
         rows.push(("ended", "interrupted, results are incomplete".to_owned()));
@@ -134,6 +135,15 @@ fn effort(run: &Run, summary: &Summary, folder: &Path) -> Vec<Vec<String>> {
     }
     rows.push(("files", format!("{}: {}", folder.display(), summary.files.join(", "))));
     rows.into_iter().map(|(name, value)| vec![name.to_owned(), value]).collect()
+}
+
+/// "outer raceway 31 %, guide 5 %, rest 64 %".
+fn time_shares(shares: &[(String, f64)]) -> String {
+    let rest = 1.0 - shares.iter().map(|(_, share)| share).sum::<f64>();
+    let parts = shares.iter().map(|(part, share)| (part.replace('_', " "), *share));
+    let rest = std::iter::once(("integration, derivatives and records".to_owned(), rest.max(0.0)));
+    let each = parts.chain(rest).map(|(part, share)| format!("{part} {:.0} %", 100.0 * share));
+    each.collect::<Vec<_>>().join(", ")
 }
 
 /// "guide film 6 423, pocket plane 5 640".

@@ -3,7 +3,7 @@
 use crate::summary::Summary;
 use crate::terminal::{self, INTERRUPTED, Progress};
 use crate::{RunArgs, output, report};
-use cagedyn::model::Channel;
+use cagedyn::model::{Channel, PartTimes};
 use cagedyn::scene::GuideRing;
 use cagedyn::sim::RunStatistics;
 use cagedyn::{Error, Model, Recording, Result, Scene, Sim, Status};
@@ -18,6 +18,10 @@ const WINDOW: f64 = 0.1;
 /// Share of the run that the window covers at most: what comes before is the start.
 const LARGEST_WINDOW_SHARE: f64 = 1.0 / 3.0;
 
+/// The parts of an evaluation are timed at about this many states of the run, this often.
+const SAMPLES: f64 = 16.0;
+const REPEATS: u32 = 200;
+
 /// A run that has ended: by itself, by Ctrl-C or by a failure.
 pub struct Run {
     /// Title for tables and pictures.
@@ -28,6 +32,8 @@ pub struct Run {
     pub recording: Recording,
     /// The columns of the recording.
     pub channels: Vec<Channel>,
+    /// Wall time of the parts of one force evaluation, s.
+    pub parts: PartTimes,
     /// Counts.
     pub statistics: RunStatistics,
     /// What the integration did and why.
@@ -121,14 +127,20 @@ pub fn simulate(scene: Scene, fallback_title: &str, label: &str) -> Result<Run> 
     let progress = Progress::new(label, duration);
     let mut recording = Recording::default();
     let started = Instant::now();
-    let ended = recording.run(&mut sim, duration, interval, |t| {
-        progress.at(t);
+    let mut samples: Vec<(f64, Vec<f64>)> = Vec::new();
+    let ended = recording.run(&mut sim, duration, interval, |sim| {
+        progress.at(sim.time());
+        if sim.time() >= duration * samples.len() as f64 / SAMPLES {
+            samples.push((sim.time(), sim.state().to_vec()));
+        }
         !terminal::stop_requested()
     });
     let wall = started.elapsed().as_secs_f64();
+    let parts = sim.time_parts(&samples, REPEATS).unwrap_or_default();
     Ok(Run {
         title,
         channels: sim.channels().to_vec(),
+        parts,
         statistics: sim.statistics(),
         report: sim.report(),
         time: sim.time(),

@@ -1,7 +1,7 @@
 //! Results of a run in numbers, as written to `summary.json`.
 
 use crate::run::Run;
-use cagedyn::model::{Channel, FAULTS, LAWS};
+use cagedyn::model::{Channel, FAULTS, LAWS, PARTS};
 use cagedyn::scene::Method;
 use cagedyn::{CageMotion, Recording, Spread, WhirlRecord, WhirlSummary};
 use serde::{Serialize, Serializer};
@@ -96,6 +96,11 @@ pub struct Integration {
     pub largest_step_s: f64,
     /// Force evaluations.
     pub evaluations: u64,
+    /// Derivatives of the forces, each with one of the evaluations.
+    pub jacobians: u64,
+    /// Share of the wall time by part of the force evaluation; the rest is derivatives, integration and records.
+    #[serde(serialize_with = "as_map")]
+    pub time_shares: Vec<(String, f64)>,
     /// Evaluations of each law in them; those that never acted are left out.
     #[serde(serialize_with = "as_map")]
     pub law_evaluations: Vec<(&'static str, u64)>,
@@ -212,6 +217,13 @@ fn key_statistics(channels: &[Channel], recording: &Recording, from: f64) -> Vec
         .collect()
 }
 
+/// Parts that the scene has, with their shares of the wall time.
+fn time_shares(run: &Run) -> Vec<(String, f64)> {
+    let evaluations = run.statistics.evaluations as f64;
+    let shares = PARTS.iter().zip(run.parts).filter(|(_, time)| *time > 0.0 && run.wall > 0.0);
+    shares.map(|(name, time)| ((*name).to_owned(), evaluations * time / run.wall)).collect()
+}
+
 fn integration(run: &Run) -> Integration {
     let driver = &run.statistics.driver;
     let method = match run.model.scene().solver.method {
@@ -234,6 +246,8 @@ fn integration(run: &Run) -> Integration {
         smallest_step_s: driver.smallest_step,
         largest_step_s: driver.largest_step,
         evaluations: run.statistics.evaluations,
+        jacobians: run.statistics.jacobians,
+        time_shares: time_shares(run),
         law_evaluations: LAWS.into_iter().zip(run.statistics.laws).filter(|(_, n)| *n > 0).collect(),
     }
 }
