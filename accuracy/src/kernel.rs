@@ -1,10 +1,14 @@
 //! What an evaluation of the forces costs, with and without derivatives, and a linear system.
 
+use crate::memory;
 use crate::problem::Problem;
+use crate::report::{Table, time};
 use crate::scenes;
+use cagedyn::model::PARTS;
 use cagedyn::scene::{Auto, Method};
-use cagedyn::{Result, Scene, Sim};
+use cagedyn::{Model, Result, Scene, Sim};
 use std::hint::black_box;
+use std::sync::Arc;
 use std::time::Instant;
 
 /// States of a run over which costs are averaged, and rounds of which the fastest counts.
@@ -72,6 +76,44 @@ fn each(
     Ok(best)
 }
 
+/// Scenes whose evaluations are looked into.
+const SCENES: [(&str, &str); 3] =
+    [("NU2310", "nu2310"), ("greased guide", "grease_guide"), ("ball bearing in oil", "ball_short_bearing")];
+
+/// Cost of an evaluation, its derivatives and a linear system, and where the time of the evaluation goes.
+///
+/// # Errors
+/// Those of the scenes and the runs.
+pub fn tables() -> Result<[Table; 2]> {
+    let head =
+        ["scene", "states", "contacts", "forces", "forces and Jacobian", "factorize", "solve", "memory"];
+    let mut costs_of = Table::new("costs", head.map(str::to_owned).to_vec());
+    let mut head = vec!["scene".to_owned()];
+    head.extend(PARTS.iter().map(|part| part.replace('_', " ")));
+    let mut parts_of = Table::new("parts", head);
+    for (name, file) in SCENES {
+        let before = memory::in_use();
+        let mut sim = Sim::new(Arc::new(Model::new(scenes::from_file(file, &[])?)?))?;
+        sim.advance_to(1e-4)?;
+        let used = memory::in_use().saturating_sub(before);
+        let c = costs(scenes::from_file(file, &[])?)?;
+        let times = [c.forces, c.jacobian, c.factorize, c.solve].map(time);
+        let mut line = vec![name.to_owned(), sim.state().len().to_string(), format!("{:.1}", c.contacts)];
+        line.extend(times);
+        line.push(format!("{:.0} kB", used as f64 / 1e3));
+        costs_of.lines.push(line);
+        let mut states = Vec::new();
+        for k in 1..=STATES {
+            sim.advance_to(0.05 + 1e-4 * f64::from(k))?;
+            states.push((sim.time(), sim.state().to_vec()));
+        }
+        let mut line = vec![name.to_owned()];
+        line.extend(sim.time_parts(&states, ROUNDS)?.map(time));
+        parts_of.lines.push(line);
+    }
+    Ok([costs_of, parts_of])
+}
+
 /// Wall time of the twelve cases of the paper at `engineering`, 0.3 s each, together and longest, s.
 ///
 /// # Errors
@@ -80,7 +122,7 @@ pub fn twelve_cases() -> Result<(f64, f64)> {
     let (mut total, mut longest) = (0.0, 0.0_f64);
     for scene in scenes::twelve()? {
         let end = scene.record.duration;
-        let mut sim = Sim::new(std::sync::Arc::new(cagedyn::Model::new(scene)?))?;
+        let mut sim = Sim::new(Arc::new(Model::new(scene)?))?;
         let started = Instant::now();
         sim.advance_to(end)?;
         let seconds = started.elapsed().as_secs_f64();

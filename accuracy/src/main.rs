@@ -39,7 +39,7 @@ struct Arguments {
     /// Also write docs/accuracy.md, its tables and its pictures.
     #[arg(long)]
     docs: bool,
-    /// Only this comparison, or `size` or `goals`; can be given more than once.
+    /// Only this comparison, or `size`, `costs` or `goals`; can be given more than once.
     #[arg(long)]
     only: Vec<String>,
 }
@@ -79,6 +79,12 @@ fn main() -> Result<()> {
         growth = Some((exponent, memory));
         tables.push(table);
     }
+    if asked("costs") {
+        for table in kernel::tables()? {
+            println!("{}", table.text());
+            tables.push(table);
+        }
+    }
     if asked("goals") {
         let table = goals::table(&comparisons, growth)?;
         println!("{}", table.text());
@@ -93,7 +99,7 @@ fn main() -> Result<()> {
         texts.push(("machine".to_owned(), format!("{machine}.")));
         let shown = tables.iter().filter(|table| !comparisons.iter().any(|c| c.name == table.name));
         texts.extend(shown.map(|table| (table.name.clone(), table.text())));
-        report::write_page(Path::new("docs/accuracy.md"), &texts)?;
+        report::write_pages(&["docs/accuracy.md", "docs/performance.md"].map(Path::new), &texts)?;
         let data = Path::new("docs/accuracy");
         make_folder(data)?;
         tables.iter().try_for_each(|table| table.save(data))?;

@@ -127,21 +127,30 @@ impl Table {
     }
 }
 
-/// Puts tables between the markers of a page, `<!-- name -->` and the next `<!-- end -->`.
+/// Puts texts between their markers on the pages, `<!-- name -->` and the next `<!-- end -->`.
 ///
 /// # Errors
-/// [`Status::File`], also when a marker is missing.
-pub fn write_page(path: &Path, texts: &[(String, String)]) -> Result<()> {
-    let file = |e: std::io::Error| Error::new(Status::File, format!("{}: {e}", path.display()));
-    let mut page = std::fs::read_to_string(path).map_err(file)?;
+/// [`Status::File`], also when a text has its marker on no page.
+pub fn write_pages(paths: &[&Path], texts: &[(String, String)]) -> Result<()> {
+    let file = |path: &Path, e: std::io::Error| Error::new(Status::File, format!("{}: {e}", path.display()));
+    let mut pages = Vec::new();
+    for path in paths {
+        pages.push(std::fs::read_to_string(path).map_err(|e| file(path, e))?);
+    }
     for (name, text) in texts {
         let marker = format!("<!-- {name} -->");
-        let lost = || Error::new(Status::File, format!("{}: {marker} ... <!-- end -->", path.display()));
-        let from = page.find(&marker).ok_or_else(lost)? + marker.len();
-        let to = from + page[from..].find("<!-- end -->").ok_or_else(lost)?;
         // A table stands by itself, a sentence within its line.
         let text = if text.contains('\n') { format!("\n\n{}\n", text.trim_end()) } else { text.clone() };
-        page.replace_range(from..to, &text);
+        let mut found = false;
+        for page in &mut pages {
+            let Some(from) = page.find(&marker).map(|at| at + marker.len()) else { continue };
+            let Some(length) = page[from..].find("<!-- end -->") else { continue };
+            page.replace_range(from..from + length, &text);
+            found = true;
+        }
+        if !found {
+            return Err(Error::new(Status::File, format!("no page has {marker} ... <!-- end -->")));
+        }
     }
-    std::fs::write(path, page).map_err(file)
+    paths.iter().zip(pages).try_for_each(|(path, page)| std::fs::write(path, page).map_err(|e| file(path, e)))
 }
