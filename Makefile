@@ -39,7 +39,7 @@ lint:
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --locked --no-deps --quiet
 
 unit:
-	CAGEDYN_REQUIRE_VALGRIND=1 $(CARGO) test --locked
+	CAGEDYN_REQUIRE_VALGRIND=1 $(CARGO) test --locked --workspace
 
 run:
 	$(CARGO) run --release --locked -- run scenes/nu2310.json --out out

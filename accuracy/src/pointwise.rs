@@ -121,3 +121,32 @@ fn first_contact(problem: &Problem) -> Result<f64> {
 pub fn available() -> Vec<Solver> {
     SOLVERS.into_iter().filter(|solver| !solver.missing()).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// All solvers swing as the known solution does, and a tighter setting is a smaller error.
+    #[test]
+    fn solvers_follow_the_known_solution() {
+        let case = case("spring").expect("a scene");
+        let exact = case.exact.expect("a known solution");
+        for solver in available().into_iter().filter(|solver| !matches!(solver.way, Way::Preset(_))) {
+            let settings = if matches!(solver.way, Way::Leapfrog) { [0.3, 0.03] } else { [1e-4, 1e-7] };
+            let errors = settings.map(|setting| {
+                let solution =
+                    solver.run(&case.problem, setting).unwrap_or_else(|e| panic!("{}: {e}", solver.name));
+                case.problem.distance(&solution.states, &exact)
+            });
+            println!("{}: {errors:?}", solver.name);
+            assert!(errors[1] < 1e-7 && errors[1] < 0.1 * errors[0], "{}: {errors:?}", solver.name);
+        }
+    }
+
+    #[test]
+    fn the_first_contact_ends_the_start_of_the_grease_guide() {
+        let case = case("grease-start").expect("a scene");
+        let end = case.problem.end();
+        assert!(end > 1e-3 && end < 20e-3, "{end}");
+    }
+}
