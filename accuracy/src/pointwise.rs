@@ -139,7 +139,9 @@ mod tests {
                 case.problem.distance(&solution.states, &exact)
             });
             println!("{}: {errors:?}", solver.name);
-            assert!(errors[1] < 1e-7 && errors[1] < 0.1 * errors[0], "{}: {errors:?}", solver.name);
+            // Where the largest step keeps errors down, the tolerance has no say.
+            let falls = errors[1] < 0.1 * errors[0] || errors[0] < 1e-9;
+            assert!(errors[1] < 1e-7 && falls, "{}: {errors:?}", solver.name);
         }
     }
 
