@@ -102,6 +102,8 @@ fn rollers_get_the_method_and_the_step_that_their_scene_needs() {
         ("1000 rpm", nu2310(&[rpm(1000.0)]), (Kind::Leapfrog, 0.6..=0.6)),
         ("3000 rpm", nu2310(&[]), (Kind::Leapfrog, 0.6..=0.6)),
         ("40 kN", nu2310(&[load(40e3)]), (Kind::Leapfrog, 0.3..=0.6)),
+        // Between the two: either.
+        ("5000 rpm", nu2310(&[rpm(5000.0)]), (Kind::Leapfrog, 0.3..=0.6)),
         ("8000 rpm", nu2310(&[rpm(8000.0)]), (Kind::Leapfrog, 0.3..=0.3)),
         // The leapfrog would need an eighth of its own step or less.
         ("20 000 rpm", nu2310(&[rpm(20e3)]), (Kind::Rosenbrock, 0.3..=0.3)),

@@ -19,7 +19,8 @@ use std::sync::Arc;
 const DEVELOPED: f64 = 10e-3;
 /// States at which instructions are counted.
 const STATES: usize = 4;
-/// Largest share of the full force evaluation that a cage with nothing but its weight may cost.
+/// Largest share of the full force evaluation that a cage with nothing but its weight may cost: a thousand instructions of
+/// the 19 000 that the groups of contacts leave.
 const WEIGHT_ALONE: f64 = 0.05;
 /// Instructions that a row may cost more than the unchanged scene, relative to that.
 const MORE: f64 = 0.01;

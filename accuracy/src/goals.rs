@@ -2,8 +2,9 @@
 
 use crate::curves::Comparison;
 use crate::kernel::{self, Costs};
-use crate::report::{Table, time};
+use crate::report::{empty, time};
 use crate::scenes;
+use crate::table::Table;
 use cagedyn::Result;
 
 /// A figure, what is wanted and what was found.
@@ -11,7 +12,7 @@ fn line(what: &str, goal: &str, found: String) -> Vec<String> {
     vec![what.to_owned(), goal.to_owned(), found]
 }
 
-/// Ratio of a peer's time to the library's best at the first target of a comparison that both reach.
+/// Ratio of a peer's time at an error to that of the library's fastest method.
 fn ratio(comparison: &Comparison, peer: &str, target: f64) -> String {
     let ours = comparison.best_of_ours(target).map(|(_, seconds)| seconds);
     match (comparison.curve(peer).and_then(|curve| curve.seconds_at(target)), ours) {
@@ -43,7 +44,7 @@ fn preset(comparison: &Comparison, name: &str) -> Option<(f64, f64)> {
 /// # Errors
 /// Those of the runs that only it needs.
 pub fn table(comparisons: &[Comparison], size: Option<(f64, f64)>) -> Result<Table> {
-    let mut table = Table::new("goals", ["what", "wanted", "found"].map(str::to_owned).to_vec());
+    let mut table = empty("goals", ["what", "wanted", "found"].map(str::to_owned).to_vec());
     let named = |name: &str| comparisons.iter().find(|comparison| comparison.name == name);
     let engineering = |comparison: &Comparison| match preset(comparison, "cagedyn, engineering") {
         Some((seconds, error)) => format!("{}, error {error:.2} of the noise", time(seconds)),

@@ -2,8 +2,9 @@
 
 use crate::memory;
 use crate::problem::Problem;
-use crate::report::{Table, time};
+use crate::report::{empty, time};
 use crate::scenes;
+use crate::table::Table;
 use cagedyn::model::PARTS;
 use cagedyn::scene::{Auto, Method};
 use cagedyn::{Model, Result, Scene, Sim};
@@ -87,10 +88,10 @@ const SCENES: [(&str, &str); 3] =
 pub fn tables() -> Result<[Table; 2]> {
     let head =
         ["scene", "states", "contacts", "forces", "forces and Jacobian", "factorize", "solve", "memory"];
-    let mut costs_of = Table::new("costs", head.map(str::to_owned).to_vec());
+    let mut costs_of = empty("costs", head.map(str::to_owned).to_vec());
     let mut head = vec!["scene".to_owned()];
     head.extend(PARTS.iter().map(|part| part.replace('_', " ")));
-    let mut parts_of = Table::new("parts", head);
+    let mut parts_of = empty("parts", head);
     for (name, file) in SCENES {
         let before = memory::in_use();
         let mut sim = Sim::new(Arc::new(Model::new(scenes::from_file(file, &[])?)?))?;

@@ -25,6 +25,8 @@ mod solvers;
 #[path = "../../src/bin/cagedyn/spectrum.rs"]
 mod spectrum;
 mod statistics;
+#[path = "../../examples/statistics/table.rs"]
+mod table;
 
 use cagedyn::{Error, Result, Status};
 use clap::Parser;
@@ -36,8 +38,8 @@ struct Arguments {
     /// Folder of tables and diagrams.
     #[arg(long, default_value = "out/accuracy")]
     out: PathBuf,
-    /// Also write docs/accuracy.md, its tables and its pictures.
-    #[arg(long)]
+    /// Also write docs/accuracy.md and docs/performance.md, with tables and pictures: all from one run.
+    #[arg(long, conflicts_with = "only")]
     docs: bool,
     /// Only this comparison, or `size`, `costs` or `goals`; can be given more than once.
     #[arg(long)]

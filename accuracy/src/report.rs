@@ -1,24 +1,15 @@
-//! Tables: as text, as CSV files and on the page.
+//! Tables of the comparisons, and their places on the pages.
 
 use crate::curves::Comparison;
 use crate::solvers::Way;
+use crate::table::Table;
 use cagedyn::{Error, Result, Status};
 use std::path::Path;
-
-/// Name, headings and lines of a table.
-pub struct Table {
-    /// Name, for the file and the marker on the page.
-    pub name: String,
-    /// Headings.
-    pub head: Vec<String>,
-    /// Lines, each as long as the headings.
-    pub lines: Vec<Vec<String>>,
-}
 
 /// All runs of a comparison.
 pub fn runs(comparison: &Comparison) -> Table {
     let head = ["solver", "setting", "error", "wall_time_s", "evaluations", "gave_up"];
-    let mut table = Table::new(comparison.name, head.map(str::to_owned).to_vec());
+    let mut table = empty(comparison.name, head.map(str::to_owned).to_vec());
     let setting = |x: Option<f64>| x.map_or(String::new(), |x| format!("{x:.3e}"));
     for curve in &comparison.curves {
         let name = || curve.solver.name.to_owned();
@@ -50,7 +41,7 @@ pub fn times(comparison: &Comparison) -> Table {
     let within =
         |target: f64| if target == comparison.noise { "noise".to_owned() } else { format!("{target:.0e}") };
     head.extend(targets.iter().map(|target| format!("error {}", within(*target))));
-    let mut table = Table::new(&format!("{} times", comparison.name), head);
+    let mut table = empty(&format!("{} times", comparison.name), head);
     for curve in comparison.curves.iter() {
         let mut line = vec![curve.solver.name.to_owned()];
         for target in &targets {
@@ -75,7 +66,7 @@ pub fn presets(comparisons: &[Comparison]) -> Table {
     });
     let mut head = vec!["scene".to_owned(), "error".to_owned(), "noise".to_owned()];
     head.extend(presets.iter().flat_map(|name| [format!("{name}: error"), "time".to_owned()]));
-    let mut table = Table::new("presets", head);
+    let mut table = empty("presets", head);
     for c in comparisons {
         let mut line = vec![c.title.to_owned(), c.error.to_owned(), format!("{:.1e}", c.noise)];
         for name in &presets {
@@ -99,32 +90,9 @@ pub fn time(seconds: f64) -> String {
     }
 }
 
-impl Table {
-    /// An empty table.
-    pub fn new(name: &str, head: Vec<String>) -> Self {
-        Self { name: name.to_owned(), head, lines: Vec::new() }
-    }
-
-    /// As Markdown.
-    pub fn text(&self) -> String {
-        let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
-        let rule: Vec<String> = self.head.iter().map(|_| "---".to_owned()).collect();
-        let lines: String = self.lines.iter().map(|cells| line(cells)).collect();
-        format!("{}{}{lines}", line(&self.head), line(&rule))
-    }
-
-    /// Writes it as a CSV file into a folder.
-    ///
-    /// # Errors
-    /// [`Status::File`].
-    pub fn save(&self, folder: &Path) -> Result<()> {
-        let path = folder.join(format!("{}.csv", self.name.replace(' ', "-")));
-        let bad = |e: csv::Error| Error::new(Status::File, format!("{}: {e}", path.display()));
-        let mut writer = csv::Writer::from_path(&path).map_err(bad)?;
-        writer.write_record(&self.head).map_err(bad)?;
-        self.lines.iter().try_for_each(|line| writer.write_record(line)).map_err(bad)?;
-        writer.flush().map_err(|e| Error::new(Status::File, format!("{}: {e}", path.display())))
-    }
+/// A table without lines.
+pub fn empty(name: &str, head: Vec<String>) -> Table {
+    Table { name: name.to_owned(), head, lines: Vec::new() }
 }
 
 /// Puts texts between their markers on the pages, `<!-- name -->` and the next `<!-- end -->`.

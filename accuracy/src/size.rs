@@ -2,9 +2,10 @@
 
 use crate::memory;
 use crate::problem::Problem;
-use crate::report::Table;
+use crate::report::empty;
 use crate::scenes;
 use crate::solvers::Solver;
+use crate::table::Table;
 use cagedyn::scene::Preset;
 use cagedyn::{Error, Model, Result, Sim, Status};
 use std::sync::Arc;
@@ -37,7 +38,7 @@ pub fn table(solvers: &[Solver]) -> Result<(Table, f64, f64)> {
     let mut head = vec!["wall time per simulated ms, ms".to_owned()];
     head.extend(COUNTS.iter().map(|count| format!("{count} rollers")));
     head.push("exponent".to_owned());
-    let mut table = Table::new("size", head);
+    let mut table = empty("size", head);
     let mut exponent = f64::NAN;
     for solver in solvers.iter().filter(|solver| SHOWN.contains(&solver.name)) {
         let times: Vec<f64> = problems
@@ -48,11 +49,10 @@ pub fn table(solvers: &[Solver]) -> Result<(Table, f64, f64)> {
                 Ok(seconds / DURATION)
             })
             .collect::<Result<_>>()?;
-        let growth =
-            (times[COUNTS.len() - 1] / times[0]).ln() / f64::from(COUNTS[COUNTS.len() - 1] / COUNTS[0]).ln();
+        let growth = (times[COUNTS.len() - 1] / times[0]).ln()
+            / (f64::from(COUNTS[COUNTS.len() - 1]) / f64::from(COUNTS[0])).ln();
         if solver.name == SHOWN[0] {
-            exponent = (times[COUNTS.len() - 1] / times[0]).ln()
-                / (f64::from(COUNTS[COUNTS.len() - 1]) / f64::from(COUNTS[0])).ln();
+            exponent = growth;
         }
         let mut line = vec![solver.name.to_owned()];
         line.extend(times.iter().map(|t| format!("{t:.3}")));

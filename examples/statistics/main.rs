@@ -14,6 +14,7 @@ mod report;
 #[path = "../../src/bin/cagedyn/spectrum.rs"]
 mod spectrum;
 mod study;
+mod table;
 
 use cagedyn::{Error, Result, Status};
 use clap::Parser;
@@ -62,7 +63,7 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-fn print(table: &report::Table) {
+fn print(table: &table::Table) {
     println!("{}\n\n{}", table.name, table.text());
 }
 

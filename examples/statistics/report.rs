@@ -1,21 +1,14 @@
-//! Tables of the study: as text, as CSV files and in the documentation.
+//! Tables of the study, and their place in the documentation.
 
 use crate::judge::Verdict;
 use crate::readings::QUANTITIES;
 use crate::study::{Outcome, Outcomes};
+use crate::table::Table;
 use cagedyn::{Error, Result, Status};
 use std::path::Path;
 
 /// Significant digits of values.
 const DIGITS: i32 = 4;
-
-/// Name, headings and lines of a table.
-pub struct Table {
-    /// Name, for the file and the marker on the page.
-    pub name: String,
-    head: Vec<String>,
-    lines: Vec<Vec<String>>,
-}
 
 /// Tables of all cases together: counts, steps of the leapfrog, and what is outside of its band.
 pub fn overview(all: &[Outcomes]) -> [Table; 3] {
@@ -198,30 +191,6 @@ fn number(x: f64) -> String {
         Ok(decimals) if decimals <= 7 => format!("{x:.decimals$}"),
         Ok(_) => format!("{x:.1e}"),
         Err(_) => format!("{x:.0}"),
-    }
-}
-
-impl Table {
-    /// The table in Markdown.
-    pub fn text(&self) -> String {
-        let line = |texts: &[String]| format!("| {} |\n", texts.join(" | "));
-        let rule: String = (0..self.head.len()).map(|k| if k == 0 { "|---" } else { "|---:" }).collect();
-        let lines: String = self.lines.iter().map(|texts| line(texts)).collect();
-        format!("{}{rule}|\n{lines}", line(&self.head))
-    }
-
-    /// Writes the table as a CSV file.
-    ///
-    /// # Errors
-    /// [`Status::File`].
-    pub fn save(&self, folder: &Path) -> Result<()> {
-        let path = folder.join(format!("{}.csv", self.name.replace(' ', "_")));
-        let write = || {
-            let mut writer = csv::Writer::from_path(&path)?;
-            std::iter::once(&self.head).chain(&self.lines).try_for_each(|line| writer.write_record(line))?;
-            Ok(writer.flush()?)
-        };
-        write().map_err(|e: csv::Error| crate::file(&path, e))
     }
 }
 

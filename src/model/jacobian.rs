@@ -3,8 +3,8 @@
 //!
 //! Each contact is differentiated on its own: its law over what the law sees (approach, approach speed, surface
 //! speeds, share of edge friction), its kinematics over the coordinates of its two bodies, chained. Raceways go by the
-//! batch (`raceway_slopes`); pockets, of which few touch at a time, one by one (`pocket_slopes`). The sums keep the structure of the
-//! bearing: ring and cage are coupled to every roller, rollers to nothing else.
+//! batch (`raceway_slopes`); pockets, of which few touch at a time, one by one (`pocket_slopes`). The sums
+//! keep the structure of the bearing: ring and cage are coupled to every roller, rollers to nothing else.
 
 use super::workspace::Workspace;
 use super::{ElementKind, Input, InputValues, Model, RingBody, RollerSet};

@@ -4,7 +4,8 @@
 //! In the frame of the roller the azimuth psi moves nothing but the ring, whose centre and velocity x turn backwards:
 //!
 //! ```text
-//! dx_r/dpsi = x_c,  dx_c/dpsi = -x_r;   a force on the ring, turned into global axes: d(e_r F_r + e_c F_c)/dpsi adds e_c F_r - e_r F_c
+//! dx_r/dpsi = x_c,  dx_c/dpsi = -x_r
+//! d(e_r F_r + e_c F_c)/dpsi = e_r (dF_r/dpsi - F_c) + e_c (dF_c/dpsi + F_r)      force on the ring in global axes
 //! ```
 
 use super::jacobian::Drift;
@@ -65,13 +66,11 @@ impl Model {
             let turned = [turn(&radial) - across.re, turn(&across) + radial.re];
             let both = [&radial, &across];
             let turned = site.to_global(turned);
-            let shared = [0, 1].map(|k| {
-                let mut row = InnerDual::constant(0.0);
-                for d in 0..row.eps.len() {
-                    row.eps[d] = site.to_global(both.map(|f| f.eps[d]))[k];
-                }
-                Row::new(&row, turned[k], site, drift)
-            });
+            let mut rows = [InnerDual::constant(0.0); 2];
+            for d in 0..radial.eps.len() {
+                [rows[0].eps[d], rows[1].eps[d]] = site.to_global(both.map(|f| f.eps[d]));
+            }
+            let shared = [0, 1].map(|k| Row::new(&rows[k], turned[k], site, drift));
             self.add_inner(j, &own, &shared, drift, out);
         }
     }

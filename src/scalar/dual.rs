@@ -8,7 +8,7 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 /// A type of dual numbers whose operations are inlined as said. Loops, no closures: they would not always be inlined.
 macro_rules! dual_numbers {
     ($name:ident, $inline:meta, $(#[$text:meta])*) => {
-            $(#[$text])*
+    $(#[$text])*
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct $name<const N: usize, B = f64> {
         /// Value.

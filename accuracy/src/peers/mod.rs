@@ -64,7 +64,7 @@ struct Exhausted;
 ///
 /// Undefined rates become huge ones whose sign alternates from call to call:
 /// every error estimate and every Newton or functional iteration then fails and
-/// the step is rejected.  NaN does not do: both LSODAs take norms with `max` and
+/// the step is rejected.  NaN does not do: LSODA takes norms with `max` and
 /// `ivp`'s Radau clamps its error with `max`, which drops NaN and accepts the step.
 pub(crate) struct Guard<'a, 'r, 'j> {
     rates: &'a mut Function<'r>,
