@@ -101,16 +101,16 @@ fn rollers_get_the_method_and_the_step_that_their_scene_needs() {
     for (name, scene, expected) in [
         ("1000 rpm", nu2310(&[rpm(1000.0)]), (Kind::Leapfrog, 0.6..=0.6)),
         ("3000 rpm", nu2310(&[]), (Kind::Leapfrog, 0.6..=0.6)),
-        ("40 kN", nu2310(&[load(40e3)]), (Kind::Leapfrog, 0.3..=0.6)),
+        ("40 kN", nu2310(&[load(40e3)]), (Kind::Leapfrog, 0.6..=0.6)),
         // Between the two: either.
-        ("5000 rpm", nu2310(&[rpm(5000.0)]), (Kind::Leapfrog, 0.3..=0.6)),
-        ("8000 rpm", nu2310(&[rpm(8000.0)]), (Kind::Leapfrog, 0.3..=0.3)),
+        ("8000 rpm", nu2310(&[rpm(8000.0)]), (Kind::Leapfrog, 0.3..=0.6)),
+        ("12 000 rpm", nu2310(&[rpm(12e3)]), (Kind::Leapfrog, 0.3..=0.3)),
         // The leapfrog would need an eighth of its own step or less.
         ("20 000 rpm", nu2310(&[rpm(20e3)]), (Kind::Rosenbrock, 0.3..=0.3)),
         ("undamped", undamped(), (Kind::Rosenbrock, 0.3..=0.3)),
     ] {
         // Without damping vibration builds up for tens of milliseconds.
-        let run = run(&scene, auto(), if name == "undamped" { 80e-3 } else { 30e-3 });
+        let run = run(&scene, auto(), if name == "undamped" { 80e-3 } else { 50e-3 });
         let choice = choice(&run);
         println!("{name}: {}", run.report());
         let share = choice.leapfrog_step * run.model().highest_frequency();
@@ -228,8 +228,8 @@ fn choices_continue_with_the_same_bits_after_saving() {
 
 #[test]
 fn a_set_state_is_met_without_memory_and_inputs_with_it() {
-    let scene = nu2310(&[rpm(8000.0)]);
-    let mut sim = run(&scene, auto(), 30e-3);
+    let scene = nu2310(&[rpm(12e3)]);
+    let mut sim = run(&scene, auto(), 50e-3);
     let step = choice(&sim).leapfrog_step;
     let first = self::sim(&scene, auto()).nominal_step();
     assert!(step < 0.6 * first, "{step} {first}");

@@ -15,20 +15,23 @@ const INTERVAL: u64 = 512;
 const STRETCH: usize = 8;
 /// Largest relative change of vibration. Measured on a roller bearing, as the largest errors of the presets.
 const LARGEST_CHANGE: f64 = 0.25;
-/// A stretch with more than this many times the largest error is refined at once.
-const FAR_TOO_MUCH: f64 = 8.0;
-/// Error control gives back to the leapfrog below this share of the largest error.
-const GIVE_BACK: f64 = 0.5;
-/// Below this share of the largest error a step of double size would pass too.
-const COMFORT: f64 = 1.0 / 8.0;
+/// A stretch with more than this many times the largest error is refined at once: more than an impact makes, of those
+/// that occur once in a hundred checks.
+const FAR_TOO_MUCH: f64 = 32.0;
+/// Error control gives back to the leapfrog below these shares.
+const GIVE_BACK: [f64; 2] = [0.5, 1.0];
+/// Below these shares of the largest error and change the step is doubled. Errors grow with its cube where motion is
+/// smooth, with its square or less where contacts open and close.
+const COMFORT: [f64; 2] = [0.2, 0.2];
 /// The frequency that the step rests on follows the measured one only if they differ by more than this factor.
 const CLEAR_DIFFERENCE: f64 = 1.1;
-/// Passed checks in a row before the step is doubled.
-const PATIENCE: u64 = 16;
-/// Weight of the past in the running means, and the total weight, that of twelve checks, from which they count: errors
-/// of single stretches scatter by twice their mean.
+/// Weight of the past in the running means, and the total weight, that of 24 checks, from which they count: errors of
+/// single stretches scatter by twice their mean, so the mean of 24 does by two fifths.
 const MEMORY: f64 = 31.0 / 32.0;
-const ENOUGH: f64 = 0.31;
+const ENOUGH: f64 = 0.53;
+/// Eight checks are enough for means of more than this many times the largest error.
+const EARLY: f64 = 0.22;
+const CLEARLY_TOO_MUCH: f64 = 3.0;
 /// Below this share of critical damping the fastest vibration counts as undamped: half the step.
 const LIGHT_DAMPING: f64 = 0.01;
 /// Steps finer than by this many halvings cost as much as error control, without its bound on the bias.
@@ -121,8 +124,6 @@ pub struct Watch {
     error: f64,
     squares: [f64; 2],
     weight: f64,
-    /// Checks in a row that a step of double size would have passed too.
-    comfortable: u64,
     findings: Findings,
 }
 
@@ -144,7 +145,6 @@ impl Watch {
             error: 0.0,
             squares: [0.0; 2],
             weight: 0.0,
-            comfortable: 0,
             findings: Findings::default(),
         };
         watch.forget();
@@ -191,9 +191,12 @@ impl Watch {
             }
             self.refine();
         }
-        if self.weight > ENOUGH && !self.accurate(1.0) {
+        let largest = [1.0, 1.0];
+        if self.weight > EARLY && !self.accurate(largest.map(|x| CLEARLY_TOO_MUCH * x))
+            || self.weight > ENOUGH && !self.accurate(largest)
+        {
             self.refine();
-        } else if self.comfortable >= PATIENCE && self.level > floor {
+        } else if self.weight > ENOUGH && self.level > floor && self.accurate(COMFORT) {
             self.level -= 1;
             self.start_anew();
         }
@@ -233,10 +236,10 @@ impl Watch {
         self.level > FINEST || self.frequency > HIGHEST * self.expected.frequency
     }
 
-    /// Whether the running means are below this share of what is allowed.
-    fn accurate(&self, share: f64) -> bool {
-        self.error <= share * self.expected.largest_error * self.weight
-            && self.change_of_vibration() <= LARGEST_CHANGE
+    /// Whether the running means of errors and vibrations are below these shares of what is allowed.
+    fn accurate(&self, [of_error, of_change]: [f64; 2]) -> bool {
+        self.error <= of_error * self.expected.largest_error * self.weight
+            && self.change_of_vibration() <= of_change * LARGEST_CHANGE
     }
 
     fn refine(&mut self) {
@@ -245,7 +248,7 @@ impl Watch {
     }
 
     fn start_anew(&mut self) {
-        (self.error, self.squares, self.weight, self.comfortable) = (0.0, [0.0; 2], 0.0, 0);
+        (self.error, self.squares, self.weight) = (0.0, [0.0; 2], 0.0);
     }
 
     /// Relative difference of the vibrations with the step and with half of it.
@@ -309,15 +312,12 @@ impl Watch {
         }
         self.error = MEMORY * self.error + (1.0 - MEMORY) * error;
         self.weight = MEMORY * self.weight + (1.0 - MEMORY);
-        let error_allowed = COMFORT * self.expected.largest_error;
-        let comfortable = error <= error_allowed && self.change_of_vibration() <= COMFORT;
-        self.comfortable = if comfortable { self.comfortable + 1 } else { 0 };
     }
 
     /// Appends everything that the next steps depend on.
     pub fn save(&self, out: &mut Vec<f64>) {
         let f = &self.findings;
-        out.extend([self.due, self.level, self.comfortable, f.checks].map(|n| n as f64));
+        out.extend([self.due, self.level, f.checks].map(|n| n as f64));
         out.extend([self.frequency, self.error, self.squares[0], self.squares[1], self.weight]);
         out.extend([f.mean_error, f.largest_error, f.frequency]);
         out.extend(f.vibrations.iter().flat_map(|v| [v.squares, v.count]));
@@ -328,7 +328,6 @@ impl Watch {
         let positive = |from: &mut Reader<'_>| from.number().filter(|x| *x >= 0.0);
         self.due = from.count()?;
         self.level = from.count().filter(|level| *level <= FINEST)?;
-        self.comfortable = from.count()?;
         let checks = from.count()?;
         self.frequency = positive(from)?;
         self.error = positive(from)?;
