@@ -1,7 +1,7 @@
 //! The implicit methods on a stiff, driven system with the structure of a bearing.
 
 use cagedyn::integrate::{
-    DampingBlock, DormandPrince, Driver, Limits, Linearization, Radau, Rosenbrock, Stepper, Structure, System,
+    DormandPrince, Driver, GroupDamping, Limits, Linearization, Radau, Rosenbrock, Stepper, Structure, System,
 };
 
 /// v' = -rate (v - cos t) with a position, coupled to a spoke of three velocities: stiff and driven.
@@ -66,7 +66,7 @@ impl System for Driven {
         out.over_time.copy_from_slice(&[-self.rate * t.sin() - t.cos(), 0.0, q[1] * (t * q[1]).cos(), 0.0]);
         Ok(())
     }
-    fn damping(&self, _: f64, _: &[f64], _: &[f64], _: &mut [DampingBlock]) {}
+    fn damping(&self, _: f64, _: &[f64], _: &[f64], _: &mut GroupDamping) {}
 }
 
 const DRIVEN_START: [f64; 7] = [0.0, 0.3, -0.2, 1.0, 0.1, 0.4, 0.5];

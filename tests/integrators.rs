@@ -1,8 +1,8 @@
 //! The integration methods on small systems with known solutions: order, dense output, events, faults, saving.
 
 use cagedyn::integrate::{
-    DampingBlock, DormandPrince, Driver, Failure, Leapfrog, Limits, Linearization, Radau, Reader, Rosenbrock,
-    Stepper, Structure, System, implicit_share,
+    DampingBlock, DormandPrince, Driver, Failure, GroupDamping, Leapfrog, Limits, Linearization, Radau,
+    Reader, Rosenbrock, Stepper, Structure, System, implicit_share,
 };
 use nalgebra::{Matrix3, Vector3};
 
@@ -87,10 +87,10 @@ impl System for Oscillator {
         out.over_velocities.hub[(2, 2)] = -self.rate;
         Ok(())
     }
-    fn damping(&self, h: f64, _: &[f64], _: &[f64], blocks: &mut [DampingBlock]) {
+    fn damping(&self, h: f64, _: &[f64], _: &[f64], damping: &mut GroupDamping) {
         let full = Matrix3::from_diagonal(&Vector3::new(2.0 * self.zeta, 0.0, self.rate));
         let share = implicit_share(h * full.diagonal().amax());
-        blocks[0] = DampingBlock { full, implicit: full * share };
+        damping.set(0, &DampingBlock { full, implicit: full * share });
     }
 }
 

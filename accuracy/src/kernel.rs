@@ -23,6 +23,8 @@ const GAMMA: f64 = 1e-6;
 pub struct Costs {
     /// Rates of a state.
     pub forces: f64,
+    /// The same without vector instructions.
+    pub portable: f64,
     /// Rates and exact Jacobian.
     pub jacobian: f64,
     /// Factors.
@@ -49,6 +51,9 @@ pub fn costs(scene: Scene) -> Result<Costs> {
     }
     let mut rate = vec![0.0; problem.start.len()];
     let forces = each(&states, &mut sim, |sim, x| sim.derivative(0.0, x, &mut rate))?;
+    sim.set_vector_instructions(false);
+    let portable = each(&states, &mut sim, |sim, x| sim.derivative(0.0, x, &mut rate))?;
+    sim.set_vector_instructions(true);
     let jacobian = each(&states, &mut sim, |sim, x| sim.linearize(0.0, x))?;
     sim.linearize(0.0, &problem.start)?;
     let factorize = each(&states, &mut sim, |sim, _| sim.factorize(GAMMA))?;
@@ -57,7 +62,7 @@ pub fn costs(scene: Scene) -> Result<Costs> {
         right.copy_from_slice(&problem.scales);
         sim.solve(black_box(&mut right))
     })?;
-    Ok(Costs { forces, jacobian, factorize, solve, contacts: contacts / f64::from(STATES) })
+    Ok(Costs { forces, portable, jacobian, factorize, solve, contacts: contacts / f64::from(STATES) })
 }
 
 /// Seconds per call, the mean over the states in the fastest round.
@@ -86,8 +91,17 @@ const SCENES: [(&str, &str); 3] =
 /// # Errors
 /// Those of the scenes and the runs.
 pub fn tables() -> Result<[Table; 2]> {
-    let head =
-        ["scene", "states", "contacts", "forces", "forces and Jacobian", "factorize", "solve", "memory"];
+    let head = [
+        "scene",
+        "states",
+        "contacts",
+        "forces",
+        "without vector instructions",
+        "forces and Jacobian",
+        "factorize",
+        "solve",
+        "memory",
+    ];
     let mut costs_of = empty("costs", head.map(str::to_owned).to_vec());
     let mut head = vec!["scene".to_owned()];
     head.extend(PARTS.iter().map(|part| part.replace('_', " ")));
@@ -98,7 +112,7 @@ pub fn tables() -> Result<[Table; 2]> {
         sim.advance_to(1e-4)?;
         let used = memory::in_use().saturating_sub(before);
         let c = costs(scenes::from_file(file, &[])?)?;
-        let times = [c.forces, c.jacobian, c.factorize, c.solve].map(time);
+        let times = [c.forces, c.portable, c.jacobian, c.factorize, c.solve].map(time);
         let mut line = vec![name.to_owned(), sim.state().len().to_string(), format!("{:.1}", c.contacts)];
         line.extend(times);
         line.push(format!("{:.0} kB", used as f64 / 1e3));

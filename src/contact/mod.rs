@@ -15,7 +15,7 @@ pub mod pocket;
 pub mod raceway;
 
 use crate::laws::contact_pair::ContactForce;
-use crate::scalar::Real;
+use crate::scalar::{Numeric, Real};
 
 /// Force and moment about the body's own centre.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -68,6 +68,7 @@ impl<T: Real> PairFrame<T> {
 }
 
 /// Rotates `v` by the angle whose sine and cosine are given.
-pub fn rotate<T: Real>(v: [T; 2], sin: T, cos: T) -> [T; 2] {
+#[inline(always)]
+pub fn rotate<T: Numeric>(v: [T; 2], sin: T, cos: T) -> [T; 2] {
     [v[0] * cos - v[1] * sin, v[0] * sin + v[1] * cos]
 }

@@ -8,7 +8,7 @@
 use super::raceway::RollerMotion;
 use super::{PairFrame, rotate};
 use crate::laws::contact_pair::ContactMotion;
-use crate::scalar::Real;
+use crate::scalar::{Numeric, Real};
 
 /// Place of the pockets in the cage and size of the elements.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,17 +38,6 @@ impl Pillar {
     }
 }
 
-/// Motion of the cage with its vectors in the pocket frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CageMotion<T> {
-    /// Centre, m.
-    pub position: [T; 2],
-    /// Velocity of the centre, m/s.
-    pub velocity: [T; 2],
-    /// Rotation speed, rad/s.
-    pub speed: T,
-}
-
 /// Roller centre relative to the pocket.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PocketMotion<T> {
@@ -73,31 +62,33 @@ pub struct PillarContact<T> {
 
 impl PocketPlace {
     /// d in m for a roller at `lead` rad ahead of its pocket; `(sin, cos)` are those of `lead`.
-    pub fn offset<T: Real>(&self, radial_offset: T, (sin, cos): (T, T), cage: [T; 2]) -> [T; 2] {
+    #[inline(always)]
+    pub fn offset<T: Numeric>(&self, radial_offset: T, (sin, cos): (T, T), cage: [T; 2]) -> [T; 2] {
         let r = radial_offset + self.pitch_radius;
         // 1 - cos without cancellation for the small leads of a roller in its pocket.
-        let versine = if cos.value() > 0.0 { sin * sin / (cos + 1.0) } else { -cos + 1.0 };
+        let versine = T::select(cos.above(0.0), sin * sin / (cos + 1.0), -cos + 1.0);
         [radial_offset - r * versine - cage[0], r * sin - cage[1]]
     }
 
-    /// Motion of the roller relative to the pocket.
+    /// Motion of the roller relative to the pocket; velocity (m/s, pocket frame) and rotation speed (rad/s) of the cage.
     pub fn relative_motion<T: Real>(
         &self,
         offset: [T; 2],
         roller: &RollerMotion<T>,
         (sin, cos): (T, T),
-        cage: &CageMotion<T>,
+        cage_velocity: [T; 2],
+        cage_speed: T,
     ) -> PocketMotion<T> {
         let r = roller.radial_offset + self.pitch_radius;
         let v = rotate([roller.radial_speed, r * roller.orbit_speed], sin, cos);
         let carried = [
-            cage.velocity[0] - cage.speed * offset[1],
-            cage.velocity[1] + cage.speed * (offset[0] + self.pitch_radius),
+            cage_velocity[0] - cage_speed * offset[1],
+            cage_velocity[1] + cage_speed * (offset[0] + self.pitch_radius),
         ];
         PocketMotion {
             offset,
             velocity: [v[0] - carried[0], v[1] - carried[1]],
-            spin: roller.spin_speed - cage.speed,
+            spin: roller.spin_speed - cage_speed,
         }
     }
 

@@ -17,7 +17,7 @@
 
 use super::PairFrame;
 use crate::laws::contact_pair::ContactMotion;
-use crate::scalar::Real;
+use crate::scalar::{Numeric, Real};
 
 /// Motion of a roller in cylindrical coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,7 +75,8 @@ impl RacewayGeometry {
     }
 
     /// Approach of a roller to the inner raceway, m, without anything else: the test for contact.
-    pub fn inner_approach<T: Real>(&self, radial_offset: T, ring: [T; 2]) -> T {
+    #[inline(always)]
+    pub fn inner_approach<T: Numeric>(&self, radial_offset: T, ring: [T; 2]) -> T {
         let r = radial_offset + self.pitch_radius;
         let across = r - ring[0];
         let d = (across * across + ring[1] * ring[1]).sqrt();
@@ -108,7 +109,8 @@ impl RacewayGeometry {
 }
 
 /// d - r without cancellation.
-fn shift<T: Real>(r: T, d: T, ring: [T; 2]) -> T {
+#[inline(always)]
+fn shift<T: Numeric>(r: T, d: T, ring: [T; 2]) -> T {
     (ring[0] * ring[0] + ring[1] * ring[1] - r * ring[0] * 2.0) / (d + r)
 }
 

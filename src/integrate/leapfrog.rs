@@ -13,8 +13,9 @@
 //! undamped frequency. No error estimate.
 
 use super::control::{Estimate, Law};
-use super::{DampingBlock, Reader, Stepper, System};
-use nalgebra::{Matrix3, Vector3};
+use super::damping::{VectorColumns, zero_vectors};
+use super::{GroupDamping, Reader, Stepper, System};
+use pulp::Arch;
 
 /// The method's memory.
 #[derive(Clone, Debug)]
@@ -29,7 +30,12 @@ pub struct Leapfrog {
     trial_a: Vec<f64>,
     a: Vec<f64>,
     predicted: Vec<f64>,
-    blocks: Vec<DampingBlock>,
+    damping: GroupDamping,
+    /// Velocities of each group.
+    groups: Vec<[Option<usize>; 3]>,
+    /// Accelerations and predicted changes of velocity by group.
+    by_group: [VectorColumns; 2],
+    instructions: Arch,
 }
 
 impl Leapfrog {
@@ -37,6 +43,7 @@ impl Leapfrog {
     pub fn new<S: System>(system: &S) -> Self {
         let (nq, nv) = (system.positions(), system.velocities());
         let (state, velocity) = (vec![0.0; nq + nv], vec![0.0; nv]);
+        let groups = system.groups();
         Self {
             positions: nq,
             h: 0.0,
@@ -47,7 +54,10 @@ impl Leapfrog {
             trial_a: velocity.clone(),
             a: velocity.clone(),
             predicted: velocity,
-            blocks: vec![DampingBlock::default(); system.groups()],
+            damping: GroupDamping::new(groups),
+            groups: (0..groups).map(|i| system.group(i)).collect(),
+            by_group: [zero_vectors(groups), zero_vectors(groups)],
+            instructions: Arch::new(),
         }
     }
 
@@ -56,13 +66,6 @@ impl Leapfrog {
         self.end.copy_from_slice(&other.end);
         self.mean_a.copy_from_slice(&other.mean_a);
     }
-}
-
-/// Solution of three equations by Cramer's rule; not finite where there is none.
-fn solve(matrix: &Matrix3<f64>, right: &Vector3<f64>) -> Vector3<f64> {
-    let [a, b, c] = [0, 1, 2].map(|k| matrix.column(k).into_owned());
-    let (bc, ca, ab) = (b.cross(&c), c.cross(&a), a.cross(&b));
-    Vector3::new(bc.dot(right), ca.dot(right), ab.dot(right)) / a.dot(&bc)
 }
 
 impl<S: System> Stepper<S> for Leapfrog {
@@ -83,32 +86,42 @@ impl<S: System> Stepper<S> for Leapfrog {
         let nq = self.positions;
         let (q, v) = self.end.split_at(nq);
         let (q_trial, v_trial) = self.trial.split_at_mut(nq);
-        for i in 0..nq {
-            q_trial[i] = q[i] + 0.5 * h * v[i];
-            self.predicted[i] = v[i] + 0.5 * h * self.mean_a[i];
+        let half = 0.5 * h;
+        for ((trial, q), v) in q_trial.iter_mut().zip(q).zip(v) {
+            *trial = q + half * v;
         }
-        self.predicted[nq..].copy_from_slice(&v[nq..]);
+        self.predicted.copy_from_slice(v);
+        for (predicted, a) in self.predicted[..nq].iter_mut().zip(&self.mean_a) {
+            *predicted += half * a;
+        }
         system.accelerations((t + 0.5 * h).min(t_last), q_trial, &self.predicted, &mut self.a)?;
         self.trial_a.copy_from_slice(&self.a);
-        system.damping(h, q_trial, &self.predicted, &mut self.blocks);
-        for (b, damping) in self.blocks.iter().enumerate() {
-            let at = system.group(b);
-            let known = Vector3::from_fn(|k, _| at[k].map_or(0.0, |i| self.a[i]));
-            let predicted = Vector3::from_fn(|k, _| at[k].map_or(0.0, |i| self.predicted[i] - v[i]));
-            let matrix = Matrix3::identity() + damping.implicit * h;
-            let solution = solve(&matrix, &(known + damping.full * predicted));
-            for (i, a) in at.iter().zip(solution.iter()).filter_map(|(i, a)| i.map(|i| (i, *a))) {
-                if !a.is_finite() {
-                    return Err(system.not_finite(i));
+        system.damping(h, q_trial, &self.predicted, &mut self.damping);
+        let [known, predicted] = &mut self.by_group;
+        for (g, at) in self.groups.iter().enumerate() {
+            for (k, i) in at.iter().enumerate() {
+                if let Some(i) = *i {
+                    known[k][g] = self.a[i];
+                    predicted[k][g] = self.predicted[i] - v[i];
                 }
-                self.trial_a[i] = a;
             }
         }
-        for i in 0..v_trial.len() {
-            v_trial[i] = v[i] + h * self.trial_a[i];
+        self.damping.solve(h, predicted, known, self.instructions);
+        for (g, at) in self.groups.iter().enumerate() {
+            for (k, i) in at.iter().enumerate() {
+                if let Some(i) = *i {
+                    self.trial_a[i] = known[k][g];
+                }
+            }
         }
-        for i in 0..nq {
-            q_trial[i] += 0.5 * h * v_trial[i];
+        if let Some(i) = self.trial_a.iter().position(|a| !a.is_finite()) {
+            return Err(system.not_finite(i));
+        }
+        for ((trial, v), a) in v_trial.iter_mut().zip(v).zip(&self.trial_a) {
+            *trial = v + h * a;
+        }
+        for (q, v) in q_trial.iter_mut().zip(v_trial.iter()) {
+            *q += half * v;
         }
         self.h = h;
         Ok(None)

@@ -3,6 +3,7 @@
 pub mod arrowhead;
 pub mod auto;
 pub mod control;
+pub(crate) mod damping;
 mod dense;
 mod dormand_prince;
 mod driver;
@@ -15,6 +16,7 @@ mod rosenbrock;
 pub(crate) mod shifted;
 pub mod watch;
 
+pub use damping::{DampingBlock, GroupDamping, implicit_share};
 pub use dormand_prince::DormandPrince;
 pub use driver::{Driver, Failure, Limits, Statistics};
 pub use leapfrog::Leapfrog;
@@ -25,8 +27,6 @@ pub use rosenbrock::Rosenbrock;
 use arrowhead::{Arrowhead, HUB, SPOKE};
 use auto::Choice;
 use control::{Estimate, Law};
-
-use nalgebra::Matrix3;
 
 /// A second-order system `q' = v[..positions]`, `v' = a(t, q, v)`. Velocities beyond the positions have no position.
 ///
@@ -67,7 +67,7 @@ pub trait System {
         out: &mut Linearization,
     ) -> Result<(), Self::Fault>;
     /// Damping within each of the groups at the last evaluated state (`q`, `v`), for a step of size `h` in s.
-    fn damping(&self, h: f64, q: &[f64], v: &[f64], blocks: &mut [DampingBlock]);
+    fn damping(&self, h: f64, q: &[f64], v: &[f64], out: &mut GroupDamping);
     /// The fast vibration at the last evaluated state, which a method must not damp by itself.
     fn vibration(&self) -> Vibration {
         Vibration::default()
@@ -134,24 +134,6 @@ impl Linearization {
         self.over_velocities.fill_zero();
         self.over_time.fill(0.0);
     }
-}
-
-/// -da/dv of up to three coupled velocities (zero in unused places), or a positive approximation of it, 1/s.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct DampingBlock {
-    /// D, all of it.
-    pub full: Matrix3<f64>,
-    /// D_i, the share to take at the end of the step: half for the trapezoidal rule, all where rates exceed 1/h
-    /// by far. See [`implicit_share`].
-    pub implicit: Matrix3<f64>,
-}
-
-/// Share of a decay at rate r to take at the end of a step, z = h r >= 0: `1/(1 - exp(-z)) - 1/z`.
-///
-/// It makes one step of `v' = -r v` exact: one half for slow decays (second order), towards one for fast ones (no
-/// overshoot).
-pub fn implicit_share(z: f64) -> f64 {
-    if z < 1e-3 { 0.5 + z / 12.0 } else { 1.0 / (1.0 - (-z).exp()) - 1.0 / z }
 }
 
 /// One integration method: makes steps and interpolates in the last one.

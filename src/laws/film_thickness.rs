@@ -13,7 +13,7 @@
 //! The Ghosh-Pandey factor is only partly legible in the paper's text; its form here is the best reading.
 
 use super::normal_contact::ElasticLine;
-use crate::scalar::Numeric;
+use crate::scalar::{Base, Numeric, Of};
 use std::f64::consts::PI;
 
 /// Smoothing speed of |u| at rest, m/s: |u| is taken as sqrt(u^2 + floor^2), so that film thickness, thermal
@@ -45,13 +45,13 @@ pub enum ThermalCorrection {
 
 /// Film thickness law of one contact pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FilmThickness {
+pub struct FilmThickness<B = f64> {
     /// ln(2.922 R_e W^-0.166 U^0.692 G^0.470) at Q = 1 N, |u| = 1 m/s, R_e in m.
-    pub ln_scale: f64,
+    pub ln_scale: B,
     /// ln(1/(E' R_e l)), 1/N.
-    pub ln_load_factor: f64,
-    /// Effective modulus E', Pa.
-    pub effective_modulus: f64,
+    pub ln_load_factor: B,
+    /// 4/(pi E'), from P_mean to P_max/E', 1/Pa.
+    pub pressure_factor: B,
     /// Optional thermal correction.
     pub thermal: Option<ThermalCorrection>,
 }
@@ -132,18 +132,34 @@ impl FilmThickness {
         let ln_scale = (2.922 * line.equivalent_radius).ln() - 0.166 * ln_load_factor
             + 0.692 * (viscosity / e_r).ln()
             + 0.470 * material.ln();
-        Self { ln_scale, ln_load_factor, effective_modulus: line.effective_modulus, thermal }
+        let pressure_factor = 4.0 / PI / line.effective_modulus;
+        Self { ln_scale, ln_load_factor, pressure_factor, thermal }
     }
+}
 
+impl<B> FilmThickness<B> {
+    /// The same with every constant of the surfaces replaced.
+    #[inline(always)]
+    pub fn map<U>(&self, f: &mut impl FnMut(&B) -> U) -> FilmThickness<U> {
+        FilmThickness {
+            ln_scale: f(&self.ln_scale),
+            ln_load_factor: f(&self.ln_load_factor),
+            pressure_factor: f(&self.pressure_factor),
+            thermal: self.thermal,
+        }
+    }
+}
+
+impl<B: Base> FilmThickness<B> {
     /// ln of the isothermal central film thickness in m at ln(Q), Q in N.
     #[inline(always)]
-    pub fn ln_isothermal<T: Numeric>(&self, ln_q: T, e: &Entrainment<T>) -> T {
+    pub fn ln_isothermal<T: Of<B>>(&self, ln_q: T, e: &Entrainment<T>) -> T {
         ln_q * -0.166 + (e.ln_speed + e.thickening) * 0.692 + self.ln_scale
     }
 
     /// ln(h_c), h_c in m, at ln(Q), Q in N; `mean_pressure` is P_mean in Pa.
     #[inline(always)]
-    pub fn ln_central<T: Numeric>(&self, ln_q: T, mean_pressure: T, e: &Entrainment<T>) -> T {
+    pub fn ln_central<T: Of<B>>(&self, ln_q: T, mean_pressure: T, e: &Entrainment<T>) -> T {
         let ln_h = self.ln_isothermal(ln_q, e);
         match &self.thermal {
             None => ln_h,
@@ -151,7 +167,7 @@ impl FilmThickness {
                 ln_h - load.ghosh_pandey(ln_q + self.ln_load_factor, e).ln_1p()
             }
             Some(ThermalCorrection::Gupta(load)) => {
-                let pressure = mean_pressure * (4.0 / PI / self.effective_modulus);
+                let pressure = mean_pressure * self.pressure_factor;
                 ln_h + load.gupta(pressure, e).floored(GUPTA_FLOOR).ln()
             }
         }

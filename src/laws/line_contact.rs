@@ -17,34 +17,27 @@ use super::rolling_resistance::RollingResistance;
 use super::self_heating::SelfHeating;
 use super::solid_friction::SolidFriction;
 use super::traction::Traction;
-use crate::scalar::{Base, Numeric};
+use crate::scalar::{Base, Of};
 
 /// The laws of one kind of line contact (for example all roller and inner ring contacts).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LineContact {
+pub struct LineContact<B = f64> {
     /// Elastic constants.
-    pub elastic: ElasticLine,
+    pub elastic: ElasticLine<B>,
     /// Normal damping.
-    pub damping: Option<NormalDamping>,
+    pub damping: Option<NormalDamping<B>>,
     /// Film thickness; without it there is neither regime nor traction.
-    pub film: Option<FilmThickness>,
+    pub film: Option<FilmThickness<B>>,
     /// Full-film traction.
     pub traction: Option<Traction>,
     /// Self-heating of the traction film.
-    pub self_heating: Option<SelfHeating>,
+    pub self_heating: Option<SelfHeating<B>>,
     /// Mixed and boundary lubrication.
-    pub regime: Option<LubricationRegime>,
+    pub regime: Option<LubricationRegime<B>>,
     /// Rolling resistance.
-    pub rolling_resistance: Option<RollingResistance>,
-}
-
-/// A share of friction that follows another law; it serves pocket edges.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FrictionBlend<T> {
-    /// w, the share; may be 0.
-    pub share: T,
-    /// The other law.
-    pub other: SolidFriction,
+    pub rolling_resistance: Option<RollingResistance<B>>,
+    /// Dry friction of an edge, which replaces a share of the others.
+    pub edge_friction: Option<SolidFriction<B>>,
 }
 
 /// Load and pressure of a contact. One that is apart has some load, so that everything is defined.
@@ -56,13 +49,64 @@ struct Pressed<T> {
 }
 
 impl LineContact {
-    /// Forces, with the viscosity e^`thickening` times that of the laws. `blend` replaces a share w of the traction coefficient: mu (1 - w) + mu_other w.
+    /// The two laws with the same parts: where only one of them has damping, rolling resistance or edge friction, the
+    /// other gets one without effect. `None` where they differ in more, or in constants of the lubricant.
+    pub fn alike(&self, other: &Self) -> Option<[Self; 2]> {
+        let (mut a, mut b) = (*self, *other);
+        for (a, b) in [(&mut a, other), (&mut b, self)] {
+            a.damping = a.damping.or(b.damping.map(|_| NormalDamping::NONE));
+            a.rolling_resistance = a.rolling_resistance.or(b.rolling_resistance.map(|law| law.none()));
+            a.edge_friction = a.edge_friction.or(b.edge_friction.map(|_| SolidFriction::NONE));
+        }
+        let parts = |law: &Self| law.map(&mut |_| ());
+        (parts(&a) == parts(&b)).then_some([a, b])
+    }
+}
+
+impl<B> LineContact<B> {
+    /// The same with every constant of the surfaces replaced; those of the lubricant are the same in all contacts.
     #[inline(always)]
-    pub fn force<T: Numeric>(
+    pub fn map<U>(&self, f: &mut impl FnMut(&B) -> U) -> LineContact<U> {
+        LineContact {
+            elastic: self.elastic.map(f),
+            damping: match &self.damping {
+                None => None,
+                Some(law) => Some(law.map(f)),
+            },
+            film: match &self.film {
+                None => None,
+                Some(law) => Some(law.map(f)),
+            },
+            traction: self.traction,
+            self_heating: match &self.self_heating {
+                None => None,
+                Some(law) => Some(law.map(f)),
+            },
+            regime: match &self.regime {
+                None => None,
+                Some(law) => Some(law.map(f)),
+            },
+            rolling_resistance: match &self.rolling_resistance {
+                None => None,
+                Some(law) => Some(law.map(f)),
+            },
+            edge_friction: match &self.edge_friction {
+                None => None,
+                Some(law) => Some(law.map(f)),
+            },
+        }
+    }
+}
+
+impl<B: Base> LineContact<B> {
+    /// Forces, with the viscosity e^`thickening` times that of the laws. Of an edge, its share w of the friction follows
+    /// the law of edges, mu (1 - w) + mu_edge w; from w = 1 on there is no film.
+    #[inline(always)]
+    pub fn force<T: Of<B>>(
         &self,
         motion: &ContactMotion<T>,
         thickening: T,
-        blend: Option<FrictionBlend<T>>,
+        edge_share: T,
     ) -> ContactForce<T> {
         let zero = motion.delta.like(0.0);
         let normal = self.elastic.normal_force(self.damping.as_ref(), motion.delta, motion.delta_dot);
@@ -78,36 +122,41 @@ impl LineContact {
         if self.film.is_some() || self.rolling_resistance.is_some() {
             let load = T::select(apart, zero.like(1.0), normal.force);
             let half_width = self.elastic.half_width(load);
-            let mean_pressure = load / (half_width * (2.0 * self.elastic.length));
+            let mean_pressure = self.elastic.mean_pressure(load, half_width);
             let pressed = Pressed { ln_load: load.ln(), half_width, mean_pressure };
             if let Some(film) = &self.film {
                 mu = self.traction_coefficient(film, motion, &rolling, &pressed, &mut out);
             }
             if let Some(law) = &self.rolling_resistance {
                 let force = law.force(load, pressed.ln_load, mean_pressure, &rolling);
-                out.rolling_resistance = T::select(apart, zero, -(force * rolling.direction));
+                out.rolling_resistance = T::select(apart, zero, zero - force * rolling.direction);
             }
         }
-        if let Some(FrictionBlend { share, other }) = blend
-            && T::Base::any(share.above(0.0))
+        let mut without_film = apart;
+        if let Some(edge) = &self.edge_friction
+            && B::any(edge_share.base().above(0.0))
         {
-            mu += (other.at(rolling.slip) - mu) * share;
+            let on_edge = edge_share.at_least(1.0);
+            let dry = edge.at(rolling.slip);
+            mu = T::select(on_edge, dry, mu + (dry - mu) * edge_share);
+            without_film = apart | on_edge;
+            out.rolling_resistance = T::select(on_edge, zero, out.rolling_resistance);
         }
         let secant = mu * out.normal / rolling.slip;
         out.friction_coefficient = T::select(apart, zero, mu);
         out.friction_secant = T::select(apart, zero, secant);
         out.friction = T::select(apart, zero, -(secant * (motion.u1 - motion.u2)));
-        out.film = T::select(apart, zero, out.film);
-        out.film_ratio = T::select(apart, zero, out.film_ratio);
-        out.temperature_rise = T::select(apart, zero, out.temperature_rise);
+        out.film = T::select(without_film, zero, out.film);
+        out.film_ratio = T::select(without_film, zero, out.film_ratio);
+        out.temperature_rise = T::select(without_film, zero, out.temperature_rise);
         out
     }
 
     /// mu of a film; also sets film thickness, film ratio and temperature rise.
     #[inline(always)]
-    fn traction_coefficient<T: Numeric>(
+    fn traction_coefficient<T: Of<B>>(
         &self,
-        film: &FilmThickness,
+        film: &FilmThickness<B>,
         motion: &ContactMotion<T>,
         rolling: &Entrainment<T>,
         pressed: &Pressed<T>,
@@ -134,7 +183,7 @@ impl LineContact {
             out.film_ratio = regime.film_ratio(out.film);
             let share = regime.boundary_share(out.film_ratio);
             // In groups of full films only.
-            if T::Base::any(share.above(0.0)) {
+            if B::any(share.base().above(0.0)) {
                 mu += (regime.boundary.at(rolling.slip) - mu) * share;
             }
         }
@@ -143,7 +192,7 @@ impl LineContact {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
     use crate::laws::film_thickness::{ThermalCorrection, ThermalLoad};
     use crate::laws::normal_contact::effective_modulus;
@@ -180,6 +229,7 @@ mod tests {
                 roughness: 1e-7,
             }),
             rolling_resistance: Some(RollingResistance::new(&elastic, 0.06, 2e-8, thermal, Extent::All)),
+            edge_friction: None,
         }
     }
 
@@ -200,10 +250,10 @@ mod tests {
         ] {
             let d: Vec<Dual<4>> = (0..4).map(|i| Dual::variable(x[i], i)).collect();
             let motion = ContactMotion { delta: d[0], delta_dot: d[1], u1: d[2], u2: d[3] };
-            let exact = components(&law.force(&motion, Dual::constant(0.0), None));
+            let exact = components(&law.force(&motion, Dual::constant(0.0), Dual::constant(0.0)));
             let value = |x: &[f64; 4]| {
                 let motion = ContactMotion { delta: x[0], delta_dot: x[1], u1: x[2], u2: x[3] };
-                components(&law.force(&motion, 0.0, None))
+                components(&law.force(&motion, 0.0, 0.0))
             };
             for i in 0..4 {
                 let h = [1e-5 * x[0], 1e-7, 1e-6, 1e-6][i];
@@ -227,7 +277,7 @@ mod tests {
         // it does for any power law but not for a jump.
         let law = raceway();
         let scan = |name: &str, at: &dyn Fn(f64) -> ContactMotion<f64>| {
-            let value = |x: f64| components(&law.force(&at(x), 0.0, None));
+            let value = |x: f64| components(&law.force(&at(x), 0.0, 0.0));
             let n = 4000;
             let grid: Vec<_> = (0..=n).map(|i| value(i as f64 / n as f64)).collect();
             for k in 0..3 {
@@ -269,7 +319,7 @@ mod tests {
         let law = raceway();
         for (u1, u2) in [(6.0, 5.0), (5.0, 6.0), (-6.0, -5.0), (-5.0, -6.0)] {
             let motion = ContactMotion { delta: 1e-6, delta_dot: 0.0, u1, u2 };
-            let f = law.force(&motion, 0.0, None);
+            let f = law.force(&motion, 0.0, 0.0);
             assert!(f.friction * (u1 - u2) < 0.0);
             assert!(f.rolling_resistance * (u1 + u2) < 0.0);
         }
@@ -287,7 +337,7 @@ mod tests {
             ..raceway()
         };
         let motion = ContactMotion { delta: 1e-6, delta_dot: 1.0, u1: 6.0, u2: 1.0 };
-        let f = bare.force(&motion, 0.0, None);
+        let f = bare.force(&motion, 0.0, 0.0);
         assert_eq!(f.normal, bare.elastic.load(1e-6));
         assert_eq!([f.friction, f.rolling_resistance, f.film, f.damping], [0.0; 4]);
     }

@@ -11,31 +11,44 @@
 //! ([`super::solid_friction`]); that smoothing is an assumption of this library.
 
 use super::solid_friction::SolidFriction;
-use crate::scalar::Numeric;
+use crate::scalar::{Base, Of};
 
 /// Mixed and boundary friction of one contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LubricationRegime {
+pub struct LubricationRegime<B = f64> {
     /// mu_bd with its transition speed.
-    pub boundary: SolidFriction,
+    pub boundary: SolidFriction<B>,
     /// L_bd, largest film ratio of pure boundary lubrication.
-    pub lambda_boundary: f64,
+    pub lambda_boundary: B,
     /// L_hd, smallest film ratio of full-film lubrication.
-    pub lambda_full: f64,
+    pub lambda_full: B,
     /// sigma, composite roughness, m.
-    pub roughness: f64,
+    pub roughness: B,
 }
 
-impl LubricationRegime {
+impl<B> LubricationRegime<B> {
+    /// The same with every constant replaced.
+    #[inline(always)]
+    pub fn map<U>(&self, f: &mut impl FnMut(&B) -> U) -> LubricationRegime<U> {
+        LubricationRegime {
+            boundary: self.boundary.map(f),
+            lambda_boundary: f(&self.lambda_boundary),
+            lambda_full: f(&self.lambda_full),
+            roughness: f(&self.roughness),
+        }
+    }
+}
+
+impl<B: Base> LubricationRegime<B> {
     /// Film ratio Lambda of the film thickness `film` in m.
     #[inline(always)]
-    pub fn film_ratio<T: Numeric>(&self, film: T) -> T {
+    pub fn film_ratio<T: Of<B>>(&self, film: T) -> T {
         film / self.roughness
     }
 
     /// Share of boundary friction, 1 at and below L_bd, 0 at and above L_hd.
     #[inline(always)]
-    pub fn boundary_share<T: Numeric>(&self, film_ratio: T) -> T {
+    pub fn boundary_share<T: Of<B>>(&self, film_ratio: T) -> T {
         let x = (film_ratio - self.lambda_full) / (self.lambda_boundary - self.lambda_full);
         let cube = x * x * x;
         T::select(x.at_least(1.0), x.like(1.0), T::select(x.at_most(0.0), x.like(0.0), cube * cube))

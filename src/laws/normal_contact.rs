@@ -11,7 +11,7 @@
 //! Technical Review 71 (2004), Eq. 1 and 4. Damping is an assumption of this library (the paper names none):
 //! it is proportional to stiffness, and the factor s lets Q start continuously at first touch.
 
-use crate::scalar::Numeric;
+use crate::scalar::{Base, Of};
 use std::f64::consts::PI;
 
 /// Effective modulus `E' = 2 / [(1 - nu_a^2)/E_a + (1 - nu_b^2)/E_b]` in Pa (NTN Eq. 4).
@@ -21,26 +21,41 @@ pub fn effective_modulus(young_a: f64, poisson_a: f64, young_b: f64, poisson_b: 
 
 /// Elastic constants of one line contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ElasticLine {
+pub struct ElasticLine<B = f64> {
     /// Effective modulus E', Pa.
-    pub effective_modulus: f64,
+    pub effective_modulus: B,
     /// Equivalent radius R_e, m.
-    pub equivalent_radius: f64,
+    pub equivalent_radius: B,
     /// Effective contact length l, m.
-    pub length: f64,
+    pub length: B,
     /// Palmgren constant K, m/N^0.9.
-    pub compliance: f64,
+    pub compliance: B,
     /// Its logarithm.
-    ln_compliance: f64,
+    ln_compliance: B,
+    /// 8 R_e/(pi l E'), m^2/N.
+    width_factor: B,
 }
 
 /// Damping of the normal motion, proportional to the elastic stiffness.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct NormalDamping {
+pub struct NormalDamping<B = f64> {
     /// tau_c, ratio of damping to stiffness, s.
-    pub relaxation_time: f64,
+    pub relaxation_time: B,
     /// delta_s, approach at which half of the damping is active, m.
-    pub softening_depth: f64,
+    pub softening_depth: B,
+}
+
+impl NormalDamping {
+    /// No damping.
+    pub const NONE: Self = Self { relaxation_time: 0.0, softening_depth: 1.0 };
+}
+
+impl<B> NormalDamping<B> {
+    /// The same with every constant replaced.
+    #[inline(always)]
+    pub fn map<U>(&self, f: &mut impl FnMut(&B) -> U) -> NormalDamping<U> {
+        NormalDamping { relaxation_time: f(&self.relaxation_time), softening_depth: f(&self.softening_depth) }
+    }
 }
 
 /// Normal force of a contact and its slopes.
@@ -58,7 +73,9 @@ impl ElasticLine {
     /// Constants from E' (Pa), R_e (m) and effective length (m), all > 0.
     pub fn new(effective_modulus: f64, equivalent_radius: f64, length: f64) -> Self {
         let compliance = 0.39 * (8.0 / effective_modulus).powf(0.9) / length.powf(0.8);
-        Self { effective_modulus, equivalent_radius, length, compliance, ln_compliance: compliance.ln() }
+        let width_factor = 8.0 * equivalent_radius / (PI * length * effective_modulus);
+        let ln_compliance = compliance.ln();
+        Self { effective_modulus, equivalent_radius, length, compliance, ln_compliance, width_factor }
     }
 
     /// Elastic approach delta in m under the load `q` >= 0 in N.
@@ -66,23 +83,40 @@ impl ElasticLine {
         self.compliance * q.powf(0.9)
     }
 
-    /// Elastic load Q_el in N at the approach `delta` in m; zero for delta <= 0.
-    #[inline(always)]
-    pub fn load<T: Numeric>(&self, delta: T) -> T {
-        let loaded = ((delta.ln() - self.ln_compliance) * (10.0 / 9.0)).exp();
-        T::select(delta.at_most(0.0), delta.like(0.0), loaded)
-    }
-
     /// Elastic stiffness dQ_el/d(delta) in N/m under the load `q` > 0 in N.
     pub fn stiffness_at_load(&self, q: f64) -> f64 {
         10.0 / 9.0 * q.powf(0.1) / self.compliance
     }
+}
+
+impl<B> ElasticLine<B> {
+    /// The same with every constant replaced.
+    #[inline(always)]
+    pub fn map<U>(&self, f: &mut impl FnMut(&B) -> U) -> ElasticLine<U> {
+        ElasticLine {
+            effective_modulus: f(&self.effective_modulus),
+            equivalent_radius: f(&self.equivalent_radius),
+            length: f(&self.length),
+            compliance: f(&self.compliance),
+            ln_compliance: f(&self.ln_compliance),
+            width_factor: f(&self.width_factor),
+        }
+    }
+}
+
+impl<B: Base> ElasticLine<B> {
+    /// Elastic load Q_el in N at the approach `delta` in m; zero for delta <= 0.
+    #[inline(always)]
+    pub fn load<T: Of<B>>(&self, delta: T) -> T {
+        let loaded = ((delta.ln() - self.ln_compliance) * (10.0 / 9.0)).exp();
+        T::select(delta.at_most(0.0), delta.like(0.0), loaded)
+    }
 
     /// Normal force at the approach `delta` (m) and approach speed `delta_dot` (m/s).
     #[inline(always)]
-    pub fn normal_force<T: Numeric>(
+    pub fn normal_force<T: Of<B>>(
         &self,
-        damping: Option<&NormalDamping>,
+        damping: Option<&NormalDamping<B>>,
         delta: T,
         delta_dot: T,
     ) -> NormalForce<T> {
@@ -105,8 +139,14 @@ impl ElasticLine {
 
     /// Half width b of the Hertz contact in m under the load `q` > 0 in N.
     #[inline(always)]
-    pub fn half_width<T: Numeric>(&self, q: T) -> T {
-        (q * (8.0 * self.equivalent_radius / (PI * self.length * self.effective_modulus))).sqrt()
+    pub fn half_width<T: Of<B>>(&self, q: T) -> T {
+        (q * self.width_factor).sqrt()
+    }
+
+    /// Mean pressure in Pa under the load `q` in N with that half width.
+    #[inline(always)]
+    pub fn mean_pressure<T: Of<B>>(&self, q: T, half_width: T) -> T {
+        q / (half_width * self.length * 2.0)
     }
 }
 

@@ -14,7 +14,7 @@
 
 use super::film_thickness::{Entrainment, ThermalLoad};
 use super::normal_contact::ElasticLine;
-use crate::scalar::{Numeric, smoothstep};
+use crate::scalar::{Base, Of, smoothstep};
 use std::f64::consts::PI;
 
 /// Where rolling resistance acts.
@@ -31,11 +31,11 @@ pub enum Extent {
 
 /// Rolling resistance law of one contact pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RollingResistance {
-    /// ln(29.2 R_e l (G U)^0.648 W^0.246 / alpha) at Q = 1 N, |u| = 1 m/s, the force in N.
-    pub ln_scale: f64,
-    /// Effective modulus E', Pa.
-    pub effective_modulus: f64,
+pub struct RollingResistance<B = f64> {
+    /// 29.2 R_e l (G U)^0.648 W^0.246 / alpha at Q = 1 N, |u| = 1 m/s, N.
+    pub scale: B,
+    /// 4/(pi E'), from P_mean to P_max/E', 1/Pa.
+    pub pressure_factor: B,
     /// Thermal load constant of T_R.
     pub thermal: ThermalLoad,
     /// Contacts in which the law acts.
@@ -54,26 +54,46 @@ impl RollingResistance {
         let g_u = pressure_viscosity * viscosity / line.equivalent_radius;
         let w = 1.0 / (line.effective_modulus * line.equivalent_radius * line.length);
         Self {
-            ln_scale: (29.2 * line.equivalent_radius * line.length / pressure_viscosity).ln()
-                + 0.648 * g_u.ln()
-                + 0.246 * w.ln(),
-            effective_modulus: line.effective_modulus,
+            scale: 29.2 * line.equivalent_radius * line.length / pressure_viscosity
+                * g_u.powf(0.648)
+                * w.powf(0.246),
+            pressure_factor: 4.0 / PI / line.effective_modulus,
             thermal,
             extent,
         }
     }
 
+    /// The same, but without force anywhere.
+    pub fn none(&self) -> Self {
+        Self { scale: 0.0, ..*self }
+    }
+}
+
+impl<B> RollingResistance<B> {
+    /// The same with every constant of the surfaces replaced.
+    #[inline(always)]
+    pub fn map<U>(&self, f: &mut impl FnMut(&B) -> U) -> RollingResistance<U> {
+        RollingResistance {
+            scale: f(&self.scale),
+            pressure_factor: f(&self.pressure_factor),
+            thermal: self.thermal,
+            extent: self.extent,
+        }
+    }
+}
+
+impl<B: Base> RollingResistance<B> {
     /// F_EHLr >= 0 in N under the load `q` > 0 (N), of which ln is `ln_q`, and mean pressure (Pa).
     #[inline(always)]
-    pub fn force<T: Numeric>(&self, q: T, ln_q: T, mean_pressure: T, e: &Entrainment<T>) -> T {
+    pub fn force<T: Of<B>>(&self, q: T, ln_q: T, mean_pressure: T, e: &Entrainment<T>) -> T {
         let share = match self.extent {
             Extent::All => q.like(1.0),
             Extent::Loaded { threshold } => smoothstep((q - threshold) / threshold),
         };
-        let pressure = mean_pressure * (4.0 / PI / self.effective_modulus);
+        let pressure = mean_pressure * self.pressure_factor;
         let t_r = self.thermal.gupta(pressure, e).floored(0.0);
-        let ln_isothermal = (e.ln_speed + e.thickening) * 0.648 + ln_q * 0.246 + self.ln_scale;
-        ln_isothermal.exp() * t_r * share
+        let isothermal = ((e.ln_speed + e.thickening) * 0.648 + ln_q * 0.246).exp() * self.scale;
+        isothermal * t_r * share
     }
 }
 

@@ -17,7 +17,7 @@
 //! ln(eta_P), so S = dT/A after it is wrong by less than (beta F)^2/2, which is held below 1e-14 of S.
 
 use super::traction::{MeanShear, ShearState};
-use crate::scalar::{Base, Numeric};
+use crate::scalar::{Base, Numeric, Of};
 use std::f64::consts::PI;
 
 /// Steps before bisection takes over.
@@ -31,7 +31,7 @@ const ACCURACY: f64 = 1e-14;
 
 /// Thermal constants of a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SelfHeating {
+pub struct SelfHeating<B = f64> {
     /// beta, 1/K.
     pub temperature_viscosity: f64,
     /// k', conductivity of the lubricant, W/(m K).
@@ -39,9 +39,9 @@ pub struct SelfHeating {
     /// tau0, Pa.
     pub eyring_stress: f64,
     /// e1 = k rho c of body 1, J^2/(m^4 s K^2).
-    pub thermal_product_1: f64,
+    pub thermal_product_1: B,
     /// e2 = k rho c of body 2.
-    pub thermal_product_2: f64,
+    pub thermal_product_2: B,
 }
 
 /// Solution of the self-heating equation.
@@ -53,10 +53,24 @@ pub struct HeatedShear<T> {
     pub temperature_rise: T,
 }
 
-impl SelfHeating {
+impl<B> SelfHeating<B> {
+    /// The same with every constant of the surfaces replaced.
+    #[inline(always)]
+    pub fn map<U>(&self, f: &mut impl FnMut(&B) -> U) -> SelfHeating<U> {
+        SelfHeating {
+            temperature_viscosity: self.temperature_viscosity,
+            conductivity: self.conductivity,
+            eyring_stress: self.eyring_stress,
+            thermal_product_1: f(&self.thermal_product_1),
+            thermal_product_2: f(&self.thermal_product_2),
+        }
+    }
+}
+
+impl<B: Base> SelfHeating<B> {
     /// A in K: temperature rise per unit of mean dimensionless stress. `u1`, `u2` relative to the contact, m/s.
     #[inline(always)]
-    pub fn rise_per_stress<T: Numeric>(&self, slip: T, film: T, half_width: T, u1: T, u2: T) -> T {
+    pub fn rise_per_stress<T: Of<B>>(&self, slip: T, film: T, half_width: T, u1: T, u2: T) -> T {
         let across_film = film * (1.0 / (12.0 * self.conductivity));
         let surfaces = heat_flow(self.thermal_product_1, u1, half_width)
             + heat_flow(self.thermal_product_2, u2, half_width);
@@ -129,8 +143,8 @@ impl SelfHeating {
 /// sqrt(pi e U/2b), per K and m^2. A floor far below any speed of interest keeps it differentiable when a surface stands
 /// still.
 #[inline(always)]
-fn heat_flow<T: Numeric>(thermal_product: f64, u: T, half_width: T) -> T {
-    ((u.abs() + 1e-9) * (PI * thermal_product / 2.0) / half_width).sqrt()
+fn heat_flow<B, T: Of<B>>(thermal_product: B, u: T, half_width: T) -> T {
+    ((u.abs() + 1e-9) * (PI / 2.0) * thermal_product / half_width).sqrt()
 }
 
 #[cfg(test)]

@@ -7,21 +7,34 @@
 //! Coulomb's law jumps at zero slip; the transition speed v_s makes it continuous. It is an assumption: below
 //! about v_s the surfaces creep instead of sticking.
 
-use crate::scalar::Numeric;
+use crate::scalar::{Base, Of};
 
 /// Friction coefficient that fades to zero below a transition speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SolidFriction {
+pub struct SolidFriction<B = f64> {
     /// mu_0, coefficient at high slip speed.
-    pub coefficient: f64,
+    pub coefficient: B,
     /// v_s, m/s.
-    pub transition_speed: f64,
+    pub transition_speed: B,
 }
 
 impl SolidFriction {
+    /// No friction.
+    pub const NONE: Self = Self { coefficient: 0.0, transition_speed: 1.0 };
+}
+
+impl<B> SolidFriction<B> {
+    /// The same with every constant replaced.
+    #[inline(always)]
+    pub fn map<U>(&self, f: &mut impl FnMut(&B) -> U) -> SolidFriction<U> {
+        SolidFriction { coefficient: f(&self.coefficient), transition_speed: f(&self.transition_speed) }
+    }
+}
+
+impl<B: Base> SolidFriction<B> {
     /// mu at the slip speed `slip` >= 0 in m/s.
     #[inline(always)]
-    pub fn at<T: Numeric>(&self, slip: T) -> T {
+    pub fn at<T: Of<B>>(&self, slip: T) -> T {
         (slip / self.transition_speed).tanh() * self.coefficient
     }
 }

@@ -1,5 +1,6 @@
 //! Output channels: the named quantities that a run records.
 
+use super::batch::Mate;
 use super::forces::{CAGE_BODY, FILM_THICKNESS, Forces, GUIDE, INNER, NORMAL_FORCE, OUTER, POCKET};
 use super::{ElementKind, GuideReport, Input, InputValues, Model, Workspace};
 use crate::laws::guide::GuideFilm;
@@ -246,7 +247,11 @@ impl Model {
 
     /// Number of elements with a force on the cage.
     fn touching_elements(&self, ws: &Workspace) -> usize {
-        let touches = |j: usize| ws.pocket_contacts().any(|c| c.element == j && c.force.normal > 0.0);
+        let touches = |j: usize| {
+            ws.contacts().any(|c| {
+                matches!(c.site.mate, Mate::Pocket(_)) && c.site.element == j && c.force.normal > 0.0
+            })
+        };
         (0..self.elements.count).filter(|&j| touches(j)).count()
     }
 }

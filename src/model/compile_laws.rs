@@ -189,7 +189,16 @@ impl Builder<'_> {
             lambda_full: b.lambda_full,
             roughness: b.roughness,
         });
-        Ok(LineContact { elastic, damping, film, traction, self_heating, regime, rolling_resistance: None })
+        Ok(LineContact {
+            elastic,
+            damping,
+            film,
+            traction,
+            self_heating,
+            regime,
+            rolling_resistance: None,
+            edge_friction: None,
+        })
     }
 
     fn raceways(&self, g: &RacewayGeometry, laws: &scene::Raceways) -> Result<RacewayLaws> {
@@ -242,11 +251,9 @@ impl Builder<'_> {
                 let mate =
                     needed("cage.material", cage.material.as_deref(), "cage.pocket.lubricated_cylinder")?;
                 let wall = self.line_contact(&pocket.contact, mate, equivalent_radius)?;
-                let edge =
-                    LineContact { film: None, traction: None, self_heating: None, regime: None, ..wall };
-                let frictionless = SolidFriction { coefficient: 0.0, transition_speed: 1.0 };
-                let edge_friction = pocket.edge_friction.as_ref().map_or(frictionless, friction);
-                Ok(PocketLaws::Cylinder(CylinderLaws { shape, wall, edge, edge_friction }))
+                let edge_friction = pocket.edge_friction.as_ref().map_or(SolidFriction::NONE, friction);
+                let wall = LineContact { edge_friction: Some(edge_friction), ..wall };
+                Ok(PocketLaws::Cylinder(CylinderLaws { shape, wall }))
             }
         }
     }

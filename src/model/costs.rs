@@ -1,5 +1,6 @@
 //! Where the time of a force evaluation goes.
 
+use super::batch::CONTACT_LAWS;
 use super::{Fault, InputValues, Model, Workspace};
 use std::hint::black_box;
 use std::time::Instant;
@@ -13,7 +14,7 @@ pub type PartTimes = [f64; PARTS.len()];
 
 impl Model {
     /// Wall time of each part of one evaluation at positions `q` and velocities `v`, the mean of `repeats`. Parts that the
-    /// scene does not have take none.
+    /// scene does not have take none. Contacts that are evaluated together share their time by their numbers.
     ///
     /// # Errors
     /// As [`Model::accelerations`].
@@ -39,19 +40,15 @@ impl Model {
             Ok(())
         };
         time(0, &mut || self.locate(black_box(q), v, ws))?;
-        if let Some(raceways) = &self.laws.raceways {
+        if self.laws.raceways.is_some() {
             time(1, &mut || {
-                ws.apply_to_outer(&raceways.outer);
-                Ok(())
-            })?;
-            time(2, &mut || {
-                ws.apply_to_inner(&raceways.inner);
+                ws.raceways.apply(ws.thickening, ws.instructions);
                 Ok(())
             })?;
         }
-        if let Some(pocket) = &self.laws.pocket {
+        if self.laws.pocket.is_some() {
             time(3, &mut || {
-                ws.apply_to_pockets(pocket);
+                self.apply_to_pockets(ws);
                 Ok(())
             })?;
         }
@@ -62,6 +59,21 @@ impl Model {
             self.assemble(black_box(q), v, ws, &mut a);
             Ok(())
         })?;
+        share_by_contacts(&ws.raceways.counts, &mut times[1..4]);
         Ok(times)
+    }
+}
+
+/// Shares the time of a batch, which is that of the first part, among outer raceway, inner raceway and pockets.
+fn share_by_contacts(counts: &[u64; CONTACT_LAWS], times: &mut [f64]) {
+    let [together, ..] = times else { return };
+    let together = std::mem::take(together);
+    let [outer, inner, pockets @ ..] = counts;
+    let n = [*outer, *inner, pockets.iter().sum()].map(|n| n as f64);
+    let all: f64 = n.iter().sum();
+    if all > 0.0 {
+        for (time, n) in times.iter_mut().zip(n) {
+            *time += together * n / all;
+        }
     }
 }

@@ -1,59 +1,48 @@
 //! How forces oppose velocities at the last evaluated state: what semi-implicit methods take at the end of a step.
 
+use super::batch::Mate;
 use super::workspace::Workspace;
-use super::{CageBody, ElementKind, Model, RingBody};
+use super::{CageBody, ElementKind, Model, RingBody, RollerSet};
 use crate::contact::guide::BodyMotion;
 use crate::contact::rotate;
-use crate::integrate::{DampingBlock, implicit_share};
-use crate::scalar::{Dual, Real};
+use crate::integrate::{DampingBlock, GroupDamping, implicit_share};
+use crate::scalar::{Columns, Dual, Pack, Real, dispatch};
 use nalgebra::{Matrix3, Vector3};
+use pulp::Simd;
 
 impl Model {
     /// Damping of each roller at the last evaluated state over (radial speed, orbit speed, spin speed): contact
     /// damping, half of it implicit, and the secant slope of friction, all of it implicit.
-    pub(crate) fn roller_damping(&self, ws: &Workspace, blocks: &mut [DampingBlock]) {
+    pub(crate) fn roller_damping(&self, ws: &Workspace, out: &mut GroupDamping) {
         let ElementKind::Rollers(rollers) = &self.elements.kind else { return };
-        blocks.fill(DampingBlock::default());
         let radius = rollers.geometry.roller_radius;
+        for (i, k) in UPPER {
+            out.full[i][k].fill(0.0);
+            out.implicit[i][k].fill(0.0);
+        }
         // Upper triangles: contact damping in `full`, friction in `implicit`.
+        let GroupDamping { full, implicit, .. } = out;
         let mut collect = |roller: usize, [nr, nc]: [f64; 2], [damping, secant]: [f64; 2]| {
-            let DampingBlock { full, implicit } = &mut blocks[roller];
-            full[(0, 0)] += damping * nr * nr;
-            full[(0, 1)] += damping * nr * nc;
-            full[(1, 1)] += damping * nc * nc;
+            full[0][0][roller] += damping * nr * nr;
+            full[0][1][roller] += damping * nr * nc;
+            full[1][1][roller] += damping * nc * nc;
             let d = [-nc, nr, radius];
-            for i in 0..3 {
-                for k in i..3 {
-                    implicit[(i, k)] += secant * d[i] * d[k];
-                }
+            for (i, k) in UPPER {
+                implicit[i][k][roller] += secant * d[i] * d[k];
             }
         };
-        for (element, frame, (), rates) in ws.outer.damping().chain(ws.inner.damping()) {
-            collect(element, frame.normal, rates);
-        }
-        for batch in [&ws.wall, &ws.edge, &ws.plane] {
-            for (element, frame, _, rates) in batch.damping() {
-                let (sin, cos) = ws.elements[element].lead;
-                collect(element, rotate(frame.normal, -sin, cos), rates);
-            }
-        }
-        // From force over speed in the local frame to acceleration over rate of the coordinates.
-        for (block, site) in blocks.iter_mut().zip(&ws.elements) {
-            let r = rollers.geometry.pitch_radius + site.motion.radial_offset;
-            let speed = [1.0, r, 1.0];
-            let inverse = [1.0 / rollers.mass, 1.0 / (rollers.mass * r), 1.0 / rollers.inertia];
-            for i in 0..3 {
-                for k in i..3 {
-                    let (normal, friction) = (block.full[(i, k)], block.implicit[(i, k)]);
-                    let (full, implicit) = (normal + friction, 0.5 * normal + friction);
-                    let (here, mirrored) = (inverse[i] * speed[k], inverse[k] * speed[i]);
-                    block.full[(i, k)] = full * here;
-                    block.full[(k, i)] = full * mirrored;
-                    block.implicit[(i, k)] = implicit * here;
-                    block.implicit[(k, i)] = implicit * mirrored;
+        for (site, rates) in ws.raceways.damping().chain(ws.pockets.damping()) {
+            let normal = match site.mate {
+                Mate::Outer | Mate::Inner => site.frame.normal,
+                Mate::Pocket(_) => {
+                    let (sin, cos) = ws.elements[site.element].lead;
+                    rotate(site.frame.normal, -sin, cos)
                 }
-            }
+            };
+            collect(site.element, normal, rates);
         }
+        let radial_offset = &ws.places.radial_offset;
+        dispatch(ws.instructions, Divide { rollers, rows: self.layout.count, radial_offset, damping: out });
     }
 
     /// Damping of a free ring, over (y, z): its support, and the guide of a cage around it.
@@ -122,9 +111,9 @@ impl Model {
 /// The same of the pockets, from contact damping and the secant slope of friction.
 fn pocket_slope(ws: &Workspace) -> Matrix3<f64> {
     let mut slope = Matrix3::zeros();
-    let contacts = ws.wall.damping().chain(ws.edge.damping()).chain(ws.plane.damping());
-    for (element, frame, pocket, [damping, secant]) in contacts {
-        let site = &ws.elements[element];
+    for (contact, [damping, secant]) in ws.pockets.damping() {
+        let (Mate::Pocket(pocket), frame) = (&contact.mate, &contact.frame) else { continue };
+        let site = &ws.elements[contact.element];
         let (sin, cos) = site.lead;
         let lever = pocket.lever;
         for (direction, rate) in [(frame.normal, damping), (frame.tangent(), secant)] {
@@ -134,6 +123,46 @@ fn pocket_slope(ws: &Workspace) -> Matrix3<f64> {
         }
     }
     slope
+}
+
+/// Places of the upper triangle of a matrix.
+const UPPER: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
+
+/// From force over speed in the local frame to acceleration over rate of the coordinates.
+struct Divide<'a> {
+    rollers: &'a RollerSet,
+    rows: usize,
+    radial_offset: &'a [f64],
+    damping: &'a mut GroupDamping,
+}
+
+impl Columns for Divide<'_> {
+    const PAIRED: bool = false;
+
+    fn rows(&self) -> usize {
+        self.rows
+    }
+
+    #[inline(always)]
+    #[expect(clippy::needless_range_loop, reason = "iterators might not be inlined")]
+    fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
+        let Self { rollers, radial_offset, damping, .. } = self;
+        let all = |x: f64| Pack::<S, K>::all(simd, x);
+        let r = Pack::load(simd, &radial_offset[first..]) + rollers.geometry.pitch_radius;
+        let speed = [all(1.0), r, all(1.0)];
+        let inverse = [all(1.0 / rollers.mass), all(1.0 / rollers.mass) / r, all(1.0 / rollers.inertia)];
+        for at in 0..UPPER.len() {
+            let (i, k) = UPPER[at];
+            let normal = Pack::load(simd, &damping.full[i][k][first..]);
+            let friction = Pack::load(simd, &damping.implicit[i][k][first..]);
+            let (full, implicit) = (normal + friction, normal * 0.5 + friction);
+            let (here, mirrored) = (inverse[i] * speed[k], inverse[k] * speed[i]);
+            (full * here).store(&mut damping.full[i][k][first..]);
+            (full * mirrored).store(&mut damping.full[k][i][first..]);
+            (implicit * here).store(&mut damping.implicit[i][k][first..]);
+            (implicit * mirrored).store(&mut damping.implicit[k][i][first..]);
+        }
+    }
 }
 
 impl CageBody {

@@ -3,18 +3,14 @@
 //! Three passes: find the contacts that touch and write their motions into one contiguous list per law (`locate`); run
 //! each law over its list; collect the forces on the bodies (`assemble`).
 
-use super::laws::{self, Laws, PocketLaws, count_line_contacts};
-use super::workspace::{Batch, ElementSite, PocketSite, Workspace};
+use super::batch::{CONTACT_LAWS, Mate, PocketSite, Site};
+use super::laws::{self, Laws, PocketLaws, count_parts};
+use super::workspace::{ElementSite, Workspace};
 use super::{CageBody, ElementKind, Fault, Input, InputValues, Model, RingBody, RollerSet};
 use crate::contact::guide::BodyMotion;
-use crate::contact::pocket::Pillar;
 use crate::contact::{PairFrame, Wrench, rotate};
-use crate::laws::contact_pair::{ContactForce, ContactMotion};
+use crate::laws::contact_pair::ContactForce;
 use crate::laws::guide::GuideLaw;
-use crate::laws::line_contact::{FrictionBlend, LineContact};
-use crate::laws::solid_friction::SolidFriction;
-use crate::scalar::{Columns, Pack, WIDEST, dispatch};
-use pulp::Simd;
 
 impl Model {
     /// Accelerations `a` (shape: velocities; m/s^2 or rad/s^2) at positions `q` and velocities `v`.
@@ -66,15 +62,9 @@ impl Model {
     /// The first contact whose force is not finite, as a place in [`Model::contact_names`].
     fn contact_not_finite(&self, ws: &Workspace) -> Option<usize> {
         let bad = |f: ContactForce<f64>| !(f.normal + f.friction + f.rolling_resistance).is_finite();
-        let raceways = [&ws.outer, &ws.inner].into_iter().enumerate();
-        let mut on_raceway =
-            raceways.flat_map(|(k, batch)| batch.iter().map(move |c| (c.element, k, c.force)));
-        let mut in_pocket = ws.pocket_contacts().map(|c| {
-            let side = usize::from(c.site.pillar == Pillar::Back);
-            (c.element, self.pocket_contact_offset() + side, c.force)
-        });
-        let found = on_raceway.find(|c| bad(c.2)).or_else(|| in_pocket.find(|c| bad(c.2)));
-        found.map(|(element, place, _)| element * self.contacts_per_element() + place)
+        let found = ws.contacts().find(|c| bad(c.force))?;
+        let Site { element, mate, .. } = found.site;
+        Some(element * self.contacts_per_element() + self.contact_place(mate))
     }
 
     /// Ring position and velocity, global frame.
@@ -90,18 +80,26 @@ impl Model {
 
     /// Evaluates every law over its list.
     fn apply_laws(&self, q: &[f64], v: &[f64], ws: &mut Workspace) -> Result<(), Fault> {
-        if let Some(raceways) = &self.laws.raceways {
-            ws.apply_to_outer(&raceways.outer);
-            ws.apply_to_inner(&raceways.inner);
-        }
-        if let Some(pocket) = &self.laws.pocket {
-            ws.apply_to_pockets(pocket);
-        }
+        ws.raceways.apply(ws.thickening, ws.instructions);
+        self.apply_to_pockets(ws);
         self.apply_guide(q, v, ws)?;
         if ws.counting {
             count(&self.laws, ws);
         }
         Ok(())
+    }
+
+    /// Evaluates contacts with pockets that have a batch of their own.
+    pub(super) fn apply_to_pockets(&self, ws: &mut Workspace) {
+        let Workspace { pockets, thickening, instructions, .. } = ws;
+        if let Some(PocketLaws::Plane(laws)) = &self.laws.pocket {
+            for i in 0..pockets.len() {
+                let force = laws.contact.force(&pockets.motion.map(|x| x[i]));
+                pockets.force.set(i, &force);
+            }
+        } else {
+            pockets.apply(*thickening, *instructions);
+        }
     }
 
     /// Evaluates the guide.
@@ -139,24 +137,25 @@ impl Model {
         let mut on_ring = [0.0; 2];
         let mut on_cage = Wrench::default();
         ws.on_roller.fill(Wrench::default());
-        for (element, frame, (), force) in ws.outer.forces() {
-            let [on_roller, _] = frame.wrenches(&force);
-            add(&mut ws.on_roller[element], on_roller.force, on_roller.moment);
-        }
-        for (element, frame, (), force) in ws.inner.forces() {
-            let [on_roller, reaction] = frame.wrenches(&force);
-            add(&mut ws.on_roller[element], on_roller.force, on_roller.moment);
-            let reaction = ws.elements[element].to_global(reaction.force);
-            on_ring[0] += reaction[0];
-            on_ring[1] += reaction[1];
-        }
-        for batch in [&ws.wall, &ws.edge, &ws.plane] {
-            for (element, frame, site, force) in batch.forces() {
-                let (on_element, reaction) = pocket_wrenches(frame, &force, site, &ws.elements[element]);
-                if let Some(on_roller) = ws.on_roller.get_mut(element) {
-                    add(on_roller, on_element.force, on_element.moment);
+        for (&Site { element, frame, mate }, force) in ws.raceways.forces().chain(ws.pockets.forces()) {
+            let site = &ws.elements[element];
+            let on_element = match mate {
+                Mate::Outer => frame.wrenches(&force)[0],
+                Mate::Inner => {
+                    let [on_roller, reaction] = frame.wrenches(&force);
+                    let reaction = site.to_global(reaction.force);
+                    on_ring[0] += reaction[0];
+                    on_ring[1] += reaction[1];
+                    on_roller
                 }
-                add(&mut on_cage, reaction.force, reaction.moment);
+                Mate::Pocket(pocket) => {
+                    let (on_element, reaction) = pocket_wrenches(&frame, &force, &pocket, site);
+                    add(&mut on_cage, reaction.force, reaction.moment);
+                    on_element
+                }
+            };
+            if let Some(on_roller) = ws.on_roller.get_mut(element) {
+                add(on_roller, on_element.force, on_element.moment);
             }
         }
         if let (Some(cage), Some(c)) = (&self.cage, self.layout.cage) {
@@ -220,90 +219,6 @@ impl Model {
     }
 }
 
-impl Workspace {
-    /// Evaluates the contacts with the outer raceway.
-    pub(super) fn apply_to_outer(&mut self, law: &LineContact) {
-        dispatch(self.instructions, LineContacts::new(law, &mut self.outer, self.thickening));
-    }
-
-    /// Evaluates the contacts with the inner raceway.
-    pub(super) fn apply_to_inner(&mut self, law: &LineContact) {
-        dispatch(self.instructions, LineContacts::new(law, &mut self.inner, self.thickening));
-    }
-
-    /// Evaluates the contacts with pockets.
-    pub(super) fn apply_to_pockets(&mut self, pocket: &PocketLaws) {
-        let (instructions, thickening) = (self.instructions, self.thickening);
-        match pocket {
-            PocketLaws::Cylinder(pocket) => {
-                for (law, batch) in [(&pocket.wall, &mut self.wall), (&pocket.edge, &mut self.edge)] {
-                    let friction = pocket.edge_friction;
-                    dispatch(instructions, LineContacts::in_pockets(law, batch, thickening, friction));
-                }
-            }
-            PocketLaws::Plane(pocket) => {
-                for i in 0..self.plane.len() {
-                    let force = pocket.contact.force(&self.plane.motion.map(|x| x[i]));
-                    self.plane.force.set(i, &force);
-                }
-            }
-        }
-    }
-}
-
-/// A law over a batch of line contacts.
-struct LineContacts<'a> {
-    law: &'a LineContact,
-    motion: &'a ContactMotion<Vec<f64>>,
-    force: &'a mut ContactForce<Vec<f64>>,
-    rows: usize,
-    /// ln of the relative viscosity.
-    thickening: f64,
-    /// In pockets, where friction follows that of the edges in a share of the wall.
-    pockets: Option<(&'a [PocketSite], SolidFriction)>,
-}
-
-impl<'a> LineContacts<'a> {
-    fn new<S>(law: &'a LineContact, batch: &'a mut Batch<S>, thickening: f64) -> Self {
-        batch.pad();
-        let rows = batch.len();
-        Self { law, motion: &batch.motion, force: &mut batch.force, rows, thickening, pockets: None }
-    }
-
-    fn in_pockets(
-        law: &'a LineContact,
-        batch: &'a mut Batch<PocketSite>,
-        thickening: f64,
-        edge_friction: SolidFriction,
-    ) -> Self {
-        batch.pad();
-        let pockets = Some((batch.site.as_slice(), edge_friction));
-        let rows = batch.len();
-        Self { law, motion: &batch.motion, force: &mut batch.force, rows, thickening, pockets }
-    }
-}
-
-impl Columns for LineContacts<'_> {
-    fn rows(&self) -> usize {
-        self.rows
-    }
-
-    #[inline(always)]
-    fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
-        let mut blend = None;
-        if let Some((sites, other)) = self.pockets {
-            let mut share = [0.0; WIDEST];
-            for (share, site) in share.iter_mut().zip(&sites[first..]) {
-                *share = site.edge_share;
-            }
-            blend = Some(FrictionBlend { share: Pack::load(simd, &share), other });
-        }
-        let motion = self.motion.load::<S, K>(simd, first);
-        let force = self.law.force(&motion, Pack::all(simd, self.thickening), blend);
-        self.force.store(first, &force);
-    }
-}
-
 impl CageBody {
     /// Centre of mass relative to the geometric centre at the cage angle `angle` (rad), global axes, m; `None` for a
     /// balanced cage.
@@ -315,19 +230,17 @@ impl CageBody {
 
 /// Counts the evaluations of this pass; laws that the scene does not use cost nothing here.
 fn count(laws: &Laws, ws: &mut Workspace) {
-    let lengths = [&ws.outer, &ws.inner].map(|batch| batch.len() as u64);
-    let pockets = [&ws.wall, &ws.edge, &ws.plane].map(|batch| batch.len() as u64);
+    let n: [u64; CONTACT_LAWS] = std::array::from_fn(|law| ws.raceways.counts[law] + ws.pockets.counts[law]);
     let counts = &mut ws.counts;
+    for (count, n) in counts.iter_mut().zip(n) {
+        *count += n;
+    }
     if let Some(raceways) = &laws.raceways {
-        count_line_contacts(counts, laws::OUTER_RACEWAY, &raceways.outer, lengths[0]);
-        count_line_contacts(counts, laws::INNER_RACEWAY, &raceways.inner, lengths[1]);
+        count_parts(counts, &raceways.outer, n[laws::OUTER_RACEWAY]);
+        count_parts(counts, &raceways.inner, n[laws::INNER_RACEWAY]);
     }
     if let Some(PocketLaws::Cylinder(pocket)) = &laws.pocket {
-        count_line_contacts(counts, laws::POCKET_WALL, &pocket.wall, pockets[0]);
-        count_line_contacts(counts, laws::POCKET_EDGE, &pocket.edge, pockets[1]);
-    }
-    if let Some(PocketLaws::Plane(_)) = &laws.pocket {
-        counts[laws::POCKET_PLANE] += pockets[2];
+        count_parts(counts, &pocket.wall, n[laws::POCKET_WALL]);
     }
     if let (Some(GuideLaw { film, .. }), Some(force)) = (&laws.guide, &ws.guide) {
         counts[laws::GUIDE_FILM] += u64::from(film.is_some() && force.film_share > 0.0);

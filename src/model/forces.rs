@@ -1,7 +1,8 @@
 //! Force report: every contact and every contribution to every body at one state.
 
+use super::batch::{Loaded, Mate, Site};
 use super::evaluate::pocket_wrenches;
-use super::workspace::{Loaded, Workspace};
+use super::workspace::Workspace;
 use super::{ElementKind, Input, Model, RingBody};
 use crate::contact::Wrench;
 use crate::contact::pocket::Pillar;
@@ -104,26 +105,20 @@ impl Model {
         out.accelerations.clear();
         out.accelerations.extend_from_slice(a);
         out.guide = GuideReport::default();
-        for contact in ws.outer.iter() {
-            out.contacts[per_element * contact.element] = quantities(&contact);
-            self.report_raceway(OUTER, 0, &contact, ws, out);
-        }
-        for contact in ws.inner.iter() {
-            out.contacts[per_element * contact.element + 1] = quantities(&contact);
-            self.report_raceway(INNER, 1, &contact, ws, out);
-        }
-        let first = self.pocket_contact_offset();
-        for contact in ws.pocket_contacts() {
-            let pillar = match contact.site.pillar {
-                Pillar::Front => first,
-                Pillar::Back => first + 1,
-            };
-            out.contacts[per_element * contact.element + pillar] = quantities(&contact);
-            let site = &ws.elements[contact.element];
-            let (on_element, on_cage) = pocket_wrenches(contact.frame, &contact.force, contact.site, site);
-            let on_element = Wrench { force: site.to_global(on_element.force), ..on_element };
-            add(&mut out.bodies[self.element_body(contact.element)][POCKET], &on_element);
-            add(&mut out.bodies[CAGE_BODY][POCKET], &on_cage);
+        for contact in ws.contacts() {
+            let &Site { element, frame, mate } = contact.site;
+            out.contacts[per_element * element + self.contact_place(&mate)] = quantities(&contact);
+            match mate {
+                Mate::Outer => self.report_raceway(OUTER, 0, &contact, ws, out),
+                Mate::Inner => self.report_raceway(INNER, 1, &contact, ws, out),
+                Mate::Pocket(pocket) => {
+                    let site = &ws.elements[element];
+                    let (on_element, on_cage) = pocket_wrenches(&frame, &contact.force, &pocket, site);
+                    let on_element = Wrench { force: site.to_global(on_element.force), ..on_element };
+                    add(&mut out.bodies[self.element_body(element)][POCKET], &on_element);
+                    add(&mut out.bodies[CAGE_BODY][POCKET], &on_cage);
+                }
+            }
         }
         self.report_guide_and_external(q, v, ws, out);
     }
@@ -132,16 +127,17 @@ impl Model {
         &self,
         source: usize,
         mate: usize,
-        contact: &Loaded<'_, ()>,
+        contact: &Loaded<'_>,
         ws: &Workspace,
         out: &mut Forces,
     ) {
-        let site = &ws.elements[contact.element];
+        let site = &ws.elements[contact.site.element];
         let [on_roller, on_mate] = contact
+            .site
             .frame
             .wrenches(&contact.force)
             .map(|w| Wrench { force: site.to_global(w.force), moment: w.moment });
-        add(&mut out.bodies[self.element_body(contact.element)][source], &on_roller);
+        add(&mut out.bodies[self.element_body(contact.site.element)][source], &on_roller);
         add(&mut out.bodies[mate][source], &on_mate);
     }
 
@@ -183,6 +179,15 @@ impl Model {
         }
     }
 
+    /// Place of a contact with this mate among the contacts of its element.
+    pub(super) fn contact_place(&self, mate: &Mate) -> usize {
+        match mate {
+            Mate::Outer => 0,
+            Mate::Inner => 1,
+            Mate::Pocket(site) => self.pocket_contact_offset() + usize::from(site.pillar == Pillar::Back),
+        }
+    }
+
     /// Number of bodies in a force report.
     pub fn body_count(&self) -> usize {
         2 + usize::from(self.cage.is_some()) + self.elements.count
@@ -203,9 +208,9 @@ fn add(sum: &mut [f64; 3], w: &Wrench<f64>) {
     sum[2] += w.moment;
 }
 
-fn quantities<S>(contact: &Loaded<'_, S>) -> ContactForces {
+fn quantities(contact: &Loaded<'_>) -> ContactForces {
     let (f, m) = (contact.force, contact.motion);
-    let [pressure_roller, pressure_mate] = contact.frame.film_pressure_forces(&f);
+    let [pressure_roller, pressure_mate] = contact.site.frame.film_pressure_forces(&f);
     [
         f.normal,
         m.delta,

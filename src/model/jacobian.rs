@@ -49,10 +49,8 @@ impl Model {
         let laws = &self.laws;
         out.clear();
         let mut drift = Drift { hub: Vector5::zeros(), rates, thickening: self.thickening(ws, rates) };
-        if let (Some(raceways), ElementKind::Rollers(rollers)) = (&laws.raceways, &self.elements.kind) {
-            let (thickening, instructions) = (ws.thickening, ws.instructions);
-            ws.outer.differentiate(&raceways.outer, thickening, instructions);
-            ws.inner.differentiate(&raceways.inner, thickening, instructions);
+        if let ElementKind::Rollers(rollers) = &self.elements.kind {
+            ws.raceways.differentiate(ws.thickening, ws.instructions);
             self.add_raceways(rollers, (q, v), ws, &mut drift, out);
         }
         let ws = &*ws;

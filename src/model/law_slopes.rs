@@ -1,9 +1,8 @@
 //! Derivatives of line contact forces over what their law sees, for a whole batch at once.
 
-use super::workspace::Batch;
+use super::law_columns::LawColumns;
 use crate::laws::contact_pair::ContactMotion;
-use crate::laws::line_contact::LineContact;
-use crate::scalar::{Columns, Duals, Pack, dispatch};
+use crate::scalar::{Columns, Duals, Numeric, Pack, dispatch};
 use pulp::{Arch, Simd};
 
 /// Directions of the derivatives: approach, approach speed, u1, u2, logarithm of the viscosity.
@@ -21,25 +20,27 @@ impl LawSlopes {
         Self(std::array::from_fn(|_| std::array::from_fn(|_| vec![0.0; room])))
     }
 
+    /// Finds the derivatives of the first `rows` contacts, for which there must be room, with the logarithm `thickening`
+    /// of the relative viscosity.
+    pub(super) fn find(
+        &mut self,
+        laws: &LawColumns,
+        rows: usize,
+        motion: &ContactMotion<Vec<f64>>,
+        thickening: f64,
+        instructions: Arch,
+    ) {
+        dispatch(instructions, Differentiate { laws, motion, slopes: &mut self.0, rows, thickening });
+    }
+
     /// Derivatives of the forces of contact `i`.
     pub(super) fn of(&self, i: usize) -> [[f64; DIRECTIONS]; FORCES] {
         std::array::from_fn(|f| std::array::from_fn(|d| self.0[f][d][i]))
     }
 }
 
-impl<S> Batch<S> {
-    /// Finds the derivatives, for which there must be room, at the motions of the last evaluation, with the logarithm `thickening` of the relative
-    /// viscosity.
-    pub(super) fn differentiate(&mut self, law: &LineContact, thickening: f64, instructions: Arch) {
-        self.pad();
-        let rows = self.len();
-        let (motion, slopes) = (&self.motion, &mut self.slopes.0);
-        dispatch(instructions, Differentiate { law, motion, slopes, rows, thickening });
-    }
-}
-
 struct Differentiate<'a> {
-    law: &'a LineContact,
+    laws: &'a LawColumns,
     motion: &'a ContactMotion<Vec<f64>>,
     slopes: &'a mut [[Vec<f64>; DIRECTIONS]; FORCES],
     rows: usize,
@@ -65,7 +66,8 @@ impl Columns for Differentiate<'_> {
             u2: Duals::variable(motion.u2, 3),
         };
         let thickening = Duals::variable(Pack::all(simd, self.thickening), 4);
-        let force = self.law.force(&motion, thickening, None);
+        let law = self.laws.load::<S, K>(simd, first);
+        let force = law.force(&motion, thickening, thickening.like(0.0));
         let forces = [force.normal, force.friction, force.rolling_resistance];
         for f in 0..FORCES {
             for d in 0..DIRECTIONS {

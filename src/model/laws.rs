@@ -1,11 +1,12 @@
 //! The force laws of a model, and the names under which their evaluations are counted.
 
+use super::law_columns::KINDS;
 use crate::contact::cylinder_pocket::CylinderPocket;
 use crate::contact::plane_pocket::PlanePocket;
+use crate::contact::pocket::PocketPlace;
 use crate::laws::guide::GuideLaw;
 use crate::laws::line_contact::LineContact;
 use crate::laws::solid_contact::SolidContact;
-use crate::laws::solid_friction::SolidFriction;
 
 /// All laws of a model; what the scene does not ask for is `None`.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,18 +31,56 @@ pub(super) enum PocketLaws {
     Plane(PlaneLaws),
 }
 
+impl PocketLaws {
+    pub(super) fn place(&self) -> PocketPlace {
+        match self {
+            Self::Cylinder(laws) => laws.shape.place,
+            Self::Plane(laws) => laws.shape.place,
+        }
+    }
+}
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct CylinderLaws {
     pub(super) shape: CylinderPocket,
+    /// With the friction of edges.
     pub(super) wall: LineContact,
-    pub(super) edge: LineContact,
-    pub(super) edge_friction: SolidFriction,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct PlaneLaws {
     pub(super) shape: PlanePocket,
     pub(super) contact: SolidContact,
+}
+
+/// Laws of line contacts by kind, for the batches of contacts.
+pub(super) struct LineLaws {
+    pub(super) raceways: Option<[LineContact; KINDS]>,
+    pub(super) pockets: Option<[LineContact; KINDS]>,
+    /// Whether pockets are among the first.
+    pub(super) joined: bool,
+}
+
+impl Laws {
+    /// Raceways and pockets in one batch if their laws have the same parts.
+    pub(super) fn of_lines(&self) -> LineLaws {
+        let raceways = self.raceways.map(|laws| [laws.outer, laws.inner]);
+        let wall = match &self.pocket {
+            Some(PocketLaws::Cylinder(laws)) => Some(laws.wall),
+            Some(PocketLaws::Plane(_)) | None => None,
+        };
+        let joined = match (raceways, wall) {
+            (Some([outer, inner]), Some(wall)) => outer
+                .alike(&wall)
+                .and_then(|[outer, wall]| inner.alike(&wall).map(|[inner, wall]| [outer, inner, wall])),
+            _ => None,
+        };
+        LineLaws {
+            raceways: joined.or(raceways.map(|[outer, inner]| [outer, inner, outer])),
+            pockets: if joined.is_some() { None } else { wall.map(|wall| [wall; KINDS]) },
+            joined: joined.is_some(),
+        }
+    }
 }
 
 /// Laws whose evaluations are counted.
@@ -75,9 +114,8 @@ pub(super) const GUIDE_FILM: usize = 10;
 pub(super) const GUIDE_SOLID: usize = 11;
 pub(super) const VISCOSITY_TEMPERATURE: usize = 12;
 
-/// Adds `n` evaluations of a line contact and of the laws in it.
-pub(super) fn count_line_contacts(counts: &mut LawCounts, law: usize, contact: &LineContact, n: u64) {
-    counts[law] += n;
+/// Adds `n` evaluations of the laws in a line contact.
+pub(super) fn count_parts(counts: &mut LawCounts, contact: &LineContact, n: u64) {
     for (part, (_, present)) in (FIRST_PART..).zip(line_contact_parts(contact)) {
         counts[part] += if present { n } else { 0 };
     }

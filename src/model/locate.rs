@@ -2,10 +2,12 @@
 //!
 //! A contact that is apart costs its distance check.
 
+use super::batch::{Batch, Mate, PocketSite, Site};
 use super::laws::PocketLaws;
-use super::workspace::{Batch, ElementSite, PocketSite, Workspace};
+use super::places::Surroundings;
+use super::workspace::{ElementSite, Workspace};
 use super::{ElementKind, Fault, Input, KinematicSet, Model, RollerSet};
-use crate::contact::pocket::{CageMotion, Pillar, PillarContact, PocketMotion, PocketPlace};
+use crate::contact::pocket::{Pillar, PillarContact, PocketMotion, PocketPlace};
 use crate::contact::raceway::{RingMotion, RollerMotion};
 use crate::contact::rotate;
 
@@ -23,10 +25,14 @@ impl Model {
         if self.layout.cage.is_some_and(|c| q[c].hypot(q[c + 1]) > reach) {
             return Err(Fault::LostCage);
         }
+        let pockets = laws.pocket.as_ref().map(PocketLaws::place);
         match &self.elements.kind {
-            ElementKind::Rollers(rollers) => self.locate_rollers(rollers, laws.pocket.is_some(), q, v, ws)?,
-            ElementKind::Kinematic(elements) if laws.pocket.is_some() => self.place_elements(elements, q, ws),
-            ElementKind::Kinematic(_) => {}
+            ElementKind::Rollers(rollers) => self.locate_rollers(rollers, pockets, q, v, ws)?,
+            ElementKind::Kinematic(elements) => {
+                if let Some(place) = pockets {
+                    self.place_elements(elements, place, q, ws);
+                }
+            }
         }
         match &laws.pocket {
             None => {}
@@ -34,16 +40,13 @@ impl Model {
                 let shape = pocket.shape;
                 self.locate_pockets(
                     shape.place,
-                    q,
                     v,
                     ws,
                     |offset| shape.apart(offset),
                     |ws, j, m| {
                         for side in [Pillar::Front, Pillar::Back] {
                             if let Some(contact) = shape.pillar(side, m) {
-                                let edge = contact.edge_share >= 1.0;
-                                let batch = if edge { &mut ws.edge } else { &mut ws.wall };
-                                push(batch, j, side, shape.place, m, contact);
+                                push(ws.pocket_batch(), j, side, shape.place, m, contact);
                             }
                         }
                     },
@@ -53,14 +56,13 @@ impl Model {
                 let shape = pocket.shape;
                 self.locate_pockets(
                     shape.place,
-                    q,
                     v,
                     ws,
                     |offset| shape.apart(offset),
                     |ws, j, m| {
                         for side in [Pillar::Front, Pillar::Back] {
                             if let Some(contact) = shape.wall(side, m) {
-                                push(&mut ws.plane, j, side, shape.place, m, contact);
+                                push(ws.pocket_batch(), j, side, shape.place, m, contact);
                             }
                         }
                     },
@@ -73,7 +75,7 @@ impl Model {
     fn locate_rollers(
         &self,
         rollers: &RollerSet,
-        pockets: bool,
+        pockets: Option<PocketPlace>,
         q: &[f64],
         v: &[f64],
         ws: &mut Workspace,
@@ -84,8 +86,22 @@ impl Model {
         if ring_position[0].hypot(ring_position[1]) > LOST_BODY * geometry.pitch_radius {
             return Err(Fault::LostRing);
         }
-        self.turn(pockets, q, ws);
-        for j in 0..self.layout.count {
+        let n = self.layout.count;
+        let angles = (ws.places.azimuth.iter_mut(), ws.places.lead.iter_mut());
+        let columns = ws.places.radial_offset.iter_mut().zip(angles.0).zip(angles.1);
+        let cage_angle = self.layout.cage.map_or(0.0, |c| q[c + 2]);
+        let states = q[self.layout.rollers..].chunks_exact(2).zip(&self.elements.reference_angles);
+        for (j, (((radial_offset, azimuth), lead), (state, reference))) in columns.zip(states).enumerate() {
+            (*radial_offset, *azimuth, *lead) = (state[0], reference + state[1], state[1] - cage_angle);
+            if state[0].abs() > LOST_ROLLER * geometry.pitch_radius {
+                return Err(Fault::LostRoller { roller: j, radial_offset: state[0] });
+            }
+        }
+        let pockets = pockets.and_then(|place| self.layout.cage.map(|c| (place, [q[c], q[c + 1]])));
+        let around = Surroundings { raceways: (geometry, ring_position), pockets };
+        ws.places.find(n, around, ws.instructions);
+
+        for j in 0..n {
             let i = self.layout.roller(j);
             let motion = RollerMotion {
                 radial_offset: q[i],
@@ -93,49 +109,26 @@ impl Model {
                 orbit_speed: v[i + 1],
                 spin_speed: v[self.layout.spin(j)],
             };
-            if motion.radial_offset.abs() > LOST_ROLLER * geometry.pitch_radius {
-                return Err(Fault::LostRoller { roller: j, radial_offset: motion.radial_offset });
-            }
-            let (sin, cos) = ws.azimuths.direction(j);
-            let lead = ws.leads.direction(j);
-            let site = ElementSite { motion, sin, cos, lead, pocket_offset: [0.0; 2] };
-
             if touching(motion.radial_offset - geometry.gap) {
                 let (contact, frame) = geometry.outer(&motion);
-                ws.outer.push(j, contact, frame, ());
+                ws.raceways.push(Site { element: j, frame, mate: Mate::Outer }, &contact);
             }
-            let position = site.to_local(ring_position);
-            if touching(geometry.inner_approach(motion.radial_offset, position)) {
-                let velocity = site.to_local(ring_velocity);
+            ws.elements.push(ws.places.site(j, motion));
+        }
+        for j in 0..n {
+            if touching(ws.places.inner_approach[j]) {
+                let site = &ws.elements[j];
+                let [position, velocity] = [ring_position, ring_velocity].map(|x| site.to_local(x));
                 let ring = RingMotion { position, velocity, speed: ring_speed };
-                let (contact, frame) = geometry.inner(&motion, &ring);
-                ws.inner.push(j, contact, frame, ());
+                let (contact, frame) = geometry.inner(&site.motion, &ring);
+                ws.raceways.push(Site { element: j, frame, mate: Mate::Inner }, &contact);
             }
-            ws.elements.push(site);
         }
         Ok(())
     }
 
-    /// Directions of the rollers and their leads over the pockets.
-    fn turn(&self, pockets: bool, q: &[f64], ws: &mut Workspace) {
-        let n = self.layout.count;
-        let travel = |j: usize| q[self.layout.roller(j) + 1];
-        for (j, (angle, reference)) in
-            ws.azimuths.angle.iter_mut().zip(&self.elements.reference_angles).enumerate()
-        {
-            *angle = reference + travel(j);
-        }
-        ws.azimuths.turn(n, ws.instructions);
-        if let (Some(c), true) = (self.layout.cage, pockets) {
-            for (j, angle) in ws.leads.angle.iter_mut().enumerate().take(n) {
-                *angle = travel(j) - q[c + 2];
-            }
-            ws.leads.turn(n, ws.instructions);
-        }
-    }
-
     /// Sites of kinematic elements. All lead their pockets by the same angle.
-    fn place_elements(&self, elements: &KinematicSet, q: &[f64], ws: &mut Workspace) {
+    fn place_elements(&self, elements: &KinematicSet, place: PocketPlace, q: &[f64], ws: &mut Workspace) {
         let motion = RollerMotion {
             radial_offset: 0.0,
             radial_speed: 0.0,
@@ -143,19 +136,21 @@ impl Model {
             spin_speed: ws.inputs.of(Input::SpinSpeed),
         };
         let travel = ws.inputs.orbit_travel;
-        let lead = (travel - self.layout.cage.map_or(0.0, |c| q[c + 2])).sin_cos();
+        let (cage, angle) = self.layout.cage.map_or(([0.0; 2], 0.0), |c| ([q[c], q[c + 1]], q[c + 2]));
+        let lead = (travel - angle).sin_cos();
         let (sin, cos) = travel.sin_cos();
         for direction in &elements.directions {
             let [cos, sin] = rotate(*direction, sin, cos);
-            ws.elements.push(ElementSite { motion, sin, cos, lead, pocket_offset: [0.0; 2] });
+            let mut site = ElementSite { motion, sin, cos, lead, pocket_offset: [0.0; 2] };
+            site.pocket_offset = place.offset(0.0, lead, rotate(site.to_local(cage), lead.0, lead.1));
+            ws.elements.push(site);
         }
     }
 
-    /// Runs over the pockets: notes the offset of every element and hands those that can touch to `touch`.
+    /// Runs over the pockets and hands the elements that can touch them to `touch`.
     fn locate_pockets(
         &self,
         place: PocketPlace,
-        q: &[f64],
         v: &[f64],
         ws: &mut Workspace,
         apart: impl Fn([f64; 2]) -> bool,
@@ -163,24 +158,20 @@ impl Model {
     ) {
         let Some(c) = self.layout.cage else { return };
         for j in 0..ws.elements.len() {
-            let site = &mut ws.elements[j];
-            let lead = site.lead;
-            let position = rotate(site.to_local([q[c], q[c + 1]]), lead.0, lead.1);
-            let offset = place.offset(site.motion.radial_offset, lead, position);
-            site.pocket_offset = offset;
+            let site = &ws.elements[j];
+            let (lead, offset) = (site.lead, site.pocket_offset);
             if apart(offset) {
                 continue;
             }
             let velocity = rotate(site.to_local([v[c], v[c + 1]]), lead.0, lead.1);
-            let cage = CageMotion { position, velocity, speed: v[c + 2] };
-            let relative = place.relative_motion(offset, &site.motion, lead, &cage);
+            let relative = place.relative_motion(offset, &site.motion, lead, velocity, v[c + 2]);
             touch(ws, j, &relative);
         }
     }
 }
 
 fn push(
-    batch: &mut Batch<PocketSite>,
+    batch: &mut Batch,
     element: usize,
     pillar: Pillar,
     place: PocketPlace,
@@ -189,7 +180,8 @@ fn push(
 ) {
     let PillarContact { motion, frame, edge_share } = contact;
     let lever = place.lever(relative.offset, frame.normal);
-    batch.push(element, motion, frame, PocketSite { pillar, edge_share, lever });
+    let mate = Mate::Pocket(PocketSite { pillar, edge_share, lever });
+    batch.push(Site { element, frame, mate }, &motion);
 }
 
 /// A NaN approach counts as contact, so that it reaches the accelerations and is reported.

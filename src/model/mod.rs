@@ -1,6 +1,7 @@
 //! The compiled model: bodies, coordinates and interaction laws of a scene. Immutable, `Send` and `Sync`; any
 //! number of simulations in any number of threads can share one.
 
+mod batch;
 mod channels;
 mod compile;
 mod compile_laws;
@@ -12,11 +13,13 @@ mod forces;
 mod initial;
 mod inputs;
 mod jacobian;
+mod law_columns;
 mod law_slopes;
 mod laws;
 mod layout;
 mod locate;
 mod names;
+mod places;
 mod pocket_slopes;
 mod raceway_slopes;
 mod scales;

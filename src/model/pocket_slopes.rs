@@ -1,16 +1,16 @@
 //! Derivatives of the pocket forces, contact by contact: law and kinematics by dual numbers, chained.
 
+use super::batch::Mate;
 use super::jacobian::{CAGE, Drift};
 use super::laws::{CylinderLaws, PocketLaws};
 use super::workspace::{ElementSite, Workspace};
 use super::{Input, Model};
 use crate::contact::guide::BodyMotion;
-use crate::contact::pocket::{CageMotion, Pillar, PillarContact, PocketPlace};
+use crate::contact::pocket::{Pillar, PillarContact, PocketPlace};
 use crate::contact::raceway::RollerMotion;
 use crate::contact::{Wrench, rotate};
 use crate::integrate::Linearization;
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
-use crate::laws::line_contact::FrictionBlend;
 use crate::scalar::{Dual, Real};
 
 /// A number with derivatives over what a contact law sees: approach, approach speed, u1, u2, edge share, logarithm of the
@@ -41,10 +41,10 @@ impl Model {
         out: &mut Linearization,
     ) {
         let Some(cage) = self.layout.cage else { return };
-        for contact in ws.pocket_contacts() {
-            let pair = Pair::new(contact.element, cage, state, ws);
-            if let Some(force) = pair.pocket(pocket, contact.site.pillar) {
-                self.add_pair(contact.element, &force, drift, out);
+        for contact in ws.contacts() {
+            let (Mate::Pocket(site), j) = (&contact.site.mate, contact.site.element) else { continue };
+            if let Some(force) = Pair::new(j, cage, state, ws).pocket(pocket, site.pillar) {
+                self.add_pair(j, &force, drift, out);
             }
         }
     }
@@ -145,15 +145,11 @@ impl Pair {
     /// The contact with one pillar; `None` when they are apart.
     fn pocket(&self, pocket: &PocketLaws, side: Pillar) -> Option<PairForce> {
         let cage = &self.cage;
-        let place = match pocket {
-            PocketLaws::Cylinder(laws) => laws.shape.place,
-            PocketLaws::Plane(laws) => laws.shape.place,
-        };
+        let place = pocket.place();
         let position = rotate(self.to_local(cage.position), self.lead.0, self.lead.1);
         let offset = place.offset(self.motion.radial_offset, self.lead, position);
         let velocity = rotate(self.to_local(cage.velocity), self.lead.0, self.lead.1);
-        let moving = CageMotion { position, velocity, speed: cage.speed };
-        let relative = place.relative_motion(offset, &self.motion, self.lead, &moving);
+        let relative = place.relative_motion(offset, &self.motion, self.lead, velocity, cage.speed);
         let contact = match pocket {
             PocketLaws::Cylinder(laws) => laws.shape.pillar(side, &relative),
             PocketLaws::Plane(laws) => laws.shape.wall(side, &relative),
@@ -193,14 +189,8 @@ fn cylinder_force(
     thickening: LawDual,
 ) -> ContactForce<PairDual> {
     let motion = law_variables(&contact.motion);
-    let on_edge = contact.edge_share.value() >= 1.0;
-    let (law, share) = if on_edge {
-        (&laws.edge, LawDual::constant(1.0))
-    } else {
-        (&laws.wall, LawDual::variable(contact.edge_share.value(), 4))
-    };
-    let blend = (share.value() > 0.0).then_some(FrictionBlend { share, other: laws.edge_friction });
-    chain(&law.force(&motion, thickening, blend), &contact.motion, contact.edge_share)
+    let edge_share = LawDual::variable(contact.edge_share.value(), 4);
+    chain(&laws.wall.force(&motion, thickening, edge_share), &contact.motion, contact.edge_share)
 }
 
 /// What a law sees, as its variables.

@@ -8,9 +8,10 @@
 //! d(e_r F_r + e_c F_c)/dpsi = e_r (dF_r/dpsi - F_c) + e_c (dF_c/dpsi + F_r)      force on the ring in global axes
 //! ```
 
+use super::batch::{Batch, Mate, Site};
 use super::jacobian::Drift;
 use super::law_slopes::DIRECTIONS;
-use super::workspace::{Batch, ElementSite, Workspace};
+use super::workspace::{ElementSite, Workspace};
 use super::{Input, Model, RollerSet};
 use crate::contact::Wrench;
 use crate::contact::raceway::{RingMotion, RollerMotion};
@@ -36,43 +37,60 @@ impl Model {
         drift: &mut Drift<'_>,
         out: &mut Linearization,
     ) {
-        for i in 0..ws.outer.len() {
-            let j = ws.outer.element[i];
-            let roller = lift::<5>(&ws.elements[j].motion);
-            let (motion, frame) = rollers.geometry.outer(&roller);
-            let [on_roller, _] = frame.wrenches(&chain(&ws.outer, i, &motion));
-            self.add_outer(j, &components(&on_roller), drift, out);
-        }
-        let (position, velocity) = self.ring_motion(q, v);
-        for i in 0..ws.inner.len() {
-            let j = ws.inner.element[i];
-            let site = &ws.elements[j];
-            let [x, v] = [site.to_local(position), site.to_local(velocity)];
-            let vector = |x: [f64; 2], at: usize| [0, 1].map(|k| InnerDual::variable(x[k], at + k));
-            let ring = RingMotion {
-                position: vector(x, RING_POSITION),
-                velocity: vector(v, RING_VELOCITY),
-                speed: InnerDual::variable(ws.inputs.of(Input::RingSpeed), RING_SPEED),
-            };
-            let (motion, frame) = rollers.geometry.inner(&lift::<10>(&site.motion), &ring);
-            let [on_roller, on_ring] = frame.wrenches(&chain(&ws.inner, i, &motion));
-            let turn = |row: &InnerDual| {
-                let [position, velocity] =
-                    [RING_POSITION, RING_VELOCITY].map(|at| [row.eps[at], row.eps[at + 1]]);
-                position[0] * x[1] - position[1] * x[0] + velocity[0] * v[1] - velocity[1] * v[0]
-            };
-            let own = components(&on_roller).map(|row| Row::new(&row, turn(&row), site, drift));
-            let [radial, across] = on_ring.force;
-            let turned = [turn(&radial) - across.re, turn(&across) + radial.re];
-            let both = [&radial, &across];
-            let turned = site.to_global(turned);
-            let mut rows = [InnerDual::constant(0.0); 2];
-            for d in 0..radial.eps.len() {
-                [rows[0].eps[d], rows[1].eps[d]] = site.to_global(both.map(|f| f.eps[d]));
+        let batch = &ws.raceways;
+        for (i, &Site { element: j, mate, .. }) in batch.sites.iter().enumerate() {
+            match mate {
+                Mate::Outer => {
+                    let roller = lift::<5>(&ws.elements[j].motion);
+                    let (motion, frame) = rollers.geometry.outer(&roller);
+                    let [on_roller, _] = frame.wrenches(&chain(batch, i, &motion));
+                    self.add_outer(j, &components(&on_roller), drift, out);
+                }
+                Mate::Inner => {
+                    self.differentiate_inner(rollers, (q, v), (i, j), ws, drift, out);
+                }
+                Mate::Pocket(_) => {}
             }
-            let shared = [0, 1].map(|k| Row::new(&rows[k], turned[k], site, drift));
-            self.add_inner(j, &own, &shared, drift, out);
         }
+    }
+
+    /// Adds the derivatives of contact `i`, of roller `j` with the inner ring.
+    fn differentiate_inner(
+        &self,
+        rollers: &RollerSet,
+        (q, v): (&[f64], &[f64]),
+        (i, j): (usize, usize),
+        ws: &Workspace,
+        drift: &mut Drift<'_>,
+        out: &mut Linearization,
+    ) {
+        let (position, velocity) = self.ring_motion(q, v);
+        let site = &ws.elements[j];
+        let [x, v] = [site.to_local(position), site.to_local(velocity)];
+        let vector = |x: [f64; 2], at: usize| [0, 1].map(|k| InnerDual::variable(x[k], at + k));
+        let ring = RingMotion {
+            position: vector(x, RING_POSITION),
+            velocity: vector(v, RING_VELOCITY),
+            speed: InnerDual::variable(ws.inputs.of(Input::RingSpeed), RING_SPEED),
+        };
+        let (motion, frame) = rollers.geometry.inner(&lift::<10>(&site.motion), &ring);
+        let [on_roller, on_ring] = frame.wrenches(&chain(&ws.raceways, i, &motion));
+        let turn = |row: &InnerDual| {
+            let [position, velocity] =
+                [RING_POSITION, RING_VELOCITY].map(|at| [row.eps[at], row.eps[at + 1]]);
+            position[0] * x[1] - position[1] * x[0] + velocity[0] * v[1] - velocity[1] * v[0]
+        };
+        let own = components(&on_roller).map(|row| Row::new(&row, turn(&row), site, drift));
+        let [radial, across] = on_ring.force;
+        let turned = [turn(&radial) - across.re, turn(&across) + radial.re];
+        let both = [&radial, &across];
+        let turned = site.to_global(turned);
+        let mut rows = [InnerDual::constant(0.0); 2];
+        for d in 0..radial.eps.len() {
+            [rows[0].eps[d], rows[1].eps[d]] = site.to_global(both.map(|f| f.eps[d]));
+        }
+        let shared = [0, 1].map(|k| Row::new(&rows[k], turned[k], site, drift));
+        self.add_inner(j, &own, &shared, drift, out);
     }
 
     fn add_outer(&self, j: usize, rows: &[OuterDual; 3], drift: &Drift<'_>, out: &mut Linearization) {
@@ -179,11 +197,7 @@ fn lift<const N: usize>(m: &RollerMotion<f64>) -> RollerMotion<Dual<N>> {
 }
 
 /// The forces of contact `i` over the coordinates: chain rule; the viscosity comes last.
-fn chain<const N: usize>(
-    batch: &Batch<()>,
-    i: usize,
-    motion: &ContactMotion<Dual<N>>,
-) -> ContactForce<Dual<N>> {
+fn chain<const N: usize>(batch: &Batch, i: usize, motion: &ContactMotion<Dual<N>>) -> ContactForce<Dual<N>> {
     let force = &batch.force;
     let slopes = batch.slopes.of(i);
     let inner = [&motion.delta, &motion.delta_dot, &motion.u1, &motion.u2];

@@ -2,7 +2,8 @@
 
 #![allow(clippy::needless_range_loop)]
 
-use super::{Base, Numeric, Real};
+use super::{Base, Numeric, Pack, Real};
+use pulp::Simd;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// A type of dual numbers whose operations are inlined as said. Loops, no closures: they would not always be inlined.
@@ -215,6 +216,30 @@ dual_numbers!(
     /// Values side by side with their `N` partial derivatives. Every operation is inlined, as [`Columns`](super::Columns)
     /// need it; in other places that would bloat the code.
 );
+
+macro_rules! with_constants {
+    ($($operator:ident $method:ident),*) => {$(
+        impl<S: Simd, const K: usize, const N: usize> $operator<Pack<S, K>> for Duals<N, Pack<S, K>> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, o: Pack<S, K>) -> Self {
+                let mut out = self;
+                out.re = self.re.$method(o);
+                with_constants!($method out o);
+                out
+            }
+        }
+    )*};
+    (add $out:ident $o:ident) => {};
+    (sub $out:ident $o:ident) => {};
+    ($method:ident $out:ident $o:ident) => {
+        for i in 0..N {
+            $out.eps[i] = $out.eps[i].$method($o);
+        }
+    };
+}
+
+with_constants!(Add add, Sub sub, Mul mul, Div div);
 
 impl<const N: usize> Real for Dual<N> {
     fn powf(self, p: f64) -> Self {

@@ -115,6 +115,21 @@ pub trait Base: Numeric<Base = Self> {
     fn split(self) -> (Self, Self);
 }
 
+/// Numbers of `B`, with or without derivatives, that can be combined with constants of type `B`.
+pub trait Of<B>:
+    Numeric<Base = B>
+    + Add<B, Output = Self>
+    + Sub<B, Output = Self>
+    + Mul<B, Output = Self>
+    + Div<B, Output = Self>
+{
+}
+
+impl<B, T> Of<B> for T where
+    T: Numeric<Base = B> + Add<B, Output = T> + Sub<B, Output = T> + Mul<B, Output = T> + Div<B, Output = T>
+{
+}
+
 /// One real number, with or without derivatives.
 pub trait Real: Numeric<Base = f64, Mask = bool> {
     /// `self^p` with a constant exponent; valid for values > 0, and at 0 for p >= 1.

@@ -1,7 +1,7 @@
 //! The model as the integrator sees it: with its workspace, inputs and counts.
 
 use super::jacobian::Slopes;
-use crate::integrate::{DampingBlock, Linearization, Structure, System, Vibration};
+use crate::integrate::{GroupDamping, Linearization, Structure, System, Vibration};
 use crate::model::{
     Channel, Fault, FaultCounts, Forces, HostInputs, Input, LawCounts, Model, PartTimes, Workspace,
 };
@@ -139,6 +139,10 @@ impl Bearing {
         Ok(())
     }
 
+    pub(super) fn set_vector_instructions(&mut self, vector: bool) {
+        self.workspace.set_vector_instructions(vector);
+    }
+
     /// Wall time of each part of an evaluation at a state, s; not counted.
     pub(super) fn time_parts(&mut self, t: f64, state: &[f64], repeats: u32) -> Result<PartTimes, Fault> {
         let state = state.split_at(self.model.layout().positions());
@@ -236,19 +240,17 @@ impl System for Bearing {
         }
     }
 
-    fn damping(&self, h: f64, q: &[f64], v: &[f64], blocks: &mut [DampingBlock]) {
+    fn damping(&self, h: f64, q: &[f64], v: &[f64], out: &mut GroupDamping) {
         let layout = self.model.layout();
-        let (rollers, others) = blocks.split_at_mut(layout.count);
-        self.model.roller_damping(&self.workspace, rollers);
+        self.model.roller_damping(&self.workspace, out);
         let cage = self.model.cage_damping(q, v, &self.workspace, h);
-        let mut others = others.iter_mut();
-        if layout.ring.is_some()
-            && let Some(ring) = others.next()
-        {
-            *ring = self.model.ring_damping(&cage, h);
+        let mut next = layout.count;
+        if layout.ring.is_some() {
+            out.set(next, &self.model.ring_damping(&cage, h));
+            next += 1;
         }
-        if let Some(block) = others.next() {
-            *block = cage;
+        if layout.cage.is_some() {
+            out.set(next, &cage);
         }
     }
 }

@@ -289,6 +289,12 @@ impl Sim {
         }
     }
 
+    /// Whether force evaluations use the widest vector instructions of the machine, as they do at first, or none. Results
+    /// have the same bits.
+    pub fn set_vector_instructions(&mut self, vector: bool) {
+        self.bearing.set_vector_instructions(vector);
+    }
+
     /// Wall time of each of [`PARTS`](crate::model::PARTS) of one force evaluation, s: the mean over these times (s) and
     /// states, each measured `repeats` times. The simulation's own state is not touched, and nothing is counted. Zeros
     /// without states.

@@ -3,7 +3,7 @@
 use crate::common::{example, read, with};
 use crate::cvode::{self, Derivatives, Method, Options};
 use cagedyn::integrate::{
-    DampingBlock, DormandPrince, Driver, Limits, Linearization, Rosenbrock, Stepper, Structure, System,
+    DormandPrince, Driver, GroupDamping, Limits, Linearization, Rosenbrock, Stepper, Structure, System,
 };
 use cagedyn::model::{Fault, HostInputs, Workspace};
 use cagedyn::{Model, Sim};
@@ -242,7 +242,7 @@ impl System for Fixed {
         self.model.linearize(q, v, &mut self.workspace, &rates, out);
         Ok(())
     }
-    fn damping(&self, _: f64, _: &[f64], _: &[f64], _: &mut [DampingBlock]) {}
+    fn damping(&self, _: f64, _: &[f64], _: &[f64], _: &mut GroupDamping) {}
 }
 
 impl Case {

@@ -1,0 +1,153 @@
+//! Damping within groups of coupled velocities, and the step of the velocities against it, for all groups at once.
+
+use crate::scalar::{Columns, Pack, WIDEST, dispatch};
+use nalgebra::Matrix3;
+use pulp::{Arch, Simd};
+
+/// -da/dv of up to three coupled velocities (zero in unused places), or a positive approximation of it, 1/s.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DampingBlock {
+    /// D, all of it.
+    pub full: Matrix3<f64>,
+    /// D_i, the share to take at the end of the step: half for the trapezoidal rule, all where rates exceed 1/h
+    /// by far. See [`implicit_share`].
+    pub implicit: Matrix3<f64>,
+}
+
+/// Share of a decay at rate r to take at the end of a step, z = h r >= 0: `1/(1 - exp(-z)) - 1/z`.
+///
+/// It makes one step of `v' = -r v` exact: one half for slow decays (second order), towards one for fast ones (no
+/// overshoot).
+pub fn implicit_share(z: f64) -> f64 {
+    if z < 1e-3 { 0.5 + z / 12.0 } else { 1.0 / (1.0 - (-z).exp()) - 1.0 / z }
+}
+
+/// A matrix for each group: a column of numbers for each entry, as long as whole groups of vector instructions need.
+pub type MatrixColumns = [[Vec<f64>; 3]; 3];
+/// A vector for each group.
+pub type VectorColumns = [Vec<f64>; 3];
+
+/// Vectors of zeros for `n` groups.
+pub(crate) fn zero_vectors(n: usize) -> VectorColumns {
+    std::array::from_fn(|_| vec![0.0; n.next_multiple_of(WIDEST)])
+}
+
+/// The damping of every group, in columns.
+#[derive(Clone, Debug)]
+pub struct GroupDamping {
+    /// D by row and column of the matrix, then group, 1/s. What is beyond the last group is of no meaning, but finite.
+    pub full: MatrixColumns,
+    /// D_i.
+    pub implicit: MatrixColumns,
+    groups: usize,
+}
+
+impl GroupDamping {
+    /// No damping of this many groups.
+    pub fn new(groups: usize) -> Self {
+        let zero = std::array::from_fn(|_| zero_vectors(groups));
+        Self { full: zero.clone(), implicit: zero, groups }
+    }
+
+    /// Sets that of one group.
+    ///
+    /// # Panics
+    /// If there is no such group.
+    pub fn set(&mut self, group: usize, block: &DampingBlock) {
+        for i in 0..3 {
+            for k in 0..3 {
+                self.full[i][k][group] = block.full[(i, k)];
+                self.implicit[i][k][group] = block.implicit[(i, k)];
+            }
+        }
+    }
+
+    /// Solves `(I + h D_i) x = y + D p` for every group; `y` becomes `x`, which is not finite where there is none.
+    pub(crate) fn solve(&self, h: f64, p: &VectorColumns, y: &mut VectorColumns, instructions: Arch) {
+        dispatch(instructions, Solve { damping: self, h, p, y });
+    }
+}
+
+struct Solve<'a> {
+    damping: &'a GroupDamping,
+    h: f64,
+    p: &'a VectorColumns,
+    y: &'a mut VectorColumns,
+}
+
+type Vector<P> = [P; 3];
+
+#[inline(always)]
+fn cross<S: Simd, const K: usize>(a: &Vector<Pack<S, K>>, b: &Vector<Pack<S, K>>) -> Vector<Pack<S, K>> {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+#[inline(always)]
+fn dot<S: Simd, const K: usize>(a: &Vector<Pack<S, K>>, b: &Vector<Pack<S, K>>) -> Pack<S, K> {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+impl Columns for Solve<'_> {
+    const PAIRED: bool = false;
+
+    fn rows(&self) -> usize {
+        self.damping.groups
+    }
+
+    /// By Cramer's rule.
+    #[inline(always)]
+    fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
+        let zero = Pack::<S, K>::all(simd, 0.0);
+        // Columns of the matrix, and the right side.
+        let mut m = [[zero; 3]; 3];
+        let mut right = [zero; 3];
+        let p = [0, 1, 2].map(|k| Pack::<S, K>::load(simd, &self.p[k][first..]));
+        for i in 0..3 {
+            right[i] = Pack::load(simd, &self.y[i][first..]);
+            for k in 0..3 {
+                let identity = if i == k { 1.0 } else { 0.0 };
+                m[k][i] = Pack::load(simd, &self.damping.implicit[i][k][first..]) * self.h + identity;
+                right[i] += Pack::load(simd, &self.damping.full[i][k][first..]) * p[k];
+            }
+        }
+        let [a, b, c] = m;
+        let (bc, ca, ab) = (cross(&b, &c), cross(&c, &a), cross(&a, &b));
+        let inverse = Pack::all(simd, 1.0) / dot(&a, &bc);
+        (dot(&bc, &right) * inverse).store(&mut self.y[0][first..]);
+        (dot(&ca, &right) * inverse).store(&mut self.y[1][first..]);
+        (dot(&ab, &right) * inverse).store(&mut self.y[2][first..]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Vector3;
+
+    #[test]
+    fn every_group_is_solved() {
+        let n = 21;
+        let mut damping = GroupDamping::new(n);
+        let (mut p, mut y) = (zero_vectors(n), zero_vectors(n));
+        let number = |i: usize| ((i * 37) % 17) as f64 - 8.0;
+        let h = 0.01;
+        let mut expected = Vec::new();
+        for g in 0..n {
+            let full = Matrix3::from_fn(|i, k| number(9 * g + 3 * i + k));
+            let block = DampingBlock { full, implicit: full * 0.7 };
+            damping.set(g, &block);
+            let [known, predicted] = [0, 5].map(|s| Vector3::from_fn(|k, _| number(4 * g + k + s)));
+            for k in 0..3 {
+                (p[k][g], y[k][g]) = (predicted[k], known[k]);
+            }
+            let matrix = Matrix3::identity() + block.implicit * h;
+            expected.push(matrix.lu().solve(&(known + full * predicted)).unwrap());
+        }
+        damping.solve(h, &p, &mut y, Arch::new());
+        for (g, x) in expected.iter().enumerate() {
+            for k in 0..3 {
+                assert!((y[k][g] - x[k]).abs() < 1e-11 * x.norm(), "{g} {k}: {} {}", y[k][g], x[k]);
+            }
+        }
+    }
+}
