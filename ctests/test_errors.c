@@ -177,14 +177,14 @@ static void check_values(cagedyn_sim *sim)
     CHECK_FAILS(cagedyn_sim_advance_to(sim, 0.0), value, "before the current time");
 }
 
-/* A run that cannot go on says so and leaves time and state alone. */
+/* A run that cannot go on says so and stays where it is. */
 static void check_limits(const cagedyn_model *m)
 {
     cagedyn_model *limited = cagedyn_model_from_json_with(cagedyn_model_scene_json(m), "solver.max_steps=50");
     cagedyn_sim *sim = cagedyn_sim_new(limited);
     double time = -1.0;
     CHECK_FAILS(cagedyn_sim_advance_to(sim, 1.0), CAGEDYN_ERR_TOO_MANY_STEPS, "max_steps");
-    CHECK(cagedyn_sim_time(sim, &time) == CAGEDYN_OK && time == 0.0);
+    CHECK(cagedyn_sim_time(sim, &time) == CAGEDYN_OK && time > 0.0 && time < 1.0);
     CHECK(cagedyn_sim_reset(sim) == CAGEDYN_OK);
     CHECK(cagedyn_sim_step(sim, 1e-4) == CAGEDYN_OK);
     cagedyn_sim_free(sim);

@@ -6,7 +6,7 @@
  *
  * Units      SI everywhere, angles in rad. y points right, z up, rotation is counter-clockwise positive.
  *
- * Handles    cagedyn_model and cagedyn_sim are opaque. What a function named _new or _from_ returns belongs to the
+ * Handles    cagedyn_model, cagedyn_sim and cagedyn_canceller are opaque. What a function named _new or _from_ returns belongs to the
  *            caller, who gives it to the matching _free. _free(NULL) does nothing. A simulation keeps what it needs
  *            of its model, so they may be freed in any order. Never use a handle after freeing it.
  *
@@ -15,7 +15,8 @@
  *            returns NULL on failure. After a failure cagedyn_error_status() and cagedyn_error_message() tell more;
  *            both are kept per thread and cleared by the next call. Codes never change their meaning.
  *            NULL, wrong lengths, numbers that are not finite and bad JSON are errors, never undefined behaviour.
- *            Outputs are written only on success, and a failed call leaves its object as it was and usable.
+ *            Outputs are written only on success, and a failed call leaves its object as it was and usable; one that
+ *            advances a simulation leaves it at the last step that could be made.
  *            No panic and no exception crosses this interface.
  *
  * Strings    NUL-terminated UTF-8. Returned strings belong to the library, are never NULL, and live as long as the
@@ -25,7 +26,8 @@
  *            function names; ask the model for it. Arrays stay the caller's.
  *
  * Threads    A model is immutable: any number of threads may use it at a time. A simulation may be used by one
- *            thread at a time, not always the same one. Results do not depend on the number of threads.
+ *            thread at a time, not always the same one. Results do not depend on the number of threads. A canceller
+ *            stops a simulation from any thread.
  *
  * Hosts      Everything can be done with handles, scalars, const char* and double* alone: no callbacks, no structs,
  *            no pointers to pointers.
@@ -97,8 +99,17 @@
 // A saved simulation does not fit this model or is damaged.
 #define CAGEDYN_ERR_BAD_SNAPSHOT -13
 
+// A run was stopped on request, see cagedyn_canceller_cancel().
+#define CAGEDYN_ERR_CANCELLED -14
+
+// The limit on the wall time was reached, see cagedyn_sim_set_wall_time_limit().
+#define CAGEDYN_ERR_OUT_OF_TIME -15
+
 // A defect in the library; free the object.
 #define CAGEDYN_ERR_INTERNAL -99
+
+// Asks one simulation to stop. May be used by any number of threads at a time.
+typedef struct cagedyn_canceller cagedyn_canceller;
 
 // A compiled scene. Immutable; may be used from several threads at a time.
 typedef struct cagedyn_model cagedyn_model;
@@ -123,6 +134,22 @@ const char *cagedyn_error_message(void);
 // Name of a status code without the prefix CAGEDYN_, for example "ERR_BAD_SCENE"; "UNKNOWN" for other numbers.
 // Static text, never NULL.
 const char *cagedyn_status_name(int32_t status);
+
+// Creates what stops a simulation from other threads, before it runs there. It may outlive the simulation. Returns NULL
+// on failure. Free it with cagedyn_canceller_free().
+cagedyn_canceller *cagedyn_canceller_new(const cagedyn_sim *sim);
+
+// Makes the simulation's running cagedyn_sim_step() or cagedyn_sim_advance_to(), or else its next one, return
+// CAGEDYN_ERR_CANCELLED after its present step. The request is then spent, and the simulation can go on.
+int32_t cagedyn_canceller_cancel(const cagedyn_canceller *canceller);
+
+// Frees a canceller. NULL is ignored.
+void cagedyn_canceller_free(cagedyn_canceller *canceller);
+
+// Lets a simulation run for `seconds` of wall time from now. Then the running call returns CAGEDYN_ERR_OUT_OF_TIME, and
+// so does every later one until the limit is set again. INFINITY for no limit, as at first.
+int32_t cagedyn_sim_set_wall_time_limit(cagedyn_sim *sim,
+                                        double seconds);
 
 // Creates a model from the JSON text of a scene. Returns NULL on failure. Free it with cagedyn_model_free().
 cagedyn_model *cagedyn_model_from_json(const char *json);
@@ -388,6 +415,25 @@ const char *cagedyn_law_name(int64_t index);
 int32_t cagedyn_sim_law_evaluations(const cagedyn_sim *sim,
                                     double *out,
                                     int64_t length);
+
+// Number of items of a power balance.
+int64_t cagedyn_balance_count(void);
+
+// Name of an item of a power balance; "" for other numbers. Static text.
+//
+// - loads, ring_drive, element_drive (of elements with prescribed motion), ring_support, raceway_damping,
+//   raceway_friction, rolling_resistance, pocket_damping, pocket_friction, guide_film, guide_solid: works in J, positive
+//   where they go into the bearing.
+// - kinetic_energy_gain, elastic_energy_gain, potential_energy_gain: what is stored, J.
+// - residual: works less gains, J, the error of the integration; relative_residual: as a share of the energy that passed
+//   through.
+// - from, to: the time that the balance is over, s.
+const char *cagedyn_balance_name(int64_t index);
+
+// Writes the power balance since the start of the scene or the last cagedyn_sim_set_state() (length: balance count).
+int32_t cagedyn_sim_power_balance(cagedyn_sim *sim,
+                                  double *out,
+                                  int64_t length);
 
 #ifdef __cplusplus
 }  // extern "C"

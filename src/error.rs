@@ -34,13 +34,17 @@ pub enum Status {
     TooManySteps = -12,
     /// A saved simulation does not fit this model or is damaged.
     BadSnapshot = -13,
+    /// A run was stopped on request.
+    Cancelled = -14,
+    /// The limit on the wall time was reached.
+    OutOfTime = -15,
     /// A defect in the library; the object should be freed.
     Internal = -99,
 }
 
 impl Status {
     /// All kinds, in the order of their codes.
-    pub const ALL: [Status; 15] = [
+    pub const ALL: [Status; 17] = [
         Status::Ok,
         Status::NullArgument,
         Status::WrongSize,
@@ -55,6 +59,8 @@ impl Status {
         Status::StepTooSmall,
         Status::TooManySteps,
         Status::BadSnapshot,
+        Status::Cancelled,
+        Status::OutOfTime,
         Status::Internal,
     ];
 
@@ -75,6 +81,8 @@ impl Status {
             Status::StepTooSmall => "ERR_STEP_TOO_SMALL\0",
             Status::TooManySteps => "ERR_TOO_MANY_STEPS\0",
             Status::BadSnapshot => "ERR_BAD_SNAPSHOT\0",
+            Status::Cancelled => "ERR_CANCELLED\0",
+            Status::OutOfTime => "ERR_OUT_OF_TIME\0",
             Status::Internal => "ERR_INTERNAL\0",
         }
     }

@@ -29,6 +29,11 @@ fn c_sim() {
 }
 
 #[test]
+fn limits() {
+    run_c_test("ctests/test_limits.c", NU2310);
+}
+
+#[test]
 fn c_errors() {
     run_c_test("ctests/test_errors.c", NU2310);
 }

@@ -6,6 +6,7 @@
 #![allow(unsafe_code)]
 
 mod guard;
+pub mod limits;
 pub mod model;
 pub mod sim;
 pub mod statistics;
@@ -55,6 +56,10 @@ pub const CAGEDYN_ERR_STEP_TOO_SMALL: i32 = -11;
 pub const CAGEDYN_ERR_TOO_MANY_STEPS: i32 = -12;
 /// A saved simulation does not fit this model or is damaged.
 pub const CAGEDYN_ERR_BAD_SNAPSHOT: i32 = -13;
+/// A run was stopped on request, see cagedyn_canceller_cancel().
+pub const CAGEDYN_ERR_CANCELLED: i32 = -14;
+/// The limit on the wall time was reached, see cagedyn_sim_set_wall_time_limit().
+pub const CAGEDYN_ERR_OUT_OF_TIME: i32 = -15;
 /// A defect in the library; free the object.
 pub const CAGEDYN_ERR_INTERNAL: i32 = -99;
 
@@ -106,6 +111,8 @@ mod tests {
             CAGEDYN_ERR_STEP_TOO_SMALL,
             CAGEDYN_ERR_TOO_MANY_STEPS,
             CAGEDYN_ERR_BAD_SNAPSHOT,
+            CAGEDYN_ERR_CANCELLED,
+            CAGEDYN_ERR_OUT_OF_TIME,
             CAGEDYN_ERR_INTERNAL,
         ];
         assert_eq!(constants.to_vec(), Status::ALL.map(|s| s as i32).to_vec());

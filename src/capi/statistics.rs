@@ -1,8 +1,8 @@
 //! Counts, numbers of health and reports of simulations in C.
 
-use super::guard::{EMPTY, exclusive, guard, shared, status, to_c_string, write_array};
+use super::guard::{EMPTY, check_array, exclusive, guard, shared, status, to_c_string, write_array};
 use super::sim::cagedyn_sim;
-use crate::model::LAWS;
+use crate::model::{LAWS, POWERS};
 use crate::sim::STATISTICS;
 use std::ffi::{CStr, c_char};
 
@@ -137,6 +137,70 @@ pub unsafe extern "C" fn cagedyn_sim_law_evaluations(
     })
 }
 
+/// Names of the power balance: of [`POWERS`], then of the energies and what follows from them. NUL-terminated.
+const BALANCE_NAMES: [&CStr; POWERS.len() + 7] = [
+    c"loads",
+    c"ring_drive",
+    c"element_drive",
+    c"ring_support",
+    c"raceway_damping",
+    c"raceway_friction",
+    c"rolling_resistance",
+    c"pocket_damping",
+    c"pocket_friction",
+    c"guide_film",
+    c"guide_solid",
+    c"kinetic_energy_gain",
+    c"elastic_energy_gain",
+    c"potential_energy_gain",
+    c"residual",
+    c"relative_residual",
+    c"from",
+    c"to",
+];
+
+/// Number of items of a power balance.
+#[unsafe(no_mangle)]
+pub extern "C" fn cagedyn_balance_count() -> i64 {
+    BALANCE_NAMES.len() as i64
+}
+
+/// Name of an item of a power balance; "" for other numbers. Static text.
+///
+/// - loads, ring_drive, element_drive (of elements with prescribed motion), ring_support, raceway_damping,
+///   raceway_friction, rolling_resistance, pocket_damping, pocket_friction, guide_film, guide_solid: works in J, positive
+///   where they go into the bearing.
+/// - kinetic_energy_gain, elastic_energy_gain, potential_energy_gain: what is stored, J.
+/// - residual: works less gains, J, the error of the integration; relative_residual: as a share of the energy that passed
+///   through.
+/// - from, to: the time that the balance is over, s.
+#[unsafe(no_mangle)]
+pub extern "C" fn cagedyn_balance_name(index: i64) -> *const c_char {
+    let name = usize::try_from(index).ok().and_then(|i| BALANCE_NAMES.get(i));
+    name.map_or(EMPTY, |name| name).as_ptr()
+}
+
+/// Writes the power balance since the start of the scene or the last cagedyn_sim_set_state() (length: balance count).
+///
+/// # Safety
+/// `sim` is NULL or a live handle, `out` NULL or an array of `length` numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_power_balance(sim: *mut cagedyn_sim, out: *mut f64, length: i64) -> i32 {
+    status(|| {
+        check_array("out", out.is_null(), length, BALANCE_NAMES.len())?;
+        // SAFETY: see above.
+        let balance = unsafe { exclusive("sim", sim) }?.sim.power_balance()?;
+        let mut values = [0.0; BALANCE_NAMES.len()];
+        let (works, rest) = values.split_at_mut(POWERS.len());
+        works.copy_from_slice(&balance.work);
+        rest[..3].copy_from_slice(&balance.gain());
+        let residuals = [balance.residual(), balance.relative_residual()];
+        rest[3..].copy_from_slice(&[residuals[0], residuals[1], balance.from, balance.to]);
+        // SAFETY: see above.
+        unsafe { write_array("out", &values, out, length) }
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -144,6 +208,12 @@ mod tests {
     #[test]
     fn law_names_match_the_library() {
         assert_eq!(LAW_NAMES.map(|name| name.to_str().unwrap_or("")), LAWS);
+    }
+
+    #[test]
+    fn names_of_the_balance_match_the_library() {
+        let names = BALANCE_NAMES.map(|name| name.to_str().unwrap_or(""));
+        assert_eq!(names[..POWERS.len()], POWERS);
     }
 
     #[test]

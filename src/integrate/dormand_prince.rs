@@ -4,7 +4,7 @@
 //! section II.6.
 
 use super::control::{ErrorNorm, Estimate, Law};
-use super::{Reader, Stepper, System};
+use super::{Quadratures, Reader, Stepper, System, add_weighted};
 
 const C: [f64; 7] = [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0];
 const A: [[f64; 6]; 7] = [
@@ -40,6 +40,9 @@ pub struct DormandPrince {
     /// Rates at the seven stages; the first is that of `state`.
     k: [Vec<f64>; 7],
     a: Vec<f64>,
+    /// Quadratures at the stages, and their integrals.
+    quadratures: [Quadratures; 7],
+    integrals: Quadratures,
     /// Polynomials of the last accepted step and of the attempt.
     dense: [Vec<f64>; 5],
     trial_dense: [Vec<f64>; 5],
@@ -57,6 +60,8 @@ impl DormandPrince {
             trial: zeros(),
             k: std::array::from_fn(|_| zeros()),
             a: vec![0.0; system.velocities()],
+            quadratures: Default::default(),
+            integrals: Quadratures::default(),
             dense: std::array::from_fn(|_| zeros()),
             trial_dense: std::array::from_fn(|_| zeros()),
         }
@@ -69,12 +74,12 @@ impl DormandPrince {
         state: &[f64],
         a: &mut [f64],
         rate: &mut [f64],
-    ) -> Result<(), S::Fault> {
+    ) -> Result<Quadratures, S::Fault> {
         let (q, v) = state.split_at(positions);
         system.accelerations(t, q, v, a)?;
         rate[..positions].copy_from_slice(&v[..positions]);
         rate[positions..].copy_from_slice(a);
-        Ok(())
+        Ok(system.quadratures(q, v, None))
     }
 }
 
@@ -88,7 +93,9 @@ impl<S: System> Stepper<S> for DormandPrince {
     }
 
     fn refresh(&mut self, system: &mut S, t: f64) -> Result<(), S::Fault> {
-        Self::rate(system, t, self.positions, &self.state, &mut self.a, &mut self.k[0])
+        self.quadratures[0] =
+            Self::rate(system, t, self.positions, &self.state, &mut self.a, &mut self.k[0])?;
+        Ok(())
     }
 
     fn attempt(&mut self, system: &mut S, t: f64, h: f64, t_last: f64) -> Result<Option<Estimate>, S::Fault> {
@@ -100,7 +107,12 @@ impl<S: System> Stepper<S> for DormandPrince {
                 self.trial[i] = self.state[i] + h * sum;
             }
             let time = (t + C[stage] * h).min(t_last);
-            Self::rate(system, time, self.positions, &self.trial, &mut self.a, &mut rest[0])?;
+            self.quadratures[stage] =
+                Self::rate(system, time, self.positions, &self.trial, &mut self.a, &mut rest[0])?;
+        }
+        self.integrals = Quadratures::default();
+        for (x, weight) in self.quadratures.iter().zip(A[6]) {
+            add_weighted(&mut self.integrals, h * weight, x);
         }
         for i in 0..n {
             let weighted = |w: &[f64; 7]| -> f64 { self.k.iter().zip(w).map(|(k, w)| w * k[i]).sum() };
@@ -121,6 +133,11 @@ impl<S: System> Stepper<S> for DormandPrince {
         std::mem::swap(&mut self.state, &mut self.trial);
         std::mem::swap(&mut self.dense, &mut self.trial_dense);
         self.k.swap(0, 6);
+        self.quadratures.swap(0, 6);
+    }
+
+    fn integrals(&self) -> &Quadratures {
+        &self.integrals
     }
 
     fn state(&self) -> &[f64] {
@@ -142,6 +159,7 @@ impl<S: System> Stepper<S> for DormandPrince {
     fn save(&self, out: &mut Vec<f64>) {
         out.extend_from_slice(&self.state);
         out.extend_from_slice(&self.k[0]);
+        out.extend_from_slice(&self.quadratures[0]);
         for part in &self.dense {
             out.extend_from_slice(part);
         }
@@ -150,6 +168,7 @@ impl<S: System> Stepper<S> for DormandPrince {
     fn load(&mut self, from: &mut Reader<'_>) -> Option<()> {
         from.fill(&mut self.state)?;
         from.fill(&mut self.k[0])?;
+        from.fill(&mut self.quadratures[0])?;
         self.dense.iter_mut().try_for_each(|part| from.fill(part))
     }
 }

@@ -5,7 +5,7 @@
 
 use super::auto::Choice;
 use super::control::{Controller, Estimate, RECOVERY_GROWTH};
-use super::{Reader, Stepper, System, Vibration};
+use super::{Interruption, Quadratures, Reader, Stepper, System, Vibration, add_weighted};
 
 /// Limits of the step size and the number of steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,8 +55,10 @@ pub enum Failure<F> {
         time: f64,
         /// Step that would be needed, s.
         step: f64,
-        /// The last fault, if faults and not the error estimate made the step small.
+        /// The last fault, if a fault made the step small.
         fault: Option<F>,
+        /// The group with the largest error, if the error estimate did.
+        group: Option<usize>,
     },
     /// The limit on the number of steps was reached.
     TooManySteps {
@@ -64,6 +66,13 @@ pub enum Failure<F> {
         time: f64,
         /// The limit.
         limit: u64,
+    },
+    /// The host wanted the run to stop.
+    Interrupted {
+        /// Time reached, s.
+        time: f64,
+        /// Why.
+        why: Interruption,
     },
 }
 
@@ -80,6 +89,8 @@ pub struct Driver<S: System> {
     control: Controller,
     needs_refresh: bool,
     statistics: Statistics,
+    /// Integrals of the system's quadratures up to `from`, and over the last step.
+    integrals: [Quadratures; 2],
 }
 
 /// A step size, and whether an event cut it.
@@ -104,11 +115,13 @@ impl<S: System> Driver<S> {
             control: Controller::default(),
             needs_refresh: true,
             statistics: Statistics::default(),
+            integrals: Default::default(),
         }
     }
 
-    /// Starts at time `t` from `state`. Counts go on.
+    /// Starts at time `t` from `state`. Counts go on, and so do integrals if `t` is within the last step.
     pub fn start(&mut self, t: f64, state: &[f64]) {
+        self.integrals = [self.integrals_at(t), Quadratures::default()];
         self.stepper.set_state(state);
         (self.from, self.to) = (t, t);
         self.next_step = self.nominal_step;
@@ -174,12 +187,32 @@ impl<S: System> Driver<S> {
         }
     }
 
+    /// Integrals of the system's quadratures since they were forgotten, up to time `t` (s) within the last step.
+    pub fn integrals_at(&self, t: f64) -> Quadratures {
+        let [mut sum, last] = self.integrals;
+        let step = self.to - self.from;
+        add_weighted(
+            &mut sum,
+            if step > 0.0 { ((t - self.from) / step).clamp(0.0, 1.0) } else { 1.0 },
+            &last,
+        );
+        sum
+    }
+
+    /// Sets the integrals to zero.
+    pub fn forget_integrals(&mut self) {
+        self.integrals = Default::default();
+    }
+
     /// Makes one accepted step.
     fn step(&mut self, system: &mut S, attempts: &mut u64) -> Result<(), Failure<S::Fault>> {
-        let mut last_fault = None;
+        let (mut last_fault, mut worst_group) = (None, None);
         loop {
             if *attempts >= self.limits.max_steps {
                 return Err(Failure::TooManySteps { time: self.to, limit: self.limits.max_steps });
+            }
+            if let Some(why) = system.interruption() {
+                return Err(Failure::Interrupted { time: self.to, why });
             }
             *attempts += 1;
             let event = system.next_event(self.to);
@@ -192,7 +225,12 @@ impl<S: System> Driver<S> {
             let plan = self.plan(event);
             if plan.end <= self.to {
                 // The step is lost in the round-off of the time.
-                return Err(Failure::StepTooSmall { time: self.to, step: plan.h, fault: last_fault });
+                return Err(Failure::StepTooSmall {
+                    time: self.to,
+                    step: plan.h,
+                    fault: last_fault,
+                    group: worst_group,
+                });
             }
             match self.stepper.attempt(system, self.to, plan.h, plan.t_last) {
                 Ok(Some(Estimate { error, .. })) if error <= 1.0 => {
@@ -211,25 +249,34 @@ impl<S: System> Driver<S> {
                 Ok(Some(Estimate { error, group })) => {
                     self.statistics.rejected += 1;
                     system.rejected(group);
+                    (last_fault, worst_group) = (None, Some(group));
                     self.next_step = plan.h * self.control.rejected(error, self.stepper.control());
                 }
                 Err(fault) => {
                     self.statistics.faults += 1;
                     system.failed(self.to, fault);
                     self.next_step = plan.h * self.control.failed();
-                    last_fault = Some(fault);
+                    (last_fault, worst_group) = (Some(fault), None);
                 }
             }
             let smallest = self.limits.min_step.max(4.0 * f64::EPSILON * self.to.abs());
             if self.next_step < smallest {
                 let step = self.next_step;
                 self.next_step = self.nominal_step;
-                return Err(Failure::StepTooSmall { time: self.to, step, fault: last_fault });
+                return Err(Failure::StepTooSmall {
+                    time: self.to,
+                    step,
+                    fault: last_fault,
+                    group: worst_group,
+                });
             }
         }
     }
 
     fn accept(&mut self, system: &S, plan: &Plan) {
+        let [sum, last] = &mut self.integrals;
+        add_weighted(sum, 1.0, last);
+        *last = *self.stepper.integrals();
         self.stepper.accept();
         (self.from, self.to) = (self.to, plan.end);
         self.needs_refresh = plan.on_event;
@@ -266,6 +313,7 @@ impl<S: System> Driver<S> {
         out.push(f64::from(u8::from(self.needs_refresh)));
         out.extend([s.steps, s.rejected, s.faults, s.events].map(|n| n as f64));
         out.extend([s.smallest_step, s.largest_step, s.vibration.squares, s.vibration.count]);
+        out.extend(self.integrals.iter().flatten());
         self.stepper.save(out);
     }
 
@@ -293,6 +341,9 @@ impl<S: System> Driver<S> {
                 count: from.number().filter(|x| *x >= 0.0)?,
             },
         };
+        for part in &mut self.integrals {
+            from.fill(part)?;
+        }
         self.stepper.load(from)
     }
 }

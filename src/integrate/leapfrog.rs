@@ -14,7 +14,7 @@
 
 use super::control::{Estimate, Law};
 use super::damping::{VectorColumns, zero_vectors};
-use super::{GroupDamping, Reader, Stepper, System};
+use super::{GroupDamping, Quadratures, Reader, SemiImplicit, Stepper, System};
 use pulp::Arch;
 
 /// The method's memory.
@@ -30,12 +30,14 @@ pub struct Leapfrog {
     trial_a: Vec<f64>,
     a: Vec<f64>,
     predicted: Vec<f64>,
+    mean_v: Vec<f64>,
     damping: GroupDamping,
     /// Velocities of each group.
     groups: Vec<[Option<usize>; 3]>,
     /// Accelerations and predicted changes of velocity by group.
     by_group: [VectorColumns; 2],
     instructions: Arch,
+    integrals: Quadratures,
 }
 
 impl Leapfrog {
@@ -53,11 +55,13 @@ impl Leapfrog {
             trial: state,
             trial_a: velocity.clone(),
             a: velocity.clone(),
+            mean_v: velocity.clone(),
             predicted: velocity,
             damping: GroupDamping::new(groups),
             groups: (0..groups).map(|i| system.group(i)).collect(),
             by_group: [zero_vectors(groups), zero_vectors(groups)],
             instructions: Arch::new(),
+            integrals: Quadratures::default(),
         }
     }
 
@@ -120,6 +124,11 @@ impl<S: System> Stepper<S> for Leapfrog {
         for ((trial, v), a) in v_trial.iter_mut().zip(v).zip(&self.trial_a) {
             *trial = v + h * a;
         }
+        for ((mean, v), end) in self.mean_v.iter_mut().zip(v).zip(v_trial.iter()) {
+            *mean = 0.5 * (v + end);
+        }
+        let step = SemiImplicit { mean: &self.mean_v, end: v_trial };
+        self.integrals = system.quadratures(q_trial, &self.predicted, Some(&step)).map(|x| h * x);
         for (q, v) in q_trial.iter_mut().zip(v_trial.iter()) {
             *q += half * v;
         }
@@ -131,6 +140,10 @@ impl<S: System> Stepper<S> for Leapfrog {
         std::mem::swap(&mut self.start, &mut self.end);
         std::mem::swap(&mut self.end, &mut self.trial);
         std::mem::swap(&mut self.mean_a, &mut self.trial_a);
+    }
+
+    fn integrals(&self) -> &Quadratures {
+        &self.integrals
     }
 
     fn state(&self) -> &[f64] {

@@ -72,10 +72,47 @@ pub trait System {
     fn vibration(&self) -> Vibration {
         Vibration::default()
     }
+    /// What is integrated over time beside the state, at the last evaluated state (`q`, `v`), or for a step from there.
+    fn quadratures(&self, _q: &[f64], _v: &[f64], _step: Option<&SemiImplicit<'_>>) -> Quadratures {
+        Quadratures::default()
+    }
+    /// Whether the host wants the run to stop; asked before every attempt.
+    fn interruption(&mut self) -> Option<Interruption> {
+        None
+    }
     /// Told of every attempt from time `t` (s) that failed with `fault`.
     fn failed(&mut self, _t: f64, _fault: Self::Fault) {}
     /// Told of every attempt whose error in this group was too large.
     fn rejected(&mut self, _group: usize) {}
+}
+
+/// Why a host stops a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interruption {
+    /// Asked to.
+    Cancelled,
+    /// The wall time is used up.
+    OutOfTime,
+}
+
+/// Quantities that are integrated over time beside the state, or their integrals.
+pub type Quadratures = [f64; 12];
+
+/// A semi-implicit step, whose forces F are linear from those at the evaluated velocities v* on: F(v*) - D (v - v*) with the
+/// mean velocities of the step for contact damping and those at its end for friction.
+#[derive(Clone, Copy, Debug)]
+pub struct SemiImplicit<'a> {
+    /// Mean velocities.
+    pub mean: &'a [f64],
+    /// Velocities at the end.
+    pub end: &'a [f64],
+}
+
+/// `sum` + `weight` `x`, in place.
+pub(crate) fn add_weighted(sum: &mut Quadratures, weight: f64, x: &Quadratures) {
+    for (sum, x) in sum.iter_mut().zip(x) {
+        *sum += weight * x;
+    }
 }
 
 /// How much a system vibrates: mean squares, added up.
@@ -160,6 +197,8 @@ pub trait Stepper<S: System> {
     fn attempt(&mut self, system: &mut S, t: f64, h: f64, t_last: f64) -> Result<Option<Estimate>, S::Fault>;
     /// Makes the last attempt the current state.
     fn accept(&mut self);
+    /// Integrals of [`System::quadratures`] over the last attempt.
+    fn integrals(&self) -> &Quadratures;
     /// State at the end of the last accepted step.
     fn state(&self) -> &[f64];
     /// State within the last accepted step at the fraction 0 <= `theta` <= 1 of it.

@@ -26,11 +26,13 @@
 
 use super::control::{ErrorNorm, Estimate, Law};
 use super::shifted::Shifted;
-use super::{Linearization, Reader, Stepper, Structure, System};
+use super::{Linearization, Quadratures, Reader, Stepper, Structure, System, add_weighted};
 use nalgebra::Complex;
 
 /// Times of the stages in units of the step.
 const TIMES: [f64; 3] = [0.155_051_025_721_682_2, 0.644_948_974_278_317_8, 1.0];
+/// Weights of the stages in integrals.
+const WEIGHTS: [f64; 3] = [0.376_403_062_700_467_3, 0.512_485_826_188_421_6, 1.0 / 9.0];
 /// Real and complex eigenvalue of the inverse of the matrix a_ij.
 const GAMMA: f64 = 3.637_834_252_744_496;
 const ALPHA: f64 = 2.681_082_873_627_752_2;
@@ -78,6 +80,9 @@ pub struct Radau {
     stages: [Vec<f64>; 3],
     transformed: [Vec<f64>; 3],
     a: [Vec<f64>; 3],
+    /// Quadratures at the stages, and their integrals.
+    quadratures: [Quadratures; 3],
+    integrals: Quadratures,
     /// What one iteration may leave in each state.
     allowed: Vec<f64>,
     real: Shifted<f64>,
@@ -127,6 +132,8 @@ impl Radau {
             stages: three(),
             transformed: three(),
             a: std::array::from_fn(|_| vec![0.0; nv]),
+            quadratures: Default::default(),
+            integrals: Quadratures::default(),
             allowed: zeros(),
             real: Shifted::new(spokes),
             pair: Shifted::new(spokes),
@@ -171,12 +178,14 @@ impl Radau {
         self.contraction = self.contraction.max(f64::EPSILON).powf(0.8);
         let (mut last_size, mut last_ratio) = (0.0, 0.0);
         for iteration in 1..=MAX_ITERATIONS {
-            for ((z, a), c) in self.stages.iter().zip(&mut self.a).zip(TIMES) {
+            let stages = self.stages.iter().zip(&mut self.a).zip(&mut self.quadratures).zip(TIMES);
+            for (((z, a), quadratures), c) in stages {
                 for ((trial, y), z) in self.trial.iter_mut().zip(&self.state).zip(z) {
                     *trial = y + z;
                 }
                 let (q, v) = self.trial.split_at(nq);
                 system.accelerations((t + c * h).min(t_last), q, v, a)?;
+                *quadratures = system.quadratures(q, v, None);
             }
             for k in 0..n {
                 let rates = std::array::from_fn(|i| {
@@ -294,6 +303,10 @@ impl<S: System> Stepper<S> for Radau {
             }
         }
         self.trial_step = h;
+        self.integrals = Quadratures::default();
+        for (x, weight) in self.quadratures.iter().zip(WEIGHTS) {
+            add_weighted(&mut self.integrals, h * weight, x);
+        }
         let [c1, c2, _] = TIMES;
         for k in 0..self.state.len() {
             let [z1, z2, z3] = self.stages.each_ref().map(|z| z[k]);
@@ -316,6 +329,10 @@ impl<S: System> Stepper<S> for Radau {
         std::mem::swap(&mut self.defect, &mut self.trial_defect);
         self.step = self.trial_step;
         (self.linearized, self.retried, self.smooth) = (false, false, true);
+    }
+
+    fn integrals(&self) -> &Quadratures {
+        &self.integrals
     }
 
     fn state(&self) -> &[f64] {

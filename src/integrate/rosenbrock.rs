@@ -6,12 +6,14 @@
 //! y_new = y + Sum_j m_j u_j,   error = u_6
 //! ```
 //!
-//! Six evaluations and one derivative per step, six solves and one factorisation per attempt. Source: Hairer and
+//! Integrals beside the state follow by Simpson's rule from the ends and the middle, where one more evaluation is made.
+//!
+//! Seven evaluations and one derivative per step, six solves and one factorisation per attempt. Source: Hairer and
 //! Wanner, Solving Ordinary Differential Equations II, section IV.7 and the program RODAS (method 1).
 
 use super::control::{ErrorNorm, Estimate, Law};
 use super::shifted::Shifted;
-use super::{Linearization, Reader, Stepper, Structure, System};
+use super::{Linearization, Quadratures, Reader, Stepper, Structure, System, add_weighted};
 
 const GAMMA: f64 = 0.25;
 const A: [[f64; 5]; 6] = [
@@ -66,10 +68,15 @@ pub struct Rosenbrock {
     norm: ErrorNorm,
     state: Vec<f64>,
     trial: Vec<f64>,
+    /// State in the middle of the attempt.
+    middle: Vec<f64>,
     a: Vec<f64>,
     /// Accelerations at the start of the step; with `slope` they serve every attempt from there.
     start_a: Vec<f64>,
     linearized: bool,
+    /// Quadratures there, and their integrals over the attempt.
+    start_quadratures: Quadratures,
+    integrals: Quadratures,
     /// u_1 to u_6 over the whole state.
     stages: [Vec<f64>; 6],
     slope: Linearization,
@@ -90,9 +97,12 @@ impl Rosenbrock {
             norm: ErrorNorm::new(system, tolerance),
             state: zeros(),
             trial: zeros(),
+            middle: zeros(),
             a: vec![0.0; nv],
             start_a: vec![0.0; nv],
             linearized: false,
+            start_quadratures: Quadratures::default(),
+            integrals: Quadratures::default(),
             stages: std::array::from_fn(|_| zeros()),
             slope: Linearization::new(&structure, nv),
             system: Shifted::new(structure.spokes.len()),
@@ -100,6 +110,32 @@ impl Rosenbrock {
             dense: std::array::from_fn(|_| zeros()),
             trial_dense: std::array::from_fn(|_| zeros()),
         }
+    }
+}
+
+impl Rosenbrock {
+    /// Integrates over the attempt by Simpson's rule. The last stage was evaluated within its error of the end, whose
+    /// quadratures `end` are; the middle comes from the dense output.
+    fn integrate<S: System>(
+        &mut self,
+        system: &mut S,
+        end: &Quadratures,
+        t: f64,
+        h: f64,
+        t_last: f64,
+    ) -> Result<(), S::Fault> {
+        let [start, last, bend, twist] = &self.trial_dense;
+        for (k, x) in self.middle.iter_mut().enumerate() {
+            *x = 0.5 * (start[k] + last[k] + 0.5 * (bend[k] + 0.5 * twist[k]));
+        }
+        let (q, v) = self.middle.split_at(self.positions);
+        system.accelerations((t + 0.5 * h).min(t_last), q, v, &mut self.a)?;
+        self.integrals = Quadratures::default();
+        let middle = system.quadratures(q, v, None);
+        for (x, weight) in [(&self.start_quadratures, 1.0), (&middle, 4.0), (end, 1.0)] {
+            add_weighted(&mut self.integrals, weight * h / 6.0, x);
+        }
+        Ok(())
     }
 }
 
@@ -117,6 +153,7 @@ impl<S: System> Stepper<S> for Rosenbrock {
         let (q, v) = self.state.split_at(self.positions);
         self.linearized = false;
         system.linearize(t, q, v, &mut self.start_a, &mut self.slope)?;
+        self.start_quadratures = system.quadratures(q, v, None);
         self.linearized = true;
         Ok(())
     }
@@ -126,12 +163,14 @@ impl<S: System> Stepper<S> for Rosenbrock {
         let (q, v) = self.state.split_at(nq);
         if !self.linearized {
             system.linearize(t, q, v, &mut self.start_a, &mut self.slope)?;
+            self.start_quadratures = system.quadratures(q, v, None);
             self.linearized = true;
         }
         if !self.system.factorize(&self.slope, 1.0 / (GAMMA * h)) {
             return Err(system.not_finite(0));
         }
         self.trial.copy_from_slice(&self.state);
+        let mut end_quadratures = Quadratures::default();
         for i in 0..6 {
             for k in 0..n {
                 let sum: f64 = self.stages[..i].iter().zip(&A[i]).map(|(u, a)| a * u[k]).sum();
@@ -142,6 +181,9 @@ impl<S: System> Stepper<S> for Rosenbrock {
                 self.a.copy_from_slice(&self.start_a);
             } else {
                 system.accelerations((t + TIMES[i] * h).min(t_last), q, v, &mut self.a)?;
+            }
+            if i == 5 {
+                end_quadratures = system.quadratures(q, v, None);
             }
             let (done, rest) = self.stages.split_at_mut(i);
             for k in 0..n {
@@ -166,13 +208,21 @@ impl<S: System> Stepper<S> for Rosenbrock {
             self.trial[k] = end;
         }
         let last = &self.stages[5];
-        Ok(Some(self.norm.of(|k| last[k])))
+        let estimate = self.norm.of(|k| last[k]);
+        if estimate.error <= 1.0 {
+            self.integrate(system, &end_quadratures, t, h, t_last)?;
+        }
+        Ok(Some(estimate))
     }
 
     fn accept(&mut self) {
         std::mem::swap(&mut self.state, &mut self.trial);
         std::mem::swap(&mut self.dense, &mut self.trial_dense);
         self.linearized = false;
+    }
+
+    fn integrals(&self) -> &Quadratures {
+        &self.integrals
     }
 
     fn state(&self) -> &[f64] {

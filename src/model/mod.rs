@@ -7,6 +7,7 @@ mod compile;
 mod compile_laws;
 mod costs;
 mod damping;
+mod energy;
 mod evaluate;
 mod fault;
 mod forces;
@@ -27,6 +28,7 @@ mod workspace;
 
 pub use channels::Channel;
 pub use costs::{PARTS, PartTimes};
+pub use energy::{Energy, POWERS};
 pub use fault::{FAULTS, Fault, FaultCounts};
 pub use forces::{
     BodyForces, CONTACT_QUANTITIES, ContactForces, FORCE_SOURCES, Forces, GuideReport, Quantity,

@@ -1,9 +1,12 @@
 //! The model as the integrator sees it: with its workspace, inputs and counts.
 
 use super::jacobian::Slopes;
-use crate::integrate::{GroupDamping, Linearization, Structure, System, Vibration};
+use super::limits::RunLimits;
+use crate::integrate::{
+    GroupDamping, Interruption, Linearization, Quadratures, SemiImplicit, Structure, System, Vibration,
+};
 use crate::model::{
-    Channel, Fault, FaultCounts, Forces, HostInputs, Input, LawCounts, Model, PartTimes, Workspace,
+    Channel, Energy, Fault, FaultCounts, Forces, HostInputs, Input, LawCounts, Model, PartTimes, Workspace,
 };
 use std::sync::Arc;
 
@@ -18,6 +21,7 @@ pub(super) struct Bearing {
     last_fault: Option<(f64, Fault)>,
     /// Steps rejected because of each group.
     rejections: Vec<u64>,
+    limits: RunLimits,
 }
 
 impl Bearing {
@@ -33,6 +37,7 @@ impl Bearing {
             fault_counts: FaultCounts::default(),
             last_fault: None,
             rejections: vec![0; groups],
+            limits: RunLimits::default(),
             model,
         }
     }
@@ -98,13 +103,17 @@ impl Bearing {
     pub(super) fn most_rejections(&self) -> Option<(String, u64)> {
         let most = self.rejections.iter().copied().max().filter(|n| *n > 0)?;
         let group = self.rejections.iter().position(|n| *n == most)?;
+        Some((self.group_name(group)?, most))
+    }
+
+    /// Name of the body of a group.
+    pub(super) fn group_name(&self, group: usize) -> Option<String> {
         let layout = self.model.layout();
-        let name = match group.checked_sub(layout.count) {
+        (group < self.rejections.len()).then(|| match group.checked_sub(layout.count) {
             None => format!("{}[{group}]", self.model.element_kind()),
             Some(0) if layout.ring.is_some() => "inner_ring".to_owned(),
             Some(_) => "cage".to_owned(),
-        };
-        Some((name, most))
+        })
     }
 
     pub(super) fn reset(&mut self) {
@@ -137,6 +146,20 @@ impl Bearing {
         let rates = self.model.input_rates_at(t, &self.host);
         self.model.linearize(q, v, &mut self.workspace, &rates, &mut slopes.linearization);
         Ok(())
+    }
+
+    /// Energy of the last evaluated state.
+    pub(super) fn energy(&self, state: &[f64]) -> Energy {
+        let (q, v) = state.split_at(self.model.layout().positions());
+        self.model.energy(q, v, &self.workspace)
+    }
+
+    pub(super) fn limits(&self) -> &RunLimits {
+        &self.limits
+    }
+
+    pub(super) fn limits_mut(&mut self) -> &mut RunLimits {
+        &mut self.limits
     }
 
     pub(super) fn set_vector_instructions(&mut self, vector: bool) {
@@ -227,6 +250,14 @@ impl System for Bearing {
 
     fn vibration(&self) -> Vibration {
         self.workspace.vibration()
+    }
+
+    fn quadratures(&self, q: &[f64], v: &[f64], step: Option<&SemiImplicit<'_>>) -> Quadratures {
+        self.model.powers(q, v, step, &self.workspace)
+    }
+
+    fn interruption(&mut self) -> Option<Interruption> {
+        self.limits.interruption()
     }
 
     fn failed(&mut self, t: f64, fault: Fault) {

@@ -1,7 +1,9 @@
 //! A running simulation: state, integrator and outputs of one model. Mutable, one per thread.
 
+mod audit;
 mod bearing;
 mod jacobian;
+mod limits;
 mod method;
 mod newton;
 mod preset;
@@ -10,12 +12,14 @@ mod snapshot;
 mod statistics;
 mod whirl;
 
+pub use audit::PowerBalance;
+pub use limits::Canceller;
 pub use recording::{Recording, Spread};
 pub use statistics::{RunStatistics, STATISTICS};
 pub use whirl::{CageMotion, WhirlRecord, WhirlSummary};
 
 use crate::error::{Error, Result, Status};
-use crate::integrate::{Driver, Failure};
+use crate::integrate::{Driver, Failure, Interruption};
 use crate::model::{Channel, FAULTS, Fault, Forces, Input, Model, PartTimes};
 use crate::scene::{Preset, Solver};
 use bearing::Bearing;
@@ -44,6 +48,7 @@ pub struct Sim {
     /// Whether `forces` and the workspace belong to the current state.
     forces_current: bool,
     fingerprint: [f64; 2],
+    audit: audit::Start,
 }
 
 impl Sim {
@@ -84,9 +89,11 @@ impl Sim {
             slopes: None,
             newton: None,
             forces_current: false,
+            audit: audit::Start::default(),
         };
         sim.restart();
         sim.forces()?;
+        sim.start_audit();
         Ok(sim)
     }
 
@@ -125,6 +132,7 @@ impl Sim {
         self.state.copy_from_slice(state);
         self.driver.forget();
         self.restart();
+        self.start_audit();
         Ok(())
     }
 
@@ -174,8 +182,9 @@ impl Sim {
     /// Advances to time `t` (s), not before the current time.
     ///
     /// # Errors
-    /// [`Status::BadValue`], [`Status::BadState`], [`Status::StepTooSmall`], [`Status::TooManySteps`]. Time and
-    /// state are then unchanged, and the simulation can be reset, changed or asked again.
+    /// [`Status::BadValue`]; time and state are then unchanged. [`Status::BadState`], [`Status::StepTooSmall`],
+    /// [`Status::TooManySteps`], [`Status::Cancelled`], [`Status::OutOfTime`]: time and state are then those of the last
+    /// step that could be made, outputs can be asked for, and the simulation can be reset, changed or asked again.
     pub fn advance_to(&mut self, t: f64) -> Result<()> {
         check_time("t", t)?;
         if t < self.time {
@@ -183,13 +192,28 @@ impl Sim {
             return Err(Error::new(Status::BadValue, text));
         }
         self.forces_current = false;
-        if let Err(failure) = self.driver.advance(&mut self.bearing, t) {
-            // The driver may have run past the present time before it failed.
-            self.restart();
-            return Err(self.failure(failure));
+        let advanced = self.driver.advance(&mut self.bearing, t);
+        self.time = t.min(self.driver.reached());
+        self.driver.state_at(self.time, &mut self.state);
+        advanced.map_err(|failure| self.failure(failure))
+    }
+
+    /// What stops this simulation from another thread.
+    pub fn canceller(&self) -> Canceller {
+        self.bearing.limits().canceller()
+    }
+
+    /// Lets this simulation run for `seconds` of wall time from now; then it stops with [`Status::OutOfTime`], and so does
+    /// every later advance until the limit is set again. Infinity for no limit, as at first.
+    ///
+    /// # Errors
+    /// [`Status::BadValue`] if it is negative or NaN.
+    pub fn set_wall_time_limit(&mut self, seconds: f64) -> Result<()> {
+        if seconds.is_nan() || seconds < 0.0 {
+            let text = format!("seconds: {seconds} is not 0 or more");
+            return Err(Error::new(Status::BadValue, text));
         }
-        self.time = t;
-        self.driver.state_at(t, &mut self.state);
+        self.bearing.limits_mut().set_wall_time(seconds);
         Ok(())
     }
 
@@ -204,6 +228,8 @@ impl Sim {
         self.state.copy_from_slice(&state);
         self.driver.reset();
         self.restart();
+        self.forces()?;
+        self.start_audit();
         Ok(())
     }
 
@@ -369,10 +395,12 @@ impl Sim {
     fn failure(&self, failure: Failure<Fault>) -> Error {
         match failure {
             Failure::AtStart { time, fault } => self.bad_state(time, fault),
-            Failure::StepTooSmall { time, step, fault } => {
-                let why = fault.map_or("the error estimate stays above the tolerance".to_owned(), |f| {
-                    self.model().describe(f)
-                });
+            Failure::StepTooSmall { time, step, fault, group } => {
+                let why = match (fault, group.and_then(|group| self.bearing.group_name(group))) {
+                    (Some(fault), _) => self.model().describe(fault),
+                    (None, Some(body)) => format!("the error of {body} stays above the tolerance"),
+                    (None, None) => "the error stays above the tolerance".to_owned(),
+                };
                 let text = format!(
                     "at t = {time:?} s: a step of {step:e} s would be needed, which is too small: {why}"
                 );
@@ -382,6 +410,13 @@ impl Sim {
                 let text = format!("at t = {time:?} s: {limit} steps in one advance (solver.max_steps)");
                 Error::new(Status::TooManySteps, text)
             }
+            Failure::Interrupted { time, why: Interruption::Cancelled } => {
+                Error::new(Status::Cancelled, format!("at t = {time:?} s: stopped on request"))
+            }
+            Failure::Interrupted { time, why: Interruption::OutOfTime } => Error::new(
+                Status::OutOfTime,
+                format!("at t = {time:?} s: the limit on the wall time is reached"),
+            ),
         }
     }
 }

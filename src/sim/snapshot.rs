@@ -1,6 +1,7 @@
 //! Saving and restoring a simulation as a flat array of numbers, with bit-identical continuation.
 
 use super::Sim;
+use super::audit::Start;
 use crate::error::{Error, Result, Status};
 use crate::integrate::Reader;
 use crate::model::{FaultCounts, HostInputs, LawCounts, Model};
@@ -8,7 +9,7 @@ use crate::scene::Solver;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// First number of a snapshot; changes when its content changes.
-const FORMAT: f64 = 5.0;
+const FORMAT: f64 = 6.0;
 
 impl Sim {
     /// Everything the future of this simulation depends on, for the same model in the same build of the library.
@@ -24,6 +25,7 @@ impl Sim {
         }
         out.extend(host.anchor);
         out.extend_from_slice(&self.state);
+        self.audit.save(&mut out);
         self.driver.save(&mut out);
         out
     }
@@ -81,6 +83,7 @@ impl Sim {
         from.fill(&mut host.anchor)?;
         let mut state = vec![0.0; self.state.len()];
         from.fill(&mut state)?;
+        let audit = Start::load(&mut from)?;
         self.driver.load(&mut from)?;
         // The state must be the one that the driver's last step gives at this time.
         self.driver.covers(time).then_some(())?;
@@ -89,6 +92,7 @@ impl Sim {
             return None;
         }
         self.time = time;
+        self.audit = audit;
         *self.bearing.host_mut() = host;
         self.bearing.set_counts(counts, law_counts);
         self.bearing.set_fault_counts(fault_counts);

@@ -102,7 +102,7 @@ fn run_case<'a>(
     mut scene: Scene,
 ) -> Result<(Done<'a>, Option<cagedyn::Error>)> {
     args.instead.apply(&mut scene);
-    let run = run::simulate(scene, &case.name, &case.name)?;
+    let run = run::simulate(scene, &case.name, &case.name, args.instead.max_wall_time)?;
     let folder: PathBuf = args.out.join(&case.name);
     run::make_folder(&folder)?;
     let set = case.set.iter().map(|(path, value)| format!("{path}={value}")).collect();

@@ -5,7 +5,7 @@ use crate::terminal::{self, INTERRUPTED, Progress};
 use crate::{RunArgs, output, report};
 use cagedyn::model::{Channel, PartTimes};
 use cagedyn::scene::GuideRing;
-use cagedyn::sim::RunStatistics;
+use cagedyn::sim::{PowerBalance, RunStatistics};
 use cagedyn::{Error, Model, Recording, Result, Scene, Sim, Status};
 use std::fs;
 use std::path::Path;
@@ -36,6 +36,8 @@ pub struct Run {
     pub parts: PartTimes,
     /// Counts.
     pub statistics: RunStatistics,
+    /// Works and energies, if forces are defined at the end.
+    pub balance: Option<PowerBalance>,
     /// What the integration did and why.
     pub report: String,
     /// Simulated time, s.
@@ -103,7 +105,8 @@ pub fn command(args: &RunArgs) -> Result<ExitCode> {
     args.instead.apply(&mut scene);
     terminal::listen_for_interrupt()?;
     make_folder(&args.out)?;
-    let run = simulate(scene, &stem(&args.scene), "run").map_err(|e| in_file(&args.scene, e))?;
+    let run = simulate(scene, &stem(&args.scene), "run", args.instead.max_wall_time)
+        .map_err(|e| in_file(&args.scene, e))?;
     let set = args.sets.pairs().map(|(path, value)| format!("{path}={value}")).collect();
     let mut summary = Summary::new(&run, &args.scene, None, set);
     output::write(&run, &mut summary, &args.out)?;
@@ -115,15 +118,17 @@ pub fn command(args: &RunArgs) -> Result<ExitCode> {
     Ok(if run.interrupted { ExitCode::from(INTERRUPTED) } else { ExitCode::SUCCESS })
 }
 
-/// Simulates a scene until its end. Only what prevents the start is an error.
+/// Simulates a scene until its end or for `max_wall_time` s. Only what prevents the start is an error.
 ///
 /// # Errors
-/// As [`Model::new`] and [`Sim::new`].
-pub fn simulate(scene: Scene, fallback_title: &str, label: &str) -> Result<Run> {
+/// As [`Model::new`], [`Sim::new`] and [`Sim::set_wall_time_limit`].
+pub fn simulate(scene: Scene, fallback_title: &str, label: &str, max_wall_time: Option<f64>) -> Result<Run> {
     let (duration, interval) = (scene.record.duration, scene.record.interval);
     let title = scene.title.clone().unwrap_or_else(|| fallback_title.to_owned());
     let model = Arc::new(Model::new(scene)?);
     let mut sim = Sim::new(model.clone())?;
+    sim.set_wall_time_limit(max_wall_time.unwrap_or(f64::INFINITY))?;
+    terminal::stop_with(sim.canceller());
     let progress = Progress::new(label, duration);
     let mut recording = Recording::default();
     let started = Instant::now();
@@ -146,7 +151,8 @@ pub fn simulate(scene: Scene, fallback_title: &str, label: &str) -> Result<Run> 
         time: sim.time(),
         wall,
         interrupted: terminal::stop_requested() && sim.time() < duration - interval,
-        failure: ended.err(),
+        balance: sim.power_balance().ok(),
+        failure: ended.err().filter(|e| e.status != Status::Cancelled),
         model,
         recording,
     })

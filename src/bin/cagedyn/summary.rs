@@ -1,8 +1,9 @@
 //! Results of a run in numbers, as written to `summary.json`.
 
 use crate::run::Run;
-use cagedyn::model::{Channel, FAULTS, LAWS, PARTS};
+use cagedyn::model::{Channel, FAULTS, LAWS, PARTS, POWERS};
 use cagedyn::scene::Method;
+use cagedyn::sim::PowerBalance;
 use cagedyn::{CageMotion, Recording, Spread, WhirlRecord, WhirlSummary};
 use serde::{Serialize, Serializer};
 use std::f64::consts::TAU;
@@ -38,6 +39,9 @@ pub struct Summary {
     pub states: States,
     /// Steps.
     pub integration: Integration,
+    /// Where the energy went.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub power_balance: Option<Balance>,
     /// Averaging window.
     pub window: Window,
     /// Rotation frequency of the cage in the window, Hz.
@@ -104,6 +108,28 @@ pub struct Integration {
     /// Evaluations of each law in them; those that never acted are left out.
     #[serde(serialize_with = "as_map")]
     pub law_evaluations: Vec<(&'static str, u64)>,
+}
+
+/// Work and energy of the run, J.
+#[derive(Serialize)]
+pub struct Balance {
+    /// From this time, s.
+    pub from_s: f64,
+    /// To this time, s.
+    pub to_s: f64,
+    /// Work, J; positive where it goes into the bearing. What is zero is left out.
+    #[serde(serialize_with = "as_map")]
+    pub work_j: Vec<(&'static str, f64)>,
+    /// Gain of kinetic energy, J.
+    pub kinetic_energy_gain_j: f64,
+    /// Gain of elastic energy, J.
+    pub elastic_energy_gain_j: f64,
+    /// Gain of potential energy, J.
+    pub potential_energy_gain_j: f64,
+    /// Works less gains, J.
+    pub residual_j: f64,
+    /// The same as a share of the energy that passed through.
+    pub relative_residual: f64,
 }
 
 /// Averaging window.
@@ -188,6 +214,7 @@ impl Summary {
             simulated_over_wall: if run.wall > 0.0 { run.time / run.wall } else { 0.0 },
             states: States { positions: layout.positions(), velocities: layout.velocities() },
             integration: integration(run),
+            power_balance: run.balance.as_ref().map(balance),
             window: window(&run.recording, from),
             cage_frequency_hz: mean("cage.speed").map(|speed| speed.abs() / TAU),
             whirl: whirl(run, from),
@@ -222,6 +249,20 @@ fn time_shares(run: &Run) -> Vec<(String, f64)> {
     let evaluations = run.statistics.evaluations as f64;
     let shares = PARTS.iter().zip(run.parts).filter(|(_, time)| *time > 0.0 && run.wall > 0.0);
     shares.map(|(name, time)| ((*name).to_owned(), evaluations * time / run.wall)).collect()
+}
+
+fn balance(b: &PowerBalance) -> Balance {
+    let [kinetic_energy_gain_j, elastic_energy_gain_j, potential_energy_gain_j] = b.gain();
+    Balance {
+        from_s: b.from,
+        to_s: b.to,
+        work_j: POWERS.into_iter().zip(b.work).filter(|(_, work)| *work != 0.0).collect(),
+        kinetic_energy_gain_j,
+        elastic_energy_gain_j,
+        potential_energy_gain_j,
+        residual_j: b.residual(),
+        relative_residual: b.relative_residual(),
+    }
 }
 
 fn integration(run: &Run) -> Integration {

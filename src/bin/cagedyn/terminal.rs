@@ -1,9 +1,10 @@
 //! Standard output and error, the progress bar and Ctrl-C.
 
+use cagedyn::sim::Canceller;
 use cagedyn::{Error, Result, Status};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::{self, ErrorKind, IsTerminal, Write};
-use std::sync::OnceLock;
+use std::sync::{Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
 /// Exit code of a run that Ctrl-C ended, as shells use it for an interrupt signal.
@@ -17,6 +18,14 @@ const TICKS_PER_SECOND: f64 = 1e6;
 const SAME_SIGNAL: Duration = Duration::from_millis(300);
 
 static STOP: OnceLock<Instant> = OnceLock::new();
+static RUNNING: Mutex<Option<Canceller>> = Mutex::new(None);
+
+/// Lets Ctrl-C stop this simulation within a step.
+pub fn stop_with(canceller: Canceller) {
+    if let Ok(mut running) = RUNNING.lock() {
+        *running = Some(canceller);
+    }
+}
 
 /// Whether Ctrl-C was pressed.
 pub fn stop_requested() -> bool {
@@ -31,6 +40,11 @@ pub fn listen_for_interrupt() -> Result<()> {
     let handler = || {
         if STOP.get_or_init(Instant::now).elapsed() > SAME_SIGNAL {
             std::process::exit(i32::from(INTERRUPTED));
+        }
+        if let Ok(running) = RUNNING.lock()
+            && let Some(canceller) = &*running
+        {
+            canceller.cancel();
         }
     };
     ctrlc::set_handler(handler).map_err(|e| Error::new(Status::Internal, format!("Ctrl-C handler: {e}")))

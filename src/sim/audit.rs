@@ -1,0 +1,99 @@
+//! The power balance of a run: what went in, what was lost, what is stored, and what is missing.
+
+use super::Sim;
+use crate::error::Result;
+use crate::integrate::Reader;
+use crate::model::{Energy, POWERS};
+
+/// Where the balance starts.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Start {
+    /// s
+    pub(super) time: f64,
+    pub(super) energy: Energy,
+}
+
+/// Energies of a run from its start to the time that the integration has reached.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PowerBalance {
+    /// From the start of the scene, or the last [`Sim::set_state`], s.
+    pub from: f64,
+    /// To this time, s; the integration may be ahead of [`Sim::time`] by a step.
+    pub to: f64,
+    /// Work of each of [`POWERS`], J; positive where it goes into the bearing.
+    pub work: [f64; POWERS.len()],
+    /// Energy at the two times.
+    pub energy: [Energy; 2],
+}
+
+impl PowerBalance {
+    /// Gain of kinetic, elastic and potential energy, J.
+    pub fn gain(&self) -> [f64; 3] {
+        let [before, after] = &self.energy;
+        [after.kinetic - before.kinetic, after.elastic - before.elastic, after.potential - before.potential]
+    }
+
+    /// Work that is found nowhere, J: the error of the integration and of the sums.
+    pub fn residual(&self) -> f64 {
+        self.work.iter().sum::<f64>() - self.gain().iter().sum::<f64>()
+    }
+
+    /// Energy that passed through, J: all that came in by work, or was stored before and is no longer.
+    pub fn throughput(&self) -> f64 {
+        let sources = self.work.iter().copied().chain(self.gain().map(|x| -x));
+        let [came, went] = sources
+            .fold([0.0, 0.0], |[came, went], x| if x > 0.0 { [came + x, went] } else { [came, went - x] });
+        came.max(went)
+    }
+
+    /// The residual as a share of the throughput; zero where nothing passed.
+    pub fn relative_residual(&self) -> f64 {
+        let throughput = self.throughput();
+        if throughput > 0.0 { self.residual() / throughput } else { 0.0 }
+    }
+}
+
+impl Sim {
+    /// The power balance since the start of the scene or the last [`Sim::set_state`]. Works are summed up step by step with
+    /// the forces that the steps were made with; inputs and limits may change on the way.
+    ///
+    /// # Errors
+    /// [`crate::Status::BadState`] when forces are undefined at the end.
+    pub fn power_balance(&mut self) -> Result<PowerBalance> {
+        let to = self.driver.reached();
+        let mut state = self.state.clone();
+        self.driver.state_at(to, &mut state);
+        let energy = self.energy_at(to, &state)?;
+        let mut work = [0.0; POWERS.len()];
+        work.copy_from_slice(&self.driver.integrals_at(to)[..POWERS.len()]);
+        let Start { time, energy: start } = self.audit;
+        Ok(PowerBalance { from: time, to, work, energy: [start, energy] })
+    }
+
+    /// Energy of a state at time `t` (s).
+    fn energy_at(&mut self, t: f64, state: &[f64]) -> Result<Energy> {
+        self.forces_current = false;
+        let evaluated = self.bearing.accelerations_at(t, state, &mut self.accelerations);
+        evaluated.map_err(|fault| self.bad_state(t, fault))?;
+        Ok(self.bearing.energy(state))
+    }
+
+    /// Starts the balance at the last evaluated state, which must be the present one.
+    pub(super) fn start_audit(&mut self) {
+        self.audit = Start { time: self.time, energy: self.bearing.energy(&self.state) };
+        self.driver.forget_integrals();
+    }
+}
+
+impl Start {
+    pub(super) fn save(&self, out: &mut Vec<f64>) {
+        let Energy { kinetic, elastic, potential } = self.energy;
+        out.extend([self.time, kinetic, elastic, potential]);
+    }
+
+    pub(super) fn load(from: &mut Reader<'_>) -> Option<Self> {
+        let time = from.number().filter(|t| *t >= 0.0)?;
+        let [kinetic, elastic, potential] = [from.number()?, from.number()?, from.number()?];
+        Some(Self { time, energy: Energy { kinetic, elastic, potential } })
+    }
+}
