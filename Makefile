@@ -5,6 +5,7 @@
 # make pictures  the pictures of the README
 # make effects   cost of every effect and what it changes: docs/effects.md
 # make verify    errors of the integration methods against CVODE: docs/verification.md
+# make hard     hard cases with every method and preset: docs/hard-cases.md
 # make statistics  long runs of all methods in their statistics: docs/statistics.md
 # make accuracy  what accuracy costs in time, beside other solvers: docs/accuracy.md
 # make bench     time of a force evaluation and of a step
@@ -16,7 +17,7 @@ DESTDIR ?=
 VERSION := $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -n 1)
 CARGO ?= cargo
 
-.PHONY: test tools fmt lint unit run cases pictures example effects verify statistics accuracy bench header install clean
+.PHONY: test tools fmt lint unit run cases pictures example effects verify hard statistics accuracy bench header install clean
 
 test: tools fmt lint unit
 
@@ -70,6 +71,9 @@ effects: tools
 
 verify: tools
 	CAGEDYN_BLESS=1 $(CARGO) test --locked --test cvode --test auto -- --ignored --nocapture --test-threads 1 table
+
+hard:
+	CAGEDYN_BLESS=1 $(CARGO) test --release --locked --test hard -- --ignored --nocapture table
 
 statistics: tools
 	$(CARGO) run --release --locked --example statistics -- --docs

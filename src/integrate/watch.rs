@@ -9,8 +9,9 @@ use super::control::ErrorNorm;
 use super::mode::{Mode, ModeFinder};
 use super::{Leapfrog, Linearization, Reader, Stepper, System, Vibration};
 
-/// Steps between two checks: they cost a twentieth of a run.
+/// Steps between two checks: they cost a twentieth of a run. The first checks follow each other sooner.
 const INTERVAL: u64 = 512;
+const FIRST_INTERVAL: u64 = 64;
 /// Steps of a stretch: about one period of the fastest vibration.
 const STRETCH: usize = 8;
 /// Largest relative change of vibration. Measured on a roller bearing, as the largest errors of the presets.
@@ -31,7 +32,7 @@ const MEMORY: f64 = 31.0 / 32.0;
 const ENOUGH: f64 = 0.53;
 /// Eight checks are enough for means of more than this many times the largest error.
 const EARLY: f64 = 0.22;
-const CLEARLY_TOO_MUCH: f64 = 3.0;
+const CLEARLY_TOO_MUCH: f64 = 2.0;
 /// Below this share of critical damping the fastest vibration counts as undamped: half the step.
 const LIGHT_DAMPING: f64 = 0.01;
 /// Steps finer than by this many halvings cost as much as error control, without its bound on the bias.
@@ -180,7 +181,7 @@ impl Watch {
         if self.due > 0 {
             return Verdict::Keep;
         }
-        self.due = INTERVAL;
+        self.due = if self.weight < EARLY { FIRST_INTERVAL } else { INTERVAL };
         let before = self.step();
         let floor = self.measure_frequency(system, main, t);
         self.level = self.level.max(floor);

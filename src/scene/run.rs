@@ -86,7 +86,7 @@ pub struct Solver {
 impl Default for Solver {
     fn default() -> Self {
         let method = Method::Auto(Auto { tolerance: None });
-        Self { preset: Preset::default(), method, max_step: None, min_step: 1e-12, max_steps: 200_000_000 }
+        Self { preset: Preset::default(), method, max_step: None, min_step: 1e-18, max_steps: 200_000_000 }
     }
 }
 
