@@ -2,6 +2,7 @@
 
 mod common;
 
+use cagedyn::model::POWERS;
 use cagedyn::{Model, Recording, Sim, Status};
 use common::{example_with, read};
 use serde_json::{Value, json};
@@ -85,6 +86,30 @@ fn a_step_that_becomes_too_small_names_the_body() {
     assert_eq!(e.status, Status::StepTooSmall);
     assert!(["roller[", "inner_ring", "cage"].iter().any(|body| e.message.contains(body)), "{e}");
     assert!(e.message.starts_with("at t = "), "{e}");
+}
+
+#[test]
+fn outputs_of_the_leapfrog_have_the_forces_of_its_steps() {
+    // Friction of the heaviest contacts decays within a hundredth of a step.
+    let scene = example_with(&[
+        ("inner_ring.motion.free.load.z", json!({"constant": -40e3})),
+        ("solver", json!({"preset": "draft", "method": {"leapfrog": {}}})),
+    ]);
+    let mut sim = sim(&scene);
+    let drive = POWERS.iter().position(|name| *name == "ring_drive").unwrap();
+    let torque = sim.channels().iter().position(|c| c.name == "inner_ring.drag_torque").unwrap();
+    let (start, duration, records) = (5e-3, 20e-3, 1000);
+    sim.advance_to(start).unwrap();
+    let before = sim.power_balance().unwrap();
+    let mut mean = 0.0;
+    for i in 1..=records {
+        sim.advance_to(start + duration * f64::from(i) / f64::from(records)).unwrap();
+        mean += sim.output(torque).unwrap() / f64::from(records);
+    }
+    let after = sim.power_balance().unwrap();
+    let angle = 314.1592653589793 * (after.to - before.to);
+    let expected = (after.work[drive] - before.work[drive]) / angle;
+    assert!((mean / expected - 1.0).abs() < 0.02, "{mean} {expected}");
 }
 
 #[test]

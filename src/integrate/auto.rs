@@ -9,7 +9,7 @@
 use super::control::{Estimate, Law};
 use super::race::Race;
 use super::watch::{Expectation, Findings, Verdict, Watch};
-use super::{DormandPrince, Leapfrog, Quadratures, Reader, Rosenbrock, Stepper, System};
+use super::{Applied, DormandPrince, Leapfrog, Quadratures, Reader, Rosenbrock, Stepper, System};
 
 /// Evaluations of an attempt of Dormand-Prince, of the Rosenbrock method, and of its start from a new state, where the
 /// derivatives cost about as much as three more.
@@ -320,6 +320,10 @@ impl<S: System> Stepper<S> for Auto {
 
     fn integrals(&self) -> &Quadratures {
         active!(self, ref S, integrals())
+    }
+
+    fn applied(&self) -> Option<Applied<'_>> {
+        active!(self, ref S, applied())
     }
 
     fn state(&self) -> &[f64] {

@@ -5,7 +5,7 @@
 
 use super::auto::Choice;
 use super::control::{Controller, Estimate, RECOVERY_GROWTH};
-use super::{Interruption, Quadratures, Reader, Stepper, System, Vibration, add_weighted};
+use super::{Applied, Interruption, Quadratures, Reader, Stepper, System, Vibration, add_weighted};
 
 /// Limits of the step size and the number of steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -185,6 +185,11 @@ impl<S: System> Driver<S> {
         } else {
             self.stepper.interpolate((t - self.from) / (self.to - self.from), out);
         }
+    }
+
+    /// Start time of the last step (s) and what it was made with, for methods whose forces are those of steps.
+    pub fn applied(&self) -> Option<(f64, Applied<'_>)> {
+        (self.to > self.from).then(|| self.stepper.applied()).flatten().map(|step| (self.from, step))
     }
 
     /// Integrals of the system's quadratures since they were forgotten, up to time `t` (s) within the last step.

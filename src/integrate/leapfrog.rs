@@ -14,7 +14,7 @@
 
 use super::control::{Estimate, Law};
 use super::damping::{VectorColumns, zero_vectors};
-use super::{GroupDamping, Quadratures, Reader, SemiImplicit, Stepper, System};
+use super::{Applied, GroupDamping, Quadratures, Reader, SemiImplicit, Stepper, System};
 use pulp::Arch;
 
 /// The method's memory.
@@ -30,6 +30,8 @@ pub struct Leapfrog {
     trial_a: Vec<f64>,
     a: Vec<f64>,
     predicted: Vec<f64>,
+    /// `predicted` of the last step.
+    applied: Vec<f64>,
     mean_v: Vec<f64>,
     damping: GroupDamping,
     /// Velocities of each group.
@@ -56,6 +58,7 @@ impl Leapfrog {
             trial_a: velocity.clone(),
             a: velocity.clone(),
             mean_v: velocity.clone(),
+            applied: velocity.clone(),
             predicted: velocity,
             damping: GroupDamping::new(groups),
             groups: (0..groups).map(|i| system.group(i)).collect(),
@@ -140,10 +143,16 @@ impl<S: System> Stepper<S> for Leapfrog {
         std::mem::swap(&mut self.start, &mut self.end);
         std::mem::swap(&mut self.end, &mut self.trial);
         std::mem::swap(&mut self.mean_a, &mut self.trial_a);
+        std::mem::swap(&mut self.applied, &mut self.predicted);
     }
 
     fn integrals(&self) -> &Quadratures {
         &self.integrals
+    }
+
+    fn applied(&self) -> Option<Applied<'_>> {
+        let Self { start, end, applied: predicted, h, .. } = self;
+        (*h > 0.0).then_some(Applied { start, end, predicted, h: *h })
     }
 
     fn state(&self) -> &[f64] {
@@ -179,7 +188,7 @@ impl<S: System> Stepper<S> for Leapfrog {
 
     fn save(&self, out: &mut Vec<f64>) {
         out.push(self.h);
-        for part in [&self.start, &self.end, &self.mean_a] {
+        for part in [&self.start, &self.end, &self.mean_a, &self.applied] {
             out.extend_from_slice(part);
         }
     }
@@ -188,6 +197,7 @@ impl<S: System> Stepper<S> for Leapfrog {
         self.h = from.number()?;
         from.fill(&mut self.start)?;
         from.fill(&mut self.end)?;
-        from.fill(&mut self.mean_a)
+        from.fill(&mut self.mean_a)?;
+        from.fill(&mut self.applied)
     }
 }

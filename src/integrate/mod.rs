@@ -108,6 +108,20 @@ pub struct SemiImplicit<'a> {
     pub end: &'a [f64],
 }
 
+/// The evaluation that a semi-implicit step was made with: positions `start.q + h/2 start.v`, velocities `predicted`. The
+/// forces it applied lie between those of the states on both sides; where friction is steep neither of them has their mean.
+#[derive(Clone, Copy, Debug)]
+pub struct Applied<'a> {
+    /// State (q, v) at the start.
+    pub start: &'a [f64],
+    /// State at the end.
+    pub end: &'a [f64],
+    /// Velocities of the evaluation.
+    pub predicted: &'a [f64],
+    /// Step, s.
+    pub h: f64,
+}
+
 /// `sum` + `weight` `x`, in place.
 pub(crate) fn add_weighted(sum: &mut Quadratures, weight: f64, x: &Quadratures) {
     for (sum, x) in sum.iter_mut().zip(x) {
@@ -199,6 +213,10 @@ pub trait Stepper<S: System> {
     fn accept(&mut self);
     /// Integrals of [`System::quadratures`] over the last attempt.
     fn integrals(&self) -> &Quadratures;
+    /// What the last accepted step was made with, for methods whose forces are those of steps and not of states.
+    fn applied(&self) -> Option<Applied<'_>> {
+        None
+    }
     /// State at the end of the last accepted step.
     fn state(&self) -> &[f64];
     /// State within the last accepted step at the fraction 0 <= `theta` <= 1 of it.

@@ -159,6 +159,19 @@ impl Model {
         }
     }
 
+    /// Makes the forces at the last evaluated state, whose velocities are `v`, those of a semi-implicit step from there.
+    pub(crate) fn apply_step(&self, v: &[f64], step: &SemiImplicit<'_>, ws: &mut Workspace) {
+        for k in 0..2 {
+            for i in 0..[&ws.raceways, &ws.pockets][k].len() {
+                let site = [&ws.raceways, &ws.pockets][k].sites[i];
+                let changes = self.step_changes(&site, v, step, ws);
+                let force = if k == 0 { &mut ws.raceways.force } else { &mut ws.pockets.force };
+                force.normal[i] = (force.normal[i] + force.damping[i] * changes.approach_speed).max(0.0);
+                force.friction[i] -= force.friction_secant[i] * changes.end_slip;
+            }
+        }
+    }
+
     /// How the speeds of a contact change from the evaluated velocities `v` to those of the step, by the motion of its
     /// roller.
     fn step_changes(&self, site: &Site, v: &[f64], step: &SemiImplicit<'_>, ws: &Workspace) -> Changes {

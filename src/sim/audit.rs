@@ -1,6 +1,6 @@
 //! The power balance of a run: what went in, what was lost, what is stored, and what is missing.
 
-use super::Sim;
+use super::{Evaluated, Sim};
 use crate::error::Result;
 use crate::integrate::Reader;
 use crate::model::{Energy, POWERS};
@@ -72,7 +72,7 @@ impl Sim {
 
     /// Energy of a state at time `t` (s).
     fn energy_at(&mut self, t: f64, state: &[f64]) -> Result<Energy> {
-        self.forces_current = false;
+        self.evaluated = Evaluated::Other;
         let evaluated = self.bearing.accelerations_at(t, state, &mut self.accelerations);
         evaluated.map_err(|fault| self.bad_state(t, fault))?;
         Ok(self.bearing.energy(state))

@@ -3,7 +3,8 @@
 use super::jacobian::Slopes;
 use super::limits::RunLimits;
 use crate::integrate::{
-    GroupDamping, Interruption, Linearization, Quadratures, SemiImplicit, Structure, System, Vibration,
+    Applied, GroupDamping, Interruption, Linearization, Quadratures, SemiImplicit, Structure, System,
+    Vibration,
 };
 use crate::model::{
     Channel, Energy, Fault, FaultCounts, Forces, HostInputs, Input, LawCounts, Model, PartTimes, Workspace,
@@ -22,6 +23,15 @@ pub(super) struct Bearing {
     /// Steps rejected because of each group.
     rejections: Vec<u64>,
     limits: RunLimits,
+    memory: StepMemory,
+}
+
+/// Memory for the forces of a step: the state it was evaluated at, mean velocities, accelerations.
+#[derive(Default)]
+struct StepMemory {
+    middle: Vec<f64>,
+    mean: Vec<f64>,
+    a: Vec<f64>,
 }
 
 impl Bearing {
@@ -38,6 +48,11 @@ impl Bearing {
             last_fault: None,
             rejections: vec![0; groups],
             limits: RunLimits::default(),
+            memory: StepMemory {
+                middle: Vec::with_capacity(layout.states()),
+                mean: Vec::with_capacity(layout.velocities()),
+                a: Vec::with_capacity(layout.velocities()),
+            },
             model,
         }
     }
@@ -179,6 +194,34 @@ impl Bearing {
     pub(super) fn report(&self, state: &[f64], a: &[f64], out: &mut Forces) {
         let (q, v) = state.split_at(self.model.layout().positions());
         self.model.report(q, v, &self.workspace, a, out);
+    }
+
+    /// Writes the forces of a step that began at time `t` (s) into `out`, with the bodies at `state`.
+    pub(super) fn report_step(
+        &mut self,
+        t: f64,
+        step: &Applied<'_>,
+        state: &[f64],
+        out: &mut Forces,
+    ) -> Result<(), Fault> {
+        let nq = self.model.layout().positions();
+        let (start_q, start_v) = step.start.split_at(nq);
+        let end_v = &step.end[nq..];
+        let StepMemory { mut middle, mut mean, mut a } = std::mem::take(&mut self.memory);
+        middle.clear();
+        middle.extend(start_q.iter().zip(start_v).map(|(q, v)| q + 0.5 * step.h * v));
+        middle.extend_from_slice(step.predicted);
+        mean.clear();
+        mean.extend(start_v.iter().zip(end_v).map(|(a, b)| 0.5 * (a + b)));
+        a.resize(mean.len(), 0.0);
+        let evaluated = self.accelerations_at(t + 0.5 * step.h, &middle, &mut a);
+        if evaluated.is_ok() {
+            let change = SemiImplicit { mean: &mean, end: end_v };
+            self.model.apply_step(step.predicted, &change, &mut self.workspace);
+            self.report(state, &a, out);
+        }
+        self.memory = StepMemory { middle, mean, a };
+        evaluated
     }
 
     pub(super) fn channel_value(&self, channel: &Channel, state: &[f64], forces: &Forces) -> f64 {

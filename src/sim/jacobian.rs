@@ -1,6 +1,6 @@
 //! The Jacobian of the rates of a state, for hosts with their own implicit integrator.
 
-use super::{Sim, check_time, wrong_size};
+use super::{Evaluated, Sim, check_time, wrong_size};
 use crate::error::Result;
 use crate::integrate::arrowhead::Arrowhead;
 use crate::integrate::{Linearization, Structure};
@@ -95,7 +95,7 @@ impl Sim {
         if out.len() != length {
             return Err(wrong_size("jacobian", out.len(), length));
         }
-        self.forces_current = false;
+        self.evaluated = Evaluated::Other;
         let positions = self.model().layout().positions();
         let slopes = self.slopes.get_or_insert_with(|| Slopes::new(self.bearing.model()));
         let linearized = self.bearing.linearize_at(t, state, &mut self.accelerations, slopes);

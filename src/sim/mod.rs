@@ -29,6 +29,18 @@ use std::sync::Arc;
 
 /// Largest simulated time, s: beyond it a step of a nanosecond is lost in round-off.
 const MAX_TIME: f64 = 1e6;
+
+/// What was evaluated last.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Evaluated {
+    /// The present state.
+    State,
+    /// The step that covers the present time.
+    Step,
+    /// Anything else.
+    Other,
+}
+
 /// A simulation of one model.
 ///
 /// The integrator may have run ahead of [`Sim::time`]; the state is then interpolated. Setting the state or an
@@ -41,12 +53,14 @@ pub struct Sim {
     state: Vec<f64>,
     channels: Arc<[Channel]>,
     forces: Forces,
+    /// Forces of the last outputs.
+    output_forces: Forces,
     accelerations: Vec<f64>,
     /// Made when they are first asked for.
     slopes: Option<Slopes>,
     newton: Option<Box<Newton>>,
-    /// Whether `forces` and the workspace belong to the current state.
-    forces_current: bool,
+    /// What the workspace, and with it `forces` or `output_forces`, belongs to.
+    evaluated: Evaluated,
     fingerprint: [f64; 2],
     audit: audit::Start,
 }
@@ -86,13 +100,15 @@ impl Sim {
             time: 0.0,
             state,
             forces: Forces::default(),
+            output_forces: Forces::default(),
             slopes: None,
             newton: None,
-            forces_current: false,
+            evaluated: Evaluated::Other,
             audit: audit::Start::default(),
         };
         sim.restart();
         sim.forces()?;
+        sim.output_forces.clone_from(&sim.forces);
         sim.start_audit();
         Ok(sim)
     }
@@ -125,7 +141,7 @@ impl Sim {
     pub fn set_state(&mut self, time: f64, state: &[f64]) -> Result<()> {
         check_time("time", time)?;
         self.check_state(state)?;
-        self.forces_current = false;
+        self.evaluated = Evaluated::Other;
         let evaluated = self.bearing.accelerations_at(time, state, &mut self.accelerations);
         evaluated.map_err(|f| self.bad_state(time, f))?;
         self.time = time;
@@ -141,11 +157,11 @@ impl Sim {
     /// # Errors
     /// [`Status::BadState`] when forces are undefined.
     pub fn forces(&mut self) -> Result<&Forces> {
-        if !self.forces_current {
+        if self.evaluated != Evaluated::State {
             let evaluated = self.bearing.accelerations_at(self.time, &self.state, &mut self.accelerations);
             evaluated.map_err(|f| self.bad_state(self.time, f))?;
             self.bearing.report(&self.state, &self.accelerations, &mut self.forces);
-            self.forces_current = true;
+            self.evaluated = Evaluated::State;
         }
         Ok(&self.forces)
     }
@@ -161,7 +177,7 @@ impl Sim {
         if rate.len() != state.len() {
             return Err(wrong_size("rate", rate.len(), state.len()));
         }
-        self.forces_current = false;
+        self.evaluated = Evaluated::Other;
         let evaluated = self.bearing.accelerations_at(t, state, &mut self.accelerations);
         evaluated.map_err(|f| self.bad_state(t, f))?;
         let nq = self.model().layout().positions();
@@ -191,7 +207,7 @@ impl Sim {
             let text = format!("t: {t:?} s is before the current time {:?} s", self.time);
             return Err(Error::new(Status::BadValue, text));
         }
-        self.forces_current = false;
+        self.evaluated = Evaluated::Other;
         let advanced = self.driver.advance(&mut self.bearing, t);
         self.time = t.min(self.driver.reached());
         self.driver.state_at(self.time, &mut self.state);
@@ -272,7 +288,8 @@ impl Sim {
         &self.channels
     }
 
-    /// Writes the value of every output channel at the current state.
+    /// Writes the value of every output channel at the current state. Forces of the leapfrog are those that the step which
+    /// covers this time applied; those of all other methods, and all forces before the first step, are those of the state.
     ///
     /// # Errors
     /// [`Status::WrongSize`], [`Status::BadState`]; `out` is then unchanged.
@@ -280,9 +297,28 @@ impl Sim {
         if out.len() != self.channels.len() {
             return Err(wrong_size("outputs", out.len(), self.channels.len()));
         }
-        self.forces()?;
+        self.find_output_forces()?;
         for (out, channel) in out.iter_mut().zip(self.channels.iter()) {
-            *out = self.bearing.channel_value(channel, &self.state, &self.forces);
+            *out = self.channel_value(channel);
+        }
+        Ok(())
+    }
+
+    /// Value of a channel with the forces that were found for outputs.
+    fn channel_value(&self, channel: &Channel) -> f64 {
+        let of_step = self.evaluated == Evaluated::Step;
+        let forces = if of_step { &self.output_forces } else { &self.forces };
+        self.bearing.channel_value(channel, &self.state, forces)
+    }
+
+    /// Finds the forces for outputs at the present time.
+    fn find_output_forces(&mut self) -> Result<()> {
+        let Some((t, step)) = self.driver.applied() else { return self.forces().map(|_| ()) };
+        if self.evaluated != Evaluated::Step {
+            self.evaluated = Evaluated::Other;
+            let reported = self.bearing.report_step(t, &step, &self.state, &mut self.output_forces);
+            reported.map_err(|fault| self.bad_state(t, fault))?;
+            self.evaluated = Evaluated::Step;
         }
         Ok(())
     }
@@ -294,8 +330,8 @@ impl Sim {
     pub fn output(&mut self, index: usize) -> Result<f64> {
         let channels = self.channels.clone();
         let channel = channels.get(index).ok_or_else(|| bad_index("output", index, channels.len()))?;
-        self.forces()?;
-        Ok(self.bearing.channel_value(channel, &self.state, &self.forces))
+        self.find_output_forces()?;
+        Ok(self.channel_value(channel))
     }
 
     /// Step that runs start with, s; a method without error control keeps it.
@@ -332,7 +368,7 @@ impl Sim {
         for (t, state) in states {
             check_time("t", *t)?;
             self.check_state(state)?;
-            self.forces_current = false;
+            self.evaluated = Evaluated::Other;
             let times =
                 self.bearing.time_parts(*t, state, repeats).map_err(|fault| self.bad_state(*t, fault))?;
             for (mean, time) in mean.iter_mut().zip(times) {
@@ -366,7 +402,7 @@ impl Sim {
 
     fn restart(&mut self) {
         self.driver.start(self.time, &self.state);
-        self.forces_current = false;
+        self.evaluated = Evaluated::Other;
     }
 
     fn check_input(&self, index: usize) -> Result<Input> {

@@ -2,7 +2,7 @@
 //! structure of J, in time and memory proportional to the number of rollers.
 
 use super::jacobian::Slopes;
-use super::{Sim, check_time, wrong_size};
+use super::{Evaluated, Sim, check_time, wrong_size};
 use crate::error::{Error, Result, Status};
 use crate::integrate::shifted::Shifted;
 use crate::model::Model;
@@ -40,7 +40,7 @@ impl Sim {
     pub fn linearize(&mut self, t: f64, state: &[f64]) -> Result<()> {
         check_time("t", t)?;
         self.check_state(state)?;
-        self.forces_current = false;
+        self.evaluated = Evaluated::Other;
         let newton = self.newton.get_or_insert_with(|| Box::new(Newton::new(self.bearing.model())));
         let slopes = &mut newton.slopes;
         let evaluated = self.bearing.linearize_at(t, state, &mut self.accelerations, slopes);

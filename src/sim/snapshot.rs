@@ -1,7 +1,7 @@
 //! Saving and restoring a simulation as a flat array of numbers, with bit-identical continuation.
 
-use super::Sim;
 use super::audit::Start;
+use super::{Evaluated, Sim};
 use crate::error::{Error, Result, Status};
 use crate::integrate::Reader;
 use crate::model::{FaultCounts, HostInputs, LawCounts, Model};
@@ -96,7 +96,7 @@ impl Sim {
         *self.bearing.host_mut() = host;
         self.bearing.set_counts(counts, law_counts);
         self.bearing.set_fault_counts(fault_counts);
-        self.forces_current = false;
+        self.evaluated = Evaluated::Other;
         Some(())
     }
 }
