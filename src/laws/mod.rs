@@ -6,6 +6,8 @@
 
 pub mod barus_film;
 pub mod contact_pair;
+#[cfg(test)]
+mod extremes;
 pub mod film_thickness;
 pub mod guide;
 pub mod journal;

@@ -108,12 +108,15 @@ impl<B: Base> SelfHeating<B> {
     fn iterate<T: Base>(&self, shear: &ShearState<T>, a: T, accuracy: f64) -> (T, MeanShear<T>) {
         let beta = self.temperature_viscosity;
         let mut rise = a.splat(0.0);
-        let (mut low, mut high) = (rise, a.splat(f64::INFINITY));
+        let (mut low, mut high) = (rise, rise);
         let zero = rise;
         let mut open = a.splat(1.0);
         let mut found = MeanShear { stress: zero, slope: zero, curvature: zero };
         for iteration in 0..MAX_ITERATIONS {
             let s = shear.mean_shear(rise * beta);
+            if iteration == 0 {
+                high = a * s.stress;
+            }
             let missing = a * s.stress - rise;
             found = s;
             let colder = missing.at_least(0.0);

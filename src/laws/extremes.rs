@@ -1,0 +1,163 @@
+//! A million random and extreme arguments: results are finite, correctly signed, and monotone where physics says so.
+
+use super::contact_pair::ContactMotion;
+use super::journal::JournalMotion;
+use super::line_contact::LineContact;
+use super::line_contact::tests::raceway;
+use super::lubricant_layer::{LubricantLayer, PressureShear};
+use super::short_bearing::ShortBearing;
+use super::solid_contact::SolidContact;
+use super::solid_friction::SolidFriction;
+
+/// Splitmix64.
+struct Random(u64);
+
+impl Random {
+    /// From 0 to 1.
+    fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// A number of any size up to `largest`; now and then zero, or as small as numbers are.
+    fn positive(&mut self, largest: f64) -> f64 {
+        match self.unit() {
+            x if x < 0.03 => 0.0,
+            x if x < 0.05 => f64::from_bits(1),
+            x if x < 0.3 => largest * self.unit(),
+            _ => largest * 10f64.powf(-30.0 * self.unit()),
+        }
+    }
+
+    /// The same of either sign.
+    fn any(&mut self, largest: f64) -> f64 {
+        let x = self.positive(largest);
+        if self.unit() < 0.5 { -x } else { x }
+    }
+
+    fn motion(&mut self) -> ContactMotion<f64> {
+        let u1 = self.any(1e5);
+        // Often nearly rolling.
+        let u2 = if self.unit() < 0.5 { u1 + self.any(1.0) } else { self.any(1e5) };
+        ContactMotion { delta: self.any(0.1), delta_dot: self.any(1e4), u1, u2 }
+    }
+
+    /// A place in a clearance, often at its edge, as position and depth of the film.
+    fn place(&mut self, clearance: f64) -> [f64; 2] {
+        let angle = 7.0 * self.unit();
+        let film = clearance * (1e-5 + self.positive(0.999));
+        let e = clearance - film;
+        [e * angle.cos(), e * angle.sin()]
+    }
+}
+
+fn check_line_contact(law: &LineContact, random: &mut Random, n: u32) {
+    for _ in 0..n {
+        let (motion, thickening) = (random.motion(), 60.0 * random.unit() - 30.0);
+        let edge_share = if random.unit() < 0.7 { 0.0 } else { 1.2 * random.unit() };
+        let f = law.force(&motion, thickening, edge_share);
+        let mut all_finite = true;
+        let mut apart = true;
+        f.map(|x| {
+            all_finite &= x.is_finite();
+            apart &= *x == 0.0;
+        });
+        assert!(all_finite, "{motion:?} {thickening}: {f:?}");
+        assert!(motion.delta > 0.0 || apart, "{motion:?}: {f:?}");
+        let sizes = [f.normal, f.film, f.film_ratio, f.temperature_rise, f.friction_coefficient];
+        assert!(sizes.iter().all(|x| *x >= 0.0), "{motion:?}: {f:?}");
+        assert!(f.friction * (motion.u1 - motion.u2) <= 0.0, "{motion:?}: {f:?}");
+        assert!(f.rolling_resistance * (motion.u1 + motion.u2) <= 0.0, "{motion:?}: {f:?}");
+        // At rest a deeper contact carries more, on a thinner film.
+        let resting = ContactMotion { delta_dot: 0.0, ..motion };
+        let deeper = ContactMotion { delta: motion.delta * (1.0 + random.unit()), ..resting };
+        let [f, g] = [resting, deeper].map(|motion| law.force(&motion, thickening, 0.0));
+        if motion.delta > 1e-300 {
+            assert!(g.normal >= f.normal * (1.0 - 1e-14), "{resting:?} {f:?} {g:?}");
+            assert!(g.film <= f.film * (1.0 + 1e-12), "{resting:?} {f:?} {g:?}");
+        }
+    }
+}
+
+#[test]
+fn line_contacts() {
+    let mut random = Random(1);
+    let edge = Some(SolidFriction { coefficient: 0.1, transition_speed: 0.02 });
+    let full = LineContact { edge_friction: edge, ..raceway() };
+    check_line_contact(&full, &mut random, 400_000);
+    check_line_contact(&LineContact { self_heating: None, damping: None, ..full }, &mut random, 200_000);
+    check_line_contact(&LineContact { film: None, regime: None, ..full }, &mut random, 100_000);
+}
+
+#[test]
+fn solid_contacts() {
+    let mut random = Random(2);
+    for softening_depth in [0.0, 1e-6] {
+        let friction = Some(SolidFriction { coefficient: 0.3, transition_speed: 1e-4 });
+        let law = SolidContact { stiffness: 1e9, damping: 44.4, softening_depth, friction };
+        for _ in 0..100_000 {
+            let motion = random.motion();
+            let f = law.force(&motion);
+            assert!(f.normal.is_finite() && f.normal >= 0.0, "{motion:?}: {f:?}");
+            assert!(
+                f.friction.is_finite() && f.friction * (motion.u1 - motion.u2) <= 0.0,
+                "{motion:?}: {f:?}"
+            );
+            assert!(f.friction.abs() <= 0.3 * f.normal * (1.0 + 1e-14) + 1e-300, "{motion:?}: {f:?}");
+        }
+    }
+}
+
+/// A random motion in a clearance.
+fn journal(random: &mut Random, clearance: f64) -> JournalMotion<f64> {
+    JournalMotion {
+        position: random.place(clearance),
+        velocity: [random.any(1e3), random.any(1e3)],
+        journal_speed: random.any(1e5),
+        bush_speed: random.any(1e5),
+        profile_angle: 0.0,
+        profile_speed: 0.0,
+    }
+}
+
+#[test]
+fn guide_films() {
+    let mut random = Random(3);
+    let bearing = ShortBearing {
+        viscosity: 0.06,
+        radius: 0.045,
+        clearance: 0.2e-3,
+        land_width: 7e-3,
+        squeeze: true,
+        roundness: Vec::new(),
+    };
+    let layer = LubricantLayer {
+        viscosity: 0.1,
+        pressure_viscosity: 2e-8,
+        cap: 0.9,
+        radius: 0.045,
+        clearance: 0.2e-3,
+        width: 8e-3,
+        thickness: 80e-6,
+        pressure_shear: PressureShear::WithinArc,
+        roundness: Vec::new(),
+    };
+    for i in 0..100_000 {
+        let moving = journal(&mut random, 0.2e-3);
+        // Without rotation a film takes energy from every motion.
+        let sliding = JournalMotion { journal_speed: 0.0, bush_speed: 0.0, ..moving };
+        for (motion, turns) in [(moving, true), (sliding, false)] {
+            let forces = if i % 2 == 0 { bearing.force(&motion) } else { layer.force(&motion) };
+            let f = forces.unwrap_or_else(|e| panic!("{motion:?}: {e:?}"));
+            let [y, z] = f.force();
+            assert!(y.is_finite() && z.is_finite() && f.moment.is_finite(), "{motion:?}: {f:?}");
+            assert!(f.minimum_film > 0.0, "{motion:?}: {f:?}");
+            let [vy, vz] = motion.velocity;
+            let size = y.hypot(z) * vy.hypot(vz);
+            assert!(turns || y * vy + z * vz <= 1e-9 * size, "{motion:?}: {f:?}");
+        }
+    }
+}
