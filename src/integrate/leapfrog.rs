@@ -107,10 +107,9 @@ impl<S: System> Stepper<S> for Leapfrog {
         let [known, predicted] = &mut self.by_group;
         for (g, at) in self.groups.iter().enumerate() {
             for (k, i) in at.iter().enumerate() {
-                if let Some(i) = *i {
-                    known[k][g] = self.a[i];
-                    predicted[k][g] = self.predicted[i] - v[i];
-                }
+                // Unused places are set too: a solution that is not finite must not stay in them.
+                (known[k][g], predicted[k][g]) =
+                    i.map_or((0.0, 0.0), |i| (self.a[i], self.predicted[i] - v[i]));
             }
         }
         self.damping.solve(h, predicted, known, self.instructions);

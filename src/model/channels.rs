@@ -3,6 +3,7 @@
 use super::batch::Mate;
 use super::forces::{CAGE_BODY, FILM_THICKNESS, Forces, GUIDE, INNER, NORMAL_FORCE, OUTER, POCKET};
 use super::{ElementKind, GuideReport, Input, InputValues, Model, Workspace};
+use crate::contact::rotate;
 use crate::laws::guide::GuideFilm;
 
 /// A ring slower than this stands still for the slip channels, rad/s.
@@ -167,16 +168,16 @@ impl Model {
         }
     }
 
-    /// Value of one channel after an evaluation at (`q`, `v`) that was reported into `forces`.
+    /// Value of one channel at (`q`, `v`) and these inputs, with `forces` that `ws` was evaluated for.
     pub(crate) fn channel_value(
         &self,
         channel: &Channel,
         q: &[f64],
         v: &[f64],
+        inputs: &InputValues,
         ws: &Workspace,
         forces: &Forces,
     ) -> f64 {
-        let inputs = &ws.inputs;
         let [orbit, spin] = self.kinematic_speeds(inputs);
         let turning = if self.has_rollers() { inputs.of(Input::RingSpeed) } else { orbit };
         let direction = if turning < 0.0 { -1.0 } else { 1.0 };
@@ -228,7 +229,7 @@ impl Model {
                 ElementKind::Kinematic(_) => self.elements.reference_angles[j] + inputs.orbit_travel,
             },
             Source::RollerSlip(j) => slip(v[self.layout.spin(j)], spin),
-            Source::PocketPosition(j) => direction * ws.elements[j].pocket_offset[1],
+            Source::PocketPosition(j) => direction * self.pocket_position(q, inputs, j),
             Source::PocketForce(j) => {
                 let [y, z, _] = forces.bodies[self.element_body(j)][POCKET];
                 -direction * ws.elements[j].to_local([y, z])[1]
@@ -238,6 +239,19 @@ impl Model {
             Source::InnerFilm(j) => contact(j, 1)[FILM_THICKNESS],
             Source::OuterFilm(j) => contact(j, 0)[FILM_THICKNESS],
         }
+    }
+
+    /// Circumferential offset of element `j` in its pocket, m.
+    fn pocket_position(&self, q: &[f64], inputs: &InputValues, j: usize) -> f64 {
+        let (Some(pocket), Some(c)) = (&self.laws.pocket, self.layout.cage) else { return 0.0 };
+        let (radial_offset, travel) = match self.elements.kind {
+            ElementKind::Rollers(_) => (q[self.layout.roller(j)], q[self.layout.roller(j) + 1]),
+            ElementKind::Kinematic(_) => (0.0, inputs.orbit_travel),
+        };
+        let (sin, cos) = (self.elements.reference_angles[j] + travel).sin_cos();
+        let lead = (travel - q[c + 2]).sin_cos();
+        let cage = rotate(rotate([q[c], q[c + 1]], -sin, cos), lead.0, lead.1);
+        pocket.place().offset(radial_offset, lead, cage)[1]
     }
 
     /// Viscosity of the lubricant in Pa s at these inputs, if it follows the temperature.

@@ -32,14 +32,7 @@ impl Model {
             }
         };
         for (site, rates) in ws.raceways.damping().chain(ws.pockets.damping()) {
-            let normal = match site.mate {
-                Mate::Outer | Mate::Inner => site.frame.normal,
-                Mate::Pocket(_) => {
-                    let (sin, cos) = ws.elements[site.element].lead;
-                    rotate(site.frame.normal, -sin, cos)
-                }
-            };
-            collect(site.element, normal, rates);
+            collect(site.element, ws.elements[site.element].normal(site), rates);
         }
         let radial_offset = &ws.places.radial_offset;
         dispatch(ws.instructions, Divide { rollers, rows: self.layout.count, radial_offset, damping: out });

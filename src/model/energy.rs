@@ -14,10 +14,10 @@
 use super::batch::{Batch, Mate, Site};
 use super::evaluate::pocket_wrenches;
 use super::laws::PocketLaws;
-use super::workspace::Workspace;
+use super::workspace::{ElementSite, Workspace};
 use super::{ElementKind, Input, Model, RingBody};
+use crate::contact::Wrench;
 use crate::contact::guide::BodyMotion;
-use crate::contact::{Wrench, rotate};
 use crate::integrate::{Quadratures, SemiImplicit};
 
 /// Names of the powers, W. Those of loads and of prescribed motions are positive where they drive the bearing; those of
@@ -83,7 +83,11 @@ impl Model {
         let mut on_ring = 0.0;
         for batch in [&ws.raceways, &ws.pockets] {
             for (i, site) in batch.sites.iter().enumerate() {
-                let c = self.contact_power(batch, i, step.map(|step| self.step_changes(site, v, step, ws)));
+                let c = self.contact_power(
+                    batch,
+                    i,
+                    step.map(|step| self.step_changes(site, v, step, &ws.elements)),
+                );
                 match site.mate {
                     Mate::Pocket(_) => {
                         p[POCKET_DAMPING] += c.damping;
@@ -161,11 +165,10 @@ impl Model {
 
     /// Makes the forces at the last evaluated state, whose velocities are `v`, those of a semi-implicit step from there.
     pub(crate) fn apply_step(&self, v: &[f64], step: &SemiImplicit<'_>, ws: &mut Workspace) {
-        for k in 0..2 {
-            for i in 0..[&ws.raceways, &ws.pockets][k].len() {
-                let site = [&ws.raceways, &ws.pockets][k].sites[i];
-                let changes = self.step_changes(&site, v, step, ws);
-                let force = if k == 0 { &mut ws.raceways.force } else { &mut ws.pockets.force };
+        let Workspace { raceways, pockets, elements, .. } = ws;
+        for Batch { sites, force, .. } in [raceways, pockets] {
+            for (i, site) in sites.iter().enumerate() {
+                let changes = self.step_changes(site, v, step, elements);
                 force.normal[i] = (force.normal[i] + force.damping[i] * changes.approach_speed).max(0.0);
                 force.friction[i] -= force.friction_secant[i] * changes.end_slip;
             }
@@ -174,13 +177,16 @@ impl Model {
 
     /// How the speeds of a contact change from the evaluated velocities `v` to those of the step, by the motion of its
     /// roller.
-    fn step_changes(&self, site: &Site, v: &[f64], step: &SemiImplicit<'_>, ws: &Workspace) -> Changes {
+    fn step_changes(
+        &self,
+        site: &Site,
+        v: &[f64],
+        step: &SemiImplicit<'_>,
+        elements: &[ElementSite],
+    ) -> Changes {
         let ElementKind::Rollers(rollers) = &self.elements.kind else { return Changes::default() };
-        let element = &ws.elements[site.element];
-        let [nr, nc] = match site.mate {
-            Mate::Outer | Mate::Inner => site.frame.normal,
-            Mate::Pocket(_) => rotate(site.frame.normal, -element.lead.0, element.lead.1),
-        };
+        let element = &elements[site.element];
+        let [nr, nc] = element.normal(site);
         let (j, spin) = (self.layout.roller(site.element), self.layout.spin(site.element));
         let r = rollers.geometry.pitch_radius + element.motion.radial_offset;
         let change = |to: &[f64]| [to[j] - v[j], r * (to[j + 1] - v[j + 1]), to[spin] - v[spin]];

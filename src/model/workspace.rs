@@ -1,6 +1,6 @@
 //! Memory of a force evaluation: places of the elements, touching contacts, and all forces.
 
-use super::batch::{Batch, Loaded};
+use super::batch::{Batch, Loaded, Mate, Site};
 use super::laws::{INNER_RACEWAY, LAWS, LawCounts, OUTER_RACEWAY};
 use super::places::Places;
 use super::{InputValues, Model};
@@ -23,6 +23,14 @@ pub(super) struct ElementSite {
 }
 
 impl ElementSite {
+    /// Normal of a contact of this element in its local frame.
+    pub(super) fn normal(&self, contact: &Site) -> [f64; 2] {
+        match contact.mate {
+            Mate::Outer | Mate::Inner => contact.frame.normal,
+            Mate::Pocket(_) => rotate(contact.frame.normal, -self.lead.0, self.lead.1),
+        }
+    }
+
     /// A global vector in the element's local frame.
     pub(super) fn to_local(self, v: [f64; 2]) -> [f64; 2] {
         rotate(v, -self.sin, self.cos)

@@ -224,9 +224,10 @@ impl Bearing {
         evaluated
     }
 
-    pub(super) fn channel_value(&self, channel: &Channel, state: &[f64], forces: &Forces) -> f64 {
+    pub(super) fn channel_value(&self, channel: &Channel, t: f64, state: &[f64], forces: &Forces) -> f64 {
+        let inputs = self.model.inputs_at(t, &self.host);
         let (q, v) = state.split_at(self.model.layout().positions());
-        self.model.channel_value(channel, q, v, &self.workspace, forces)
+        self.model.channel_value(channel, q, v, &inputs, &self.workspace, forces)
     }
 }
 

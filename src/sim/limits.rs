@@ -14,7 +14,7 @@ pub struct Canceller(Arc<AtomicBool>);
 
 impl Canceller {
     /// Makes the running advance, or else the next one, end with [`crate::Status::Cancelled`] after its present step. The
-    /// request is then spent.
+    /// request is then spent; resetting or restoring the simulation does not take it back.
     pub fn cancel(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
@@ -40,6 +40,12 @@ impl RunLimits {
         self.deadline =
             Duration::try_from_secs_f64(seconds).ok().and_then(|left| Instant::now().checked_add(left));
         self.until_look = 0;
+    }
+
+    /// Whether to stop, with a look at the clock.
+    pub(super) fn interruption_now(&mut self) -> Option<Interruption> {
+        self.until_look = 0;
+        self.interruption()
     }
 
     /// Whether to stop before the next step.

@@ -208,6 +208,9 @@ impl Sim {
             return Err(Error::new(Status::BadValue, text));
         }
         self.evaluated = Evaluated::Other;
+        if let Some(why) = self.bearing.limits_mut().interruption_now() {
+            return Err(self.failure(Failure::Interrupted { time: self.time, why }));
+        }
         let advanced = self.driver.advance(&mut self.bearing, t);
         self.time = t.min(self.driver.reached());
         self.driver.state_at(self.time, &mut self.state);
@@ -288,8 +291,10 @@ impl Sim {
         &self.channels
     }
 
-    /// Writes the value of every output channel at the current state. Forces of the leapfrog are those that the step which
-    /// covers this time applied; those of all other methods, and all forces before the first step, are those of the state.
+    /// Writes the value of every output channel at the current state. With the leapfrog, forces are those of the step that
+    /// covers this time: what it applied to the rollers, and for cage and ring the reactions; those of the guide are the
+    /// evaluated ones. With every other method, and before the first step from a set state or input, they are those of the
+    /// state.
     ///
     /// # Errors
     /// [`Status::WrongSize`], [`Status::BadState`]; `out` is then unchanged.
@@ -308,7 +313,7 @@ impl Sim {
     fn channel_value(&self, channel: &Channel) -> f64 {
         let of_step = self.evaluated == Evaluated::Step;
         let forces = if of_step { &self.output_forces } else { &self.forces };
-        self.bearing.channel_value(channel, &self.state, forces)
+        self.bearing.channel_value(channel, self.time, &self.state, forces)
     }
 
     /// Finds the forces for outputs at the present time.

@@ -140,6 +140,7 @@ pub fn simulate(scene: Scene, fallback_title: &str, label: &str, max_wall_time: 
         }
         !terminal::stop_requested()
     });
+    let cancelled = matches!(&ended, Err(e) if e.status == Status::Cancelled);
     let wall = started.elapsed().as_secs_f64();
     let parts = sim.time_parts(&samples, REPEATS).unwrap_or_default();
     Ok(Run {
@@ -150,7 +151,7 @@ pub fn simulate(scene: Scene, fallback_title: &str, label: &str, max_wall_time: 
         report: sim.report(),
         time: sim.time(),
         wall,
-        interrupted: terminal::stop_requested() && sim.time() < duration - interval,
+        interrupted: cancelled || terminal::stop_requested() && sim.time() < duration - interval,
         balance: sim.power_balance().ok(),
         failure: ended.err().filter(|e| e.status != Status::Cancelled),
         model,
