@@ -76,7 +76,7 @@ static void check_balance(cagedyn_sim *sim)
     CHECK(cagedyn_sim_power_balance(sim, balance, n) == CAGEDYN_OK);
     CHECK(item(balance, "from") == 0.0 && item(balance, "to") >= 0.01);
     CHECK(item(balance, "ring_drive") > 0.0 && item(balance, "raceway_friction") < 0.0);
-    CHECK(fabs(item(balance, "relative_residual")) < 0.05);
+    CHECK(fabs(item(balance, "relative_residual")) < 1e-3);
     free(balance);
 }
 

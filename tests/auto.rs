@@ -103,6 +103,7 @@ fn rollers_get_the_method_and_the_step_that_their_scene_needs() {
         ("3000 rpm", nu2310(&[]), (Kind::Leapfrog, 0.6..=0.6)),
         ("40 kN", nu2310(&[load(40e3)]), (Kind::Leapfrog, 0.6..=0.6)),
         // Between the two: either.
+        ("5000 rpm", nu2310(&[rpm(5000.0)]), (Kind::Leapfrog, 0.3..=0.6)),
         ("8000 rpm", nu2310(&[rpm(8000.0)]), (Kind::Leapfrog, 0.3..=0.6)),
         ("12 000 rpm", nu2310(&[rpm(12e3)]), (Kind::Leapfrog, 0.3..=0.3)),
         // The leapfrog would need an eighth of its own step or less.
