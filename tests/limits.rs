@@ -125,8 +125,10 @@ fn the_balance_closes_and_better_with_smaller_tolerances() {
             };
             let (coarse, fine) = (residual(1e-4), residual(1e-8));
             println!("{file} {method}: {coarse:.2e} {fine:.2e}");
+            // Simpson's rule does not see the kinks between its points.
+            let largest = if method == "rosenbrock" { 1e-5 } else { 1e-6 };
             assert!(
-                coarse < 1e-3 && fine < 1e-5 && fine < coarse.max(1e-7),
+                coarse < 1e-3 && fine < largest && fine < coarse.max(1e-7),
                 "{file} {method}: {coarse} {fine}"
             );
         }
