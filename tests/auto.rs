@@ -90,7 +90,7 @@ fn it_is_the_default_and_its_checks_leave_the_run_alone() {
     let choice = choice(&default);
     assert_eq!((choice.method, choice.reason, choice.changes), (Kind::Leapfrog, Reason::Vibration, 0));
     assert!(choice.findings.checks >= 8, "{choice:?}");
-    assert!(choice.findings.mean_error > 1e-6 && choice.findings.mean_error < 6e-5, "{choice:?}");
+    assert!(choice.findings.mean_error > 1e-6 && choice.findings.mean_error < 3e-4, "{choice:?}");
     assert!((1.5e5..3e5).contains(&choice.findings.frequency), "{choice:?}");
     scene["solver"] = json!({ "method": auto() });
     assert_eq!(default.model().scene().solver, sim(&scene, auto()).model().scene().solver.clone());
@@ -99,16 +99,15 @@ fn it_is_the_default_and_its_checks_leave_the_run_alone() {
 #[test]
 fn rollers_get_the_method_and_the_step_that_their_scene_needs() {
     for (name, scene, expected) in [
-        ("1000 rpm", nu2310(&[rpm(1000.0)]), (Kind::Leapfrog, 0.6..=0.6)),
-        ("3000 rpm", nu2310(&[]), (Kind::Leapfrog, 0.6..=0.6)),
-        ("40 kN", nu2310(&[load(40e3)]), (Kind::Leapfrog, 0.6..=0.6)),
+        ("1000 rpm", nu2310(&[rpm(1000.0)]), (Kind::Leapfrog, 1.0..=1.0)),
+        ("3000 rpm", nu2310(&[]), (Kind::Leapfrog, 1.0..=1.0)),
+        ("40 kN", nu2310(&[load(40e3)]), (Kind::Leapfrog, 1.0..=1.0)),
         // Between the two: either.
-        ("5000 rpm", nu2310(&[rpm(5000.0)]), (Kind::Leapfrog, 0.3..=0.6)),
-        ("8000 rpm", nu2310(&[rpm(8000.0)]), (Kind::Leapfrog, 0.3..=0.6)),
-        ("12 000 rpm", nu2310(&[rpm(12e3)]), (Kind::Leapfrog, 0.3..=0.3)),
-        // The leapfrog would need an eighth of its own step or less.
-        ("20 000 rpm", nu2310(&[rpm(20e3)]), (Kind::Rosenbrock, 0.3..=0.3)),
-        ("undamped", undamped(), (Kind::Rosenbrock, 0.3..=0.3)),
+        ("8000 rpm", nu2310(&[rpm(8000.0)]), (Kind::Leapfrog, 0.5..=1.0)),
+        ("20 000 rpm", nu2310(&[rpm(20e3)]), (Kind::Leapfrog, 0.5..=0.5)),
+        // The leapfrog would need a quarter of its own step or less.
+        ("30 000 rpm", nu2310(&[rpm(30e3)]), (Kind::Rosenbrock, 0.5..=0.5)),
+        ("undamped", undamped(), (Kind::Leapfrog, 0.5..=0.5)),
     ] {
         // Without damping vibration builds up for tens of milliseconds.
         let run = run(&scene, auto(), if name == "undamped" { 80e-3 } else { 50e-3 });
@@ -121,7 +120,8 @@ fn rollers_get_the_method_and_the_step_that_their_scene_needs() {
         assert!(share < 1.01 * shares.end() && share > 0.55 * shares.start(), "{name}: {share}");
         assert!(run.statistics().driver.vibration.rms() > 1e-4, "{name}");
         if choice.method == Kind::Leapfrog {
-            assert!(choice.findings.mean_error < 1e-4, "{name}: {choice:?}");
+            let largest = if name == "undamped" { 3e-3 } else { 5e-4 };
+            assert!(choice.findings.mean_error < largest, "{name}: {choice:?}");
             assert!((0.9..1.2).contains(&choice.findings.vibration_ratio()), "{name}: {choice:?}");
         } else {
             assert_eq!(choice.reason, Reason::Cost, "{name}");
@@ -244,7 +244,7 @@ fn a_set_state_is_met_without_memory_and_inputs_with_it() {
 #[test]
 fn the_report_says_what_was_chosen_and_why() {
     let report = run(&nu2310(&[]), auto(), 5e-3).report();
-    for part in ["leapfrog with steps of 2.838e-6 s", "vibrate", "checks", "mean error", "rms"] {
+    for part in ["leapfrog with steps of 4.730e-6 s", "vibrate", "checks", "mean error", "rms"] {
         assert!(report.contains(part), "{part}: {report}");
     }
     let report = run(&scene("scenes/grease_guide.json", &[]), auto(), 30e-3).report();

@@ -120,6 +120,7 @@ fn auto(system: &Stiffening, statistics: bool) -> Driver<Stiffening> {
             share: 0.1,
             largest_step: 1.0,
             largest_error: 6e-5,
+            speed_unit: f64::INFINITY,
         },
         units: vec![100.0; 2],
         tolerance: 1e-8,

@@ -100,7 +100,7 @@ fn the_leapfrog_has_the_statistics_of_cvode_at_its_own_step_and_not_at_its_limit
     let text = case.text(&repository("scenes")).expect("a scene");
     let reference = columns(&case, &text, Solver::Cvode(cvode::Method::Bdf));
     assert!(reference.iter().all(Option::is_some));
-    let own = outside(&columns(&case, &text, Solver::Leapfrog(0.6)), &reference);
+    let own = outside(&columns(&case, &text, Solver::Leapfrog(1.0)), &reference);
     assert!(own.is_empty(), "{own:?}");
     let limit = outside(&columns(&case, &text, Solver::Leapfrog(2.0)), &reference);
     assert!(limit.iter().any(|(name, _)| name.starts_with("approach speed")), "{limit:?}");

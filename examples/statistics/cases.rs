@@ -115,7 +115,7 @@ pub const CASES: [Case; 8] = [
             ("cage.pocket.lubricated_cylinder.contact.damping", "null"),
         ],
         window: 0.12,
-        more: &[leapfrog("leapfrog 1/8", 0.125), leapfrog("leapfrog 3/10", 0.3)],
+        more: &[leapfrog("leapfrog 1/8", 0.125)],
         ..NU2310
     },
     Case { name: "grease guide", scene: "grease_guide", ..WHIRL },

@@ -51,7 +51,7 @@ pub const METHODS: [Method; 11] = [
     Method { repeats: 2, ..library("auto", |_| json!({"auto": {}})) },
     leapfrog("leapfrog 1/4", 0.25),
     leapfrog("leapfrog 1/2", 0.5),
-    leapfrog("leapfrog 3/5", 0.6),
     leapfrog("leapfrog 1", 1.0),
-    leapfrog("leapfrog 2", 2.0),
+    leapfrog("leapfrog 7/5", 1.4),
+    leapfrog("leapfrog 8/5", 1.6),
 ];

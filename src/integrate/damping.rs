@@ -1,6 +1,6 @@
 //! Damping within groups of coupled velocities, and the step of the velocities against it, for all groups at once.
 
-use crate::scalar::{Columns, Pack, WIDEST, dispatch};
+use crate::scalar::{Columns, Numeric, Pack, WIDEST, dispatch};
 use nalgebra::Matrix3;
 use pulp::{Arch, Simd};
 
@@ -62,6 +62,16 @@ impl GroupDamping {
         }
     }
 
+    /// The solution `x` of `(I + h D_i) x = y + D p` for one group.
+    ///
+    /// # Panics
+    /// If there is no such group.
+    pub(crate) fn solve_one(&self, group: usize, h: f64, p: [f64; 3], y: [f64; 3]) -> [f64; 3] {
+        let [implicit, full] = [&self.implicit, &self.full]
+            .map(|columns| columns.each_ref().map(|row| row.each_ref().map(|column| column[group])));
+        solve(&implicit, &full, h, p, y)
+    }
+
     /// Solves `(I + h D_i) x = y + D p` for every group; `y` becomes `x`, which is not finite where there is none.
     pub(crate) fn solve(&self, h: f64, p: &VectorColumns, y: &mut VectorColumns, instructions: Arch) {
         dispatch(instructions, Solve { damping: self, h, p, y });
@@ -75,15 +85,33 @@ struct Solve<'a> {
     y: &'a mut VectorColumns,
 }
 
-type Vector<P> = [P; 3];
+/// One group, or several at once, by Cramer's rule.
+#[inline(always)]
+fn solve<T: Numeric>(implicit: &[[T; 3]; 3], full: &[[T; 3]; 3], h: f64, p: [T; 3], y: [T; 3]) -> [T; 3] {
+    let zero = p[0].like(0.0);
+    // Columns of the matrix, and the right side.
+    let mut m = [[zero; 3]; 3];
+    let mut right = y;
+    for i in 0..3 {
+        for k in 0..3 {
+            let identity = if i == k { 1.0 } else { 0.0 };
+            m[k][i] = implicit[i][k] * h + identity;
+            right[i] += full[i][k] * p[k];
+        }
+    }
+    let [a, b, c] = m;
+    let (bc, ca, ab) = (cross(&b, &c), cross(&c, &a), cross(&a, &b));
+    let inverse = zero.like(1.0) / dot(&a, &bc);
+    [dot(&bc, &right) * inverse, dot(&ca, &right) * inverse, dot(&ab, &right) * inverse]
+}
 
 #[inline(always)]
-fn cross<S: Simd, const K: usize>(a: &Vector<Pack<S, K>>, b: &Vector<Pack<S, K>>) -> Vector<Pack<S, K>> {
+fn cross<T: Numeric>(a: &[T; 3], b: &[T; 3]) -> [T; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 #[inline(always)]
-fn dot<S: Simd, const K: usize>(a: &Vector<Pack<S, K>>, b: &Vector<Pack<S, K>>) -> Pack<S, K> {
+fn dot<T: Numeric>(a: &[T; 3], b: &[T; 3]) -> T {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
@@ -94,28 +122,23 @@ impl Columns for Solve<'_> {
         self.damping.groups
     }
 
-    /// By Cramer's rule.
     #[inline(always)]
+    #[expect(clippy::needless_range_loop, reason = "iterators might not be inlined")]
     fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
         let zero = Pack::<S, K>::all(simd, 0.0);
-        // Columns of the matrix, and the right side.
-        let mut m = [[zero; 3]; 3];
-        let mut right = [zero; 3];
-        let p = [0, 1, 2].map(|k| Pack::<S, K>::load(simd, &self.p[k][first..]));
+        let (mut implicit, mut full, mut p, mut y) = ([[zero; 3]; 3], [[zero; 3]; 3], [zero; 3], [zero; 3]);
         for i in 0..3 {
-            right[i] = Pack::load(simd, &self.y[i][first..]);
+            p[i] = Pack::load(simd, &self.p[i][first..]);
+            y[i] = Pack::load(simd, &self.y[i][first..]);
             for k in 0..3 {
-                let identity = if i == k { 1.0 } else { 0.0 };
-                m[k][i] = Pack::load(simd, &self.damping.implicit[i][k][first..]) * self.h + identity;
-                right[i] += Pack::load(simd, &self.damping.full[i][k][first..]) * p[k];
+                implicit[i][k] = Pack::load(simd, &self.damping.implicit[i][k][first..]);
+                full[i][k] = Pack::load(simd, &self.damping.full[i][k][first..]);
             }
         }
-        let [a, b, c] = m;
-        let (bc, ca, ab) = (cross(&b, &c), cross(&c, &a), cross(&a, &b));
-        let inverse = Pack::all(simd, 1.0) / dot(&a, &bc);
-        (dot(&bc, &right) * inverse).store(&mut self.y[0][first..]);
-        (dot(&ca, &right) * inverse).store(&mut self.y[1][first..]);
-        (dot(&ab, &right) * inverse).store(&mut self.y[2][first..]);
+        let x = solve(&implicit, &full, self.h, p, y);
+        for i in 0..3 {
+            x[i].store(&mut self.y[i][first..]);
+        }
     }
 }
 

@@ -120,14 +120,28 @@ impl<S: System> Stepper<S> for Leapfrog {
                 }
             }
         }
-        if let Some(i) = self.trial_a.iter().position(|a| !a.is_finite()) {
-            return Err(system.not_finite(i));
-        }
         for ((trial, v), a) in v_trial.iter_mut().zip(v).zip(&self.trial_a) {
             *trial = v + h * a;
         }
         for ((mean, v), end) in self.mean_v.iter_mut().zip(v).zip(v_trial.iter()) {
             *mean = 0.5 * (v + end);
+        }
+        let step = SemiImplicit { mean: &self.mean_v, end: v_trial };
+        system.react(q_trial, &self.predicted, &step, &mut self.a);
+        for g in system.leaders()..self.groups.len() {
+            let at = self.groups[g];
+            let right = at.map(|i| i.map_or(0.0, |i| self.a[i]));
+            let ahead = at.map(|i| i.map_or(0.0, |i| self.predicted[i] - v[i]));
+            for (i, a) in at.into_iter().zip(self.damping.solve_one(g, h, ahead, right)) {
+                if let Some(i) = i {
+                    self.trial_a[i] = a;
+                    v_trial[i] = v[i] + h * a;
+                    self.mean_v[i] = 0.5 * (v[i] + v_trial[i]);
+                }
+            }
+        }
+        if let Some(i) = self.trial_a.iter().position(|a| !a.is_finite()) {
+            return Err(system.not_finite(i));
         }
         let step = SemiImplicit { mean: &self.mean_v, end: v_trial };
         self.integrals = system.quadratures(q_trial, &self.predicted, Some(&step)).map(|x| h * x);

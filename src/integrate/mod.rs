@@ -68,6 +68,14 @@ pub trait System {
     ) -> Result<(), Self::Fault>;
     /// Damping within each of the groups at the last evaluated state (`q`, `v`), for a step of size `h` in s.
     fn damping(&self, h: f64, q: &[f64], v: &[f64], out: &mut GroupDamping);
+    /// Number of groups whose step a semi-implicit method finds first. The others follow: what the forces of the first have
+    /// become in that step acts on them too.
+    fn leaders(&self) -> usize {
+        self.groups()
+    }
+    /// Adds to the accelerations `a` of the groups that follow what the forces between them and the leaders have become
+    /// since the last evaluation, at (`q`, `v`), in the `step` of the leaders.
+    fn react(&self, _q: &[f64], _v: &[f64], _step: &SemiImplicit<'_>, _a: &mut [f64]) {}
     /// The fast vibration at the last evaluated state, which a method must not damp by itself.
     fn vibration(&self) -> Vibration {
         Vibration::default()

@@ -33,6 +33,9 @@ const ENOUGH: f64 = 0.53;
 /// Eight checks are enough for means of more than this many times the largest error.
 const EARLY: f64 = 0.22;
 const CLEARLY_TOO_MUCH: f64 = 2.0;
+/// Without damping, vibration grows until its phases are the largest errors, and they mean nothing in statistics: errors
+/// below this share of its speed are allowed. The leapfrog itself turns phases by (share of 1/frequency)^3/3 in a stretch.
+const PHASES: f64 = 0.06;
 /// Below this share of critical damping the fastest vibration counts as undamped: half the step.
 const LIGHT_DAMPING: f64 = 0.01;
 /// Steps finer than by this many halvings cost as much as error control, without its bound on the bias.
@@ -53,6 +56,8 @@ pub struct Expectation {
     pub largest_step: f64,
     /// Largest error of a stretch, in units of the norm.
     pub largest_error: f64,
+    /// Speed of vibration that counts as one such unit, m/s.
+    pub speed_unit: f64,
 }
 
 impl Expectation {
@@ -121,9 +126,11 @@ pub struct Watch {
     level: u64,
     /// Highest frequency that the step rests on, rad/s.
     frequency: f64,
-    /// Running sums of the error and of both squared vibrations, and their total weight.
+    /// Whether the fastest vibration counts as undamped.
+    undamped: bool,
+    /// Running sums of the error and of both vibrations, and their total weight.
     error: f64,
-    squares: [f64; 2],
+    vibrations: [Vibration; 2],
     weight: f64,
     findings: Findings,
 }
@@ -144,7 +151,8 @@ impl Watch {
             level: 0,
             frequency: 0.0,
             error: 0.0,
-            squares: [0.0; 2],
+            undamped: false,
+            vibrations: [Vibration::default(); 2],
             weight: 0.0,
             findings: Findings::default(),
         };
@@ -155,6 +163,7 @@ impl Watch {
     /// Forgets everything that was measured.
     pub fn forget(&mut self) {
         self.level = self.expected.level();
+        self.undamped = !self.expected.damped;
         self.frequency = self.expected.frequency;
         self.due = 0;
         self.findings = Findings::default();
@@ -187,7 +196,7 @@ impl Watch {
         self.level = self.level.max(floor);
         // A step that is far too coarse is refined at once, others after some checks have agreed.
         while let Some(error) = self.check(system, main, t, t_last) {
-            if error <= FAR_TOO_MUCH * self.expected.largest_error || self.level > FINEST {
+            if error <= FAR_TOO_MUCH * self.largest_error() || self.level > FINEST {
                 break;
             }
             self.refine();
@@ -239,8 +248,14 @@ impl Watch {
 
     /// Whether the running means of errors and vibrations are below these shares of what is allowed.
     fn accurate(&self, [of_error, of_change]: [f64; 2]) -> bool {
-        self.error <= of_error * self.expected.largest_error * self.weight
+        self.error <= of_error * self.largest_error() * self.weight
             && self.change_of_vibration() <= of_change * LARGEST_CHANGE
+    }
+
+    /// Largest mean error of a stretch that is allowed.
+    fn largest_error(&self) -> f64 {
+        let phases = PHASES * self.vibrations[1].rms() / self.expected.speed_unit;
+        if self.undamped { phases.max(self.expected.largest_error) } else { self.expected.largest_error }
     }
 
     fn refine(&mut self) {
@@ -249,13 +264,13 @@ impl Watch {
     }
 
     fn start_anew(&mut self) {
-        (self.error, self.squares, self.weight) = (0.0, [0.0; 2], 0.0);
+        (self.error, self.vibrations, self.weight) = (0.0, Default::default(), 0.0);
     }
 
     /// Relative difference of the vibrations with the step and with half of it.
     fn change_of_vibration(&self) -> f64 {
-        let [coarse, fine] = self.squares;
-        if fine > 0.0 { ((coarse / fine).sqrt() - 1.0).abs() } else { 0.0 }
+        let [coarse, fine] = self.vibrations.map(Vibration::rms);
+        if fine > 0.0 { (coarse / fine - 1.0).abs() } else { 0.0 }
     }
 
     /// Measures the highest frequency; returns the level below which its damping forbids to go.
@@ -274,7 +289,9 @@ impl Watch {
         if frequency < 0.5 * self.frequency {
             return expected;
         }
-        u64::from(damping_ratio < LIGHT_DAMPING)
+        let light = damping_ratio < LIGHT_DAMPING;
+        self.undamped = light || !self.expected.damped;
+        u64::from(light)
     }
 
     /// Makes a stretch of steps twice. Returns its error, if it lies before `t_last` and could be made.
@@ -307,9 +324,11 @@ impl Watch {
         found.checks += 1;
         found.mean_error += (error - found.mean_error) / found.checks as f64;
         found.largest_error = found.largest_error.max(error);
-        for ((sum, square), now) in found.vibrations.iter_mut().zip(&mut self.squares).zip(vibrations) {
+        for ((sum, mean), now) in found.vibrations.iter_mut().zip(&mut self.vibrations).zip(vibrations) {
             sum.add(now, 1.0);
-            *square = MEMORY * *square + (1.0 - MEMORY) * now.squares;
+            let past = std::mem::take(mean);
+            mean.add(past, MEMORY);
+            mean.add(now, 1.0 - MEMORY);
         }
         self.error = MEMORY * self.error + (1.0 - MEMORY) * error;
         self.weight = MEMORY * self.weight + (1.0 - MEMORY);
@@ -319,9 +338,10 @@ impl Watch {
     pub fn save(&self, out: &mut Vec<f64>) {
         let f = &self.findings;
         out.extend([self.due, self.level, f.checks].map(|n| n as f64));
-        out.extend([self.frequency, self.error, self.squares[0], self.squares[1], self.weight]);
+        out.push(f64::from(u8::from(self.undamped)));
+        out.extend([self.frequency, self.error, self.weight]);
         out.extend([f.mean_error, f.largest_error, f.frequency]);
-        out.extend(f.vibrations.iter().flat_map(|v| [v.squares, v.count]));
+        out.extend(self.vibrations.iter().chain(&f.vibrations).flat_map(|v| [v.squares, v.count]));
     }
 
     /// Takes back what [`Watch::save`] wrote; `None` if it does not fit.
@@ -330,9 +350,9 @@ impl Watch {
         self.due = from.count()?;
         self.level = from.count().filter(|level| *level <= FINEST)?;
         let checks = from.count()?;
+        self.undamped = from.count()? > 0;
         self.frequency = positive(from)?;
         self.error = positive(from)?;
-        self.squares = [positive(from)?, positive(from)?];
         self.weight = positive(from)?;
         self.findings = Findings {
             checks,
@@ -341,7 +361,7 @@ impl Watch {
             frequency: positive(from)?,
             vibrations: [(); 2].map(|()| Vibration::default()),
         };
-        for vibration in &mut self.findings.vibrations {
+        for vibration in self.vibrations.iter_mut().chain(&mut self.findings.vibrations) {
             *vibration = Vibration { squares: positive(from)?, count: positive(from)? };
         }
         Some(())

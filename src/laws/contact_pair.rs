@@ -1,6 +1,6 @@
 //! What contact laws share: the motion of a pair of surfaces in, normal and tangential force out.
 
-use crate::scalar::Pack;
+use crate::scalar::{Numeric, Pack};
 use pulp::Simd;
 
 /// Motion of a contact pair, as the laws see it.
@@ -120,22 +120,26 @@ impl ContactForce<Vec<f64>> {
         self.rolling_resistance[i] = force.rolling_resistance;
     }
 
-    /// Sets the forces of the contacts from the first one on.
+    /// Sets the forces of the contacts from the first one on, without their derivatives if they have any.
     ///
     /// # Panics
     /// If there are not as many places.
     #[inline(always)]
-    pub fn store<S: Simd, const K: usize>(&mut self, first: usize, force: &ContactForce<Pack<S, K>>) {
-        force.normal.store(&mut self.normal[first..]);
-        force.stiffness.store(&mut self.stiffness[first..]);
-        force.damping.store(&mut self.damping[first..]);
-        force.film.store(&mut self.film[first..]);
-        force.film_ratio.store(&mut self.film_ratio[first..]);
-        force.temperature_rise.store(&mut self.temperature_rise[first..]);
-        force.friction_coefficient.store(&mut self.friction_coefficient[first..]);
-        force.friction.store(&mut self.friction[first..]);
-        force.friction_secant.store(&mut self.friction_secant[first..]);
-        force.rolling_resistance.store(&mut self.rolling_resistance[first..]);
+    pub fn store<S: Simd, const K: usize, T: Numeric<Base = Pack<S, K>>>(
+        &mut self,
+        first: usize,
+        force: &ContactForce<T>,
+    ) {
+        force.normal.base().store(&mut self.normal[first..]);
+        force.stiffness.base().store(&mut self.stiffness[first..]);
+        force.damping.base().store(&mut self.damping[first..]);
+        force.film.base().store(&mut self.film[first..]);
+        force.film_ratio.base().store(&mut self.film_ratio[first..]);
+        force.temperature_rise.base().store(&mut self.temperature_rise[first..]);
+        force.friction_coefficient.base().store(&mut self.friction_coefficient[first..]);
+        force.friction.base().store(&mut self.friction[first..]);
+        force.friction_secant.base().store(&mut self.friction_secant[first..]);
+        force.rolling_resistance.base().store(&mut self.rolling_resistance[first..]);
     }
 }
 

@@ -4,7 +4,7 @@
 //! which are columns too, so that vector instructions serve all of them at once.
 
 use super::law_columns::{KINDS, LawColumns};
-use super::law_slopes::LawSlopes;
+use super::law_slopes::{FORCES, LawSlopes, Slopes};
 use super::laws::{INNER_RACEWAY, OUTER_RACEWAY, POCKET_EDGE, POCKET_PLANE, POCKET_WALL};
 use crate::contact::PairFrame;
 use crate::contact::pocket::Pillar;
@@ -49,7 +49,9 @@ pub(super) struct Batch {
     /// Laws of line contacts; solid pockets have one of their own.
     laws: Option<LawColumns>,
     /// Derivatives of the forces, where they are found by the batch.
-    pub(super) slopes: LawSlopes,
+    slopes: LawSlopes,
+    /// Whether they belong to the last evaluation.
+    differentiated: bool,
     /// Number of contacts by law: the first of [`super::LAWS`].
     pub(super) counts: [u64; CONTACT_LAWS],
 }
@@ -71,6 +73,7 @@ impl Batch {
             force: ContactForce::none(0.0).map(|x: &f64| vec![*x; room]),
             laws: None,
             slopes: LawSlopes::default(),
+            differentiated: false,
             counts: [0; CONTACT_LAWS],
         }
     }
@@ -83,6 +86,7 @@ impl Batch {
 
     pub(super) fn clear(&mut self) {
         self.sites.clear();
+        self.differentiated = false;
         self.counts = [0; CONTACT_LAWS];
     }
 
@@ -120,18 +124,24 @@ impl Batch {
     /// Evaluates the laws of line contacts, with the logarithm `thickening` of the relative viscosity.
     pub(super) fn apply(&mut self, thickening: f64, instructions: Arch) {
         self.pad();
+        self.differentiated = false;
         let rows = self.len();
         if let Some(laws) = &self.laws {
             laws.apply(rows, &self.motion, &self.edge_share, thickening, &mut self.force, instructions);
         }
     }
 
-    /// Finds the derivatives of line contacts at the motions of the last evaluation, with the logarithm `thickening` of
-    /// the relative viscosity. The edges of pockets count as walls.
+    /// Evaluates the laws of line contacts with their derivatives, unless the last evaluation has done so.
     pub(super) fn differentiate(&mut self, thickening: f64, instructions: Arch) {
+        if self.differentiated {
+            return;
+        }
+        self.pad();
+        self.differentiated = true;
         let rows = self.len();
         if let Some(laws) = &self.laws {
-            self.slopes.find(laws, rows, &self.motion, thickening, instructions);
+            let seen = (&self.motion, &self.edge_share[..]);
+            self.slopes.find(laws, rows, seen, thickening, &mut self.force, instructions);
         }
     }
 
@@ -142,6 +152,12 @@ impl Batch {
         self.sites.iter().zip(forces).map(|(site, ((&normal, &friction), &rolling_resistance))| {
             (site, ContactForce { normal, friction, rolling_resistance, ..ContactForce::none(0.0) })
         })
+    }
+
+    /// Normal force, friction and rolling resistance of contact `i`, N, and their derivatives over what the law sees.
+    pub(super) fn slopes(&self, i: usize) -> ([f64; FORCES], Slopes) {
+        let f = &self.force;
+        ([f.normal[i], f.friction[i], f.rolling_resistance[i]], self.slopes.of(i))
     }
 
     /// Every contact with its normal damping and its secant slope of friction, N s/m.

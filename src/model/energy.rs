@@ -14,7 +14,8 @@
 use super::batch::{Batch, Mate, Site};
 use super::evaluate::pocket_wrenches;
 use super::laws::PocketLaws;
-use super::workspace::{ElementSite, Workspace};
+use super::step_forces::Changes;
+use super::workspace::Workspace;
 use super::{ElementKind, Input, Model, RingBody};
 use crate::contact::Wrench;
 use crate::contact::guide::BodyMotion;
@@ -163,44 +164,6 @@ impl Model {
         }
     }
 
-    /// Makes the forces at the last evaluated state, whose velocities are `v`, those of a semi-implicit step from there.
-    pub(crate) fn apply_step(&self, v: &[f64], step: &SemiImplicit<'_>, ws: &mut Workspace) {
-        let Workspace { raceways, pockets, elements, .. } = ws;
-        for Batch { sites, force, .. } in [raceways, pockets] {
-            for (i, site) in sites.iter().enumerate() {
-                let changes = self.step_changes(site, v, step, elements);
-                force.normal[i] = (force.normal[i] + force.damping[i] * changes.approach_speed).max(0.0);
-                force.friction[i] -= force.friction_secant[i] * changes.end_slip;
-            }
-        }
-    }
-
-    /// How the speeds of a contact change from the evaluated velocities `v` to those of the step, by the motion of its
-    /// roller.
-    fn step_changes(
-        &self,
-        site: &Site,
-        v: &[f64],
-        step: &SemiImplicit<'_>,
-        elements: &[ElementSite],
-    ) -> Changes {
-        let ElementKind::Rollers(rollers) = &self.elements.kind else { return Changes::default() };
-        let element = &elements[site.element];
-        let [nr, nc] = element.normal(site);
-        let (j, spin) = (self.layout.roller(site.element), self.layout.spin(site.element));
-        let r = rollers.geometry.pitch_radius + element.motion.radial_offset;
-        let change = |to: &[f64]| [to[j] - v[j], r * (to[j + 1] - v[j + 1]), to[spin] - v[spin]];
-        let slip = |[radial, across, turning]: [f64; 3]| {
-            nr * across - nc * radial + rollers.geometry.roller_radius * turning
-        };
-        let mean = change(step.mean);
-        Changes {
-            approach_speed: nr * mean[0] + nc * mean[1],
-            slip: slip(mean),
-            end_slip: slip(change(step.end)),
-        }
-    }
-
     /// Elastic force of a contact in N and its energy in J at the approach `delta` (m).
     fn spring(&self, mate: &Mate, delta: f64) -> [f64; 2] {
         let line = match (mate, &self.laws.raceways, &self.laws.pocket) {
@@ -254,14 +217,6 @@ struct ContactPower {
     friction: f64,
     rolling: f64,
     on_mate: f64,
-}
-
-/// Changes of the speeds of one contact, m/s.
-#[derive(Default)]
-struct Changes {
-    approach_speed: f64,
-    slip: f64,
-    end_slip: f64,
 }
 
 fn power(wrench: &Wrench<f64>, body: &BodyMotion<f64>) -> f64 {

@@ -80,7 +80,11 @@ impl Model {
 
     /// Evaluates every law over its list.
     fn apply_laws(&self, q: &[f64], v: &[f64], ws: &mut Workspace) -> Result<(), Fault> {
-        ws.raceways.apply(ws.thickening, ws.instructions);
+        if ws.differentiating {
+            ws.raceways.differentiate(ws.thickening, ws.instructions);
+        } else {
+            ws.raceways.apply(ws.thickening, ws.instructions);
+        }
         self.apply_to_pockets(ws);
         self.apply_guide(q, v, ws)?;
         if ws.counting {
@@ -91,12 +95,14 @@ impl Model {
 
     /// Evaluates contacts with pockets that have a batch of their own.
     pub(super) fn apply_to_pockets(&self, ws: &mut Workspace) {
-        let Workspace { pockets, thickening, instructions, .. } = ws;
+        let Workspace { pockets, thickening, instructions, differentiating, .. } = ws;
         if let Some(PocketLaws::Plane(laws)) = &self.laws.pocket {
             for i in 0..pockets.len() {
                 let force = laws.contact.force(&pockets.motion.map(|x| x[i]));
                 pockets.force.set(i, &force);
             }
+        } else if *differentiating {
+            pockets.differentiate(*thickening, *instructions);
         } else {
             pockets.apply(*thickening, *instructions);
         }
@@ -192,17 +198,13 @@ impl Model {
 
     /// Accelerations of the cage from the forces on it without gravity, moment about the geometric centre.
     fn accelerate_cage(&self, cage: &CageBody, on_cage: &Wrench<f64>, angle: f64, speed: f64, a: &mut [f64]) {
-        let [fy, fz] = on_cage.force;
-        a[0] = fy / cage.mass + self.gravity[0];
-        a[1] = fz / cage.mass + self.gravity[1];
-        match cage.mass_offset(angle) {
-            None => a[2] = on_cage.moment / cage.inertia,
-            Some([uy, uz]) => {
-                // About the centre of mass, whose acceleration the forces give; the centre of the cage turns about it.
-                a[2] = (on_cage.moment - (uy * fz - uz * fy)) / cage.inertia;
-                a[0] += a[2] * uz + speed * speed * uy;
-                a[1] += speed * speed * uz - a[2] * uy;
-            }
+        let offset = cage.mass_offset(angle);
+        a.copy_from_slice(&cage.response(on_cage, offset));
+        a[0] += self.gravity[0];
+        a[1] += self.gravity[1];
+        if let Some([uy, uz]) = offset {
+            a[0] += speed * speed * uy;
+            a[1] += speed * speed * uz;
         }
     }
 
@@ -226,6 +228,21 @@ impl CageBody {
         let (sin, cos) = self.mass_eccentricity.map(|_| angle.sin_cos())?;
         self.mass_eccentricity.map(|u| rotate(u, sin, cos))
     }
+
+    /// Accelerations (y, z, angle) of the cage by these forces, moment about the geometric centre, with its centre of mass
+    /// at `offset` (m) from there.
+    pub(super) fn response(&self, on_cage: &Wrench<f64>, offset: Option<[f64; 2]>) -> [f64; 3] {
+        let [fy, fz] = on_cage.force;
+        let [y, z] = [fy / self.mass, fz / self.mass];
+        match offset {
+            None => [y, z, on_cage.moment / self.inertia],
+            Some([uy, uz]) => {
+                // About the centre of mass, whose acceleration the forces give; the centre of the cage turns about it.
+                let turning = (on_cage.moment - (uy * fz - uz * fy)) / self.inertia;
+                [y + turning * uz, z - turning * uy, turning]
+            }
+        }
+    }
 }
 
 /// Counts the evaluations of this pass; laws that the scene does not use cost nothing here.
@@ -248,7 +265,7 @@ fn count(laws: &Laws, ws: &mut Workspace) {
     }
 }
 
-fn add(sum: &mut Wrench<f64>, force: [f64; 2], moment: f64) {
+pub(super) fn add(sum: &mut Wrench<f64>, force: [f64; 2], moment: f64) {
     sum.force[0] += force[0];
     sum.force[1] += force[1];
     sum.moment += moment;

@@ -2,9 +2,9 @@
 //! kinematics and laws that give the forces.
 //!
 //! Each contact is differentiated on its own: its law over what the law sees (approach, approach speed, surface
-//! speeds, share of edge friction), its kinematics over the coordinates of its two bodies, chained. Raceways go by the
-//! batch (`raceway_slopes`); pockets, of which few touch at a time, one by one (`pocket_slopes`). The sums
-//! keep the structure of the bearing: ring and cage are coupled to every roller, rollers to nothing else.
+//! speeds, share of edge friction), by the batch (`law_slopes`); its kinematics over the coordinates of its two bodies,
+//! one by one (`raceway_slopes`, `pocket_slopes`), chained. The sums keep the structure of the bearing: ring and cage
+//! are coupled to every roller, rollers to nothing else.
 
 use super::workspace::Workspace;
 use super::{ElementKind, Input, InputValues, Model, RingBody, RollerSet};
@@ -49,11 +49,12 @@ impl Model {
         let laws = &self.laws;
         out.clear();
         let mut drift = Drift { hub: Vector5::zeros(), rates, thickening: self.thickening(ws, rates) };
+        ws.raceways.differentiate(ws.thickening, ws.instructions);
+        ws.pockets.differentiate(ws.thickening, ws.instructions);
+        let ws = &*ws;
         if let ElementKind::Rollers(rollers) = &self.elements.kind {
-            ws.raceways.differentiate(ws.thickening, ws.instructions);
             self.add_raceways(rollers, (q, v), ws, &mut drift, out);
         }
-        let ws = &*ws;
         if let Some(pocket) = &laws.pocket {
             self.add_pockets(pocket, (q, v), ws, &mut drift, out);
         }
@@ -149,6 +150,7 @@ impl Model {
         out: &mut Linearization,
     ) {
         let mut inverse = Matrix5::zeros();
+        let mut balanced = true;
         if let RingBody::Free { mass, damping } = self.ring {
             for k in 0..2 {
                 out.over_velocities.hub[(k, k)] -= damping;
@@ -158,11 +160,16 @@ impl Model {
         if let (Some(cage), Some(c)) = (&self.cage, self.layout.cage) {
             let corner = cage.accelerations_of(&Matrix3::identity(), q[c + 2]);
             inverse.fixed_view_mut::<3, 3>(CAGE, CAGE).copy_from(&corner);
+            balanced = cage.mass_eccentricity.is_none();
         }
         for part in [&mut out.over_positions, &mut out.over_velocities] {
             part.hub = inverse * part.hub;
             for spoke in &mut part.spokes {
-                spoke.to_hub = inverse * spoke.to_hub;
+                if balanced {
+                    scale_rows(&mut spoke.to_hub.data.0, &inverse.diagonal().data.0[0]);
+                } else {
+                    spoke.to_hub = inverse * spoke.to_hub;
+                }
             }
         }
         let rate = inverse * drift.hub;
@@ -187,12 +194,12 @@ impl Model {
             let r = rollers.geometry.pitch_radius + site.motion.radial_offset;
             let inverse = [1.0 / rollers.mass, 1.0 / (rollers.mass * r), 1.0 / rollers.inertia];
             let places = self.places(j);
-            for (i, factor) in inverse.into_iter().enumerate() {
-                for part in [&mut *k, &mut *d] {
-                    part.own.row_mut(i).scale_mut(factor);
-                    part.from_hub.row_mut(i).scale_mut(factor);
-                }
-                out.over_time[places[i]] *= factor;
+            for part in [&mut *k, &mut *d] {
+                scale_rows(&mut part.own.data.0, &inverse);
+                scale_rows(&mut part.from_hub.data.0, &inverse);
+            }
+            for (place, factor) in places.into_iter().zip(inverse) {
+                out.over_time[place] *= factor;
             }
             let [weight_r, weight_c] = site.to_local(self.gravity);
             let (radial_speed, orbit) = (site.motion.radial_speed, site.motion.orbit_speed);
@@ -223,6 +230,15 @@ impl Model {
         positions[(CAGE + 1, angle)] += speed * speed * uy + turning * uz - turning_rate * uy;
         velocities[(CAGE, angle)] += 2.0 * speed * uy;
         velocities[(CAGE + 1, angle)] += 2.0 * speed * uz;
+    }
+}
+
+/// Multiplies the rows of a matrix, given by its columns, by these factors.
+fn scale_rows<const N: usize>(columns: &mut [[f64; N]], factors: &[f64; N]) {
+    for column in columns {
+        for (x, factor) in column.iter_mut().zip(factors) {
+            *x *= factor;
+        }
     }
 }
 

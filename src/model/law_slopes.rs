@@ -1,14 +1,19 @@
 //! Derivatives of line contact forces over what their law sees, for a whole batch at once.
 
 use super::law_columns::LawColumns;
-use crate::laws::contact_pair::ContactMotion;
-use crate::scalar::{Columns, Duals, Numeric, Pack, dispatch};
+use crate::laws::contact_pair::{ContactForce, ContactMotion};
+use crate::scalar::{Columns, Dual, Duals, Pack, Real, dispatch};
 use pulp::{Arch, Simd};
 
-/// Directions of the derivatives: approach, approach speed, u1, u2, logarithm of the viscosity.
-pub(super) const DIRECTIONS: usize = 5;
+/// Directions of the derivatives: approach, approach speed, u1, u2, edge share, logarithm of the viscosity.
+pub(super) const DIRECTIONS: usize = 6;
+pub(super) const EDGE_SHARE: usize = 4;
+pub(super) const VISCOSITY: usize = 5;
 /// Forces that have derivatives: normal force, friction, rolling resistance.
 pub(super) const FORCES: usize = 3;
+
+/// Derivatives of the forces of one contact.
+pub(super) type Slopes = [[f64; DIRECTIONS]; FORCES];
 
 /// Derivatives in columns, by force and direction.
 #[derive(Clone, Debug, Default)]
@@ -20,28 +25,57 @@ impl LawSlopes {
         Self(std::array::from_fn(|_| std::array::from_fn(|_| vec![0.0; room])))
     }
 
-    /// Finds the derivatives of the first `rows` contacts, for which there must be room, with the logarithm `thickening`
-    /// of the relative viscosity.
+    /// Finds the forces of the first `rows` contacts, for which there must be room, and their derivatives, from their
+    /// motions and edge shares, with the logarithm `thickening` of the relative viscosity.
     pub(super) fn find(
         &mut self,
         laws: &LawColumns,
         rows: usize,
-        motion: &ContactMotion<Vec<f64>>,
+        (motion, edge_share): (&ContactMotion<Vec<f64>>, &[f64]),
         thickening: f64,
+        force: &mut ContactForce<Vec<f64>>,
         instructions: Arch,
     ) {
-        dispatch(instructions, Differentiate { laws, motion, slopes: &mut self.0, rows, thickening });
+        let slopes = &mut self.0;
+        dispatch(instructions, Differentiate { laws, motion, edge_share, force, slopes, rows, thickening });
     }
 
     /// Derivatives of the forces of contact `i`.
-    pub(super) fn of(&self, i: usize) -> [[f64; DIRECTIONS]; FORCES] {
+    pub(super) fn of(&self, i: usize) -> Slopes {
         std::array::from_fn(|f| std::array::from_fn(|d| self.0[f][d][i]))
     }
+}
+
+/// The forces of a contact, with the `slopes` of its law, over the coordinates of its bodies: chain rule.
+pub(super) fn chain<const N: usize>(
+    forces: &[f64; FORCES],
+    slopes: &Slopes,
+    motion: &ContactMotion<Dual<N>>,
+    edge_share: Option<Dual<N>>,
+) -> ContactForce<Dual<N>> {
+    let inner = [motion.delta, motion.delta_dot, motion.u1, motion.u2];
+    let over_coordinates = |f: usize| {
+        let mut out = Dual::constant(forces[f]);
+        for (slope, x) in slopes[f].iter().zip(inner.iter().chain(&edge_share)) {
+            for (e, dx) in out.eps.iter_mut().zip(x.eps) {
+                *e += slope * dx;
+            }
+        }
+        out
+    };
+    contact_force([0, 1, 2].map(over_coordinates))
+}
+
+/// The forces of a contact by their own.
+pub(super) fn contact_force<T: Real>([normal, friction, rolling_resistance]: [T; FORCES]) -> ContactForce<T> {
+    ContactForce { normal, friction, rolling_resistance, ..ContactForce::none(T::constant(0.0)) }
 }
 
 struct Differentiate<'a> {
     laws: &'a LawColumns,
     motion: &'a ContactMotion<Vec<f64>>,
+    edge_share: &'a [f64],
+    force: &'a mut ContactForce<Vec<f64>>,
     slopes: &'a mut [[Vec<f64>; DIRECTIONS]; FORCES],
     rows: usize,
     thickening: f64,
@@ -65,9 +99,11 @@ impl Columns for Differentiate<'_> {
             u1: Duals::variable(motion.u1, 2),
             u2: Duals::variable(motion.u2, 3),
         };
-        let thickening = Duals::variable(Pack::all(simd, self.thickening), 4);
+        let edge_share = Duals::variable(Pack::load(simd, &self.edge_share[first..]), EDGE_SHARE);
+        let thickening = Duals::variable(Pack::all(simd, self.thickening), VISCOSITY);
         let law = self.laws.load::<S, K>(simd, first);
-        let force = law.force(&motion, thickening, thickening.like(0.0));
+        let force = law.force(&motion, thickening, edge_share);
+        self.force.store(first, &force);
         let forces = [force.normal, force.friction, force.rolling_resistance];
         for f in 0..FORCES {
             for d in 0..DIRECTIONS {

@@ -24,6 +24,7 @@ mod places;
 mod pocket_slopes;
 mod raceway_slopes;
 mod scales;
+mod step_forces;
 mod workspace;
 
 pub use channels::Channel;

@@ -1,33 +1,36 @@
-//! Derivatives of the pocket forces, contact by contact: law and kinematics by dual numbers, chained.
+//! Derivatives of the pocket forces, contact by contact: those of the laws, chained with those of the kinematics, by dual
+//! numbers.
 
 use super::batch::Mate;
 use super::jacobian::{CAGE, Drift};
-use super::laws::{CylinderLaws, PocketLaws};
+use super::law_slopes::{DIRECTIONS, FORCES, Slopes, VISCOSITY, chain, contact_force};
+use super::laws::PocketLaws;
 use super::workspace::{ElementSite, Workspace};
 use super::{Input, Model};
 use crate::contact::guide::BodyMotion;
 use crate::contact::pocket::{Pillar, PillarContact, PocketPlace};
 use crate::contact::raceway::RollerMotion;
-use crate::contact::{Wrench, rotate};
+use crate::contact::rotate;
 use crate::integrate::Linearization;
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
+use crate::laws::solid_contact::SolidContact;
 use crate::scalar::{Dual, Real};
 
-/// A number with derivatives over what a contact law sees: approach, approach speed, u1, u2, edge share, logarithm of the
-/// viscosity.
-type LawDual = Dual<6>;
+/// A number with derivatives over what a contact law sees.
+type LawDual = Dual<DIRECTIONS>;
 /// A number with derivatives over the coordinates of a contact: element (rho, travel), their rates, spin; position of the
-/// cage, its velocity; logarithm of the viscosity.
-type PairDual = Dual<12>;
+/// cage, its velocity.
+type PairDual = Dual<11>;
 const POSITION: usize = 5;
 const VELOCITY: usize = 8;
-const VISCOSITY: usize = 11;
 
 /// Forces on the element of a pair (radial, circumferential, moment) and on the cage (y, z, moment), with their
 /// derivatives.
 struct PairForce {
     own: [PairDual; 3],
     on_cage: [PairDual; 3],
+    /// Rates of both while the viscosity changes as it does.
+    warming: [[f64; 3]; 2],
 }
 
 impl Model {
@@ -41,24 +44,30 @@ impl Model {
         out: &mut Linearization,
     ) {
         let Some(cage) = self.layout.cage else { return };
-        for contact in ws.contacts() {
-            let (Mate::Pocket(site), j) = (&contact.site.mate, contact.site.element) else { continue };
-            if let Some(force) = Pair::new(j, cage, state, ws).pocket(pocket, site.pillar) {
-                self.add_pair(j, &force, drift, out);
+        for batch in [&ws.raceways, &ws.pockets] {
+            for (i, site) in batch.sites.iter().enumerate() {
+                let (Mate::Pocket(place), j) = (&site.mate, site.element) else { continue };
+                let law = match pocket {
+                    PocketLaws::Cylinder(_) => Some(batch.slopes(i)),
+                    PocketLaws::Plane(_) => None,
+                };
+                let pair = Pair::new(j, cage, state, ws);
+                if let Some(force) = pair.pocket(pocket, law, place.pillar, drift.thickening) {
+                    self.add_pair(j, &force, drift, out);
+                }
             }
         }
     }
 
     /// Adds the derivatives of the forces of one contact of element `j`.
     fn add_pair(&self, j: usize, force: &PairForce, drift: &mut Drift<'_>, out: &mut Linearization) {
-        let thickening = drift.thickening;
         let (k, d) = (&mut out.over_positions, &mut out.over_velocities);
         for (i, row) in force.on_cage.iter().enumerate() {
             for c in 0..3 {
                 k.hub[(CAGE + i, CAGE + c)] += row.eps[POSITION + c];
                 d.hub[(CAGE + i, CAGE + c)] += row.eps[VELOCITY + c];
             }
-            drift.hub[CAGE + i] += row.eps[VISCOSITY] * thickening;
+            drift.hub[CAGE + i] += force.warming[1][i];
         }
         let (Some(k), Some(d)) = (k.spokes.get_mut(j), d.spokes.get_mut(j)) else {
             // The motion of the element is prescribed.
@@ -88,7 +97,7 @@ impl Model {
                 k.from_hub[(i, CAGE + c)] += row.eps[POSITION + c];
                 d.from_hub[(i, CAGE + c)] += row.eps[VELOCITY + c];
             }
-            out.over_time[places[i]] += row.eps[VISCOSITY] * thickening;
+            out.over_time[places[i]] += force.warming[0][i];
         }
     }
 }
@@ -100,8 +109,6 @@ struct Pair {
     azimuth: (PairDual, PairDual),
     lead: (PairDual, PairDual),
     cage: BodyMotion<PairDual>,
-    /// ln of the relative viscosity.
-    thickening: LawDual,
 }
 
 impl Pair {
@@ -125,13 +132,7 @@ impl Pair {
             speed: PairDual::variable(v[c + 2], VELOCITY + 2),
         };
         let behind = travel - (cage.angle - cage.angle.value());
-        Self {
-            motion,
-            azimuth: turn((site.sin, site.cos), travel),
-            lead: turn(site.lead, behind),
-            cage,
-            thickening: LawDual::variable(ws.thickening, 5),
-        }
+        Self { motion, azimuth: turn((site.sin, site.cos), travel), lead: turn(site.lead, behind), cage }
     }
 
     fn to_local(&self, v: [PairDual; 2]) -> [PairDual; 2] {
@@ -142,8 +143,15 @@ impl Pair {
         rotate(v, self.azimuth.0, self.azimuth.1)
     }
 
-    /// The contact with one pillar; `None` when they are apart.
-    fn pocket(&self, pocket: &PocketLaws, side: Pillar) -> Option<PairForce> {
+    /// The contact with one pillar, of which the forces and the slopes of the `law` are known, but for solid contacts,
+    /// while the logarithm of the viscosity changes at the rate `thickening` (1/s). `None` when they are apart.
+    fn pocket(
+        &self,
+        pocket: &PocketLaws,
+        law: Option<([f64; FORCES], Slopes)>,
+        side: Pillar,
+        thickening: f64,
+    ) -> Option<PairForce> {
         let cage = &self.cage;
         let place = pocket.place();
         let position = rotate(self.to_local(cage.position), self.lead.0, self.lead.1);
@@ -154,80 +162,48 @@ impl Pair {
             PocketLaws::Cylinder(laws) => laws.shape.pillar(side, &relative),
             PocketLaws::Plane(laws) => laws.shape.wall(side, &relative),
         }?;
-        let force = match pocket {
-            PocketLaws::Cylinder(laws) => cylinder_force(laws, &contact, self.thickening),
-            PocketLaws::Plane(laws) => {
-                let law = laws.contact.force(&law_variables(&contact.motion));
-                chain(&law, &contact.motion, contact.edge_share)
-            }
+        let (forces, slopes) = match (law, pocket) {
+            (Some(law), _) => law,
+            (None, PocketLaws::Plane(laws)) => solid_slopes(&laws.contact, &contact.motion),
+            (None, PocketLaws::Cylinder(_)) => return None,
         };
-        Some(self.pocket_force(&place, &offset, &contact, &force))
+        let force = chain(&forces, &slopes, &contact.motion, Some(contact.edge_share));
+        let [own, on_cage] = self.bodies(&place, &offset, &contact, &force);
+        let mut warming = [[0.0; 3]; 2];
+        if thickening != 0.0 {
+            let rates = slopes.map(|row| PairDual::constant(row[VISCOSITY] * thickening));
+            let both = self.bodies(&place, &offset, &contact, &contact_force(rates));
+            warming = both.map(|body| body.map(|rate| rate.re));
+        }
+        Some(PairForce { own, on_cage, warming })
     }
 
-    fn pocket_force(
+    /// The forces of a contact on its element and on the cage.
+    fn bodies(
         &self,
         place: &PocketPlace,
         offset: &[PairDual; 2],
         contact: &PillarContact<PairDual>,
         force: &ContactForce<PairDual>,
-    ) -> PairForce {
+    ) -> [[PairDual; 3]; 2] {
         let [on_element, _] = contact.frame.wrenches(force);
         let lever = place.lever(*offset, contact.frame.normal);
         let [along_r, along_c] = on_element.force;
         let moment = -(lever[0] * along_c - lever[1] * along_r);
         let local = rotate(on_element.force, -self.lead.0, self.lead.1);
         let [y, z] = self.to_global(local);
-        let own = components(&Wrench { force: local, moment: on_element.moment });
-        PairForce { own, on_cage: [-y, -z, moment] }
+        [[local[0], local[1], on_element.moment], [-y, -z, moment]]
     }
 }
 
-/// Force of a wall or an edge of a cylindrical pocket.
-fn cylinder_force(
-    laws: &CylinderLaws,
-    contact: &PillarContact<PairDual>,
-    thickening: LawDual,
-) -> ContactForce<PairDual> {
-    let motion = law_variables(&contact.motion);
-    let edge_share = LawDual::variable(contact.edge_share.value(), 4);
-    chain(&laws.wall.force(&motion, thickening, edge_share), &contact.motion, contact.edge_share)
-}
-
-/// What a law sees, as its variables.
-fn law_variables(motion: &ContactMotion<PairDual>) -> ContactMotion<LawDual> {
-    ContactMotion {
-        delta: LawDual::variable(motion.delta.value(), 0),
-        delta_dot: LawDual::variable(motion.delta_dot.value(), 1),
-        u1: LawDual::variable(motion.u1.value(), 2),
-        u2: LawDual::variable(motion.u2.value(), 3),
-    }
-}
-
-/// The forces of a contact over the coordinates of its bodies: chain rule. What makes no force is left at zero.
-fn chain(
-    force: &ContactForce<LawDual>,
-    motion: &ContactMotion<PairDual>,
-    edge_share: PairDual,
-) -> ContactForce<PairDual> {
-    let viscosity = PairDual::variable(0.0, VISCOSITY);
-    let inner = [motion.delta, motion.delta_dot, motion.u1, motion.u2, edge_share, viscosity];
-    let over_coordinates = |f: LawDual| {
-        let mut out = PairDual::constant(f.re);
-        for (slope, x) in f.eps.iter().zip(&inner) {
-            for (e, dx) in out.eps.iter_mut().zip(x.eps) {
-                *e += slope * dx;
-            }
-        }
-        out
-    };
-    ContactForce {
-        normal: over_coordinates(force.normal),
-        friction: over_coordinates(force.friction),
-        rolling_resistance: over_coordinates(force.rolling_resistance),
-        ..ContactForce::none(PairDual::constant(0.0))
-    }
-}
-
-fn components(wrench: &Wrench<PairDual>) -> [PairDual; 3] {
-    [wrench.force[0], wrench.force[1], wrench.moment]
+/// Forces of a solid contact and their slopes.
+fn solid_slopes(law: &SolidContact, motion: &ContactMotion<PairDual>) -> ([f64; FORCES], Slopes) {
+    let force = law.force(&ContactMotion {
+        delta: LawDual::variable(motion.delta.re, 0),
+        delta_dot: LawDual::variable(motion.delta_dot.re, 1),
+        u1: LawDual::variable(motion.u1.re, 2),
+        u2: LawDual::variable(motion.u2.re, 3),
+    });
+    let all = [force.normal, force.friction, force.rolling_resistance];
+    (all.map(|f| f.re), all.map(|f| f.eps))
 }

@@ -1,34 +1,35 @@
 //! Derivatives of the raceway forces: those of the laws, which come in columns, chained with those of the kinematics, by
 //! dual numbers over the few coordinates that a contact sees.
 //!
-//! In the frame of the roller the azimuth psi moves nothing but the ring, whose centre and velocity x turn backwards:
+//! With the inner raceway, r = r_p + rho and the centre and velocity x, v of the ring in the frame of the roller, only
+//! differences of places and velocities matter, and psi moves nothing but the ring, which turns backwards:
 //!
 //! ```text
+//! dF/dx_r = -dF/drho + (psi_dot/r) dF/dpsi_dot,   dF/dv_r = -dF/drho_dot,   dF/dv_c = -(1/r) dF/dpsi_dot
 //! dx_r/dpsi = x_c,  dx_c/dpsi = -x_r
 //! d(e_r F_r + e_c F_c)/dpsi = e_r (dF_r/dpsi - F_c) + e_c (dF_c/dpsi + F_r)      force on the ring in global axes
 //! ```
 
-use super::batch::{Batch, Mate, Site};
+use super::batch::{Mate, Site};
 use super::jacobian::Drift;
-use super::law_slopes::DIRECTIONS;
+use super::law_slopes::{FORCES, Slopes, VISCOSITY, chain, contact_force};
 use super::workspace::{ElementSite, Workspace};
 use super::{Input, Model, RollerSet};
-use crate::contact::Wrench;
 use crate::contact::raceway::{RingMotion, RollerMotion};
+use crate::contact::{PairFrame, Wrench};
 use crate::integrate::Linearization;
-use crate::laws::contact_pair::{ContactForce, ContactMotion};
 use crate::scalar::{Dual, Real};
 
-/// Radial offset, radial speed, orbit speed, spin speed, logarithm of the viscosity.
-type OuterDual = Dual<5>;
-/// The same but the last; centre and velocity of the ring in the frame of the roller, its speed; the viscosity.
-type InnerDual = Dual<10>;
-const RING_POSITION: usize = 4;
-const RING_VELOCITY: usize = 6;
-const RING_SPEED: usize = 8;
+/// Radial offset, radial speed, orbit speed, spin speed.
+type OuterDual = Dual<4>;
+/// The same and the centre of the ring across the roller's radius.
+type InnerDual = Dual<5>;
+const ACROSS: usize = 4;
+/// Direction of the law that the speed of the ring moves: u2.
+const SECOND_SPEED: usize = 3;
 
 impl Model {
-    /// Adds the derivatives of all raceway contacts. Those of their laws are in the batches.
+    /// Adds the derivatives of all raceway contacts. Those of their laws are in the batch.
     pub(super) fn add_raceways(
         &self,
         rollers: &RollerSet,
@@ -37,121 +38,144 @@ impl Model {
         drift: &mut Drift<'_>,
         out: &mut Linearization,
     ) {
-        let batch = &ws.raceways;
-        for (i, &Site { element: j, mate, .. }) in batch.sites.iter().enumerate() {
+        let ring = self.ring_motion(q, v);
+        for (i, &Site { element: j, mate, .. }) in ws.raceways.sites.iter().enumerate() {
             match mate {
                 Mate::Outer => {
-                    let roller = lift::<5>(&ws.elements[j].motion);
-                    let (motion, frame) = rollers.geometry.outer(&roller);
-                    let [on_roller, _] = frame.wrenches(&chain(batch, i, &motion));
-                    self.add_outer(j, &components(&on_roller), drift, out);
+                    let (motion, frame) = rollers.geometry.outer(&lift::<4>(&ws.elements[j].motion));
+                    let (forces, slopes) = ws.raceways.slopes(i);
+                    let [on_roller, _] = frame.wrenches(&chain(&forces, &slopes, &motion, None));
+                    let time = Self::over_time(&slopes, &ws.raceways.sites[i].frame, 0.0, drift);
+                    self.add_outer(j, &components(&on_roller), time.as_ref(), out);
                 }
-                Mate::Inner => {
-                    self.differentiate_inner(rollers, (q, v), (i, j), ws, drift, out);
-                }
+                Mate::Inner => self.differentiate_inner(rollers, ring, (i, j), ws, drift, out),
                 Mate::Pocket(_) => {}
             }
         }
+    }
+
+    /// Rates of the forces on roller and mate in 1/s of themselves while the second surface speed changes at `u2_rate`
+    /// (m/s^2) and the viscosity as it does; `None` while neither does.
+    fn over_time(
+        slopes: &Slopes,
+        frame: &PairFrame<f64>,
+        u2_rate: f64,
+        drift: &Drift<'_>,
+    ) -> Option<[Wrench<f64>; 2]> {
+        let rate = |f: usize| slopes[f][SECOND_SPEED] * u2_rate + slopes[f][VISCOSITY] * drift.thickening;
+        (u2_rate != 0.0 || drift.thickening != 0.0)
+            .then(|| frame.wrenches(&contact_force(std::array::from_fn::<f64, FORCES, _>(rate))))
     }
 
     /// Adds the derivatives of contact `i`, of roller `j` with the inner ring.
     fn differentiate_inner(
         &self,
         rollers: &RollerSet,
-        (q, v): (&[f64], &[f64]),
+        ring: ([f64; 2], [f64; 2]),
         (i, j): (usize, usize),
         ws: &Workspace,
         drift: &mut Drift<'_>,
         out: &mut Linearization,
     ) {
-        let (position, velocity) = self.ring_motion(q, v);
         let site = &ws.elements[j];
-        let [x, v] = [site.to_local(position), site.to_local(velocity)];
-        let vector = |x: [f64; 2], at: usize| [0, 1].map(|k| InnerDual::variable(x[k], at + k));
-        let ring = RingMotion {
-            position: vector(x, RING_POSITION),
-            velocity: vector(v, RING_VELOCITY),
-            speed: InnerDual::variable(ws.inputs.of(Input::RingSpeed), RING_SPEED),
+        let [x, v] = [ring.0, ring.1].map(|x| site.to_local(x));
+        let constant = InnerDual::constant;
+        let motion = RingMotion {
+            position: [constant(x[0]), InnerDual::variable(x[1], ACROSS)],
+            velocity: v.map(constant),
+            speed: constant(ws.inputs.of(Input::RingSpeed)),
         };
-        let (motion, frame) = rollers.geometry.inner(&lift::<10>(&site.motion), &ring);
-        let [on_roller, on_ring] = frame.wrenches(&chain(&ws.raceways, i, &motion));
-        let turn = |row: &InnerDual| {
-            let [position, velocity] =
-                [RING_POSITION, RING_VELOCITY].map(|at| [row.eps[at], row.eps[at + 1]]);
-            position[0] * x[1] - position[1] * x[0] + velocity[0] * v[1] - velocity[1] * v[0]
-        };
-        let own = components(&on_roller).map(|row| Row::new(&row, turn(&row), site, drift));
+        let (motion, frame) = rollers.geometry.inner(&lift::<5>(&site.motion), &motion);
+        let (forces, slopes) = ws.raceways.slopes(i);
+        let [on_roller, on_ring] = frame.wrenches(&chain(&forces, &slopes, &motion, None));
+        let r = rollers.geometry.pitch_radius + site.motion.radial_offset;
+        let own = components(&on_roller).map(|force| over_global(row(&force, r, site, x, v), site));
         let [radial, across] = on_ring.force;
-        let turned = [turn(&radial) - across.re, turn(&across) + radial.re];
-        let both = [&radial, &across];
-        let turned = site.to_global(turned);
-        let mut rows = [InnerDual::constant(0.0); 2];
-        for d in 0..radial.eps.len() {
-            [rows[0].eps[d], rows[1].eps[d]] = site.to_global(both.map(|f| f.eps[d]));
+        let (mut first, mut second) = (row(&radial, r, site, x, v), row(&across, r, site, x, v));
+        first[1] -= across.re;
+        second[1] += radial.re;
+        let mut shared = [[0.0; 9]; 2];
+        for c in 0..first.len() {
+            [shared[0][c], shared[1][c]] = site.to_global([first[c], second[c]]);
         }
-        let shared = [0, 1].map(|k| Row::new(&rows[k], turned[k], site, drift));
-        self.add_inner(j, &own, &shared, drift, out);
+        let shared = shared.map(|row| over_global(row, site));
+        let frame = &ws.raceways.sites[i].frame;
+        let speeding = -frame.arm_2 * drift.rates.of(Input::RingSpeed);
+        let time = Self::over_time(&slopes, frame, speeding, drift);
+        self.add_inner((j, site), (&own, &shared), time.as_ref(), drift, out);
     }
 
-    fn add_outer(&self, j: usize, rows: &[OuterDual; 3], drift: &Drift<'_>, out: &mut Linearization) {
+    fn add_outer(
+        &self,
+        j: usize,
+        rows: &[OuterDual; 3],
+        time: Option<&[Wrench<f64>; 2]>,
+        out: &mut Linearization,
+    ) {
         let (Some(k), Some(d)) =
             (out.over_positions.spokes.get_mut(j), out.over_velocities.spokes.get_mut(j))
         else {
             return;
         };
-        let places = self.places(j);
         for (i, row) in rows.iter().enumerate() {
             k.own[(i, 0)] += row.eps[0];
             for c in 0..3 {
                 d.own[(i, c)] += row.eps[1 + c];
             }
-            out.over_time[places[i]] += row.eps[4] * drift.thickening;
+        }
+        self.add_own_rates(j, time, out);
+    }
+
+    fn add_own_rates(&self, j: usize, time: Option<&[Wrench<f64>; 2]>, out: &mut Linearization) {
+        let Some([on_roller, _]) = time else { return };
+        for (place, rate) in self.places(j).into_iter().zip(components(on_roller)) {
+            out.over_time[place] += rate;
         }
     }
 
     fn add_inner(
         &self,
-        j: usize,
-        own: &[Row; 3],
-        shared: &[Row; 2],
+        (j, site): (usize, &ElementSite),
+        (own, shared): (&[Row; 3], &[Row; 2]),
+        time: Option<&[Wrench<f64>; 2]>,
         drift: &mut Drift<'_>,
         out: &mut Linearization,
     ) {
         let ring_moves = self.layout.ring.is_some();
         let (positions, velocities) = (&mut out.over_positions, &mut out.over_velocities);
         let (Some(k), Some(d)) = (positions.spokes.get_mut(j), velocities.spokes.get_mut(j)) else { return };
-        let places = self.places(j);
         for (i, row) in own.iter().enumerate() {
-            for (c, slope) in row.own_positions.into_iter().enumerate() {
+            for (c, slope) in row[..OWN_VELOCITIES].iter().enumerate() {
                 k.own[(i, c)] += slope;
             }
-            for (c, slope) in row.own_velocities.into_iter().enumerate() {
-                d.own[(i, c)] += slope;
+            for c in 0..3 {
+                d.own[(i, c)] += row[OWN_VELOCITIES + c];
             }
             if ring_moves {
                 for c in 0..2 {
-                    k.from_hub[(i, c)] += row.ring_position[c];
-                    d.from_hub[(i, c)] += row.ring_velocity[c];
+                    k.from_hub[(i, c)] += row[RING_POSITION + c];
+                    d.from_hub[(i, c)] += row[RING_VELOCITY + c];
                 }
             }
-            out.over_time[places[i]] += row.time;
         }
-        if !ring_moves {
-            return;
+        if ring_moves {
+            for (i, row) in shared.iter().enumerate() {
+                for c in 0..2 {
+                    k.to_hub[(i, c)] += row[c];
+                    positions.hub[(i, c)] += row[RING_POSITION + c];
+                    velocities.hub[(i, c)] += row[RING_VELOCITY + c];
+                }
+                for c in 0..3 {
+                    d.to_hub[(i, c)] += row[OWN_VELOCITIES + c];
+                }
+            }
+            if let Some([_, on_ring]) = time {
+                for (sum, rate) in drift.hub.iter_mut().zip(site.to_global(on_ring.force)) {
+                    *sum += rate;
+                }
+            }
         }
-        for (i, row) in shared.iter().enumerate() {
-            for (c, slope) in row.own_positions.into_iter().enumerate() {
-                k.to_hub[(i, c)] += slope;
-            }
-            for (c, slope) in row.own_velocities.into_iter().enumerate() {
-                d.to_hub[(i, c)] += slope;
-            }
-            for c in 0..2 {
-                positions.hub[(i, c)] += row.ring_position[c];
-                velocities.hub[(i, c)] += row.ring_velocity[c];
-            }
-            drift.hub[i] += row.time;
-        }
+        self.add_own_rates(j, time, out);
     }
 
     /// Velocities of roller `j`.
@@ -160,31 +184,29 @@ impl Model {
     }
 }
 
-/// Derivatives of one force over the coordinates that a contact with the inner raceway sees.
-struct Row {
-    /// Radial offset, travel.
-    own_positions: [f64; 2],
-    /// Radial speed, orbit speed, spin speed.
-    own_velocities: [f64; 3],
-    /// Of the ring, global axes.
-    ring_position: [f64; 2],
-    ring_velocity: [f64; 2],
-    /// By the inputs.
-    time: f64,
+/// Derivatives of one force over what a contact with the inner raceway sees: radial offset and travel; radial, orbit and
+/// spin speed; centre of the ring; its velocity.
+type Row = [f64; 9];
+const OWN_VELOCITIES: usize = 2;
+const RING_POSITION: usize = 5;
+const RING_VELOCITY: usize = 7;
+
+/// From the derivatives in the frame of the roller at `site`, at the radius `r` (m), with the centre `x` and the velocity
+/// `v` of the ring in that frame.
+fn row(force: &InnerDual, r: f64, site: &ElementSite, x: [f64; 2], v: [f64; 2]) -> Row {
+    let [offset, radial, orbit, spin, across] = force.eps;
+    let along = orbit * (site.motion.orbit_speed / r) - offset;
+    let [v_r, v_c] = [-radial, -orbit / r];
+    let turned = along * x[1] - across * x[0] + v_r * v[1] - v_c * v[0];
+    [offset, turned, radial, orbit, spin, along, across, v_r, v_c]
 }
 
-impl Row {
-    /// From the derivatives in the frame of the roller at `site`; `turned` is that over the azimuth.
-    fn new(row: &InnerDual, turned: f64, site: &ElementSite, drift: &Drift<'_>) -> Self {
-        let e = &row.eps;
-        Self {
-            own_positions: [e[0], turned],
-            own_velocities: [e[1], e[2], e[3]],
-            ring_position: site.to_global([e[RING_POSITION], e[RING_POSITION + 1]]),
-            ring_velocity: site.to_global([e[RING_VELOCITY], e[RING_VELOCITY + 1]]),
-            time: e[RING_SPEED] * drift.rates.of(Input::RingSpeed) + e[9] * drift.thickening,
-        }
+/// The same over the ring's coordinates in global axes.
+fn over_global(mut row: Row, site: &ElementSite) -> Row {
+    for at in [RING_POSITION, RING_VELOCITY] {
+        [row[at], row[at + 1]] = site.to_global([row[at], row[at + 1]]);
     }
+    row
 }
 
 fn lift<const N: usize>(m: &RollerMotion<f64>) -> RollerMotion<Dual<N>> {
@@ -196,29 +218,6 @@ fn lift<const N: usize>(m: &RollerMotion<f64>) -> RollerMotion<Dual<N>> {
     }
 }
 
-/// The forces of contact `i` over the coordinates: chain rule; the viscosity comes last.
-fn chain<const N: usize>(batch: &Batch, i: usize, motion: &ContactMotion<Dual<N>>) -> ContactForce<Dual<N>> {
-    let force = &batch.force;
-    let slopes = batch.slopes.of(i);
-    let inner = [&motion.delta, &motion.delta_dot, &motion.u1, &motion.u2];
-    let over_coordinates = |value: f64, slopes: &[f64; DIRECTIONS]| {
-        let mut out = Dual::<N>::constant(value);
-        for (slope, x) in slopes.iter().zip(inner) {
-            for (e, dx) in out.eps.iter_mut().zip(x.eps) {
-                *e += slope * dx;
-            }
-        }
-        out.eps[N - 1] += slopes[DIRECTIONS - 1];
-        out
-    };
-    ContactForce {
-        normal: over_coordinates(force.normal[i], &slopes[0]),
-        friction: over_coordinates(force.friction[i], &slopes[1]),
-        rolling_resistance: over_coordinates(force.rolling_resistance[i], &slopes[2]),
-        ..ContactForce::none(Dual::constant(0.0))
-    }
-}
-
-fn components<const N: usize>(wrench: &Wrench<Dual<N>>) -> [Dual<N>; 3] {
+fn components<T: Copy>(wrench: &Wrench<T>) -> [T; 3] {
     [wrench.force[0], wrench.force[1], wrench.moment]
 }

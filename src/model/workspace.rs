@@ -65,6 +65,8 @@ pub struct Workspace {
     pub(super) counts: LawCounts,
     /// Whether evaluations are counted now.
     pub(super) counting: bool,
+    /// Whether evaluations find the derivatives of line contacts in the same pass.
+    pub(super) differentiating: bool,
     /// Temperature that the viscosity belongs to, K; NaN where the viscosity is constant.
     pub(super) temperature: f64,
     /// ln of the viscosity at that temperature over that of the laws.
@@ -100,6 +102,7 @@ impl Workspace {
             on_cage: Wrench::default(),
             counts: [0; LAWS.len()],
             counting: true,
+            differentiating: false,
             temperature: model.inputs.oil.map_or(f64::NAN, |oil| oil.built_at.0),
             thickening: 0.0,
             guide_law: model.laws.guide.clone(),
@@ -133,6 +136,12 @@ impl Workspace {
     /// Whether the next evaluations count; they do at first.
     pub fn set_counting(&mut self, counting: bool) {
         self.counting = counting;
+    }
+
+    /// Whether the next evaluations find what [`Model::linearize`] needs along with the forces, which is quicker than finding
+    /// it then; they do not at first.
+    pub fn set_differentiating(&mut self, differentiating: bool) {
+        self.differentiating = differentiating;
     }
 
     /// Whether evaluations use the widest vector instructions of the machine, or none; they do at first.

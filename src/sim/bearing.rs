@@ -156,7 +156,10 @@ impl Bearing {
         a: &mut [f64],
         slopes: &mut Slopes,
     ) -> Result<(), Fault> {
-        self.accelerations_at(t, state, a)?;
+        self.workspace.set_differentiating(true);
+        let evaluated = self.accelerations_at(t, state, a);
+        self.workspace.set_differentiating(false);
+        evaluated?;
         let (q, v) = state.split_at(self.model.layout().positions());
         let rates = self.model.input_rates_at(t, &self.host);
         self.model.linearize(q, v, &mut self.workspace, &rates, &mut slopes.linearization);
@@ -285,7 +288,10 @@ impl System for Bearing {
         a: &mut [f64],
         out: &mut Linearization,
     ) -> Result<(), Fault> {
-        self.accelerations(t, q, v, a)?;
+        self.workspace.set_differentiating(true);
+        let evaluated = self.accelerations(t, q, v, a);
+        self.workspace.set_differentiating(false);
+        evaluated?;
         self.jacobians += 1;
         let rates = self.model.input_rates_at(t, &self.host);
         self.model.linearize(q, v, &mut self.workspace, &rates, out);
@@ -313,6 +319,18 @@ impl System for Bearing {
         if let Some(count) = self.rejections.get_mut(group) {
             *count += 1;
         }
+    }
+
+    /// The rollers; ring and cage follow.
+    fn leaders(&self) -> usize {
+        match self.model.layout().count {
+            0 => self.groups(),
+            rollers => rollers,
+        }
+    }
+
+    fn react(&self, q: &[f64], v: &[f64], step: &SemiImplicit<'_>, a: &mut [f64]) {
+        self.model.react(q, v, step, &self.workspace, a);
     }
 
     fn damping(&self, h: f64, q: &[f64], v: &[f64], out: &mut GroupDamping) {

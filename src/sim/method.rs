@@ -75,6 +75,7 @@ fn aim(model: &Model, solver: &Solver) -> Aim {
         numbers(solver.preset);
     let statistics = statistics && model.has_rollers() && asked.is_none();
     let usual = if statistics { statistics_tolerance } else { tolerance };
+    let units = model.state_scales();
     Aim {
         statistics,
         expected: Expectation {
@@ -83,8 +84,10 @@ fn aim(model: &Model, solver: &Solver) -> Aim {
             share: leapfrog_step,
             largest_step: MAX_NOMINAL_STEP,
             largest_error: stretch_error,
+            // The first velocity is one of translation.
+            speed_unit: units.get(model.layout().positions()).copied().unwrap_or(1.0),
         },
-        units: model.state_scales(),
+        units,
         tolerance: asked.unwrap_or(usual),
         first_step: first_step(model, solver),
     }

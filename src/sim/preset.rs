@@ -26,14 +26,14 @@ pub(super) const UNDAMPED_SHARE: f64 = 0.5;
 /// where the leapfrog does not.
 const ENGINEERING: Numbers = Numbers {
     statistics: true,
-    leapfrog_step: 0.6,
-    stretch_error: 8e-5,
+    leapfrog_step: 1.0,
+    stretch_error: 3e-4,
     tolerance: 1e-6,
     statistics_tolerance: 1e-3,
 };
 
 /// Errors of a stretch grow with the cube of the step.
-const DRAFT: Numbers = Numbers { leapfrog_step: 1.0, stretch_error: 3.7e-4, tolerance: 1e-4, ..ENGINEERING };
+const DRAFT: Numbers = Numbers { leapfrog_step: 1.4, stretch_error: 8e-4, tolerance: 1e-4, ..ENGINEERING };
 
 const REFERENCE: Numbers = Numbers {
     statistics: false,
