@@ -234,7 +234,7 @@ impl Scene {
         }
         number("initial.first_roller_angle", self.initial.first_roller_angle, ANGLE)?;
         number("solver.min_step", self.solver.min_step, range(1e-18, 1e-6, "s"))?;
-        let tolerance = || range(1e-12, 1e-1, "");
+        let tolerance = || range(1e-13, 1e-1, "");
         optional("solver.max_step", self.solver.max_step, range(self.solver.min_step, 1e-2, "s"))?;
         match &self.solver.method {
             Method::Auto(m) => optional("solver.method.auto.tolerance", m.tolerance, tolerance())?,

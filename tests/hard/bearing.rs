@@ -2,6 +2,7 @@
 
 use crate::Case;
 use crate::common::{example, with};
+use cagedyn::Sim;
 use serde_json::{Value, json};
 use std::f64::consts::PI;
 
@@ -41,6 +42,48 @@ fn rollers(count: u32) -> Value {
 
 fn pocket_clearance(clearance: f64) -> Value {
     example_with(&[("cage.pocket.lubricated_cylinder.radial_clearance", json!(clearance))])
+}
+
+/// Revolutions of the cage in a minute.
+const REVOLUTIONS: f64 = 1219.0;
+
+/// Goes to t = 60 s and turns cage and rollers by whole revolutions.
+fn after_a_minute(sim: &mut Sim) {
+    let infos = sim.model().state_infos();
+    let turn = |(x, name): (&f64, &str)| {
+        let turns = name == "cage.angle" || name.ends_with("orbit_travel");
+        x + if turns { -REVOLUTIONS * 2.0 * PI } else { 0.0 }
+    };
+    let state: Vec<f64> =
+        sim.state().iter().zip(&infos).map(|(x, info)| turn((x, info.name.as_str()))).collect();
+    sim.set_state(60.0, &state).expect("the state");
+}
+
+/// Puts all rollers beside each other at the bottom, where the load is.
+fn bunch(sim: &mut Sim) {
+    let infos = sim.model().state_infos();
+    let mut state = sim.state().to_vec();
+    let count = infos.iter().filter(|info| info.name.ends_with("orbit_travel")).count() as f64;
+    let spacing = 2.0 * PI / count;
+    // Rollers of 7.5 mm on a circle of 40 mm.
+    let closest = 2.01 * (7.5f64 / 39.99).asin();
+    let mut j = 0.0;
+    for (x, info) in state.iter_mut().zip(&infos) {
+        if info.name.ends_with("orbit_travel") {
+            *x += (j - 0.5 * count) * (closest - spacing);
+            j += 1.0;
+        }
+    }
+    sim.set_state(0.0, &state).expect("the state");
+}
+
+/// Puts one roller 1 mm deep into the outer raceway.
+fn press(sim: &mut Sim) {
+    let infos = sim.model().state_infos();
+    let mut state = sim.state().to_vec();
+    let offset = infos.iter().position(|info| info.name == "roller[3].radial_offset").expect("a roller");
+    state[offset] = 1e-3;
+    sim.set_state(0.0, &state).expect("the state");
 }
 
 /// All of them.
@@ -183,6 +226,20 @@ pub fn cases() -> Vec<Case> {
             example_with(&[("initial.inner_ring", json!("centred"))]),
             10.0,
         ),
+        case(
+            "rollers bunched on one side",
+            "nothing keeps the rollers apart, and the ring has no support on one side",
+            example_with(&[
+                ("rollers.count", json!(8)),
+                ("cage", Value::Null),
+                ("initial", json!({"inner_ring": "centred", "first_roller_angle": 0.0})),
+            ]),
+            20.0,
+        )
+        .from(bunch),
+        case("roller 1 mm deep", "a force of tons at the start", example(), 5.0).from(press),
+        case("after a minute", "angles of a thousand revolutions keep their digits", example(), 20.0)
+            .from(after_a_minute),
         case(
             "cage against a pocket wall at the start",
             "several walls touch at once",

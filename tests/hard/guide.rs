@@ -2,6 +2,7 @@
 
 use crate::Case;
 use crate::common::{read, with};
+use cagedyn::Sim;
 use serde_json::{Value, json};
 use std::f64::consts::PI;
 
@@ -22,6 +23,14 @@ fn start(depth: f64, speed: f64, others: &[(&str, Value)]) -> Value {
         ("initial.cage_velocity", json!({"y": 0.0, "z": -speed})),
     ]);
     with(&scene, others)
+}
+
+/// Puts the cage 1 mm deep into the ring.
+fn deep(sim: &mut Sim) {
+    let mut state = sim.state().to_vec();
+    let z = sim.model().state_infos().iter().position(|info| info.name == "cage.z").expect("a cage");
+    state[z] = -(CLEARANCE + 1e-3);
+    sim.set_state(0.0, &state).expect("the state");
 }
 
 /// All of them.
@@ -125,6 +134,25 @@ pub fn cases() -> Vec<Case> {
                 ("cage.pocket.solid_plane.diametral_clearance", json!(20e-6)),
             ]),
             20.0,
+        ),
+        case("start 1 mm deep", "solid bodies overlap by five clearances", scene_with(&[]), 10.0).from(deep),
+        case(
+            "film up to first touch",
+            "film and solid change places at once",
+            scene_with(&[("cage.guide.film_share.touching_ratio", json!(0.0))]),
+            20.0,
+        ),
+        case(
+            "forward whirl in narrow pockets",
+            "up to nine balls strike at once, with more friction than the guide has",
+            scene_with(&[
+                ("cage.guide.film", Value::Null),
+                ("cage.guide.film_share", Value::Null),
+                ("cage.guide.solid.asperity_height", json!(3e-6)),
+                ("cage.pocket.solid_plane.diametral_clearance", json!(0.3e-3)),
+                ("cage.pocket.solid_plane.contact.friction.coefficient", json!(0.6)),
+            ]),
+            40.0,
         ),
         case(
             "literal Voigt",

@@ -1,14 +1,25 @@
-//! Hard cases: each runs with `auto` at `engineering` within a budget and keeps its energy. `make hard` runs all of them
-//! with every method and preset and writes docs/hard-cases.md.
+//! Hard cases: each runs with `auto` at `engineering` within a budget, keeps its energy and balances its forces. `make hard`
+//! runs all of them with every method and preset and with CVODE, and writes docs/hard-cases.md.
+
+#![allow(dead_code)] // shared modules are used in part
 
 #[path = "../common/mod.rs"]
 mod common;
+#[path = "../common/cvode/mod.rs"]
+mod cvode;
+#[path = "../../examples/statistics/judge.rs"]
+mod judge;
 
+mod agreement;
 mod bearing;
 mod guide;
+mod motion;
+mod numbers;
 mod tables;
 
+use cagedyn::integrate::auto::Kind;
 use cagedyn::{Error, Model, Sim};
+use motion::{Class, Path, Readings};
 use serde_json::{Value, json};
 use std::sync::Arc;
 
@@ -20,11 +31,28 @@ pub struct Case {
     scene: Value,
     /// s
     duration: f64,
+    /// Changes what the scene starts with.
+    start: fn(&mut Sim),
 }
 
 impl Case {
     fn new(name: &'static str, why: &'static str, scene: Value, duration: f64) -> Self {
-        Self { name, why, scene, duration }
+        Self { name, why, scene, duration, start: |_| {} }
+    }
+
+    fn from(self, start: fn(&mut Sim)) -> Self {
+        Self { start, ..self }
+    }
+
+    /// At its start, with this solver. The first element starts `shift` rad further on.
+    fn sim(&self, solver: &Value, shift: f64) -> Sim {
+        let angle = self.scene.pointer("/initial/first_roller_angle").and_then(Value::as_f64).unwrap_or(0.0);
+        let changes = [("solver", solver.clone()), ("initial.first_roller_angle", json!(angle + shift))];
+        let scene = common::with(&self.scene, &changes);
+        let model = Model::from_json(&scene.to_string()).unwrap_or_else(|e| panic!("{}: {e}", self.name));
+        let mut sim = Sim::new(Arc::new(model)).unwrap_or_else(|e| panic!("{}: {e}", self.name));
+        (self.start)(&mut sim);
+        sim
     }
 }
 
@@ -33,7 +61,12 @@ pub fn cases() -> Vec<Case> {
     bearing::cases().into_iter().chain(guide::cases()).collect()
 }
 
-/// Records of a run.
+/// The case of this name.
+pub fn case(name: &str) -> Case {
+    cases().into_iter().find(|case| case.name == name).unwrap_or_else(|| panic!("no case {name}"))
+}
+
+/// Records of a run. The second half counts.
 const RECORDS: u32 = 100;
 
 /// What became of a run.
@@ -47,22 +80,23 @@ pub struct Outcome {
     evaluations: u64,
     /// Power balance, as a share of the energy that passed through.
     residual: f64,
-    /// Mean place of the cage in shares of the guide clearance, and its mean speed in rad/s, in the second half.
-    means: [f64; 3],
+    /// Largest sum of the forces between bodies at a record, as a share of the largest of them.
+    momentum: f64,
+    means: Readings,
+    class: Class,
+    /// Step of the leapfrog where `auto` used it, s.
+    leapfrog_step: Option<f64>,
 }
 
 /// Runs a case with this solver for at most `wall_time` s. Every output of every record must be finite.
 pub fn run(case: &Case, solver: &Value, wall_time: f64) -> Outcome {
-    let scene = common::with(&case.scene, &[("solver", solver.clone())]);
-    let model = Model::from_json(&scene.to_string()).unwrap_or_else(|e| panic!("{}: {e}", case.name));
-    let mut sim = Sim::new(Arc::new(model)).unwrap_or_else(|e| panic!("{}: {e}", case.name));
+    let mut sim = case.sim(solver, 0.0);
     sim.set_wall_time_limit(wall_time).expect("a limit");
+    let (start, mut path, mut momentum, mut error) = (sim.time(), Path::new(&sim), 0.0, None);
     let channels = sim.channels().to_vec();
-    let place = |name: &str| channels.iter().position(|c| c.name == name).expect("a channel");
-    let places = ["cage.y_ratio", "cage.z_ratio", "cage.speed"].map(place);
-    let (mut out, mut means, mut error) = (vec![0.0; channels.len()], [0.0; 3], None);
+    let mut out = vec![0.0; channels.len()];
     for i in 1..=RECORDS {
-        let advanced = sim.advance_to(case.duration * f64::from(i) / f64::from(RECORDS));
+        let advanced = sim.advance_to(start + case.duration * f64::from(i) / f64::from(RECORDS));
         let asked = sim.outputs(&mut out);
         if let Some(k) = out.iter().position(|x| !x.is_finite()) {
             panic!("{}: {} is {}", case.name, channels[k].name, out[k]);
@@ -71,13 +105,13 @@ pub fn run(case: &Case, solver: &Value, wall_time: f64) -> Outcome {
         if error.is_some() {
             break;
         }
+        momentum = imbalance(&mut sim).max(momentum);
         if i > RECORDS / 2 {
-            for (mean, k) in means.iter_mut().zip(places) {
-                *mean += out[k] / f64::from(RECORDS / 2);
-            }
+            path.add(&out);
         }
     }
     let s = sim.statistics();
+    let used = s.choice.filter(|choice| choice.steps[Kind::Leapfrog as usize] > 0);
     Outcome {
         error,
         steps: s.driver.steps,
@@ -85,42 +119,117 @@ pub fn run(case: &Case, solver: &Value, wall_time: f64) -> Outcome {
         smallest_step: s.driver.smallest_step,
         evaluations: s.evaluations,
         residual: sim.power_balance().map_or(f64::NAN, |balance| balance.relative_residual()),
-        means,
+        momentum,
+        means: path.means(),
+        class: path.class(),
+        leapfrog_step: used.map(|choice| choice.leapfrog_step),
+    }
+}
+
+/// Sum of all forces between bodies as a share of the largest of them.
+fn imbalance(sim: &mut Sim) -> f64 {
+    let forces = sim.forces().expect("forces");
+    let (mut sum, mut largest) = ([0.0; 2], 0.0f64);
+    // From raceways, pockets and guide.
+    for [y, z, _] in forces.bodies.iter().flat_map(|body| &body[..4]) {
+        sum = [sum[0] + y, sum[1] + z];
+        largest = largest.max(y.abs()).max(z.abs());
+    }
+    if largest > 0.0 { sum[0].hypot(sum[1]) / largest } else { 0.0 }
+}
+
+/// The solver of `auto` with half of its step or tolerance.
+fn halved(outcome: &Outcome) -> Value {
+    match outcome.leapfrog_step {
+        Some(step) => json!({"method": {"leapfrog": {"step": 0.5 * step}}}),
+        None => json!({"method": {"auto": {"tolerance": 5e-7}}}),
     }
 }
 
 /// Evaluations per simulated ms that are enough for every case with `auto` at `engineering`.
 const BUDGET: f64 = 10e3;
-/// Largest share of energy that may be missing there, and in the cases that are named below.
+/// Largest share of energy that may be missing there, but in the cases of [`CASES_OF_LARGER_RESIDUAL`].
 const RESIDUAL: f64 = 1e-3;
-/// Friction of rollers that nothing turns locks within a nanosecond; Rosenbrock at 1e-3 where the leapfrog will not do.
-const LARGER_RESIDUAL: f64 = 5e-3;
-const CASES_OF_LARGER_RESIDUAL: [&str; 5] =
-    ["200 kN", "oscillating shaft", "pocket clearance 1 um", "cage dropped in a standing bearing", "1 rpm"];
+/// Friction of rollers that nothing turns locks within a nanosecond, and little energy passes; a force of tons throws a
+/// roller within steps of nanoseconds.
+const CASES_OF_LARGER_RESIDUAL: [(&str, f64); 3] =
+    [("cage dropped in a standing bearing", 1e-2), ("1 rpm", 1e-2), ("roller 1 mm deep", 3e-2)];
+/// Round-off of the sum of some hundred forces.
+const MOMENTUM: f64 = 1e-13;
 
 #[test]
 fn auto_runs_every_case() {
     for case in cases() {
         let o = run(&case, &json!({}), 60.0);
         println!(
-            "{}: {} steps, {} evaluations, residual {:.1e}",
-            case.name, o.steps, o.evaluations, o.residual
+            "{}: {} steps, {} evaluations, residual {:.1e}, momentum {:.1e}, {}",
+            case.name, o.steps, o.evaluations, o.residual, o.momentum, o.class
         );
         assert!(o.error.is_none(), "{}: {:?}", case.name, o.error);
         assert!((o.evaluations as f64) < BUDGET * 1e3 * case.duration, "{}: {}", case.name, o.evaluations);
-        let named = CASES_OF_LARGER_RESIDUAL.contains(&case.name);
-        let allowed = if named { LARGER_RESIDUAL } else { RESIDUAL };
+        let exception = CASES_OF_LARGER_RESIDUAL.iter().find(|(name, _)| *name == case.name);
+        let allowed = exception.map_or(RESIDUAL, |(_, allowed)| *allowed);
         assert!(o.residual.abs() < allowed, "{}: {}", case.name, o.residual);
-        assert!(!named || o.residual.abs() > 0.1 * RESIDUAL, "{} needs no exception", case.name);
+        assert!(exception.is_none() || o.residual.abs() > RESIDUAL, "{} needs no exception", case.name);
+        assert!(o.momentum < MOMENTUM, "{}: {}", case.name, o.momentum);
+    }
+}
+
+#[test]
+fn half_the_step_or_tolerance_gives_the_same_class_of_motion() {
+    for case in cases() {
+        let auto = run(&case, &json!({}), 60.0);
+        let finer = run(&case, &halved(&auto), 60.0);
+        assert!(finer.error.is_none(), "{}: {:?}", case.name, finer.error);
+        assert_eq!(auto.class, finer.class, "{}: {:?}, {:?}", case.name, auto.means, finer.means);
     }
 }
 
 #[test]
 fn what_is_centred_stays_centred() {
-    let case = cases().into_iter().find(|case| case.name == "centred without gravity").expect("the case");
+    let case = case("centred without gravity");
     for method in ["auto", "dormand_prince", "rosenbrock", "radau", "leapfrog"] {
         let o = run(&case, &json!({"method": {method: {}}}), 60.0);
         assert!(o.error.is_none(), "{method}: {:?}", o.error);
         assert_eq!(o.means[..2], [0.0; 2], "{method}");
     }
+}
+
+/// A minute, in which the cage makes more than a thousand revolutions, is like its first seconds.
+#[test]
+#[ignore = "make hard"]
+fn a_minute_of_simulated_time() {
+    let mut sim = Case::new("a minute", "", common::example(), 60.0).sim(&json!({}), 0.0);
+    let channels = sim.channels().to_vec();
+    let names = ["cage.y_ratio", "cage.z_ratio", "cage.slip", "inner_ring.drag_torque"];
+    let place = names.map(|name| channels.iter().position(|c| c.name == name).expect("a channel"));
+    let mut out = vec![0.0; channels.len()];
+    let mut seconds: Vec<[f64; 4]> = Vec::new();
+    for second in 0..60 {
+        let mut means = [0.0; 4];
+        for record in 1..=1000 {
+            sim.advance_to(f64::from(second) + 1e-3 * f64::from(record)).expect("a step");
+            sim.outputs(&mut out).expect("outputs");
+            for (mean, k) in means.iter_mut().zip(place) {
+                *mean += 1e-3 * out[k];
+            }
+        }
+        seconds.push(means);
+    }
+    let sample = |part: &[[f64; 4]], k: usize| {
+        judge::Sample::of(&part.iter().map(|means| means[k]).collect::<Vec<_>>()).expect("two seconds")
+    };
+    for (k, name) in names.into_iter().enumerate() {
+        // The first seconds still warm up slip.
+        let verdict =
+            sample(&seconds[40..], k).against(&sample(&seconds[2..22], k), judge::LEVEL, names.len());
+        println!(
+            "{name}: last 20 s less 20 s from 2 s on {:+.2e}, band {:.2e}",
+            verdict.difference, verdict.band
+        );
+        assert!(verdict.inside(), "{name}: {verdict:?}");
+    }
+    let residual = sim.power_balance().expect("a balance").relative_residual();
+    println!("residual {residual:.1e}; {}", sim.report());
+    assert!(residual.abs() < RESIDUAL);
 }

@@ -1,0 +1,75 @@
+//! `auto` against CVODE: means over the second half of runs that start a little differently.
+
+use crate::cvode::{self, Derivatives, Method, Options};
+use crate::judge::{LEVEL, Sample, Verdict};
+use crate::motion::{Path, Readings};
+use crate::{Case, RECORDS};
+use cagedyn::Sim;
+use serde_json::{Value, json};
+
+/// Runs of each, and how far the first element is moved from one to the next, rad.
+const RUNS: u32 = 4;
+const SHIFT: f64 = 1e-3;
+/// Local error of CVODE in units of the state scales; its longest step, s; evaluations per simulated s it may take.
+const TOLERANCE: f64 = 1e-7;
+const LONGEST_STEP: f64 = 1e-5;
+const EVALUATIONS: f64 = 40e6;
+
+/// Differences of the means of `auto` with this solver from those of CVODE, with the bands that their scatter explains.
+///
+/// # Errors
+/// Where one of both gave up.
+pub fn agreement(case: &Case, solver: &Value) -> Result<[Verdict; 3], String> {
+    let sample = |means: &dyn Fn(f64) -> Result<Readings, String>| -> Result<[Sample; 3], String> {
+        let runs: Vec<Readings> =
+            (0..RUNS).map(|k| means(SHIFT * f64::from(k))).collect::<Result<_, String>>()?;
+        let column = |k: usize| runs.iter().map(|run| run[k]).collect::<Vec<_>>();
+        Ok([0, 1, 2].map(|k| Sample::of(&column(k)).expect("several runs")))
+    };
+    let theirs = sample(&|shift| by_cvode(case, shift))?;
+    let ours = sample(&|shift| by_library(case, solver, shift))?;
+    Ok([0, 1, 2].map(|k| ours[k].against(&theirs[k], LEVEL, 3)))
+}
+
+fn times(case: &Case, start: f64) -> impl Iterator<Item = f64> {
+    let interval = case.duration / f64::from(RECORDS);
+    (RECORDS / 2 + 1..=RECORDS).map(move |i| start + interval * f64::from(i))
+}
+
+fn by_library(case: &Case, solver: &Value, shift: f64) -> Result<Readings, String> {
+    let mut sim = case.sim(solver, shift);
+    let (mut path, mut out) = (Path::new(&sim), vec![0.0; sim.channels().len()]);
+    for t in times(case, sim.time()) {
+        sim.advance_to(t).and_then(|()| sim.outputs(&mut out)).map_err(|e| e.message)?;
+        path.add(&out);
+    }
+    Ok(path.means())
+}
+
+fn by_cvode(case: &Case, shift: f64) -> Result<Readings, String> {
+    let new = || case.sim(&json!({}), shift);
+    let (mut forces, mut slopes, mut reader): (Sim, Sim, Sim) = (new(), new(), new());
+    let absolute: Vec<f64> = reader.model().state_scales().iter().map(|scale| TOLERANCE * scale).collect();
+    let options = Options {
+        method: Method::Bdf,
+        relative: 0.0,
+        absolute: &absolute,
+        max_steps: 10_000_000,
+        max_step: LONGEST_STEP,
+    };
+    let mut remaining = (EVALUATIONS * case.duration) as u64;
+    let mut rates = |t: f64, x: &[f64], rate: &mut [f64]| {
+        remaining = remaining.checked_sub(1).ok_or(())?;
+        forces.derivative(t, x, rate).map_err(|_| ())
+    };
+    let (start, state) = (reader.time(), reader.state().to_vec());
+    let times: Vec<f64> = times(case, start).collect();
+    let solution =
+        cvode::solve(&options, start, &state, &times, &mut rates, Derivatives::Newton(&mut slopes))?;
+    let (mut path, mut out) = (Path::new(&reader), vec![0.0; reader.channels().len()]);
+    for (t, state) in times.iter().zip(&solution.states) {
+        reader.set_state(*t, state).and_then(|()| reader.outputs(&mut out)).map_err(|e| e.message)?;
+        path.add(&out);
+    }
+    Ok(path.means())
+}
