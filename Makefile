@@ -17,7 +17,7 @@ DESTDIR ?=
 VERSION := $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -n 1)
 CARGO ?= cargo
 
-.PHONY: test tools fmt lint unit run cases pictures example effects verify hard statistics accuracy bench header install clean
+.PHONY: test tools fmt lint unit run cases pictures example effects verify hard random statistics accuracy bench header install clean
 
 test: tools fmt lint unit
 
@@ -73,7 +73,11 @@ verify: tools
 	CAGEDYN_BLESS=1 $(CARGO) test --locked --test cvode --test auto -- --ignored --nocapture --test-threads 1 table
 
 hard:
-	CAGEDYN_BLESS=1 $(CARGO) test --release --locked --test hard -- --ignored --nocapture table
+	CAGEDYN_BLESS=1 $(CARGO) test --release --locked --test hard -- --ignored --nocapture
+
+# Twenty times as many random scenes as every test run has; about an hour.
+random:
+	PROPTEST_CASES=20000 $(CARGO) test --release --locked --test random_scenes scenes_run_or -- --nocapture
 
 statistics: tools
 	$(CARGO) run --release --locked --example statistics -- --docs
