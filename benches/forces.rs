@@ -1,7 +1,8 @@
-//! Cost of a force evaluation and of a simulated millisecond. `cargo bench` prints both.
+//! Cost of a force evaluation, of the power balance of its state, and of a simulated millisecond. `cargo bench` prints both.
 //!
 //! Compare numbers of one run only: machines differ and drift.
 
+use cagedyn::model::{HostInputs, Workspace};
 use cagedyn::{Model, Scene, Sim};
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
@@ -42,6 +43,15 @@ fn benches(c: &mut Criterion) {
         c.bench_function(&format!("{scene}/{name}/force evaluation"), |b| {
             b.iter(|| sim.derivative(DEVELOPED, black_box(&state), &mut rate));
         });
+        let model = sim.model().clone();
+        let (q, v) = state.split_at(model.layout().positions());
+        let (mut workspace, mut a) = (Workspace::new(&model), vec![0.0; v.len()]);
+        let inputs = model.inputs_at(DEVELOPED, &HostInputs::default());
+        if model.accelerations(&inputs, q, v, &mut workspace, &mut a).is_ok() {
+            c.bench_function(&format!("{scene}/{name}/power balance"), |b| {
+                b.iter(|| model.powers(black_box(q), v, None, &workspace));
+            });
+        }
         c.bench_function(&format!("{scene}/{name}/1 ms"), |b| {
             b.iter(|| {
                 let reset = sim.set_state(DEVELOPED, black_box(&state));

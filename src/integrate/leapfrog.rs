@@ -8,6 +8,9 @@
 //! v_new  = v + dv,   q_new = q_half + h/2 v_new
 //! ```
 //!
+//! Groups that follow others ([`System::leaders`]) take in their `a` what the forces between them have become by the step of
+//! the others, so that momentum passes whole.
+//!
 //! Second order where D_i = D/2: the predictor removes the first-order bias of velocity-dependent forces. First
 //! order in damping with D_i = D, which is what rates far above 1/h need. Stable up to h = 2/omega of the highest
 //! undamped frequency. No error estimate.
@@ -120,6 +123,9 @@ impl<S: System> Stepper<S> for Leapfrog {
                 }
             }
         }
+        if let Some(i) = self.trial_a.iter().position(|a| !a.is_finite()) {
+            return Err(system.not_finite(i));
+        }
         for ((trial, v), a) in v_trial.iter_mut().zip(v).zip(&self.trial_a) {
             *trial = v + h * a;
         }
@@ -140,6 +146,7 @@ impl<S: System> Stepper<S> for Leapfrog {
                 }
             }
         }
+        // Of the groups that follow.
         if let Some(i) = self.trial_a.iter().position(|a| !a.is_finite()) {
             return Err(system.not_finite(i));
         }

@@ -33,9 +33,9 @@ const ENOUGH: f64 = 0.53;
 /// Eight checks are enough for means of more than this many times the largest error.
 const EARLY: f64 = 0.22;
 const CLEARLY_TOO_MUCH: f64 = 2.0;
-/// Without damping, vibration grows until its phases are the largest errors, and they mean nothing in statistics: errors
-/// below this share of its speed are allowed. The leapfrog itself turns phases by (share of 1/frequency)^3/3 in a stretch.
-const PHASES: f64 = 0.06;
+/// Without damping, vibration grows until its phases are the largest errors, and they mean nothing in statistics. The
+/// leapfrog turns them by (h frequency)^3/3 in a stretch; errors up to this many times the speed that makes are allowed.
+const PHASES: f64 = 1.5;
 /// Below this share of critical damping the fastest vibration counts as undamped: half the step.
 const LIGHT_DAMPING: f64 = 0.01;
 /// Steps finer than by this many halvings cost as much as error control, without its bound on the bias.
@@ -254,7 +254,8 @@ impl Watch {
 
     /// Largest mean error of a stretch that is allowed.
     fn largest_error(&self) -> f64 {
-        let phases = PHASES * self.vibrations[1].rms() / self.expected.speed_unit;
+        let turned = (self.step() * self.frequency).powi(3) / 3.0;
+        let phases = PHASES * turned * self.vibrations[1].rms() / self.expected.speed_unit;
         if self.undamped { phases.max(self.expected.largest_error) } else { self.expected.largest_error }
     }
 

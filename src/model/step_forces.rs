@@ -65,7 +65,8 @@ impl Model {
         }
     }
 
-    /// Makes the forces at the last evaluated state, whose velocities are `v`, those of a semi-implicit step from there.
+    /// Makes the forces at the last evaluated state, whose velocities are `v`, those of a semi-implicit step from there; zero
+    /// where damping would make a contact pull, which the step itself lets it do.
     pub(crate) fn apply_step(&self, v: &[f64], step: &SemiImplicit<'_>, ws: &mut Workspace) {
         let Workspace { raceways, pockets, elements, .. } = ws;
         for Batch { sites, force, .. } in [raceways, pockets] {

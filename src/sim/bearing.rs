@@ -347,3 +347,65 @@ impl System for Bearing {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{CONTACT_QUANTITIES, Forces};
+    use crate::{Scene, Sim};
+
+    /// Momentum that ring and cage gain in a step of the leapfrog is that of the forces that the step reports, on all bodies.
+    #[test]
+    fn ring_and_cage_move_by_the_forces_that_steps_report() {
+        let free = [
+            ("inner_ring.motion.free.support_damping", "null"),
+            ("cage.guide", "null"),
+            ("solver", r#"{"method": {"leapfrog": {}}}"#),
+        ];
+        for load in ["-4900", "-40e3"] {
+            let sets: Vec<_> =
+                free.into_iter().chain([("inner_ring.motion.free.load.z.constant", load)]).collect();
+            let text = include_str!("../../scenes/nu2310.json");
+            let model = Arc::new(Model::new(Scene::from_json_with(text, sets).unwrap()).unwrap());
+            let mut sim = Sim::new(model.clone()).unwrap();
+            let (ring, cage) = (model.layout().ring.unwrap(), model.layout().cage.unwrap());
+            let (mut compared, nq) = (0, model.layout().positions());
+            for _ in 0..1500 {
+                sim.step(sim.nominal_step()).unwrap();
+                sim.find_output_forces().unwrap();
+                let forces: Forces = sim.output_forces.clone();
+                // The report holds a force at zero where damping would make it pull within the step.
+                let [normal, approach] = ["normal_force", "approach"]
+                    .map(|name| CONTACT_QUANTITIES.iter().position(|q| q.name == name).unwrap());
+                if forces.contacts.iter().any(|c| c[normal] == 0.0 && c[approach] > 0.0) {
+                    continue;
+                }
+                let (_, step) = sim.driver.applied().unwrap();
+                for (body, at, mass) in [(1, ring, ring_mass(&model)), (2, cage, cage_mass(&model))] {
+                    for k in 0..2 {
+                        let sum: f64 = forces.bodies[body].iter().map(|force| force[k]).sum();
+                        let gained = mass * (step.end[nq + at + k] - step.start[nq + at + k]) / step.h;
+                        let largest = forces.bodies[body].iter().fold(1.0, |m: f64, f| m.max(f[k].abs()));
+                        assert!(
+                            (gained - sum).abs() < 1e-6 * largest,
+                            "{load} N, body {body}: {gained} {sum}"
+                        );
+                    }
+                }
+                compared += 1;
+            }
+            assert!(compared > 1000, "{compared}");
+        }
+    }
+
+    fn ring_mass(model: &Model) -> f64 {
+        let crate::scene::RingMotion::Free(free) = &model.scene().inner_ring.as_ref().unwrap().motion else {
+            panic!("the ring is free");
+        };
+        free.mass
+    }
+
+    fn cage_mass(model: &Model) -> f64 {
+        model.scene().cage.as_ref().unwrap().mass
+    }
+}

@@ -209,7 +209,7 @@ pub fn rows() -> Vec<Row> {
             "zero tolerance",
             vec![("solver", json!({"method": {"dormand_prince": {"tolerance": 0}}}))],
             "solver.method.dormand_prince.tolerance",
-            &["0.0", "1e-12 to 1e-1"],
+            &["0.0", "1e-13 to 1e-1"],
         ),
         scene_row(
             "tolerance of one",
@@ -233,7 +233,7 @@ pub fn rows() -> Vec<Row> {
             "chosen with a tolerance of zero",
             vec![("solver", json!({"method": {"auto": {"tolerance": 0}}}))],
             "solver.method.auto.tolerance",
-            &["0.0", "1e-12 to 1e-1"],
+            &["0.0", "1e-13 to 1e-1"],
         ),
         scene_row(
             "largest step below the smallest",

@@ -143,7 +143,7 @@ pub fn cases() -> Vec<Case> {
             20.0,
         ),
         case(
-            "forward whirl in narrow pockets",
+            "narrow dry pockets",
             "up to nine balls strike at once, with more friction than the guide has",
             scene_with(&[
                 ("cage.guide.film", Value::Null),

@@ -121,7 +121,7 @@ pub fn run(case: &Case, solver: &Value, wall_time: f64) -> Outcome {
         residual: sim.power_balance().map_or(f64::NAN, |balance| balance.relative_residual()),
         momentum,
         means: path.means(),
-        class: path.class(),
+        class: path.class(0.5 * case.duration),
         leapfrog_step: used.map(|choice| choice.leapfrog_step),
     }
 }

@@ -41,7 +41,11 @@ pub struct Path {
     places: [usize; 3],
     /// Factors that make shares of the clearance of places.
     units: [f64; 3],
+    /// Speed of the cage centre round the guide, which may turn more than once from record to record.
+    whirl: Option<usize>,
     readings: Vec<Readings>,
+    /// Sums of the squared distance from the centre and of its product with the whirl speed.
+    sums: [f64; 2],
 }
 
 impl Path {
@@ -57,12 +61,17 @@ impl Path {
         let (places, units) = cage
             .or_else(|| find(ring).map(|places| (places, [1.0 / length, 1.0 / length, 1.0])))
             .expect("a cage or a ring that moves");
-        Self { places, units, readings: Vec::new() }
+        let whirl = channels.iter().position(|c| c.name == "cage.whirl_speed");
+        Self { places, units, whirl, readings: Vec::new(), sums: [0.0; 2] }
     }
 
     /// Adds the outputs of a record.
     pub fn add(&mut self, out: &[f64]) {
-        self.readings.push([0, 1, 2].map(|k| self.units[k] * out[self.places[k]]));
+        let reading = [0, 1, 2].map(|k| self.units[k] * out[self.places[k]]);
+        let square = reading[0] * reading[0] + reading[1] * reading[1];
+        self.sums[0] += square;
+        self.sums[1] += square * self.whirl.map_or(0.0, |k| out[k]);
+        self.readings.push(reading);
     }
 
     pub fn means(&self) -> Readings {
@@ -70,7 +79,8 @@ impl Path {
         [0, 1, 2].map(|k| self.readings.iter().map(|r| r[k]).sum::<f64>() / n)
     }
 
-    pub fn class(&self) -> Class {
+    /// Of readings over this time in s.
+    pub fn class(&self, duration: f64) -> Class {
         let [y, z, speed] = self.means();
         let n = self.readings.len().max(1) as f64;
         let spread = self.readings.iter().map(|r| (r[0] - y).powi(2) + (r[1] - z).powi(2)).sum::<f64>() / n;
@@ -78,11 +88,8 @@ impl Path {
         if spread < STAYS[0] || spread < STAYS[1] * y.hypot(z) {
             return Class::Stays;
         }
-        let turn = |pair: &[Readings]| {
-            let [a, b] = [&pair[0], &pair[1]];
-            (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1])
-        };
-        let swept: f64 = self.readings.windows(2).map(turn).sum();
+        let [squares, weighted] = self.sums;
+        let swept = if squares > 0.0 { weighted / squares * duration } else { 0.0 };
         match swept * speed.signum() {
             swept if swept > PI => Class::Forward,
             swept if swept < -PI => Class::Backward,

@@ -1,9 +1,11 @@
 //! The tables of the page on hard cases.
 
-use crate::agreement::agreement;
+use crate::agreement::{SAME, compared, reference, within};
 use crate::common::{replace_between, repository};
-use crate::{Case, Outcome, cases, run};
+use crate::judge::Verdict;
+use crate::{Case, Outcome, RESIDUAL, cases, run};
 use serde_json::json;
+use std::fs::File;
 
 const METHODS: [(&str, &str); 5] = [
     ("auto", "auto"),
@@ -16,7 +18,27 @@ const PRESETS: [&str; 3] = ["draft", "engineering", "reference"];
 /// Wall time of one run, s.
 const WALL_TIME: f64 = 20.0;
 
-/// One number for a table, in three digits.
+/// Columns of the file with all numbers. Place in shares of the clearance, y and z, and speed of the cage in rad/s; without a
+/// cage of the ring and its drag torque in N m.
+const COLUMNS: [&str; 15] = [
+    "case",
+    "method",
+    "preset",
+    "ended",
+    "steps",
+    "rejected",
+    "smallest_step_s",
+    "evaluations",
+    "energy_residual",
+    "momentum_residual",
+    "mean_y",
+    "mean_z",
+    "mean_speed_or_torque",
+    "motion",
+    "within_scatter_of_cvode",
+];
+
+/// One number for a table, in two digits.
 fn short(x: f64) -> String {
     if x == 0.0 { "0".to_owned() } else { format!("{x:.1e}") }
 }
@@ -35,63 +57,117 @@ fn brief(o: &Outcome) -> String {
     }
 }
 
-/// The mean that is farthest from CVODE's in units of its band: its difference in shares of the clearance, rad/s or N m, and
-/// in bands.
-fn compared(case: &Case) -> String {
+/// The mean that is farthest from the reference in units of its band: its difference in shares of the clearance, rad/s or
+/// N m, and in bands. And whether all are inside.
+fn farthest(case: &Case, verdicts: &[Verdict; 3]) -> (String, bool) {
     let names = ["y", "z", if case.scene["cage"].is_null() { "torque" } else { "speed" }];
-    let verdicts = match agreement(case, &json!({})) {
-        Ok(verdicts) => verdicts,
-        Err(e) => return format!("**{e}**"),
+    let differ = verdicts.iter().zip(names).filter(|(v, _)| v.difference.abs() > SAME);
+    let Some((v, name)) = differ.max_by(|a, b| a.0.ratio().abs().total_cmp(&b.0.ratio().abs())) else {
+        return ("the same".to_owned(), true);
     };
-    let worst = verdicts.iter().zip(names).max_by(|a, b| a.0.ratio().abs().total_cmp(&b.0.ratio().abs()));
-    worst.map_or_else(String::new, |(v, name)| {
-        let bands = format!("{:.1}", v.ratio().abs());
-        let bands = if v.inside() { bands } else { format!("**{bands}**") };
-        format!("{name} {:+.1e}, {bands}", v.difference)
-    })
+    let bands = format!("{:.1}", v.ratio().abs());
+    let bands = if v.inside() { bands } else { format!("**{bands}**") };
+    (format!("{name} {:+.1e}, {bands}", v.difference), v.inside())
 }
 
-/// Prints the tables of the page; with `CAGEDYN_BLESS=1` also writes them there.
+/// Cases in which a method came to the end, kept its energy, and agrees with CVODE.
+#[derive(Clone, Copy, Default)]
+struct Score([u32; 3]);
+
+impl Score {
+    fn add(&mut self, o: &Outcome, agrees: bool) {
+        let finished = o.error.is_none();
+        let all = [finished, finished && o.residual.abs() < RESIDUAL, finished && agrees];
+        for (count, yes) in self.0.iter_mut().zip(all) {
+            *count += u32::from(yes);
+        }
+    }
+}
+
+fn write_line(file: &mut csv::Writer<File>, case: &Case, setting: &Setting, o: &Outcome, agrees: bool) {
+    let ended = o.error.as_ref().map_or("finished", |e| e.status.name());
+    let numbers = [o.steps as f64, o.rejected as f64, o.smallest_step, o.evaluations as f64];
+    let numbers = numbers.into_iter().chain([o.residual, o.momentum]).chain(o.means);
+    let mut line = vec![case.name.to_owned(), setting.method.to_owned(), setting.preset.to_owned()];
+    line.push(ended.to_owned());
+    line.extend(numbers.map(|x| format!("{x:e}")));
+    line.extend([o.class.to_string(), agrees.to_string()]);
+    file.write_record(line).expect("a line");
+}
+
+/// A method with a preset.
+struct Setting {
+    method: &'static str,
+    name: &'static str,
+    preset: &'static str,
+}
+
+/// Prints the tables of the page and writes all numbers to out/hard.csv; with `CAGEDYN_BLESS=1` also writes the tables into
+/// the page.
 #[test]
 #[ignore = "make hard"]
 fn table() {
-    let head = "| case | why it is hard | steps | rejected | smallest step, s | evaluations | energy | momentum | \
-                from CVODE | cage |\n|---|---|---:|---:|---:|---:|---:|---:|---|---|\n";
-    let mut detail = head.to_owned();
-    let columns: Vec<String> =
-        METHODS.iter().flat_map(|(_, name)| PRESETS.map(|preset| format!("{name} {preset}"))).collect();
+    let settings: Vec<Setting> = METHODS
+        .iter()
+        .flat_map(|&(method, name)| PRESETS.map(|preset| Setting { method, name, preset }))
+        .collect();
+    let mut detail =
+        "| case | why it is hard | steps | rejected | smallest step, s | evaluations | energy | momentum | \
+                      from CVODE | cage |\n|---|---|---:|---:|---:|---:|---:|---:|---|---|\n"
+            .to_owned();
+    let columns: Vec<String> = settings.iter().map(|s| format!("{} {}", s.name, s.preset)).collect();
     let mut all = format!("| case | {} |\n|---|{}\n", columns.join(" | "), "---:|".repeat(columns.len()));
-    for case in cases() {
-        let Case { name, why, .. } = case;
-        let outcomes: Vec<Outcome> = METHODS
-            .iter()
-            .flat_map(|(method, _)| PRESETS.map(|preset| (method, preset)))
-            .map(|(method, preset)| {
-                run(&case, &json!({"preset": preset, "method": {*method: {}}}), WALL_TIME)
-            })
-            .collect();
-        // The first is `auto`.
-        let auto = &outcomes[1];
-        let row = format!(
-            "| {name} | {why} | {} | {} | {} | {} | {} | {} | {} | {} |\n",
-            auto.steps,
-            auto.rejected,
-            short(auto.smallest_step),
-            auto.evaluations,
-            short(auto.residual.abs()),
-            short(auto.momentum),
-            compared(&case),
-            auto.class
-        );
-        print!("{row}");
-        detail += &row;
-        let briefs: Vec<String> = outcomes.iter().map(brief).collect();
-        all += &format!("| {name} | {} |\n", briefs.join(" | "));
+    let (mut agreeing, mut scores, cases) = (0, vec![Score::default(); settings.len()], cases());
+    std::fs::create_dir_all(repository("out")).expect("a folder");
+    let mut file = csv::Writer::from_path(repository("out/hard.csv")).expect("a file");
+    file.write_record(COLUMNS).expect("a line");
+    for case in &cases {
+        let reference = reference(case);
+        let mut briefs = Vec::new();
+        for (setting, score) in settings.iter().zip(&mut scores) {
+            let solver = json!({"preset": setting.preset, "method": {setting.method: {}}});
+            let o = run(case, &solver, WALL_TIME);
+            let compares = |reference| o.error.is_none() && within(&o.means, reference);
+            let agrees = reference.as_ref().is_ok_and(compares);
+            score.add(&o, agrees);
+            write_line(&mut file, case, setting, &o, agrees);
+            briefs.push(brief(&o));
+            if (setting.method, setting.preset) == ("auto", "engineering") {
+                let verdicts = reference.as_ref().map_err(Clone::clone).and_then(|r| compared(case, r));
+                let (text, inside) =
+                    verdicts.map_or_else(|e| (format!("**{e}**"), false), |v| farthest(case, &v));
+                agreeing += u32::from(inside);
+                let row = format!(
+                    "| {} | {} | {} | {} | {} | {} | {} | {} | {text} | {} |\n",
+                    case.name,
+                    case.why,
+                    o.steps,
+                    o.rejected,
+                    short(o.smallest_step),
+                    o.evaluations,
+                    short(o.residual.abs()),
+                    short(o.momentum),
+                    o.class
+                );
+                print!("{row}");
+                detail += &row;
+            }
+        }
+        all += &format!("| {} | {} |\n", case.name, briefs.join(" | "));
     }
-    println!("{all}");
+    let agreement = format!("All three means are inside in {agreeing} of {} cases.\n", cases.len());
+    let mut overview =
+        format!("| of {} cases | {} |\n|---|---:|---:|---:|\n", cases.len(), PRESETS.join(" | "));
+    for (scores, (_, name)) in scores.chunks_exact(PRESETS.len()).zip(METHODS) {
+        let cell = |Score([finished, kept, agreed]): &Score| format!("{finished}, {kept}, {agreed}");
+        overview += &format!("| {name} | {} |\n", scores.iter().map(cell).collect::<Vec<_>>().join(" | "));
+    }
+    println!("{all}{agreement}{overview}");
     if std::env::var_os("CAGEDYN_BLESS").is_some() {
         let path = repository("docs/hard-cases.md");
-        replace_between(&path, "<!-- auto -->", &detail);
-        replace_between(&path, "<!-- all -->", &all);
+        let blocks = [("auto", &detail), ("agreement", &agreement), ("overview", &overview), ("all", &all)];
+        for (name, text) in blocks {
+            replace_between(&path, &format!("<!-- {name} -->"), text);
+        }
     }
 }
