@@ -6,7 +6,7 @@
 # make effects   cost of every effect and what it changes: docs/effects.md
 # make verify    errors of the integration methods against CVODE: docs/verification.md
 # make hard     hard cases with every method and preset: docs/hard-cases.md
-# make random   twenty thousand random scenes; about an hour
+# make random   forty thousand random scenes; about an hour
 # make statistics  long runs of all methods in their statistics: docs/statistics.md
 # make accuracy  what accuracy costs in time, beside other solvers: docs/accuracy.md
 # make bench     time of a force evaluation and of a step

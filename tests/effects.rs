@@ -22,9 +22,11 @@ const STATES: usize = 4;
 /// Largest share of the full force evaluation that a cage with nothing but its weight may cost: a thousand instructions of
 /// the 19 000 that the groups of contacts leave.
 const WEIGHT_ALONE: f64 = 0.05;
-/// Instructions that a row may cost more than the unchanged scene, relative to that. An effect that only raceways lose parts
-/// their contacts from those of the pockets, and groups are less full then.
-const MORE: f64 = 0.06;
+/// Instructions that a row may cost more than the unchanged scene, relative to that.
+const MORE: f64 = 0.01;
+/// The same of effects that only raceways lose: their contacts part from those of the pockets, and groups are less full.
+const MORE_APART: f64 = 0.06;
+const APART: [&str; 2] = ["raceway thermal correction", "raceway boundary friction"];
 
 fn sim(study: &Study, set: &[(&str, &str)]) -> Sim {
     let text = read(&format!("scenes/{}.json", study.name));
@@ -157,7 +159,8 @@ fn rows_cost_no_more(study: usize) {
     let removed = |row: &Row| matches!(row.kind, Kind::Removed | Kind::Reference);
     for (i, row) in STUDIES[study].rows.iter().enumerate().filter(|(_, row)| removed(row)) {
         let share = counter.count(Some(i)) / full;
-        assert!(share < 1.0 + MORE, "{}: {share} of the unchanged scene", row.effect);
+        let more = if APART.contains(&row.effect) { MORE_APART } else { MORE };
+        assert!(share < 1.0 + more, "{}: {share} of the unchanged scene", row.effect);
         if study == 0 && row.kind == Kind::Reference {
             assert!(share < WEIGHT_ALONE, "{}: {share} of the unchanged scene", row.effect);
         }

@@ -133,22 +133,23 @@ impl<S: System> Stepper<S> for Leapfrog {
             *mean = 0.5 * (v + end);
         }
         let step = SemiImplicit { mean: &self.mean_v, end: v_trial };
-        system.react(q_trial, &self.predicted, &step, &mut self.a);
-        for g in system.leaders()..self.groups.len() {
-            let at = self.groups[g];
+        let leaders = system.leaders();
+        if leaders < self.groups.len() {
+            system.react(q_trial, &self.predicted, &step, &mut self.a);
+        }
+        for (g, at) in self.groups.iter().enumerate().skip(leaders) {
             let right = at.map(|i| i.map_or(0.0, |i| self.a[i]));
             let ahead = at.map(|i| i.map_or(0.0, |i| self.predicted[i] - v[i]));
-            for (i, a) in at.into_iter().zip(self.damping.solve_one(g, h, ahead, right)) {
+            for (&i, a) in at.iter().zip(self.damping.solve_one(g, h, ahead, right)) {
                 if let Some(i) = i {
+                    if !a.is_finite() {
+                        return Err(system.not_finite(i));
+                    }
                     self.trial_a[i] = a;
                     v_trial[i] = v[i] + h * a;
                     self.mean_v[i] = 0.5 * (v[i] + v_trial[i]);
                 }
             }
-        }
-        // Of the groups that follow.
-        if let Some(i) = self.trial_a.iter().position(|a| !a.is_finite()) {
-            return Err(system.not_finite(i));
         }
         let step = SemiImplicit { mean: &self.mean_v, end: v_trial };
         self.integrals = system.quadratures(q_trial, &self.predicted, Some(&step)).map(|x| h * x);

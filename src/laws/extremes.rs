@@ -9,19 +9,13 @@ use super::short_bearing::ShortBearing;
 use super::solid_contact::SolidContact;
 use super::solid_friction::SolidFriction;
 
-/// Splitmix64.
-struct Random(u64);
+#[allow(dead_code)] // used in part
+#[path = "../../tests/common/random.rs"]
+mod random;
+
+use random::Random;
 
 impl Random {
-    /// From 0 to 1.
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
     /// A number of any size up to `largest`; now and then zero, or as small as numbers are.
     fn positive(&mut self, largest: f64) -> f64 {
         match self.unit() {
@@ -84,7 +78,7 @@ fn check_line_contact(law: &LineContact, random: &mut Random, n: u32) {
 
 #[test]
 fn line_contacts() {
-    let mut random = Random(1);
+    let mut random = Random::new(1);
     let edge = Some(SolidFriction { coefficient: 0.1, transition_speed: 0.02 });
     let full = LineContact { edge_friction: edge, ..raceway() };
     check_line_contact(&full, &mut random, 400_000);
@@ -94,7 +88,7 @@ fn line_contacts() {
 
 #[test]
 fn solid_contacts() {
-    let mut random = Random(2);
+    let mut random = Random::new(2);
     for softening_depth in [0.0, 1e-6] {
         let friction = Some(SolidFriction { coefficient: 0.3, transition_speed: 1e-4 });
         let law = SolidContact { stiffness: 1e9, damping: 44.4, softening_depth, friction };
@@ -125,7 +119,7 @@ fn journal(random: &mut Random, clearance: f64) -> JournalMotion<f64> {
 
 #[test]
 fn guide_films() {
-    let mut random = Random(3);
+    let mut random = Random::new(3);
     let bearing = ShortBearing {
         viscosity: 0.06,
         radius: 0.045,

@@ -162,11 +162,12 @@ impl Model {
             inverse.fixed_view_mut::<3, 3>(CAGE, CAGE).copy_from(&corner);
             balanced = cage.mass_eccentricity.is_none();
         }
+        let diagonal = inverse.diagonal().data.0[0];
         for part in [&mut out.over_positions, &mut out.over_velocities] {
             part.hub = inverse * part.hub;
             for spoke in &mut part.spokes {
                 if balanced {
-                    scale_rows(&mut spoke.to_hub.data.0, &inverse.diagonal().data.0[0]);
+                    scale_rows(&mut spoke.to_hub.data.0, &diagonal);
                 } else {
                     spoke.to_hub = inverse * spoke.to_hub;
                 }

@@ -66,7 +66,7 @@ pub(super) fn chain<const N: usize>(
     contact_force([0, 1, 2].map(over_coordinates))
 }
 
-/// The forces of a contact by their own.
+/// A contact with this normal force, friction and rolling resistance, N, or their rates; all else is zero.
 pub(super) fn contact_force<T: Real>([normal, friction, rolling_resistance]: [T; FORCES]) -> ContactForce<T> {
     ContactForce { normal, friction, rolling_resistance, ..ContactForce::none(T::constant(0.0)) }
 }

@@ -22,8 +22,8 @@ pub(super) struct Numbers {
 /// Leapfrog step without contact damping, relative to that with it.
 pub(super) const UNDAMPED_SHARE: f64 = 0.5;
 
-/// Rosenbrock at 1e-3 is enough in those cases of docs/statistics.md where the leapfrog gives way; it is not at 1000 rpm,
-/// where the leapfrog does not.
+/// Rosenbrock at 1e-3 is enough at the highest speed of docs/statistics.md, above which the leapfrog gives way to it; it is
+/// not at 1000 rpm, where the leapfrog does not.
 const ENGINEERING: Numbers = Numbers {
     statistics: true,
     leapfrog_step: 1.0,

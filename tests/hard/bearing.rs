@@ -1,7 +1,7 @@
 //! Hard cases of roller bearings.
 
-use crate::Case;
 use crate::common::{example, with};
+use crate::{Case, change_state};
 use cagedyn::Sim;
 use serde_json::{Value, json};
 use std::f64::consts::PI;
@@ -49,41 +49,37 @@ const REVOLUTIONS: f64 = 1219.0;
 
 /// Goes to t = 60 s and turns cage and rollers by whole revolutions.
 fn after_a_minute(sim: &mut Sim) {
-    let infos = sim.model().state_infos();
-    let turn = |(x, name): (&f64, &str)| {
-        let turns = name == "cage.angle" || name.ends_with("orbit_travel");
-        x + if turns { -REVOLUTIONS * 2.0 * PI } else { 0.0 }
-    };
-    let state: Vec<f64> =
-        sim.state().iter().zip(&infos).map(|(x, info)| turn((x, info.name.as_str()))).collect();
-    sim.set_state(60.0, &state).expect("the state");
+    change_state(sim, 60.0, |name, x| {
+        if name == "cage.angle" || name.ends_with("orbit_travel") {
+            *x -= REVOLUTIONS * 2.0 * PI;
+        }
+    });
 }
+
+/// Rollers of the case in which they are bunched.
+const BUNCHED: u32 = 8;
 
 /// Puts all rollers beside each other at the bottom, where the load is.
 fn bunch(sim: &mut Sim) {
-    let infos = sim.model().state_infos();
-    let mut state = sim.state().to_vec();
-    let count = infos.iter().filter(|info| info.name.ends_with("orbit_travel")).count() as f64;
-    let spacing = 2.0 * PI / count;
+    let count = f64::from(BUNCHED);
     // Rollers of 7.5 mm on a circle of 40 mm.
     let closest = 2.01 * (7.5f64 / 39.99).asin();
     let mut j = 0.0;
-    for (x, info) in state.iter_mut().zip(&infos) {
-        if info.name.ends_with("orbit_travel") {
-            *x += (j - 0.5 * count) * (closest - spacing);
+    change_state(sim, 0.0, |name, x| {
+        if name.ends_with("orbit_travel") {
+            *x += (j - 0.5 * count) * (closest - 2.0 * PI / count);
             j += 1.0;
         }
-    }
-    sim.set_state(0.0, &state).expect("the state");
+    });
 }
 
 /// Puts one roller 1 mm deep into the outer raceway.
 fn press(sim: &mut Sim) {
-    let infos = sim.model().state_infos();
-    let mut state = sim.state().to_vec();
-    let offset = infos.iter().position(|info| info.name == "roller[3].radial_offset").expect("a roller");
-    state[offset] = 1e-3;
-    sim.set_state(0.0, &state).expect("the state");
+    change_state(sim, 0.0, |name, x| {
+        if name == "roller[3].radial_offset" {
+            *x = 1e-3;
+        }
+    });
 }
 
 /// All of them.
@@ -230,7 +226,7 @@ pub fn cases() -> Vec<Case> {
             "rollers bunched on one side",
             "nothing keeps the rollers apart, and the ring has no support on one side",
             example_with(&[
-                ("rollers.count", json!(8)),
+                ("rollers.count", json!(BUNCHED)),
                 ("cage", Value::Null),
                 ("initial", json!({"inner_ring": "centred", "first_roller_angle": 0.0})),
             ]),

@@ -1,7 +1,7 @@
 //! Hard cases of the greased cage guide.
 
-use crate::Case;
 use crate::common::{read, with};
+use crate::{Case, change_state};
 use cagedyn::Sim;
 use serde_json::{Value, json};
 use std::f64::consts::PI;
@@ -27,10 +27,11 @@ fn start(depth: f64, speed: f64, others: &[(&str, Value)]) -> Value {
 
 /// Puts the cage 1 mm deep into the ring.
 fn deep(sim: &mut Sim) {
-    let mut state = sim.state().to_vec();
-    let z = sim.model().state_infos().iter().position(|info| info.name == "cage.z").expect("a cage");
-    state[z] = -(CLEARANCE + 1e-3);
-    sim.set_state(0.0, &state).expect("the state");
+    change_state(sim, 0.0, |name, x| {
+        if name == "cage.z" {
+            *x = -(CLEARANCE + 1e-3);
+        }
+    });
 }
 
 /// All of them.
