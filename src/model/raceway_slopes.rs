@@ -54,7 +54,7 @@ impl Model {
         }
     }
 
-    /// Rates of the forces on roller and mate in 1/s of themselves while the second surface speed changes at `u2_rate`
+    /// Rates of the forces (N/s) and moments (N m/s) on roller and mate while the second surface speed changes at `u2_rate`
     /// (m/s^2) and the viscosity as it does; `None` while neither does.
     fn over_time(
         slopes: &Slopes,

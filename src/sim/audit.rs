@@ -55,8 +55,9 @@ impl PowerBalance {
 
 impl Sim {
     /// The power balance since the start of the scene or the last [`Sim::set_state`]. Works are summed up step by step, with
-    /// the weights of the method; those of the leapfrog with the forces of contacts that it applied. Inputs and limits may change on the way. An input that is set within a step divides the works of that
-    /// step in proportion to time.
+    /// the weights of the method; those of the leapfrog with the forces of contacts that it applied, the mean velocities of
+    /// the rollers, and the predicted ones of ring and cage. Inputs and limits may change on the way. An input that is set
+    /// within a step divides the works of that step in proportion to time.
     ///
     /// # Errors
     /// [`crate::Status::BadState`] when forces are undefined at the end.
