@@ -106,8 +106,9 @@ fn rollers_get_the_method_and_the_step_that_their_scene_needs() {
         ("8000 rpm", nu2310(&[rpm(8000.0)]), (Kind::Leapfrog, 0.5..=1.0)),
         ("12 000 rpm", nu2310(&[rpm(12e3)]), (Kind::Leapfrog, 0.5..=0.5)),
         ("20 000 rpm", nu2310(&[rpm(20e3)]), (Kind::Leapfrog, 0.5..=0.5)),
+        ("30 000 rpm", nu2310(&[rpm(30e3)]), (Kind::Leapfrog, 0.5..=0.5)),
         // The leapfrog would need a quarter of its own step or less.
-        ("30 000 rpm", nu2310(&[rpm(30e3)]), (Kind::Rosenbrock, 0.5..=0.5)),
+        ("40 000 rpm", nu2310(&[rpm(40e3)]), (Kind::Rosenbrock, 0.5..=0.5)),
         ("undamped", undamped(), (Kind::Leapfrog, 0.5..=0.5)),
     ] {
         // Without damping vibration builds up for tens of milliseconds.

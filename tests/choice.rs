@@ -4,9 +4,7 @@
 use cagedyn::integrate::auto::{Aim, Auto, Kind, Reason};
 use cagedyn::integrate::mode::{Mode, ModeFinder};
 use cagedyn::integrate::watch::Expectation;
-use cagedyn::integrate::{
-    DampingBlock, Driver, GroupDamping, Limits, Linearization, Structure, System, Vibration,
-};
+use cagedyn::integrate::{Driver, GroupDamping, Limits, Linearization, Structure, System, Vibration};
 
 fn limits(step: f64) -> Limits {
     Limits { nominal_step: step, min_step: 1e-14, max_step: 0.5, max_steps: 10_000_000 }
@@ -102,9 +100,7 @@ impl System for Stiffening {
         out.over_positions.hub[(0, 0)] = -self.square(t);
         Ok(())
     }
-    fn damping(&self, _: f64, _: &[f64], _: &[f64], damping: &mut GroupDamping) {
-        damping.set(0, &DampingBlock::default());
-    }
+    fn damping(&self, _: &[f64], _: &[f64], _: &mut GroupDamping) {}
     fn vibration(&self) -> Vibration {
         Vibration { squares: 1.0, count: 1.0 }
     }

@@ -1,26 +1,18 @@
 //! Damping within groups of coupled velocities, and the step of the velocities against it, for all groups at once.
+//!
+//! ```text
+//! (I + h E + (h E)^2/2) dv = (I + h E/2) h (a + D p)
+//!                    dv/h = a + D p - E s,   s = (I + h E) (2 I + h E)^-1 dv
+//! ```
+//!
+//! a accelerations with velocities that were predicted to change by p, D damping, E = D but for groups that damp each other.
+//! Damping acts at the velocities that have changed by s: half of dv where it is slow against 1/h, which is of second order,
+//! and all of it where it is fast. Of a decay at rate r a step leaves 1/(1 + z + z^2/2) with z = h r: exp(-z) to second
+//! order, and never less than zero.
 
 use crate::scalar::{Columns, Numeric, Pack, WIDEST, dispatch};
 use nalgebra::Matrix3;
 use pulp::{Arch, Simd};
-
-/// -da/dv of up to three coupled velocities (zero in unused places), or a positive approximation of it, 1/s.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct DampingBlock {
-    /// D, all of it.
-    pub full: Matrix3<f64>,
-    /// D_i, the share to take at the end of the step: half for the trapezoidal rule, all where rates exceed 1/h
-    /// by far. See [`implicit_share`].
-    pub implicit: Matrix3<f64>,
-}
-
-/// Share of a decay at rate r to take at the end of a step, z = h r >= 0: `1/(1 - exp(-z)) - 1/z`.
-///
-/// It makes one step of `v' = -r v` exact: one half for slow decays (second order), towards one for fast ones (no
-/// overshoot).
-pub fn implicit_share(z: f64) -> f64 {
-    if z < 1e-3 { 0.5 + z / 12.0 } else { 1.0 / (1.0 - (-z).exp()) - 1.0 / z }
-}
 
 /// A matrix for each group: a column of numbers for each entry, as long as whole groups of vector instructions need.
 pub type MatrixColumns = [[Vec<f64>; 3]; 3];
@@ -32,77 +24,94 @@ pub(crate) fn zero_vectors(n: usize) -> VectorColumns {
     std::array::from_fn(|_| vec![0.0; n.next_multiple_of(WIDEST)])
 }
 
-/// The damping of every group, in columns.
+/// Damping of every group, D = -da/dv or a positive approximation of it, in columns.
 #[derive(Clone, Debug)]
 pub struct GroupDamping {
-    /// D by row and column of the matrix, then group, 1/s. What is beyond the last group is of no meaning, but finite.
-    pub full: MatrixColumns,
-    /// D_i.
-    pub implicit: MatrixColumns,
+    /// D by row and column of the matrix, then group, 1/s; zero in unused places. What is beyond the last group is of no
+    /// meaning, but finite.
+    pub rates: MatrixColumns,
+    /// E/D: 1, or 2 for groups that damp each other and take each other's predicted velocity, which only then is stable.
+    weights: Vec<f64>,
     groups: usize,
 }
 
 impl GroupDamping {
     /// No damping of this many groups.
     pub fn new(groups: usize) -> Self {
-        let zero = std::array::from_fn(|_| zero_vectors(groups));
-        Self { full: zero.clone(), implicit: zero, groups }
+        let rates: MatrixColumns = std::array::from_fn(|_| zero_vectors(groups));
+        Self { weights: vec![1.0; rates[0][0].len()], rates, groups }
     }
 
-    /// Sets that of one group.
+    /// Sets D of one group, 1/s, and E/D.
     ///
     /// # Panics
     /// If there is no such group.
-    pub fn set(&mut self, group: usize, block: &DampingBlock) {
+    pub fn set(&mut self, group: usize, rates: &Matrix3<f64>, weight: f64) {
         for i in 0..3 {
             for k in 0..3 {
-                self.full[i][k][group] = block.full[(i, k)];
-                self.implicit[i][k][group] = block.implicit[(i, k)];
+                self.rates[i][k][group] = rates[(i, k)];
             }
         }
+        self.weights[group] = weight;
     }
 
-    /// The solution `x` of `(I + h D_i) x = y + D p` for one group.
+    /// A step of size `h` (s) of one group from the accelerations `a` at velocities that were predicted to change by `p`.
     ///
     /// # Panics
     /// If there is no such group.
-    pub(crate) fn solve_one(&self, group: usize, h: f64, p: [f64; 3], y: [f64; 3]) -> [f64; 3] {
-        let [implicit, full] = [&self.implicit, &self.full]
-            .map(|columns| columns.each_ref().map(|row| row.each_ref().map(|column| column[group])));
-        solve(&implicit, &full, h, p, y)
+    pub(crate) fn step_one(&self, group: usize, h: f64, p: [f64; 3], a: [f64; 3]) -> GroupStep<f64> {
+        let rates = self.rates.each_ref().map(|row| row.each_ref().map(|column| column[group]));
+        step(&rates, self.weights[group], h, p, a)
     }
 
-    /// Solves `(I + h D_i) x = y + D p` for every group; `y` becomes `x`, which is not finite where there is none.
-    pub(crate) fn solve(&self, h: f64, p: &VectorColumns, y: &mut VectorColumns, instructions: Arch) {
-        dispatch(instructions, Solve { damping: self, h, p, y });
+    /// Steps of all groups: `a` becomes the mean acceleration, `p` the change at which damping acts. Not finite where there is
+    /// no step.
+    pub(crate) fn step(&self, h: f64, p: &mut VectorColumns, a: &mut VectorColumns, instructions: Arch) {
+        dispatch(instructions, Step { damping: self, h, p, a });
     }
 }
 
-struct Solve<'a> {
+/// What becomes of one group, or several at once, in a step.
+pub(crate) struct GroupStep<T> {
+    /// dv/h, m/s^2 and its kin.
+    pub mean_acceleration: [T; 3],
+    /// s, the change of the velocities at which damping acts, m/s and its kin.
+    pub acting: [T; 3],
+}
+
+struct Step<'a> {
     damping: &'a GroupDamping,
     h: f64,
-    p: &'a VectorColumns,
-    y: &'a mut VectorColumns,
+    p: &'a mut VectorColumns,
+    a: &'a mut VectorColumns,
 }
 
-/// One group, or several at once, by Cramer's rule.
+/// By Cramer's rule for `w = (2 I + h E)^-1 dv/h`: `(2 I + 2 h E + (h E)^2) w = a + D p`.
 #[inline(always)]
-fn solve<T: Numeric>(implicit: &[[T; 3]; 3], full: &[[T; 3]; 3], h: f64, p: [T; 3], y: [T; 3]) -> [T; 3] {
+fn step<T: Numeric>(rates: &[[T; 3]; 3], weight: T, h: f64, p: [T; 3], a: [T; 3]) -> GroupStep<T> {
+    let scaled = rates.map(|row| row.map(|rate| rate * weight * h));
     let zero = p[0].like(0.0);
     // Columns of the matrix, and the right side.
     let mut m = [[zero; 3]; 3];
-    let mut right = y;
+    let mut right = a;
     for i in 0..3 {
         for k in 0..3 {
-            let identity = if i == k { 1.0 } else { 0.0 };
-            m[k][i] = implicit[i][k] * h + identity;
-            right[i] += full[i][k] * p[k];
+            let square =
+                scaled[i][0] * scaled[0][k] + scaled[i][1] * scaled[1][k] + scaled[i][2] * scaled[2][k];
+            let identity = if i == k { 2.0 } else { 0.0 };
+            m[k][i] = square + scaled[i][k] * 2.0 + identity;
+            right[i] += rates[i][k] * p[k];
         }
     }
     let [a, b, c] = m;
     let (bc, ca, ab) = (cross(&b, &c), cross(&c, &a), cross(&a, &b));
     let inverse = zero.like(1.0) / dot(&a, &bc);
-    [dot(&bc, &right) * inverse, dot(&ca, &right) * inverse, dot(&ab, &right) * inverse]
+    let w = [dot(&bc, &right) * inverse, dot(&ca, &right) * inverse, dot(&ab, &right) * inverse];
+    let damped = [dot(&scaled[0], &w), dot(&scaled[1], &w), dot(&scaled[2], &w)];
+    GroupStep {
+        mean_acceleration: [0, 1, 2].map(|i| w[i] * 2.0 + damped[i]),
+        acting: [0, 1, 2].map(|i| (w[i] + damped[i]) * h),
+    }
 }
 
 #[inline(always)]
@@ -115,7 +124,7 @@ fn dot<T: Numeric>(a: &[T; 3], b: &[T; 3]) -> T {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-impl Columns for Solve<'_> {
+impl Columns for Step<'_> {
     const PAIRED: bool = false;
 
     fn rows(&self) -> usize {
@@ -126,18 +135,19 @@ impl Columns for Solve<'_> {
     #[expect(clippy::needless_range_loop, reason = "iterators might not be inlined")]
     fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
         let zero = Pack::<S, K>::all(simd, 0.0);
-        let (mut implicit, mut full, mut p, mut y) = ([[zero; 3]; 3], [[zero; 3]; 3], [zero; 3], [zero; 3]);
+        let (mut rates, mut p, mut a) = ([[zero; 3]; 3], [zero; 3], [zero; 3]);
         for i in 0..3 {
             p[i] = Pack::load(simd, &self.p[i][first..]);
-            y[i] = Pack::load(simd, &self.y[i][first..]);
+            a[i] = Pack::load(simd, &self.a[i][first..]);
             for k in 0..3 {
-                implicit[i][k] = Pack::load(simd, &self.damping.implicit[i][k][first..]);
-                full[i][k] = Pack::load(simd, &self.damping.full[i][k][first..]);
+                rates[i][k] = Pack::load(simd, &self.damping.rates[i][k][first..]);
             }
         }
-        let x = solve(&implicit, &full, self.h, p, y);
+        let weight = Pack::load(simd, &self.damping.weights[first..]);
+        let step = step(&rates, weight, self.h, p, a);
         for i in 0..3 {
-            x[i].store(&mut self.y[i][first..]);
+            step.mean_acceleration[i].store(&mut self.a[i][first..]);
+            step.acting[i].store(&mut self.p[i][first..]);
         }
     }
 }
@@ -148,28 +158,40 @@ mod tests {
     use nalgebra::Vector3;
 
     #[test]
-    fn every_group_is_solved() {
+    fn every_group_makes_its_step() {
         let n = 21;
         let mut damping = GroupDamping::new(n);
-        let (mut p, mut y) = (zero_vectors(n), zero_vectors(n));
+        let (mut p, mut a) = (zero_vectors(n), zero_vectors(n));
         let number = |i: usize| ((i * 37) % 17) as f64 - 8.0;
         let h = 0.01;
         let mut expected = Vec::new();
         for g in 0..n {
-            let full = Matrix3::from_fn(|i, k| number(9 * g + 3 * i + k));
-            let block = DampingBlock { full, implicit: full * 0.7 };
-            damping.set(g, &block);
+            let rates = Matrix3::from_fn(|i, k| number(9 * g + 3 * i + k));
+            let weight = 1.0 + (g % 2) as f64;
+            damping.set(g, &rates, weight);
             let [known, predicted] = [0, 5].map(|s| Vector3::from_fn(|k, _| number(4 * g + k + s)));
             for k in 0..3 {
-                (p[k][g], y[k][g]) = (predicted[k], known[k]);
+                (p[k][g], a[k][g]) = (predicted[k], known[k]);
             }
-            let matrix = Matrix3::identity() + block.implicit * h;
-            expected.push(matrix.lu().solve(&(known + full * predicted)).unwrap());
+            let (one, e) = (Matrix3::identity(), rates * weight);
+            let matrix = one + e * h + e * e * (0.5 * h * h);
+            let dv = matrix.lu().solve(&((one + e * (0.5 * h)) * h * (known + rates * predicted))).unwrap();
+            let acting = (one + e * h) * (one * 2.0 + e * h).lu().solve(&dv).unwrap();
+            assert!((known + rates * predicted - e * acting - dv / h).norm() < 1e-11 * dv.norm() / h);
+            expected.push((dv / h, acting));
         }
-        damping.solve(h, &p, &mut y, Arch::new());
-        for (g, x) in expected.iter().enumerate() {
+        let mut scalar = Vec::new();
+        for g in 0..n {
+            let [p, a] = [&p, &a].map(|columns| [0, 1, 2].map(|k| columns[k][g]));
+            scalar.push(damping.step_one(g, h, p, a));
+        }
+        damping.step(h, &mut p, &mut a, Arch::new());
+        for (g, ((x, s), one)) in expected.iter().zip(scalar).enumerate() {
             for k in 0..3 {
-                assert!((y[k][g] - x[k]).abs() < 1e-11 * x.norm(), "{g} {k}: {} {}", y[k][g], x[k]);
+                let differ = [a[k][g] - x[k], one.mean_acceleration[k] - x[k]];
+                assert!(differ.iter().all(|d| d.abs() < 1e-11 * x.norm()), "{g} {k}: {differ:?}");
+                let differ = [p[k][g] - s[k], one.acting[k] - s[k]];
+                assert!(differ.iter().all(|d| d.abs() < 1e-9 * s.norm()), "{g} {k}: {differ:?} {s}");
             }
         }
     }

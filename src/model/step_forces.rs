@@ -20,7 +20,8 @@ use crate::laws::contact_pair::ContactForce;
 pub(super) struct Changes {
     pub(super) approach_speed: f64,
     pub(super) slip: f64,
-    pub(super) end_slip: f64,
+    pub(super) mean_approach_speed: f64,
+    pub(super) mean_slip: f64,
 }
 
 impl Model {
@@ -41,7 +42,7 @@ impl Model {
                 let changes = self.step_changes(site, v, step, &ws.elements);
                 let change = ContactForce {
                     normal: force.damping[i] * changes.approach_speed,
-                    friction: -force.friction_secant[i] * changes.end_slip,
+                    friction: -force.friction_secant[i] * changes.slip,
                     ..ContactForce::none(0.0)
                 };
                 if let Mate::Pocket(pocket) = &site.mate {
@@ -73,7 +74,7 @@ impl Model {
             for (i, site) in sites.iter().enumerate() {
                 let changes = self.step_changes(site, v, step, elements);
                 force.normal[i] = (force.normal[i] + force.damping[i] * changes.approach_speed).max(0.0);
-                force.friction[i] -= force.friction_secant[i] * changes.end_slip;
+                force.friction[i] -= force.friction_secant[i] * changes.slip;
             }
         }
     }
@@ -96,11 +97,13 @@ impl Model {
         let slip = |[radial, across, turning]: [f64; 3]| {
             nr * across - nc * radial + rollers.geometry.roller_radius * turning
         };
-        let mean = change(step.mean);
+        let approach = |change: [f64; 3]| nr * change[0] + nc * change[1];
+        let (mean, acting) = (change(step.mean), change(step.acting));
         Changes {
-            approach_speed: nr * mean[0] + nc * mean[1],
-            slip: slip(mean),
-            end_slip: slip(change(step.end)),
+            approach_speed: approach(acting),
+            slip: slip(acting),
+            mean_approach_speed: approach(mean),
+            mean_slip: slip(mean),
         }
     }
 }
