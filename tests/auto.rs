@@ -77,18 +77,27 @@ fn stiff_film() -> Value {
 }
 
 #[test]
-fn it_is_the_default_and_its_checks_leave_the_run_alone() {
+fn it_is_the_default_and_costs_little_more_than_the_leapfrog_once_rollers_vibrate() {
     let mut scene = nu2310(&[]);
     let default = Model::from_json(&scene.to_string()).unwrap();
     let mut default = Sim::new(Arc::new(default)).unwrap();
-    default.advance_to(20e-3).unwrap();
-    let leapfrog = run(&scene, json!({ "leapfrog": {} }), 20e-3);
-    assert_eq!(default.state(), leapfrog.state());
-    let (found, plain) = (default.statistics(), leapfrog.statistics());
-    assert_eq!(found.driver.steps, plain.driver.steps);
-    assert!(found.evaluations < plain.evaluations * 11 / 10, "{} {}", found.evaluations, plain.evaluations);
+    let costs = |sim: &mut Sim| {
+        [20e-3, 100e-3].map(|t| {
+            sim.advance_to(t).unwrap();
+            sim.statistics().evaluations as f64
+        })
+    };
+    let [first, whole] = costs(&mut default);
+    let [plain_first, plain_whole] = costs(&mut sim(&scene, json!({ "leapfrog": {} })));
+    // The start is quiet, and followed closely; six times the cost of the leapfrog is the limit.
+    assert!(first > 1.1 * plain_first && first < 2.0 * plain_first, "{first} {plain_first}");
+    assert!(
+        whole - first < 1.15 * (plain_whole - plain_first),
+        "{first} {plain_first} {whole} {plain_whole}"
+    );
     let choice = choice(&default);
-    assert_eq!((choice.method, choice.reason, choice.changes), (Kind::Leapfrog, Reason::Vibration, 0));
+    assert_eq!((choice.method, choice.reason), (Kind::Leapfrog, Reason::Vibration));
+    assert!(choice.steps[Kind::Rosenbrock as usize] > 20 && choice.changes < 10, "{choice:?}");
     assert!(choice.findings.checks >= 8, "{choice:?}");
     assert!(choice.findings.mean_error > 1e-6 && choice.findings.mean_error < 3e-4, "{choice:?}");
     assert!((1.5e5..3e5).contains(&choice.findings.frequency), "{choice:?}");
@@ -97,18 +106,39 @@ fn it_is_the_default_and_its_checks_leave_the_run_alone() {
 }
 
 #[test]
+fn a_standing_bearing_is_quiet() {
+    let run = run(&nu2310(&[rpm(0.0)]), auto(), 20e-3);
+    let choice = choice(&run);
+    assert_eq!((choice.method, choice.reason), (Kind::Rosenbrock, Reason::Quiet), "{}", run.report());
+    assert_eq!(choice.steps[Kind::Leapfrog as usize], 0, "{}", run.report());
+}
+
+#[test]
+fn the_leapfrog_gives_way_where_it_misses_energy() {
+    let load = json!({"ramp": {"from": -4900.0, "to": 4900.0, "start": 5e-3, "end": 5.1e-3}});
+    let reversed = nu2310(&[("inner_ring.motion.free.load.z", load)]);
+    let mut run = run(&reversed, auto(), 10e-3);
+    let choice = choice(&run);
+    assert_eq!((choice.method, choice.reason), (Kind::Rosenbrock, Reason::Balance), "{}", run.report());
+    assert!(choice.steps[Kind::Leapfrog as usize] > 100, "{}", run.report());
+    // Acted upon at 2e-4, twice: first by half of the step.
+    let missing = run.power_balance().unwrap().relative_residual().abs();
+    assert!((1e-4..8e-4).contains(&missing), "{missing}");
+}
+
+#[test]
 fn rollers_get_the_method_and_the_step_that_their_scene_needs() {
     for (name, scene, expected) in [
         ("1000 rpm", nu2310(&[rpm(1000.0)]), (Kind::Leapfrog, 1.0..=1.0)),
         ("3000 rpm", nu2310(&[]), (Kind::Leapfrog, 1.0..=1.0)),
         ("40 kN", nu2310(&[load(40e3)]), (Kind::Leapfrog, 1.0..=1.0)),
+        ("8000 rpm", nu2310(&[rpm(8000.0)]), (Kind::Leapfrog, 1.0..=1.0)),
         // Between the two: either.
-        ("8000 rpm", nu2310(&[rpm(8000.0)]), (Kind::Leapfrog, 0.5..=1.0)),
-        ("12 000 rpm", nu2310(&[rpm(12e3)]), (Kind::Leapfrog, 0.5..=0.5)),
+        ("12 000 rpm", nu2310(&[rpm(12e3)]), (Kind::Leapfrog, 0.5..=1.0)),
         ("20 000 rpm", nu2310(&[rpm(20e3)]), (Kind::Leapfrog, 0.5..=0.5)),
         ("30 000 rpm", nu2310(&[rpm(30e3)]), (Kind::Leapfrog, 0.5..=0.5)),
         // The leapfrog would need a quarter of its own step or less.
-        ("40 000 rpm", nu2310(&[rpm(40e3)]), (Kind::Rosenbrock, 0.5..=0.5)),
+        ("50 000 rpm", nu2310(&[rpm(50e3)]), (Kind::Rosenbrock, 0.5..=0.5)),
         ("undamped", undamped(), (Kind::Leapfrog, 0.5..=0.5)),
     ] {
         // Without damping vibration builds up for tens of milliseconds.
@@ -231,7 +261,7 @@ fn choices_continue_with_the_same_bits_after_saving() {
 
 #[test]
 fn a_set_state_is_met_without_memory_and_inputs_with_it() {
-    let scene = nu2310(&[rpm(12e3)]);
+    let scene = nu2310(&[rpm(20e3)]);
     let mut sim = run(&scene, auto(), 50e-3);
     let step = choice(&sim).leapfrog_step;
     let first = self::sim(&scene, auto()).nominal_step();

@@ -4,7 +4,9 @@
 use cagedyn::integrate::auto::{Aim, Auto, Kind, Reason};
 use cagedyn::integrate::mode::{Mode, ModeFinder};
 use cagedyn::integrate::watch::Expectation;
-use cagedyn::integrate::{Driver, GroupDamping, Limits, Linearization, Structure, System, Vibration};
+use cagedyn::integrate::{
+    Driver, GroupDamping, Leapfrog, Limits, Linearization, Structure, System, Vibration,
+};
 
 fn limits(step: f64) -> Limits {
     Limits { nominal_step: step, min_step: 1e-14, max_step: 0.5, max_steps: 10_000_000 }
@@ -120,6 +122,7 @@ fn auto(system: &Stiffening, statistics: bool) -> Driver<Stiffening> {
         },
         units: vec![100.0; 2],
         tolerance: 1e-8,
+        affordable: 6.0,
         first_step: 1e-3,
     };
     let limits = limits(aim.nominal_step());
@@ -151,11 +154,39 @@ fn the_choice_leaves_the_leapfrog_where_it_must_and_returns() {
     assert!(after.steps[0] > 1000 && after.steps[2] > 100 && after.changes >= 2, "{after:?}");
 }
 
+/// What is checked beside the run leaves no trace in it.
+#[test]
+fn checks_of_the_leapfrog_leave_the_run_alone() {
+    let mut system = Stiffening { squares: [(0.0, 1.0); 3], fails_from: f64::INFINITY, failures: 0 };
+    let mut driver = auto(&system, true);
+    let (mut start, mut state) = (0.0_f64, [1.0, 0.0]);
+    // One step at a time, up to the first one of the leapfrog.
+    loop {
+        driver.advance(&mut system, start.next_up()).unwrap();
+        if driver.choice().unwrap().method == Kind::Leapfrog {
+            break;
+        }
+        start = driver.reached();
+        driver.state_at(start, &mut state);
+    }
+    let step = driver.choice().unwrap().leapfrog_step;
+    let mut plain = Driver::new(Box::new(Leapfrog::new(&system)), limits(step));
+    plain.start(start, &state);
+    let mut states = [[0.0; 2]; 2];
+    for (driver, state) in [&mut driver, &mut plain].into_iter().zip(&mut states) {
+        driver.advance(&mut system, start + 300.0).unwrap();
+        driver.state_at(start + 300.0, state);
+    }
+    assert_eq!(states[0], states[1]);
+    let choice = driver.choice().unwrap();
+    assert!(choice.findings.checks > 10 && choice.method == Kind::Leapfrog, "{choice:?}");
+}
+
 #[test]
 fn the_choice_gives_way_when_attempts_fail() {
-    let mut system = Stiffening { squares: [(0.0, 1.0); 3], fails_from: 10.0, failures: 3 };
+    let mut system = Stiffening { squares: [(0.0, 1.0); 3], fails_from: 30.0, failures: 3 };
     let mut driver = auto(&system, true);
-    driver.advance(&mut system, 10.5).unwrap();
+    driver.advance(&mut system, 30.5).unwrap();
     let choice = driver.choice().unwrap();
     assert_eq!((choice.method, choice.reason), (Kind::Rosenbrock, Reason::Failures), "{choice:?}");
     assert!(driver.statistics().faults >= 3);

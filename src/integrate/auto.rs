@@ -1,12 +1,14 @@
 //! Chooses among the other methods, from what is known about a system and from what it does.
 //!
-//! - A system that vibrates all the time is followed in its statistics: the leapfrog, watched over by [`Watch`]. When
+//! - A system that vibrates most of the time is followed in its statistics: the leapfrog, watched over by [`Watch`]. When
 //!   it fails, or would need steps that cost as much as error control, the Rosenbrock method takes over until probes
-//!   say that the leapfrog would do again.
+//!   say that the leapfrog would do again. It also has the quiet phases, in which it costs little more: see [`Quiet`].
 //! - Any other system, or with a tolerance that was asked for, is followed in its trajectory: Dormand-Prince or the
 //!   Rosenbrock method, whichever advances further per evaluation.
 
 use super::control::{Estimate, Law};
+use super::ledger::Ledger;
+use super::quiet::Quiet;
 use super::race::Race;
 use super::watch::{Expectation, Findings, Verdict, Watch};
 use super::{Applied, DormandPrince, Leapfrog, Quadratures, Reader, Rosenbrock, Stepper, System};
@@ -38,6 +40,8 @@ pub struct Aim {
     pub units: Vec<f64>,
     /// Tolerance of error control, in these units.
     pub tolerance: f64,
+    /// Evaluations of error control that accuracy is worth for one of the leapfrog.
+    pub affordable: f64,
     /// First step of error control, s.
     pub first_step: f64,
 }
@@ -63,7 +67,7 @@ pub enum Kind {
 /// Why a method was chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reason {
-    /// The system vibrates all the time.
+    /// The system vibrates.
     Vibration,
     /// The system does not vibrate all the time, or a tolerance was asked for.
     Trajectory,
@@ -75,6 +79,10 @@ pub enum Reason {
     Failures,
     /// The leapfrog would have to take steps that cost as much.
     Cost,
+    /// The leapfrog missed too much energy.
+    Balance,
+    /// Nothing vibrates, or it is tried whether that is so: errors are controlled at little cost.
+    Quiet,
 }
 
 /// What was chosen, and what it rests on.
@@ -106,6 +114,8 @@ pub struct Auto {
     implicit: Rosenbrock,
     watch: Watch,
     race: Race,
+    quiet: Quiet,
+    ledger: Ledger,
     active: Kind,
     reason: Reason,
     /// Step that each method with error control took last, s.
@@ -151,8 +161,10 @@ impl Auto {
             implicit: Rosenbrock::new(system, &tolerance),
             watch: Watch::new(system, aim.expected, &aim.units),
             race: Race::new(EXPLICIT),
-            active: Kind::Leapfrog,
-            reason: Reason::Vibration,
+            quiet: Quiet::new(),
+            ledger: Ledger::new(system.velocities()),
+            active: Kind::DormandPrince,
+            reason: Reason::Trajectory,
             last_steps: [aim.first_step; 2],
             h: aim.first_step,
             attempts: 0,
@@ -169,14 +181,16 @@ impl Auto {
 
     fn start_over(&mut self) {
         self.watch.forget();
-        self.race = Race::new(EXPLICIT);
+        self.quiet = Quiet::new();
+        self.ledger.close();
         self.last_steps = [self.aim.first_step; 2];
         (self.attempts, self.gave_way, self.probe) = (0, 0, 0.0);
         (self.steps, self.changes) = ([0; 3], 0);
         (self.active, self.reason) = match self.aim.statistics {
-            true => (Kind::Leapfrog, Reason::Vibration),
+            true => (Kind::Rosenbrock, Reason::Quiet),
             false => (Kind::DormandPrince, Reason::Trajectory),
         };
+        self.race = Race::new(if self.aim.statistics { IMPLICIT } else { EXPLICIT });
     }
 
     /// Goes on with another method from the present state at time `t`. Returns the step to take, or nothing if the
@@ -194,6 +208,7 @@ impl Auto {
         self.reason = reason;
         self.changes += 1;
         self.attempts = 0;
+        self.ledger.hurry();
         Some(match kind {
             Kind::Leapfrog => self.watch.step(),
             Kind::DormandPrince => self.last_steps[EXPLICIT],
@@ -202,9 +217,25 @@ impl Auto {
     }
 
     fn review_leapfrog<S: System>(&mut self, system: &mut S, t: f64, t_last: f64) -> Option<f64> {
-        let verdict = self.watch.look(system, &self.leapfrog, t, t_last);
+        if self.attempts == 0 && self.quiet.begins() {
+            self.race = Race::new(IMPLICIT);
+            self.last_steps = [self.watch.step(); 2];
+            let step = self.change_to(Kind::Rosenbrock, Reason::Quiet, system, t);
+            if step.is_none() {
+                self.quiet.end();
+            }
+            return step;
+        }
+        let missed = self.attempts == 0 && self.misses_energy(system, t);
+        let verdict = if missed {
+            self.ledger.settle();
+            self.watch.refine()
+        } else {
+            self.watch.look(system, &self.leapfrog, t, t_last, self.ledger.can_spare())
+        };
         let reason = match verdict {
             _ if self.attempts >= PATIENCE => Reason::Failures,
+            Verdict::Hopeless if missed => Reason::Balance,
             Verdict::Hopeless => Reason::Cost,
             Verdict::Keep => return None,
             Verdict::Change => {
@@ -220,7 +251,12 @@ impl Auto {
     }
 
     fn review_race<S: System>(&mut self, system: &mut S, t: f64, t_last: f64) -> Option<f64> {
-        if self.aim.statistics && self.probe <= 0.0 {
+        if self.reason == Reason::Quiet {
+            if self.quiet.ends(self.aim.affordable, self.watch.step()) {
+                let step = self.change_to(Kind::Leapfrog, Reason::Vibration, system, t)?;
+                return self.review_leapfrog(system, t, t_last).or(Some(step));
+            }
+        } else if self.aim.statistics && self.probe <= 0.0 {
             self.probe = PROBE_INTERVAL;
             if self.may_leapfrog(system, t, t_last) {
                 return self.change_to(Kind::Leapfrog, Reason::Vibration, system, t);
@@ -253,23 +289,38 @@ impl Auto {
         step
     }
 
+    /// Whether a look at the balance says that the leapfrog misses too much, if it is time for one.
+    fn misses_energy<S: System>(&mut self, system: &mut S, t: f64) -> bool {
+        if !self.ledger.is_due() {
+            return false;
+        }
+        let state = Stepper::<S>::state(&self.leapfrog);
+        // A failure is the run's own in a moment.
+        self.ledger.look(system, t, state).is_ok() && self.ledger.misses_much()
+    }
+
     /// Whether a probe says that the leapfrog could go on from the present state.
     fn may_leapfrog<S: System>(&mut self, system: &mut S, t: f64, t_last: f64) -> bool {
         let mut state = std::mem::take(&mut self.state);
         state.copy_from_slice(Stepper::<S>::state(self));
         Stepper::<S>::set_state(&mut self.leapfrog, &state);
         self.state = state;
-        self.leapfrog.refresh(system, t).is_ok() && self.watch.probe(system, &self.leapfrog, t, t_last)
+        self.ledger.look(system, t, Stepper::<S>::state(&self.leapfrog)).is_ok()
+            && self.ledger.can_spare()
+            && self.leapfrog.refresh(system, t).is_ok()
+            && self.watch.probe(system, &self.leapfrog, t, t_last)
     }
 
     fn note_cost(&mut self, evaluations: f64) {
         self.race.note_cost(evaluations);
+        self.quiet.note_cost(evaluations);
         self.probe -= evaluations;
     }
 }
 
 impl<S: System> Stepper<S> for Auto {
     fn set_state(&mut self, state: &[f64]) {
+        self.ledger.close();
         active!(self, S, set_state(state));
     }
 
@@ -278,6 +329,10 @@ impl<S: System> Stepper<S> for Auto {
     }
 
     fn review(&mut self, system: &mut S, t: f64, t_last: f64) -> Option<f64> {
+        if self.aim.statistics && self.ledger.is_closed() {
+            // A failure is the run's own in a moment.
+            self.ledger.look(system, t, active!(self, ref S, state())).ok();
+        }
         match self.active {
             Kind::Leapfrog => self.review_leapfrog(system, t, t_last),
             Kind::DormandPrince | Kind::Rosenbrock => self.review_race(system, t, t_last),
@@ -301,11 +356,17 @@ impl<S: System> Stepper<S> for Auto {
     }
 
     fn accept(&mut self) {
+        if self.aim.statistics {
+            self.ledger.add(active!(self, ref S, integrals()));
+        }
         active!(self, S, accept());
         self.steps[self.active as usize] += 1;
         (self.attempts, self.gave_way) = (0, 0);
         match self.active {
-            Kind::Leapfrog => self.watch.count_step(),
+            Kind::Leapfrog => {
+                self.watch.count_step();
+                self.quiet.count_step();
+            }
             Kind::DormandPrince => {
                 self.last_steps[EXPLICIT] = self.h;
                 self.race.note_advance(self.h);
@@ -313,6 +374,7 @@ impl<S: System> Stepper<S> for Auto {
             Kind::Rosenbrock => {
                 self.last_steps[IMPLICIT] = self.h;
                 self.race.note_advance(self.h);
+                self.quiet.note_advance(self.h);
                 self.note_cost(LINEARIZATION_COST);
             }
         }
@@ -359,6 +421,8 @@ impl<S: System> Stepper<S> for Auto {
         out.push(self.changes as f64);
         self.watch.save(out);
         self.race.save(out);
+        self.quiet.save(out);
+        self.ledger.save(out);
         Stepper::<S>::save(&self.leapfrog, out);
         Stepper::<S>::save(&self.explicit, out);
         Stepper::<S>::save(&self.implicit, out);
@@ -373,6 +437,8 @@ impl<S: System> Stepper<S> for Auto {
             Reason::Trial,
             Reason::Failures,
             Reason::Cost,
+            Reason::Balance,
+            Reason::Quiet,
         ];
         self.active = *kinds.get(usize::try_from(from.count()?).ok()?)?;
         self.reason = *reasons.get(usize::try_from(from.count()?).ok()?)?;
@@ -388,6 +454,8 @@ impl<S: System> Stepper<S> for Auto {
         self.changes = from.count()?;
         self.watch.load(from)?;
         self.race.load(from)?;
+        self.quiet.load(from)?;
+        self.ledger.load(from)?;
         Stepper::<S>::load(&mut self.leapfrog, from)?;
         Stepper::<S>::load(&mut self.explicit, from)?;
         Stepper::<S>::load(&mut self.implicit, from)

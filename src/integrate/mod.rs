@@ -8,8 +8,10 @@ mod dense;
 mod dormand_prince;
 mod driver;
 mod leapfrog;
+mod ledger;
 pub mod mode;
 mod pack;
+mod quiet;
 mod race;
 mod radau;
 mod rosenbrock;
@@ -20,6 +22,7 @@ pub use damping::GroupDamping;
 pub use dormand_prince::DormandPrince;
 pub use driver::{Driver, Failure, Limits, Statistics};
 pub use leapfrog::Leapfrog;
+pub use ledger::throughput;
 pub use pack::Reader;
 pub use radau::Radau;
 pub use rosenbrock::Rosenbrock;
@@ -83,6 +86,10 @@ pub trait System {
     /// What is integrated over time beside the state, at the last evaluated state (`q`, `v`), or for a step from there.
     fn quadratures(&self, _q: &[f64], _v: &[f64], _step: Option<&SemiImplicit<'_>>) -> Quadratures {
         Quadratures::default()
+    }
+    /// Kinds of energy stored at the last evaluated state (`q`, `v`), J. Their rate is the sum of the quadratures.
+    fn energy(&self, _q: &[f64], _v: &[f64]) -> [f64; 3] {
+        [0.0; 3]
     }
     /// Whether the host wants the run to stop; asked before every attempt.
     fn interruption(&mut self) -> Option<Interruption> {

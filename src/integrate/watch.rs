@@ -185,8 +185,16 @@ impl Watch {
         self.due = self.due.saturating_sub(1);
     }
 
-    /// Checks, if it is time to. `main` is the method at time `t`; nothing is evaluated later than `t_last`.
-    pub fn look<S: System>(&mut self, system: &mut S, main: &Leapfrog, t: f64, t_last: f64) -> Verdict {
+    /// Checks, if it is time to. `main` is the method at time `t`; nothing is evaluated later than `t_last`. Longer steps are
+    /// for those who can spare some accuracy.
+    pub fn look<S: System>(
+        &mut self,
+        system: &mut S,
+        main: &Leapfrog,
+        t: f64,
+        t_last: f64,
+        can_spare: bool,
+    ) -> Verdict {
         if self.due > 0 {
             return Verdict::Keep;
         }
@@ -206,7 +214,7 @@ impl Watch {
             || self.weight > ENOUGH && !self.accurate(largest)
         {
             self.refine();
-        } else if self.weight > ENOUGH && self.level > floor && self.accurate(COMFORT) {
+        } else if can_spare && self.weight > ENOUGH && self.level > floor && self.accurate(COMFORT) {
             self.level -= 1;
             self.start_anew();
         }
@@ -224,7 +232,7 @@ impl Watch {
     pub fn probe<S: System>(&mut self, system: &mut S, main: &Leapfrog, t: f64, t_last: f64) -> bool {
         self.level = FINEST;
         self.measure_frequency(system, main, t);
-        if self.too_fine() || self.check(system, main, t, t_last).is_none() {
+        if self.too_fine() || self.check(system, main, t, t_last).is_none_or(f64::is_infinite) {
             self.start_anew();
             return false;
         }
@@ -259,9 +267,11 @@ impl Watch {
         if self.undamped { phases.max(self.expected.largest_error) } else { self.expected.largest_error }
     }
 
-    fn refine(&mut self) {
+    /// Halves the step.
+    pub fn refine(&mut self) -> Verdict {
         self.level += 1;
         self.start_anew();
+        if self.too_fine() { Verdict::Hopeless } else { Verdict::Change }
     }
 
     fn start_anew(&mut self) {
@@ -295,7 +305,7 @@ impl Watch {
         u64::from(light)
     }
 
-    /// Makes a stretch of steps twice. Returns its error, if it lies before `t_last` and could be made.
+    /// Makes a stretch of steps twice, if it lies before `t_last`. Returns its error; infinity if it could not be made.
     fn check<S: System>(&mut self, system: &mut S, main: &Leapfrog, t: f64, t_last: f64) -> Option<f64> {
         let h = self.step();
         if t + STRETCH as f64 * h > t_last {
@@ -308,8 +318,9 @@ impl Watch {
             method.copy_from(main);
             let h = h / f64::from(pieces);
             for i in 0..STRETCH * pieces as usize {
-                // A failure here is the run's own in a moment.
-                method.attempt(system, t + i as f64 * h, h, t_last).ok()?;
+                if method.attempt(system, t + i as f64 * h, h, t_last).is_err() {
+                    return Some(f64::INFINITY);
+                }
                 Stepper::<S>::accept(method);
                 vibration.add(system.vibration(), 1.0 / f64::from(pieces));
             }

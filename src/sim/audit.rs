@@ -2,7 +2,7 @@
 
 use super::{Evaluated, Sim};
 use crate::error::Result;
-use crate::integrate::Reader;
+use crate::integrate::{Reader, throughput};
 use crate::model::{Energy, POWERS};
 
 /// Where the balance starts.
@@ -40,10 +40,7 @@ impl PowerBalance {
 
     /// Energy that passed through, J: all that came in by work, or was stored before and is no longer.
     pub fn throughput(&self) -> f64 {
-        let sources = self.work.iter().copied().chain(self.gain().map(|x| -x));
-        let [came, went] = sources
-            .fold([0.0, 0.0], |[came, went], x| if x > 0.0 { [came + x, went] } else { [came, went - x] });
-        came.max(went)
+        throughput(self.work, self.gain())
     }
 
     /// The residual as a share of the throughput; zero where nothing passed.

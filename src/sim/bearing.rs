@@ -306,6 +306,11 @@ impl System for Bearing {
         self.model.powers(q, v, step, &self.workspace)
     }
 
+    fn energy(&self, q: &[f64], v: &[f64]) -> [f64; 3] {
+        let Energy { kinetic, elastic, potential } = self.model.energy(q, v, &self.workspace);
+        [kinetic, elastic, potential]
+    }
+
     fn interruption(&mut self) -> Option<Interruption> {
         self.limits.interruption()
     }

@@ -64,17 +64,15 @@ fn first_step(model: &Model, solver: &Solver) -> f64 {
     (FIRST_STEP / model.highest_frequency()).min(MAX_NOMINAL_STEP).min(largest_step(model, solver))
 }
 
-/// Rollers between raceways vibrate all the time and make the motion chaotic within milliseconds, so their statistics
+/// Rollers between raceways vibrate most of the time and make the motion chaotic within milliseconds, so their statistics
 /// are what can be had at little cost; everything else is smooth between contacts.
 fn aim(model: &Model, solver: &Solver) -> Aim {
     let asked = match &solver.method {
         Method::Auto(auto) => auto.tolerance,
         _ => None,
     };
-    let Numbers { statistics, leapfrog_step, stretch_error, tolerance, statistics_tolerance } =
-        numbers(solver.preset);
+    let Numbers { statistics, leapfrog_step, stretch_error, tolerance, affordable } = numbers(solver.preset);
     let statistics = statistics && model.has_rollers() && asked.is_none();
-    let usual = if statistics { statistics_tolerance } else { tolerance };
     let units = model.state_scales();
     Aim {
         statistics,
@@ -88,7 +86,8 @@ fn aim(model: &Model, solver: &Solver) -> Aim {
             speed_unit: units.get(model.layout().positions()).copied().unwrap_or(1.0),
         },
         units,
-        tolerance: asked.unwrap_or(usual),
+        tolerance: asked.unwrap_or(tolerance),
+        affordable,
         first_step: first_step(model, solver),
     }
 }
@@ -122,13 +121,15 @@ pub(super) fn describe(choice: &Choice) -> String {
         other => name(other).to_owned(),
     };
     text += match choice.reason {
-        Reason::Vibration => ": the rollers vibrate all the time, and statistics of that cost least this way",
+        Reason::Vibration => ": the rollers vibrate, and statistics of that cost least this way",
         Reason::Trajectory => ": errors are controlled",
         Reason::Speed => ": errors are controlled, and it advances further per force evaluation",
         Reason::Trial => {
             ": errors are controlled, and it is tried whether it advances further per force evaluation"
         }
         Reason::Failures => ": attempts of the method before failed",
+        Reason::Balance => ": the leapfrog missed too much of the energy",
+        Reason::Quiet => ": errors are controlled, which costs little while nothing vibrates",
         Reason::Cost => ": the leapfrog would need steps that cost as much as error control",
     };
     if choice.lead > 0.0 && choice.method != Kind::Leapfrog {

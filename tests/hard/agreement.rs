@@ -7,7 +7,8 @@ use crate::{Case, RECORDS};
 use cagedyn::Sim;
 use serde_json::{Value, json};
 
-/// Runs of each, and how far the first element is moved from one to the next, rad.
+/// Runs of each, and by how much their starts differ from one to the next: the angle of the first element in rad, and the
+/// place of the cage in clearances.
 const RUNS: u32 = 4;
 const SHIFT: f64 = 1e-3;
 /// Local error of CVODE in units of the state scales; its longest step, s; evaluations per simulated s it may take.
