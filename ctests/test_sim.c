@@ -150,7 +150,7 @@ static void check_steps_and_outputs(const cagedyn_model *m)
     CHECK(strcmp(cagedyn_statistic_name(STATISTICS - 1), "jacobians") == 0);
     CHECK(cagedyn_statistic_name(STATISTICS)[0] == '\0');
     CHECK(cagedyn_sim_statistics(sim, count, STATISTICS) == CAGEDYN_OK && count[0] > 100.0);
-    CHECK(strncmp(cagedyn_sim_report(sim), "leapfrog with steps of ", 23) == 0);
+    CHECK(strncmp(cagedyn_sim_report(sim), "rosenbrock: errors are controlled", 33) == 0);
     CHECK(cagedyn_sim_report(NULL)[0] == '\0');
     cagedyn_sim_free(sim);
     cagedyn_sim_free(other);

@@ -1,14 +1,14 @@
 //! Damping within groups of coupled velocities, and the step of the velocities against it, for all groups at once.
 //!
 //! ```text
-//! (I + h E + (h E)^2/2) dv = (I + h E/2) h (a + D p)
-//!                    dv/h = a + D p - E s,   s = (I + h E) (2 I + h E)^-1 dv
+//! (I + Z + Z^2/2 + Z^3/6) dv = (I + Z/2 + Z^2/6) h (a + D p),   Z = h E
+//!                       dv/h = a + D p - E s,   s = (3 I + 2 Z + Z^2) (6 I + 3 Z + Z^2)^-1 dv
 //! ```
 //!
 //! a accelerations with velocities that were predicted to change by p, D damping, E = D but for groups that damp each other.
-//! Damping acts at the velocities that have changed by s: half of dv where it is slow against 1/h, which is of second order,
-//! and all of it where it is fast. Of a decay at rate r a step leaves 1/(1 + z + z^2/2) with z = h r: exp(-z) to second
-//! order, and never less than zero.
+//! Damping acts at the velocities that have changed by s: half of dv where it is slow against 1/h, and all of it where it is
+//! fast. Of a decay at rate r a step leaves 1/(1 + z + z^2/2 + z^3/6) with z = h r: exp(-z) to third order, and never less
+//! than zero.
 
 use crate::scalar::{Columns, Numeric, Pack, WIDEST, dispatch};
 use nalgebra::Matrix3;
@@ -86,20 +86,20 @@ struct Step<'a> {
     a: &'a mut VectorColumns,
 }
 
-/// By Cramer's rule for `w = (2 I + h E)^-1 dv/h`: `(2 I + 2 h E + (h E)^2) w = a + D p`.
+/// By Cramer's rule for `w = (6 I + 3 Z + Z^2)^-1 dv/h`: `(6 I + 6 Z + 3 Z^2 + Z^3) w = a + D p`.
 #[inline(always)]
 fn step<T: Numeric>(rates: &[[T; 3]; 3], weight: T, h: f64, p: [T; 3], a: [T; 3]) -> GroupStep<T> {
-    let scaled = rates.map(|row| row.map(|rate| rate * weight * h));
+    let z = rates.map(|row| row.map(|rate| rate * weight * h));
+    let square = product(&z, &z);
+    let cube = product(&square, &z);
     let zero = p[0].like(0.0);
     // Columns of the matrix, and the right side.
     let mut m = [[zero; 3]; 3];
     let mut right = a;
     for i in 0..3 {
         for k in 0..3 {
-            let square =
-                scaled[i][0] * scaled[0][k] + scaled[i][1] * scaled[1][k] + scaled[i][2] * scaled[2][k];
-            let identity = if i == k { 2.0 } else { 0.0 };
-            m[k][i] = square + scaled[i][k] * 2.0 + identity;
+            let identity = if i == k { 6.0 } else { 0.0 };
+            m[k][i] = z[i][k] * 6.0 + square[i][k] * 3.0 + cube[i][k] + identity;
             right[i] += rates[i][k] * p[k];
         }
     }
@@ -107,11 +107,16 @@ fn step<T: Numeric>(rates: &[[T; 3]; 3], weight: T, h: f64, p: [T; 3], a: [T; 3]
     let (bc, ca, ab) = (cross(&b, &c), cross(&c, &a), cross(&a, &b));
     let inverse = zero.like(1.0) / dot(&a, &bc);
     let w = [dot(&bc, &right) * inverse, dot(&ca, &right) * inverse, dot(&ab, &right) * inverse];
-    let damped = [dot(&scaled[0], &w), dot(&scaled[1], &w), dot(&scaled[2], &w)];
+    let [once, twice] = [&z, &square].map(|m| [dot(&m[0], &w), dot(&m[1], &w), dot(&m[2], &w)]);
     GroupStep {
-        mean_acceleration: [0, 1, 2].map(|i| w[i] * 2.0 + damped[i]),
-        acting: [0, 1, 2].map(|i| (w[i] + damped[i]) * h),
+        mean_acceleration: [0, 1, 2].map(|i| w[i] * 6.0 + once[i] * 3.0 + twice[i]),
+        acting: [0, 1, 2].map(|i| (w[i] * 3.0 + once[i] * 2.0 + twice[i]) * h),
     }
+}
+
+#[inline(always)]
+fn product<T: Numeric>(a: &[[T; 3]; 3], b: &[[T; 3]; 3]) -> [[T; 3]; 3] {
+    a.map(|row| [0, 1, 2].map(|k| row[0] * b[0][k] + row[1] * b[1][k] + row[2] * b[2][k]))
 }
 
 #[inline(always)]
@@ -174,9 +179,12 @@ mod tests {
                 (p[k][g], a[k][g]) = (predicted[k], known[k]);
             }
             let (one, e) = (Matrix3::identity(), rates * weight);
-            let matrix = one + e * h + e * e * (0.5 * h * h);
-            let dv = matrix.lu().solve(&((one + e * (0.5 * h)) * h * (known + rates * predicted))).unwrap();
-            let acting = (one + e * h) * (one * 2.0 + e * h).lu().solve(&dv).unwrap();
+            let z = e * h;
+            let matrix = one + z + z * z / 2.0 + z * z * z / 6.0;
+            let right = (one + z / 2.0 + z * z / 6.0) * h * (known + rates * predicted);
+            let dv = matrix.lu().solve(&right).unwrap();
+            let inner = (one * 6.0 + z * 3.0 + z * z).lu().solve(&dv).unwrap();
+            let acting = (one * 3.0 + z * 2.0 + z * z) * inner;
             assert!((known + rates * predicted - e * acting - dv / h).norm() < 1e-11 * dv.norm() / h);
             expected.push((dv / h, acting));
         }
