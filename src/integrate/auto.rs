@@ -2,7 +2,7 @@
 //!
 //! - A system that vibrates most of the time is followed in its statistics: the leapfrog, watched over by [`Watch`]. When
 //!   it fails, or would need steps that cost as much as error control, the Rosenbrock method takes over until probes
-//!   say that the leapfrog would do again. It also has the quiet phases, in which it costs little more: see [`Quiet`].
+//!   say that the leapfrog would do again. It also has the quiet phases, in which it costs little more: see `integrate::quiet`.
 //! - Any other system, or with a tolerance that was asked for, is followed in its trajectory: Dormand-Prince or the
 //!   Rosenbrock method, whichever advances further per evaluation.
 
