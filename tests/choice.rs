@@ -102,7 +102,7 @@ impl System for Stiffening {
         out.over_positions.hub[(0, 0)] = -self.square(t);
         Ok(())
     }
-    fn damping(&self, _: &[f64], _: &[f64], _: &mut GroupDamping) {}
+    fn damping(&self, _: f64, _: &[f64], _: &[f64], _: &mut GroupDamping) {}
     fn vibration(&self) -> Vibration {
         Vibration { squares: 1.0, count: 1.0 }
     }

@@ -66,7 +66,7 @@ impl System for Driven {
         out.over_time.copy_from_slice(&[-self.rate * t.sin() - t.cos(), 0.0, q[1] * (t * q[1]).cos(), 0.0]);
         Ok(())
     }
-    fn damping(&self, _: &[f64], _: &[f64], _: &mut GroupDamping) {}
+    fn damping(&self, _: f64, _: &[f64], _: &[f64], _: &mut GroupDamping) {}
 }
 
 const DRIVEN_START: [f64; 7] = [0.0, 0.3, -0.2, 1.0, 0.1, 0.4, 0.5];

@@ -182,7 +182,7 @@ impl Auto {
     fn start_over(&mut self) {
         self.watch.forget();
         self.quiet = Quiet::new();
-        self.ledger.close();
+        self.ledger.forget();
         self.last_steps = [self.aim.first_step; 2];
         (self.attempts, self.gave_way, self.probe) = (0, 0, 0.0);
         (self.steps, self.changes) = ([0; 3], 0);
@@ -265,6 +265,9 @@ impl Auto {
         let stuck = self.attempts >= LONG_PATIENCE && self.gave_way < MOST_CHANGES;
         if stuck {
             self.gave_way += 1;
+            if self.reason == Reason::Quiet {
+                self.quiet.end();
+            }
             self.last_steps[self.race.active()] = self.h;
             self.race.give_up();
         }

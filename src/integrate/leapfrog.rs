@@ -4,19 +4,19 @@
 //! q_half = q + h/2 v
 //! v*     = v + h/2 a_previous             (mean of the step before)
 //! a      = accelerations(t + h/2, q_half, v*)
-//! dv     by the damping of each group of coupled velocities: see `integrate::damping`
+//! (I + h D_i) dv = h (a + D (v* - v))     (per group of coupled velocities; D damping, D_i its implicit share)
 //! v_new  = v + dv,   q_new = q_half + h/2 v_new
 //! ```
 //!
 //! Groups that follow others ([`System::leaders`]) take in their `a` what the forces between them have become by the step of
 //! the others, so that momentum passes whole.
 //!
-//! Second order: the predictor removes the first-order bias of velocity-dependent forces, also where their damping is known
-//! roughly. Forces may decay far faster than the step. Stable up to h = 2/omega of the highest undamped frequency. No error
-//! estimate.
+//! Second order where rates are below 1/h: D_i is D/2 there, and the predictor removes the first-order bias of
+//! velocity-dependent forces also where D is known roughly. Forces may decay far faster than the step. Stable up to
+//! h = 2/omega of the highest undamped frequency. No error estimate.
 
 use super::control::{Estimate, Law};
-use super::damping::{GroupStep, VectorColumns, zero_vectors};
+use super::damping::{VectorColumns, zero_vectors};
 use super::{Applied, GroupDamping, Quadratures, Reader, SemiImplicit, Stepper, System};
 use pulp::Arch;
 
@@ -35,9 +35,7 @@ pub struct Leapfrog {
     predicted: Vec<f64>,
     /// `predicted` of the last step.
     applied: Vec<f64>,
-    acted: Vec<f64>,
     mean_v: Vec<f64>,
-    acting: Vec<f64>,
     damping: GroupDamping,
     /// Velocities of each group.
     groups: Vec<[Option<usize>; 3]>,
@@ -63,9 +61,7 @@ impl Leapfrog {
             trial_a: velocity.clone(),
             a: velocity.clone(),
             mean_v: velocity.clone(),
-            acting: velocity.clone(),
             applied: velocity.clone(),
-            acted: velocity.clone(),
             predicted: velocity,
             damping: GroupDamping::new(groups),
             groups: (0..groups).map(|i| system.group(i)).collect(),
@@ -79,38 +75,6 @@ impl Leapfrog {
     pub fn copy_from(&mut self, other: &Self) {
         self.end.copy_from_slice(&other.end);
         self.mean_a.copy_from_slice(&other.mean_a);
-    }
-}
-
-/// The velocities of a step as they are found.
-struct Made<'a> {
-    v: &'a [f64],
-    h: f64,
-    a: &'a mut [f64],
-    end: &'a mut [f64],
-    mean: &'a mut [f64],
-    acting: &'a mut [f64],
-}
-
-impl Made<'_> {
-    /// Sets those of the group at these indices; the index of one that is not finite is an error.
-    fn set(&mut self, at: &[Option<usize>; 3], step: &GroupStep<f64>) -> Result<(), usize> {
-        for ((&i, a), change) in at.iter().zip(step.mean_acceleration).zip(step.acting) {
-            let Some(i) = i else { continue };
-            if !a.is_finite() {
-                return Err(i);
-            }
-            let v = self.v[i];
-            self.a[i] = a;
-            self.end[i] = v + self.h * a;
-            self.mean[i] = 0.5 * (v + self.end[i]);
-            self.acting[i] = v + change;
-        }
-        Ok(())
-    }
-
-    fn step(&self) -> SemiImplicit<'_> {
-        SemiImplicit { mean: self.mean, acting: self.acting }
     }
 }
 
@@ -144,39 +108,54 @@ impl<S: System> Stepper<S> for Leapfrog {
             *predicted += half * a;
         }
         system.accelerations((t + 0.5 * h).min(t_last), q_trial, &self.predicted, &mut self.a)?;
-        system.damping(q_trial, &self.predicted, &mut self.damping);
-        let [known, changes] = &mut self.by_group;
+        self.trial_a.copy_from_slice(&self.a);
+        system.damping(h, q_trial, &self.predicted, &mut self.damping);
+        let [known, predicted] = &mut self.by_group;
         for (g, at) in self.groups.iter().enumerate() {
             for (k, i) in at.iter().enumerate() {
                 // Unused places are set too: a solution that is not finite must not stay in them.
-                (known[k][g], changes[k][g]) =
+                (known[k][g], predicted[k][g]) =
                     i.map_or((0.0, 0.0), |i| (self.a[i], self.predicted[i] - v[i]));
             }
         }
-        self.damping.step(h, changes, known, self.instructions);
-        let mut made = Made {
-            v,
-            h,
-            a: &mut self.trial_a,
-            end: v_trial,
-            mean: &mut self.mean_v,
-            acting: &mut self.acting,
-        };
-        let column = |columns: &VectorColumns, g: usize| columns.each_ref().map(|column| column[g]);
+        self.damping.solve(h, predicted, known, self.instructions);
         for (g, at) in self.groups.iter().enumerate() {
-            let step = GroupStep { mean_acceleration: column(known, g), acting: column(changes, g) };
-            made.set(at, &step).map_err(|i| system.not_finite(i))?;
+            for (k, i) in at.iter().enumerate() {
+                if let Some(i) = *i {
+                    self.trial_a[i] = known[k][g];
+                }
+            }
         }
+        if let Some(i) = self.trial_a.iter().position(|a| !a.is_finite()) {
+            return Err(system.not_finite(i));
+        }
+        for ((trial, v), a) in v_trial.iter_mut().zip(v).zip(&self.trial_a) {
+            *trial = v + h * a;
+        }
+        for ((mean, v), end) in self.mean_v.iter_mut().zip(v).zip(v_trial.iter()) {
+            *mean = 0.5 * (v + end);
+        }
+        let step = SemiImplicit { mean: &self.mean_v, end: v_trial, h };
         let leaders = system.leaders();
         if leaders < self.groups.len() {
-            system.react(q_trial, &self.predicted, &made.step(), &mut self.a);
+            system.react(q_trial, &self.predicted, &step, &mut self.a);
         }
         for (g, at) in self.groups.iter().enumerate().skip(leaders) {
-            let a = at.map(|i| i.map_or(0.0, |i| self.a[i]));
+            let right = at.map(|i| i.map_or(0.0, |i| self.a[i]));
             let ahead = at.map(|i| i.map_or(0.0, |i| self.predicted[i] - v[i]));
-            made.set(at, &self.damping.step_one(g, h, ahead, a)).map_err(|i| system.not_finite(i))?;
+            for (&i, a) in at.iter().zip(self.damping.solve_one(g, h, ahead, right)) {
+                if let Some(i) = i {
+                    if !a.is_finite() {
+                        return Err(system.not_finite(i));
+                    }
+                    self.trial_a[i] = a;
+                    v_trial[i] = v[i] + h * a;
+                    self.mean_v[i] = 0.5 * (v[i] + v_trial[i]);
+                }
+            }
         }
-        self.integrals = system.quadratures(q_trial, &self.predicted, Some(&made.step())).map(|x| h * x);
+        let step = SemiImplicit { mean: &self.mean_v, end: v_trial, h };
+        self.integrals = system.quadratures(q_trial, &self.predicted, Some(&step)).map(|x| h * x);
         for (q, v) in q_trial.iter_mut().zip(v_trial.iter()) {
             *q += half * v;
         }
@@ -189,7 +168,6 @@ impl<S: System> Stepper<S> for Leapfrog {
         std::mem::swap(&mut self.end, &mut self.trial);
         std::mem::swap(&mut self.mean_a, &mut self.trial_a);
         std::mem::swap(&mut self.applied, &mut self.predicted);
-        std::mem::swap(&mut self.acted, &mut self.acting);
     }
 
     fn integrals(&self) -> &Quadratures {
@@ -197,8 +175,8 @@ impl<S: System> Stepper<S> for Leapfrog {
     }
 
     fn applied(&self) -> Option<Applied<'_>> {
-        let Self { start, end, applied: predicted, acted: acting, h, .. } = self;
-        (*h > 0.0).then_some(Applied { start, end, predicted, acting, h: *h })
+        let Self { start, end, applied: predicted, h, .. } = self;
+        (*h > 0.0).then_some(Applied { start, end, predicted, h: *h })
     }
 
     fn state(&self) -> &[f64] {
@@ -234,7 +212,7 @@ impl<S: System> Stepper<S> for Leapfrog {
 
     fn save(&self, out: &mut Vec<f64>) {
         out.push(self.h);
-        for part in [&self.start, &self.end, &self.mean_a, &self.applied, &self.acted] {
+        for part in [&self.start, &self.end, &self.mean_a, &self.applied] {
             out.extend_from_slice(part);
         }
     }
@@ -244,7 +222,6 @@ impl<S: System> Stepper<S> for Leapfrog {
         from.fill(&mut self.start)?;
         from.fill(&mut self.end)?;
         from.fill(&mut self.mean_a)?;
-        from.fill(&mut self.applied)?;
-        from.fill(&mut self.acted)
+        from.fill(&mut self.applied)
     }
 }

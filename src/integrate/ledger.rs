@@ -32,6 +32,9 @@ pub struct Ledger {
     missing: f64,
     settled: f64,
     passed: f64,
+    /// The first and the last of these when the account was opened.
+    missing_before: f64,
+    passed_before: f64,
     /// Steps until the next look, and between looks.
     due: u64,
     interval: u64,
@@ -48,6 +51,8 @@ impl Ledger {
             missing: 0.0,
             settled: 0.0,
             passed: 0.0,
+            missing_before: 0.0,
+            passed_before: 0.0,
             due: FIRST_INTERVAL,
             interval: FIRST_INTERVAL,
             a: vec![0.0; velocities],
@@ -55,8 +60,14 @@ impl Ledger {
     }
 
     /// Forgets everything: the next look opens the account.
-    pub fn close(&mut self) {
+    pub fn forget(&mut self) {
         *self = Self { a: std::mem::take(&mut self.a), ..Self::new(0) };
+    }
+
+    /// Ends the account, as the state may jump; the next look goes on from there with what was missing and what passed.
+    pub fn close(&mut self) {
+        self.open = false;
+        (self.missing_before, self.passed_before) = (self.missing, self.passed);
     }
 
     /// Looks more often, as at first: another method goes on.
@@ -85,8 +96,10 @@ impl Ledger {
     /// # Errors
     /// The system's fault at this state.
     pub fn look<S: System>(&mut self, system: &mut S, t: f64, state: &[f64]) -> Result<(), S::Fault> {
-        self.interval = (2 * self.interval).min(LONGEST_INTERVAL);
-        self.due = self.interval;
+        if self.due == 0 {
+            self.interval = (2 * self.interval).min(LONGEST_INTERVAL);
+            self.due = self.interval;
+        }
         let (q, v) = state.split_at(system.positions());
         system.accelerations(t, q, v, &mut self.a)?;
         let energy = system.energy(q, v);
@@ -94,14 +107,16 @@ impl Ledger {
             (self.open, self.start, self.works) = (true, energy, Quadratures::default());
         }
         let gains = [0, 1, 2].map(|k| energy[k] - self.start[k]);
-        self.missing = self.works.iter().sum::<f64>() - gains.iter().sum::<f64>();
-        self.passed = throughput(self.works, gains);
+        let missing = self.works.iter().sum::<f64>() - gains.iter().sum::<f64>();
+        self.missing = self.missing_before + missing;
+        self.passed = self.passed_before + throughput(self.works, gains);
         Ok(())
     }
 
     /// Whether too much more is missing than when something was done about it last.
     pub fn misses_much(&self) -> bool {
-        (self.missing - self.settled).abs() > MUCH * self.passed
+        let much = MUCH * self.passed;
+        self.missing.abs() > much && (self.missing - self.settled).abs() > much
     }
 
     /// Something is done about what is missing.
@@ -118,7 +133,7 @@ impl Ledger {
     pub fn save(&self, out: &mut Vec<f64>) {
         out.push(f64::from(u8::from(self.open)));
         out.extend(self.start.iter().chain(&self.works));
-        out.extend([self.missing, self.settled, self.passed]);
+        out.extend([self.missing, self.settled, self.passed, self.missing_before, self.passed_before]);
         out.extend([self.due, self.interval].map(|n| n as f64));
     }
 
@@ -127,7 +142,8 @@ impl Ledger {
         self.open = from.flag()?;
         from.fill(&mut self.start)?;
         from.fill(&mut self.works)?;
-        for number in [&mut self.missing, &mut self.settled, &mut self.passed] {
+        let [missing, passed] = [&mut self.missing_before, &mut self.passed_before];
+        for number in [&mut self.missing, &mut self.settled, &mut self.passed, missing, passed] {
             *number = from.number()?;
         }
         self.due = from.count()?;

@@ -18,7 +18,7 @@ mod rosenbrock;
 pub(crate) mod shifted;
 pub mod watch;
 
-pub use damping::GroupDamping;
+pub use damping::{DampingBlock, GroupDamping, implicit_share};
 pub use dormand_prince::DormandPrince;
 pub use driver::{Driver, Failure, Limits, Statistics};
 pub use leapfrog::Leapfrog;
@@ -51,7 +51,7 @@ pub trait System {
     fn not_finite(&self, velocity: usize) -> Self::Fault;
     /// The first time after `t` at which the accelerations jump or kink by themselves; infinity if there is none.
     fn next_event(&self, t: f64) -> f64;
-    /// Number of groups of up to three velocities that belong together, as those of one body do. Every velocity is in one.
+    /// Number of groups of up to three velocities that belong together, as those of one body do.
     fn groups(&self) -> usize;
     /// Velocity indices of such a group; `None` for an unused place.
     fn group(&self, i: usize) -> [Option<usize>; 3];
@@ -69,8 +69,8 @@ pub trait System {
         a: &mut [f64],
         out: &mut Linearization,
     ) -> Result<(), Self::Fault>;
-    /// Damping within each of the groups at the last evaluated state (`q`, `v`).
-    fn damping(&self, q: &[f64], v: &[f64], out: &mut GroupDamping);
+    /// Damping within each of the groups at the last evaluated state (`q`, `v`), for a step of size `h` in s.
+    fn damping(&self, h: f64, q: &[f64], v: &[f64], out: &mut GroupDamping);
     /// Number of groups whose step a semi-implicit method finds first. The others follow: what the forces of the first have
     /// become in that step acts on them too.
     fn leaders(&self) -> usize {
@@ -113,14 +113,16 @@ pub enum Interruption {
 /// Quantities that are integrated over time beside the state, or their integrals.
 pub type Quadratures = [f64; 12];
 
-/// A semi-implicit step, whose forces F are linear from those at the evaluated velocities v* on: F(v*) - D (v - v*) at the
-/// velocities v at which damping acts, and do their work at the mean velocities.
+/// A semi-implicit step, whose forces F are linear from those at the evaluated velocities v* on: F(v*) - D (v - v*) with the
+/// share of the change of the step that [`implicit_share`] says, and do their work at the mean velocities.
 #[derive(Clone, Copy, Debug)]
 pub struct SemiImplicit<'a> {
     /// Mean velocities.
     pub mean: &'a [f64],
-    /// Velocities at which damping acts.
-    pub acting: &'a [f64],
+    /// Velocities at the end.
+    pub end: &'a [f64],
+    /// Step, s.
+    pub h: f64,
 }
 
 /// The evaluation that a semi-implicit step was made with: positions `start.q + h/2 start.v`, velocities `predicted`. The
@@ -133,8 +135,6 @@ pub struct Applied<'a> {
     pub end: &'a [f64],
     /// Velocities of the evaluation.
     pub predicted: &'a [f64],
-    /// Velocities at which damping acted.
-    pub acting: &'a [f64],
     /// Step, s.
     pub h: f64,
 }

@@ -87,7 +87,9 @@ impl Model {
                 let c = self.contact_power(
                     batch,
                     i,
-                    step.map(|step| self.step_changes(site, v, step, &ws.elements)),
+                    step.map(|step| {
+                        self.step_changes(site, batch.force.friction_secant[i], v, step, &ws.elements)
+                    }),
                 );
                 match site.mate {
                     Mate::Pocket(_) => {
@@ -147,19 +149,18 @@ impl Model {
     /// Power of contact `i`, whose speeds and forces a semi-implicit step has changed.
     fn contact_power(&self, batch: &Batch, i: usize, changes: Option<Changes>) -> ContactPower {
         let (f, m) = (&batch.force, &batch.motion);
-        let Changes { approach_speed, slip, mean_approach_speed, mean_slip } = changes.unwrap_or_default();
-        let [approach_speed, mean_approach_speed] =
-            [approach_speed, mean_approach_speed].map(|change| m.delta_dot[i] + change);
-        let friction = f.friction[i] - f.friction_secant[i] * slip;
+        let Changes { approach_speed, slip, acting_slip } = changes.unwrap_or_default();
+        let approach_speed = m.delta_dot[i] + approach_speed;
+        let friction = f.friction[i] - f.friction_secant[i] * acting_slip;
         let damping = if f.normal[i] == 0.0 && m.delta[i] > 0.0 {
             // Damping has cut off the force, and the spring loses what it held.
-            self.spring(&batch.sites[i].mate, m.delta[i])[0] * mean_approach_speed
+            self.spring(&batch.sites[i].mate, m.delta[i])[0] * approach_speed
         } else {
-            -f.damping[i] * approach_speed * mean_approach_speed
+            -f.damping[i] * approach_speed * approach_speed
         };
         ContactPower {
             damping,
-            friction: friction * (m.u1[i] - m.u2[i] + mean_slip),
+            friction: friction * (m.u1[i] - m.u2[i] + slip),
             rolling: f.rolling_resistance[i] * (m.u1[i] + m.u2[i]),
             on_mate: f.rolling_resistance[i] - friction,
         }

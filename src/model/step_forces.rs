@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! Q   = Q(v*) + c (delta_dot - delta_dot*)      mean over the step
-//! F_T = F_T(v*) - s (u1 - u2 - (u1* - u2*))     at its end
+//! F_T = F_T(v*) - s (u1 - u2 - (u1* - u2*))     at a share of its change, from the mean to the end
 //! ```
 //!
 //! v* velocities of the evaluation, c normal damping, s secant slope of friction; by the motion of the rollers.
@@ -15,13 +15,12 @@ use crate::contact::Wrench;
 use crate::integrate::SemiImplicit;
 use crate::laws::contact_pair::ContactForce;
 
-/// Changes of the speeds of one contact, m/s: mean over the step, and slip at its end.
+/// Changes of the speeds of one contact, m/s: mean over the step, and slip at which friction acts.
 #[derive(Default)]
 pub(super) struct Changes {
     pub(super) approach_speed: f64,
     pub(super) slip: f64,
-    pub(super) mean_approach_speed: f64,
-    pub(super) mean_slip: f64,
+    pub(super) acting_slip: f64,
 }
 
 impl Model {
@@ -39,10 +38,10 @@ impl Model {
                 if let Mate::Outer = site.mate {
                     continue;
                 }
-                let changes = self.step_changes(site, v, step, &ws.elements);
+                let changes = self.step_changes(site, force.friction_secant[i], v, step, &ws.elements);
                 let change = ContactForce {
                     normal: force.damping[i] * changes.approach_speed,
-                    friction: -force.friction_secant[i] * changes.slip,
+                    friction: -force.friction_secant[i] * changes.acting_slip,
                     ..ContactForce::none(0.0)
                 };
                 if let Mate::Pocket(pocket) = &site.mate {
@@ -72,18 +71,19 @@ impl Model {
         let Workspace { raceways, pockets, elements, .. } = ws;
         for Batch { sites, force, .. } in [raceways, pockets] {
             for (i, site) in sites.iter().enumerate() {
-                let changes = self.step_changes(site, v, step, elements);
+                let changes = self.step_changes(site, force.friction_secant[i], v, step, elements);
                 force.normal[i] = (force.normal[i] + force.damping[i] * changes.approach_speed).max(0.0);
-                force.friction[i] -= force.friction_secant[i] * changes.slip;
+                force.friction[i] -= force.friction_secant[i] * changes.acting_slip;
             }
         }
     }
 
-    /// How the speeds of a contact change from the evaluated velocities `v` to those of the step, by the motion of its
-    /// roller.
+    /// How the speeds of a contact whose friction has the slope `secant` change from the evaluated velocities `v` to those of
+    /// the step, by the motion of its roller.
     pub(super) fn step_changes(
         &self,
         site: &Site,
+        secant: f64,
         v: &[f64],
         step: &SemiImplicit<'_>,
         elements: &[ElementSite],
@@ -97,13 +97,13 @@ impl Model {
         let slip = |[radial, across, turning]: [f64; 3]| {
             nr * across - nc * radial + rollers.geometry.roller_radius * turning
         };
-        let approach = |change: [f64; 3]| nr * change[0] + nc * change[1];
-        let (mean, acting) = (change(step.mean), change(step.acting));
+        let mean = change(step.mean);
+        let [mean_slip, end_slip] = [slip(mean), slip(change(step.end))];
+        let beyond = 2.0 * rollers.friction_share(step.h, secant) - 1.0;
         Changes {
-            approach_speed: approach(acting),
-            slip: slip(acting),
-            mean_approach_speed: approach(mean),
-            mean_slip: slip(mean),
+            approach_speed: nr * mean[0] + nc * mean[1],
+            slip: mean_slip,
+            acting_slip: mean_slip + beyond * (end_slip - mean_slip),
         }
     }
 }

@@ -219,7 +219,7 @@ impl Bearing {
         a.resize(mean.len(), 0.0);
         let evaluated = self.accelerations_at(t + 0.5 * step.h, &middle, &mut a);
         if evaluated.is_ok() {
-            let change = SemiImplicit { mean: &mean, acting: step.acting };
+            let change = SemiImplicit { mean: &mean, end: end_v, h: step.h };
             self.model.apply_step(step.predicted, &change, &mut self.workspace);
             self.report(state, &a, out);
         }
@@ -338,18 +338,17 @@ impl System for Bearing {
         self.model.react(q, v, step, &self.workspace, a);
     }
 
-    fn damping(&self, q: &[f64], v: &[f64], out: &mut GroupDamping) {
+    fn damping(&self, h: f64, q: &[f64], v: &[f64], out: &mut GroupDamping) {
         let layout = self.model.layout();
-        self.model.roller_damping(&self.workspace, out);
-        let cage = self.model.cage_damping(q, v, &self.workspace);
-        let weight = self.model.guide_weight();
+        self.model.roller_damping(h, &self.workspace, out);
+        let cage = self.model.cage_damping(q, v, &self.workspace, h);
         let mut next = layout.count;
         if layout.ring.is_some() {
-            out.set(next, &self.model.ring_damping(&cage), weight);
+            out.set(next, &self.model.ring_damping(&cage, h));
             next += 1;
         }
         if layout.cage.is_some() {
-            out.set(next, &cage, weight);
+            out.set(next, &cage);
         }
     }
 }

@@ -242,7 +242,7 @@ impl System for Fixed {
         self.model.linearize(q, v, &mut self.workspace, &rates, out);
         Ok(())
     }
-    fn damping(&self, _: &[f64], _: &[f64], _: &mut GroupDamping) {}
+    fn damping(&self, _: f64, _: &[f64], _: &[f64], _: &mut GroupDamping) {}
 }
 
 impl Case {

@@ -109,7 +109,7 @@ fn mean_whirl_does_not_depend_on_the_integrator() {
         );
         assert!((found - reference).abs() < scatter + coarse, "{}: {found}, CVODE {reference}", run.name);
         assert!(
-            scatter + coarse < 3.5e-3 * reference.abs(),
+            scatter + coarse < 2.5e-3 * reference.abs(),
             "{}: {scatter} + {coarse} says nothing",
             run.name
         );
