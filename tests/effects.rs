@@ -23,7 +23,7 @@ const STATES: usize = 4;
 /// the 19 000 that the groups of contacts leave.
 const WEIGHT_ALONE: f64 = 0.05;
 /// Instructions that a row may cost more than the unchanged scene, relative to that.
-const MORE: f64 = 0.01;
+const MORE: f64 = 0.02;
 /// The same of effects that only raceways lose: their contacts part from those of the pockets, and groups are less full.
 const MORE_APART: f64 = 0.08;
 const APART: [&str; 2] = ["raceway thermal correction", "raceway boundary friction"];
