@@ -129,6 +129,8 @@ pub struct Auto {
     probe: f64,
     steps: [u64; 3],
     changes: u64,
+    /// Whether the state was set since the last refresh, which is no event of the system then.
+    placed: bool,
     /// Where states change hands.
     state: Vec<f64>,
 }
@@ -172,6 +174,7 @@ impl Auto {
             probe: 0.0,
             steps: [0; 3],
             changes: 0,
+            placed: true,
             state: vec![0.0; system.positions() + system.velocities()],
             aim,
         };
@@ -324,10 +327,14 @@ impl Auto {
 impl<S: System> Stepper<S> for Auto {
     fn set_state(&mut self, state: &[f64]) {
         self.ledger.close();
+        self.placed = true;
         active!(self, S, set_state(state));
     }
 
     fn refresh(&mut self, system: &mut S, t: f64) -> Result<(), S::Fault> {
+        if !std::mem::take(&mut self.placed) {
+            self.quiet.note_event();
+        }
         active!(self, S, refresh(system, t))
     }
 
@@ -420,6 +427,7 @@ impl<S: System> Stepper<S> for Auto {
         out.extend([self.active as usize as f64, self.reason as usize as f64]);
         out.extend([self.last_steps[0], self.last_steps[1], self.h, self.attempts as f64, self.probe]);
         out.push(self.gave_way as f64);
+        out.push(f64::from(u8::from(self.placed)));
         out.extend(self.steps.map(|n| n as f64));
         out.push(self.changes as f64);
         self.watch.save(out);
@@ -451,6 +459,7 @@ impl<S: System> Stepper<S> for Auto {
         self.attempts = from.count()?;
         self.probe = from.number()?;
         self.gave_way = from.count()?;
+        self.placed = from.flag()?;
         for steps in &mut self.steps {
             *steps = from.count()?;
         }

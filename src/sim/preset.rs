@@ -23,7 +23,7 @@ pub(super) struct Numbers {
 pub(super) const UNDAMPED_SHARE: f64 = 0.5;
 
 const ENGINEERING: Numbers =
-    Numbers { statistics: true, leapfrog_step: 1.0, stretch_error: 3e-4, tolerance: 1e-6, affordable: 6.0 };
+    Numbers { statistics: true, leapfrog_step: 1.0, stretch_error: 3e-4, tolerance: 1e-6, affordable: 9.0 };
 
 /// Errors of a stretch grow with the cube of the step.
 const DRAFT: Numbers =

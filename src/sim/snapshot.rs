@@ -9,7 +9,7 @@ use crate::scene::Solver;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// First number of a snapshot; changes when its content changes.
-const FORMAT: f64 = 8.0;
+const FORMAT: f64 = 9.0;
 
 impl Sim {
     /// Everything the future of this simulation depends on, for the same model in the same build of the library.
