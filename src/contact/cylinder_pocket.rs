@@ -39,12 +39,14 @@ impl CylinderPocket {
     }
 
     /// True when no pillar can touch a roller at `offset`.
+    #[inline]
     pub fn apart<T: Real>(&self, offset: [T; 2]) -> bool {
         let (a, b) = (offset[0].value(), offset[1].value());
         a * a + b * b < self.clearance * self.clearance
     }
 
     /// The contact with one pillar; `None` when they are apart.
+    #[inline]
     pub fn pillar<T: Real>(&self, side: Pillar, m: &PocketMotion<T>) -> Option<PillarContact<T>> {
         let (sign, radius) = (side.sign(), self.place.element_radius);
         // Coordinates towards the pillar and radially outward.

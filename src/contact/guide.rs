@@ -32,6 +32,7 @@ pub enum GuideSide {
 
 impl GuideSide {
     /// Motion of the journal in the bush. The roundness profile is that of the cage.
+    #[inline]
     pub fn journal_motion<T: Real>(self, cage: &BodyMotion<T>, ring: &BodyMotion<T>) -> JournalMotion<T> {
         let (journal, bush) = match self {
             GuideSide::CageInside => (cage, ring),
@@ -48,6 +49,7 @@ impl GuideSide {
     }
 
     /// The force on the cage, with its moment about the cage centre.
+    #[inline]
     pub fn on_cage<T: Real>(self, f: &GuideForce<T>, m: &JournalMotion<T>) -> GuideForce<T> {
         match self {
             GuideSide::CageInside => *f,
@@ -63,6 +65,7 @@ impl GuideSide {
     }
 
     /// Wrenches on the cage and on the ring.
+    #[inline]
     pub fn wrenches<T: Real>(self, f: &GuideForce<T>, m: &JournalMotion<T>) -> [Wrench<T>; 2] {
         let force = f.force();
         let on_journal = Wrench { force, moment: f.moment };
@@ -75,6 +78,7 @@ impl GuideSide {
 }
 
 /// Moment of the force on the journal about the centre of the bush.
+#[inline]
 fn carried<T: Real>(f: &GuideForce<T>, m: &JournalMotion<T>) -> T {
     let [y, z] = f.force();
     m.position[0] * z - m.position[1] * y

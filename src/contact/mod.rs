@@ -39,6 +39,7 @@ pub struct PairFrame<T> {
 
 impl<T: Real> PairFrame<T> {
     /// t: n turned by +90 degrees.
+    #[inline]
     pub fn tangent(&self) -> [T; 2] {
         [-self.normal[1], self.normal[0]]
     }
@@ -47,6 +48,7 @@ impl<T: Real> PairFrame<T> {
     ///
     /// They are 2 R_e F/R of each body (NTN Eq. 12) with the actual arms for the radii, which differ from the
     /// nominal ones by the elastic approach and make the balance exact.
+    #[inline]
     pub fn film_pressure_forces(&self, f: &ContactForce<T>) -> [T; 2] {
         let drive = -(f.rolling_resistance * 2.0);
         let distance = self.arm_1 + self.arm_2;
@@ -54,6 +56,7 @@ impl<T: Real> PairFrame<T> {
     }
 
     /// Wrenches on body 1 and body 2 for the forces of a line contact.
+    #[inline]
     pub fn wrenches(&self, f: &ContactForce<T>) -> [Wrench<T>; 2] {
         let [n, t] = [self.normal, self.tangent()];
         let [pressure_1, pressure_2] = self.film_pressure_forces(f);

@@ -22,11 +22,13 @@ pub struct PlanePocket {
 
 impl PlanePocket {
     /// True when no wall can touch an element at `offset`.
+    #[inline]
     pub fn apart<T: Real>(&self, offset: [T; 2]) -> bool {
         offset[1].value().abs() < self.clearance
     }
 
     /// The contact with the wall of one pillar; `None` when they are apart.
+    #[inline]
     pub fn wall<T: Real>(&self, side: Pillar, m: &PocketMotion<T>) -> Option<PillarContact<T>> {
         let sign = side.sign();
         let delta = m.offset[1] * sign - self.clearance;

@@ -30,6 +30,7 @@ pub enum Pillar {
 
 impl Pillar {
     /// +1 for the front, -1 for the back: the side of the circumferential direction.
+    #[inline]
     pub fn sign(self) -> f64 {
         match self {
             Pillar::Front => 1.0,
@@ -71,6 +72,7 @@ impl PocketPlace {
     }
 
     /// Motion of the roller relative to the pocket; velocity (m/s, pocket frame) and rotation speed (rad/s) of the cage.
+    #[inline]
     pub fn relative_motion<T: Real>(
         &self,
         offset: [T; 2],
@@ -93,6 +95,7 @@ impl PocketPlace {
     }
 
     /// The contact at depth `delta` (m) in the direction `normal` from the element centre.
+    #[inline]
     pub fn contact<T: Real>(
         &self,
         m: &PocketMotion<T>,
@@ -114,6 +117,7 @@ impl PocketPlace {
     }
 
     /// Contact point relative to the cage centre, m.
+    #[inline]
     pub fn lever<T: Real>(&self, offset: [T; 2], normal: [T; 2]) -> [T; 2] {
         [
             offset[0] + self.pitch_radius + normal[0] * self.element_radius,

@@ -62,6 +62,7 @@ impl RacewayGeometry {
     }
 
     /// Motion and frame of the contact with the outer raceway; the outer ring is centred and at rest.
+    #[inline]
     pub fn outer<T: Real>(&self, roller: &RollerMotion<T>) -> (ContactMotion<T>, PairFrame<T>) {
         let arm_1 = T::constant(self.roller_radius);
         let arm_2 = -(roller.radial_offset + (self.pitch_radius + self.roller_radius));
@@ -84,6 +85,7 @@ impl RacewayGeometry {
     }
 
     /// Motion and frame of the contact with the inner raceway.
+    #[inline]
     pub fn inner<T: Real>(
         &self,
         roller: &RollerMotion<T>,

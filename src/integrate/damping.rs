@@ -18,6 +18,7 @@ pub struct DampingBlock {
 ///
 /// One half for slow decays (second order), towards one for fast ones. A step of `v' = -r v` leaves
 /// `1/(1 + z + z^2/2 + z^3/6)`: exp(-z) to third order, and never less than zero.
+#[inline]
 pub fn implicit_share(z: f64) -> f64 {
     // All of it where z is not finite.
     if z < 1e100 { (3.0 + z * (2.0 + z)) / (6.0 + z * (3.0 + z)) } else { 1.0 }

@@ -44,6 +44,7 @@ pub struct WidthMean<T> {
 
 impl BarusFilm {
     /// Averages where the isoviscous pressure is `peak` in the middle of the width, Pa; without pressure for `peak` <= 0.
+    #[inline]
     pub fn mean<T: Real>(&self, peak: T) -> WidthMean<T> {
         if peak.value() <= 0.0 {
             return WidthMean { pressure: T::constant(0.0), viscosity: T::constant(1.0) };
@@ -59,6 +60,7 @@ impl BarusFilm {
         WidthMean { pressure: peak * psi * inverse * 2.0, viscosity: (-(z * psi) + 1.0) * inverse }
     }
 
+    #[inline]
     fn capped<T: Real>(&self, s: T) -> WidthMean<T> {
         let (cap, steep) = (self.cap, 1.0 / (1.0 - self.cap));
         let t = ((s - cap) / s).sqrt();
@@ -77,12 +79,14 @@ impl BarusFilm {
 
     /// On one side of the cap, a coordinate at `s` of which the averages are smooth functions, and its value where they
     /// are singular: s = 1 below the cap, and t_c = -sqrt(1 - s_cap), with the other sign of the root, above it.
+    #[inline]
     pub(super) fn coordinate(&self, s: f64, capped: bool) -> (f64, f64) {
         if capped { (-(1.0 - self.cap / s.max(self.cap)).sqrt(), (1.0 - self.cap).sqrt()) } else { (s, 1.0) }
     }
 }
 
 /// (1 - Phi(z))/z = 1/3 - z/5 + z^2/7 - ..., for z > -1.
+#[inline]
 fn psi<T: Real>(z: T) -> T {
     let size = z.value().abs();
     if size < 4e-2 {

@@ -79,11 +79,13 @@ pub struct GuideForce<T> {
 
 impl<T: Real> GuideForce<T> {
     /// Sum of all components (y, z), N.
+    #[inline]
     pub fn force(&self) -> [T; 2] {
         std::array::from_fn(|k| self.pressure[k] + self.shear[k] + self.solid[k])
     }
 
     /// What the film alone does.
+    #[inline]
     pub fn of_film(&self) -> Self {
         Self { solid: [T::constant(0.0); 2], moment: self.film_moment, ..*self }
     }
@@ -94,6 +96,7 @@ impl GuideFilm {
     ///
     /// # Errors
     /// [`NoFilm`] where the surfaces touch or overlap.
+    #[inline]
     pub fn force<T: Real>(&self, m: &JournalMotion<T>) -> Result<FilmForce<T>, NoFilm> {
         match self {
             GuideFilm::ShortBearing(film) => film.force(m),
@@ -123,6 +126,7 @@ impl GuideLaw {
     ///
     /// # Errors
     /// [`NoFilm`] for a film without solid contact that is gone.
+    #[inline]
     pub fn force<T: Real>(&self, m: &JournalMotion<T>) -> Result<GuideForce<T>, NoFilm> {
         let [y, z] = m.position;
         let r2 = y * y + z * z;
@@ -142,6 +146,7 @@ impl GuideLaw {
     }
 
     /// L at the smallest gap `gap` in m.
+    #[inline]
     pub fn film_share<T: Real>(&self, gap: T) -> T {
         // Written so that a NaN gap counts as no film.
         let open = gap.value() > 0.0;
@@ -156,6 +161,7 @@ impl GuideLaw {
         share * smoothstep(ratio / self.touching_ratio).squared()
     }
 
+    #[inline]
     fn add_solid<T: Real>(
         &self,
         solid: &GuideSolid,
@@ -185,10 +191,12 @@ impl GuideLaw {
     }
 }
 
+#[inline]
 fn apart<T: Real>(gap: T) -> GuideForce<T> {
     from_film(FilmForce::none(gap), T::constant(0.0))
 }
 
+#[inline]
 fn from_film<T: Real>(film: FilmForce<T>, share: T) -> GuideForce<T> {
     GuideForce {
         pressure: film.pressure.map(|f| f * share),

@@ -56,12 +56,14 @@ pub struct NoFilm {
 
 impl<T: Real> FilmForce<T> {
     /// No force, with the surfaces `minimum_film` apart (m).
+    #[inline]
     pub fn none(minimum_film: T) -> Self {
         let zero = T::constant(0.0);
         Self { pressure: [zero; 2], shear: [zero; 2], moment: zero, minimum_film }
     }
 
     /// Pressure and shear together (y, z), N.
+    #[inline]
     pub fn force(&self) -> [T; 2] {
         [self.pressure[0] + self.shear[0], self.pressure[1] + self.shear[1]]
     }

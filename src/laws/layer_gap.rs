@@ -64,6 +64,7 @@ pub(super) struct RoundGap<T> {
 
 impl<T: Real> RoundGap<T> {
     /// The same gap without derivatives.
+    #[inline]
     pub fn plain(&self) -> RoundGap<f64> {
         RoundGap {
             eccentricity: self.eccentricity.value(),
@@ -81,6 +82,7 @@ impl<T: Real> RoundGap<T> {
 
 impl RoundGap<f64> {
     /// The two places where G changes sign, in ascending order within -pi to pi.
+    #[inline]
     pub fn sign_changes(&self) -> [f64; 2] {
         let (a, s) = (self.wedge, self.squeeze);
         let n = a.hypot(s);
@@ -94,6 +96,7 @@ impl RoundGap<f64> {
 }
 
 impl<T: Real> Gap<T> for RoundGap<T> {
+    #[inline]
     fn at(&self, gamma: T) -> Place<T> {
         let (s, c) = (gamma * 0.5).sin_cos();
         let (near, far) = (c * c * self.thickest, s * s * self.thinnest);
@@ -113,6 +116,7 @@ impl<T: Real> Gap<T> for RoundGap<T> {
         }
     }
 
+    #[inline]
     fn narrowness(&self) -> f64 {
         (self.thinnest.value() / self.thickest.value()).sqrt()
     }
@@ -135,6 +139,7 @@ pub(super) struct ProfileGap<'a, T> {
 
 impl<T: Real> ProfileGap<'_, T> {
     /// The same gap without derivatives.
+    #[inline]
     pub fn plain(&self) -> ProfileGap<'_, f64> {
         let m = &self.motion;
         let motion = JournalMotion {
@@ -158,6 +163,7 @@ impl<T: Real> ProfileGap<'_, T> {
 }
 
 impl<T: Real> Gap<T> for ProfileGap<'_, T> {
+    #[inline]
     fn at(&self, gamma: T) -> Place<T> {
         let (s, c) = (gamma * 0.5).sin_cos();
         let (near, far) = (c * c * self.thickest, s * s * self.thinnest);
@@ -190,12 +196,14 @@ impl<T: Real> Gap<T> for ProfileGap<'_, T> {
         }
     }
 
+    #[inline]
     fn narrowness(&self) -> f64 {
         (self.thinnest / self.thickest).sqrt()
     }
 }
 
 /// Place between `a` and `b` where `f` changes its sign, by the Illinois method.
+#[inline]
 pub(super) fn change(f: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
     let (mut at_a, mut at_b) = (f(a), f(b));
     for _ in 0..60 {

@@ -47,6 +47,7 @@ struct Piece {
 
 impl Piece {
     /// Angle and its rate of change at `x`.
+    #[inline]
     fn at(&self, x: f64) -> (f64, f64) {
         if self.capped {
             let (sin, cos) = x.sin_cos();
@@ -70,6 +71,7 @@ pub(super) struct Integrator<'a, T, G, P> {
 }
 
 impl<'a, T: Real, G: Gap<T>, P: Gap<f64>> Integrator<'a, T, G, P> {
+    #[inline]
     pub fn new(law: &'a LubricantLayer, gap: &'a G, plain: &'a P) -> Self {
         let zero = T::constant(0.0);
         Self {
@@ -85,6 +87,7 @@ impl<'a, T: Real, G: Gap<T>, P: Gap<f64>> Integrator<'a, T, G, P> {
 
     /// Adds what the jump of the pressure at an end of a wet arc takes from the shear stress between the ends: +1 at the
     /// end of an arc and -1 at its start.
+    #[inline]
     pub fn wet_end(&mut self, gamma: T, side: f64) {
         let place = self.gap.at(gamma);
         let mean = self.film.mean(self.peak(&place));
@@ -116,10 +119,12 @@ impl<'a, T: Real, G: Gap<T>, P: Gap<f64>> Integrator<'a, T, G, P> {
     }
 
     /// s for q_0 = -G/h^3.
+    #[inline]
     fn scale(&self) -> f64 {
         self.peak_scale * self.law.pressure_viscosity
     }
 
+    #[inline]
     fn smooth(&mut self, arc: &Arc<T>, from: f64, to: f64, mild: bool, capped: bool) {
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
         let piece = Piece { arc_start: arc.start.value(), mild, capped, middle, half };
@@ -133,6 +138,7 @@ impl<'a, T: Real, G: Gap<T>, P: Gap<f64>> Integrator<'a, T, G, P> {
         self.panels(&piece, [arc.start, stretch], x, &samples, 0);
     }
 
+    #[inline]
     fn coordinate(&self, piece: &Piece, x: f64) -> f64 {
         let s = self.scale() * thickening(&self.plain.at(piece.at(x).0));
         self.film.coordinate(s, piece.capped).0
@@ -184,11 +190,13 @@ impl<'a, T: Real, G: Gap<T>, P: Gap<f64>> Integrator<'a, T, G, P> {
         }
     }
 
+    #[inline]
     fn peak(&self, place: &Place<T>) -> T {
         let i = place.inverse_film;
         -(place.opening * i * i * i * self.peak_scale)
     }
 
+    #[inline]
     fn node(&mut self, gamma: T, weight: T) {
         let place = self.gap.at(gamma);
         let weight = weight * place.arc;
@@ -216,6 +224,7 @@ impl<'a, T: Real, G: Gap<T>, P: Gap<f64>> Integrator<'a, T, G, P> {
         self.add_tangential(&place, along);
     }
 
+    #[inline]
     fn add_tangential(&mut self, place: &Place<T>, along: T) {
         let [cos, sin] = place.normal;
         let [a, b] = &mut self.sums.shear;
@@ -226,11 +235,13 @@ impl<'a, T: Real, G: Gap<T>, P: Gap<f64>> Integrator<'a, T, G, P> {
 }
 
 /// -G/h^3.
+#[inline]
 fn thickening(p: &Place<f64>) -> f64 {
     -p.opening * p.inverse_film * p.inverse_film * p.inverse_film
 }
 
 /// Chebyshev coefficients of the quartic through five values at equal distances.
+#[inline]
 fn chebyshev(&[a, b, c, d, e]: &[f64; 5]) -> [f64; 5] {
     let (inner, outer) = (0.5 * (b + d) - c, 0.5 * (a + e) - c);
     let square = (16.0 * inner - outer) / 3.0;

@@ -158,6 +158,7 @@ impl LubricantLayer {
     }
 
     /// s for an approach -G of `speed` m/s at a film of `film` m.
+    #[inline]
     fn thickening(&self, speed: f64, film: f64) -> f64 {
         0.75 * self.viscosity * self.width.powi(2) * self.pressure_viscosity * speed / film.powi(3)
     }
@@ -268,6 +269,7 @@ impl LubricantLayer {
 }
 
 /// Distance of the journal from the centre and its direction; the direction is arbitrary (+y) at the centre.
+#[inline]
 fn eccentricity<T: Real>([y, z]: [T; 2]) -> (T, [T; 2]) {
     let r2 = y * y + z * z;
     // Below this, squares lose digits to underflow and the direction would not be a unit vector.

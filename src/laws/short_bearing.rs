@@ -68,6 +68,7 @@ impl ShortBearing {
         Ok(FilmForce { pressure: force, shear: [T::constant(0.0); 2], moment, minimum_film })
     }
 
+    #[inline]
     fn eccentricity<T: Real>(&self, m: &JournalMotion<T>) -> Eccentricity<T> {
         let [y, z] = m.position;
         let r2 = y * y + z * z;
@@ -80,6 +81,7 @@ impl ShortBearing {
         Eccentricity { ratio: r / self.clearance, direction: [y / r, z / r] }
     }
 
+    #[inline]
     fn force_scale(&self) -> f64 {
         2.0 * self.viscosity * self.radius * self.land_width.powi(3)
     }
@@ -222,6 +224,7 @@ struct ProfileNode<T> {
     direction: [T; 2],
 }
 
+#[inline]
 fn one_minus_square<T: Real>(x: T) -> T {
     (-x + 1.0) * (x + 1.0)
 }

@@ -31,6 +31,7 @@ pub struct SolidContact {
 
 impl SolidContact {
     /// Normal force and friction of the pair. `motion.delta` is the depth d.
+    #[inline]
     pub fn force<T: Real>(&self, motion: &ContactMotion<T>) -> ContactForce<T> {
         let mut out = ContactForce::none(T::constant(0.0));
         // Written so that a NaN depth is passed on and not taken for "apart".

@@ -90,6 +90,7 @@ impl Batch {
         self.counts = [0; CONTACT_LAWS];
     }
 
+    #[inline]
     pub(super) fn len(&self) -> usize {
         self.sites.len()
     }
@@ -146,6 +147,7 @@ impl Batch {
     }
 
     /// Every contact with its normal force, friction and rolling resistance, N.
+    #[inline]
     pub(super) fn forces(&self) -> impl Iterator<Item = (&Site, ContactForce<f64>)> {
         let f = &self.force;
         let forces = f.normal.iter().zip(&f.friction).zip(&f.rolling_resistance);
@@ -155,18 +157,21 @@ impl Batch {
     }
 
     /// Normal force, friction and rolling resistance of contact `i`, N, and their derivatives over what the law sees.
+    #[inline]
     pub(super) fn slopes(&self, i: usize) -> ([f64; FORCES], Slopes) {
         let f = &self.force;
         ([f.normal[i], f.friction[i], f.rolling_resistance[i]], self.slopes.of(i))
     }
 
     /// Every contact with its normal damping and its secant slope of friction, N s/m.
+    #[inline]
     pub(super) fn damping(&self) -> impl Iterator<Item = (&Site, [f64; 2])> {
         let rates = self.force.damping.iter().zip(&self.force.friction_secant);
         self.sites.iter().zip(rates).map(|(site, (damping, secant))| (site, [*damping, *secant]))
     }
 
     /// Every contact with all that is known of it.
+    #[inline]
     pub(super) fn iter(&self) -> impl Iterator<Item = Loaded<'_>> {
         self.sites.iter().enumerate().map(|(i, site)| Loaded {
             site,

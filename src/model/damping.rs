@@ -158,6 +158,7 @@ impl Columns for Divide<'_> {
 
 impl RollerSet {
     /// Share of the change of slip in a step of size `h` (s) at which friction of slope `secant` (N s/m) acts.
+    #[inline]
     pub(super) fn friction_share(&self, h: f64, secant: f64) -> f64 {
         let radius = self.geometry.roller_radius;
         implicit_share(h * secant * (1.0 / self.mass + radius * radius / self.inertia))

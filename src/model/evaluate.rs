@@ -265,6 +265,7 @@ fn count(laws: &Laws, ws: &mut Workspace) {
     }
 }
 
+#[inline]
 pub(super) fn add(sum: &mut Wrench<f64>, force: [f64; 2], moment: f64) {
     sum.force[0] += force[0];
     sum.force[1] += force[1];
@@ -272,6 +273,7 @@ pub(super) fn add(sum: &mut Wrench<f64>, force: [f64; 2], moment: f64) {
 }
 
 /// Wrench on the element in its local frame and on the cage in the global frame.
+#[inline]
 pub(super) fn pocket_wrenches(
     frame: &PairFrame<f64>,
     force: &ContactForce<f64>,

@@ -235,6 +235,7 @@ impl Model {
 }
 
 /// Multiplies the rows of a matrix, given by its columns, by these factors.
+#[inline]
 fn scale_rows<const N: usize>(columns: &mut [[f64; N]], factors: &[f64; N]) {
     for column in columns {
         for (x, factor) in column.iter_mut().zip(factors) {

@@ -41,12 +41,20 @@ impl LawSlopes {
     }
 
     /// Derivatives of the forces of contact `i`.
+    #[inline]
     pub(super) fn of(&self, i: usize) -> Slopes {
-        std::array::from_fn(|f| std::array::from_fn(|d| self.0[f][d][i]))
+        let mut slopes = [[0.0; DIRECTIONS]; FORCES];
+        for (row, columns) in slopes.iter_mut().zip(&self.0) {
+            for (slope, column) in row.iter_mut().zip(columns) {
+                *slope = column[i];
+            }
+        }
+        slopes
     }
 }
 
 /// The forces of a contact, with the `slopes` of its law, over the coordinates of its bodies: chain rule.
+#[inline]
 pub(super) fn chain<const N: usize>(
     forces: &[f64; FORCES],
     slopes: &Slopes,
@@ -63,10 +71,11 @@ pub(super) fn chain<const N: usize>(
         }
         out
     };
-    contact_force([0, 1, 2].map(over_coordinates))
+    contact_force([over_coordinates(0), over_coordinates(1), over_coordinates(2)])
 }
 
 /// A contact with this normal force, friction and rolling resistance, N, or their rates; all else is zero.
+#[inline]
 pub(super) fn contact_force<T: Real>([normal, friction, rolling_resistance]: [T; FORCES]) -> ContactForce<T> {
     ContactForce { normal, friction, rolling_resistance, ..ContactForce::none(T::constant(0.0)) }
 }

@@ -118,7 +118,7 @@ impl Model {
         for j in 0..n {
             if touching(ws.places.inner_approach[j]) {
                 let site = &ws.elements[j];
-                let [position, velocity] = [ring_position, ring_velocity].map(|x| site.to_local(x));
+                let (position, velocity) = (site.to_local(ring_position), site.to_local(ring_velocity));
                 let ring = RingMotion { position, velocity, speed: ring_speed };
                 let (contact, frame) = geometry.inner(&site.motion, &ring);
                 ws.raceways.push(Site { element: j, frame, mate: Mate::Inner }, &contact);
@@ -170,6 +170,7 @@ impl Model {
     }
 }
 
+#[inline]
 fn push(
     batch: &mut Batch,
     element: usize,
@@ -185,6 +186,7 @@ fn push(
 }
 
 /// A NaN approach counts as contact, so that it reaches the accelerations and is reported.
+#[inline]
 fn touching(approach: f64) -> bool {
     approach > 0.0 || approach.is_nan()
 }

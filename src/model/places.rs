@@ -64,10 +64,11 @@ impl Places {
     }
 
     /// Element `j` with its motion.
+    #[inline]
     pub(super) fn site(&self, j: usize, motion: RollerMotion<f64>) -> ElementSite {
-        let [sin, cos] = [0, 1].map(|k| self.direction[k][j]);
-        let [lead_sin, lead_cos] = [0, 1].map(|k| self.lead_direction[k][j]);
-        let pocket_offset = [0, 1].map(|k| self.pocket_offset[k][j]);
+        let at = |[a, b]: &[Vec<f64>; 2]| [a[j], b[j]];
+        let ([sin, cos], [lead_sin, lead_cos]) = (at(&self.direction), at(&self.lead_direction));
+        let pocket_offset = at(&self.pocket_offset);
         ElementSite { motion, sin, cos, lead: (lead_sin, lead_cos), pocket_offset }
     }
 }

@@ -112,33 +112,36 @@ struct Pair {
 }
 
 impl Pair {
+    #[inline]
     fn new(j: usize, c: usize, (q, v): (&[f64], &[f64]), ws: &Workspace) -> Self {
         let site: &ElementSite = &ws.elements[j];
         let m = &site.motion;
-        let own = PairDual::variable;
+        let variable = PairDual::variable;
         let motion = RollerMotion {
-            radial_offset: own(m.radial_offset, 0),
-            radial_speed: own(m.radial_speed, 2),
-            orbit_speed: own(m.orbit_speed, 3),
-            spin_speed: own(m.spin_speed, 4),
+            radial_offset: variable(m.radial_offset, 0),
+            radial_speed: variable(m.radial_speed, 2),
+            orbit_speed: variable(m.orbit_speed, 3),
+            spin_speed: variable(m.spin_speed, 4),
         };
         let turn = |(sin, cos): (f64, f64), slope: PairDual| (slope * cos + sin, -(slope * sin) + cos);
         // Zero with the derivative of the travel.
-        let travel = own(0.0, 1);
+        let travel = variable(0.0, 1);
         let cage = BodyMotion {
-            position: [0, 1].map(|k| PairDual::variable(q[c + k], POSITION + k)),
-            velocity: [0, 1].map(|k| PairDual::variable(v[c + k], VELOCITY + k)),
-            angle: PairDual::variable(q[c + 2], POSITION + 2),
-            speed: PairDual::variable(v[c + 2], VELOCITY + 2),
+            position: [variable(q[c], POSITION), variable(q[c + 1], POSITION + 1)],
+            velocity: [variable(v[c], VELOCITY), variable(v[c + 1], VELOCITY + 1)],
+            angle: variable(q[c + 2], POSITION + 2),
+            speed: variable(v[c + 2], VELOCITY + 2),
         };
         let behind = travel - (cage.angle - cage.angle.value());
         Self { motion, azimuth: turn((site.sin, site.cos), travel), lead: turn(site.lead, behind), cage }
     }
 
+    #[inline]
     fn to_local(&self, v: [PairDual; 2]) -> [PairDual; 2] {
         rotate(v, -self.azimuth.0, self.azimuth.1)
     }
 
+    #[inline]
     fn to_global(&self, v: [PairDual; 2]) -> [PairDual; 2] {
         rotate(v, self.azimuth.0, self.azimuth.1)
     }
@@ -179,6 +182,7 @@ impl Pair {
     }
 
     /// The forces of a contact on its element and on the cage.
+    #[inline]
     fn bodies(
         &self,
         place: &PocketPlace,

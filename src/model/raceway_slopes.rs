@@ -56,6 +56,7 @@ impl Model {
 
     /// Rates of the forces (N/s) and moments (N m/s) on roller and mate while the second surface speed changes at `u2_rate`
     /// (m/s^2) and the viscosity as it does; `None` while neither does.
+    #[inline]
     fn over_time(
         slopes: &Slopes,
         frame: &PairFrame<f64>,
@@ -78,27 +79,27 @@ impl Model {
         out: &mut Linearization,
     ) {
         let site = &ws.elements[j];
-        let [x, v] = [ring.0, ring.1].map(|x| site.to_local(x));
+        let (x, v) = (site.to_local(ring.0), site.to_local(ring.1));
         let constant = InnerDual::constant;
         let motion = RingMotion {
             position: [constant(x[0]), InnerDual::variable(x[1], ACROSS)],
-            velocity: v.map(constant),
+            velocity: [constant(v[0]), constant(v[1])],
             speed: constant(ws.inputs.of(Input::RingSpeed)),
         };
         let (motion, frame) = rollers.geometry.inner(&lift::<5>(&site.motion), &motion);
         let (forces, slopes) = ws.raceways.slopes(i);
         let [on_roller, on_ring] = frame.wrenches(&chain(&forces, &slopes, &motion, None));
         let r = rollers.geometry.pitch_radius + site.motion.radial_offset;
-        let own = components(&on_roller).map(|force| over_global(row(&force, r, site, x, v), site));
+        let over = |force: &InnerDual| over_global(row(force, r, site, x, v), site);
+        let own = [over(&on_roller.force[0]), over(&on_roller.force[1]), over(&on_roller.moment)];
         let [radial, across] = on_ring.force;
         let (mut first, mut second) = (row(&radial, r, site, x, v), row(&across, r, site, x, v));
         first[1] -= across.re;
         second[1] += radial.re;
-        let mut shared = [[0.0; 9]; 2];
-        for c in 0..first.len() {
-            [shared[0][c], shared[1][c]] = site.to_global([first[c], second[c]]);
+        for (a, b) in first.iter_mut().zip(&mut second) {
+            [*a, *b] = site.to_global([*a, *b]);
         }
-        let shared = shared.map(|row| over_global(row, site));
+        let shared = [over_global(first, site), over_global(second, site)];
         let frame = &ws.raceways.sites[i].frame;
         let speeding = -frame.arm_2 * drift.rates.of(Input::RingSpeed);
         let time = Self::over_time(&slopes, frame, speeding, drift);
@@ -179,6 +180,7 @@ impl Model {
     }
 
     /// Velocities of roller `j`.
+    #[inline]
     pub(super) fn places(&self, j: usize) -> [usize; 3] {
         [self.layout.roller(j), self.layout.roller(j) + 1, self.layout.spin(j)]
     }
@@ -193,6 +195,7 @@ const RING_VELOCITY: usize = 7;
 
 /// From the derivatives in the frame of the roller at `site`, at the radius `r` (m), with the centre `x` and the velocity
 /// `v` of the ring in that frame.
+#[inline]
 fn row(force: &InnerDual, r: f64, site: &ElementSite, x: [f64; 2], v: [f64; 2]) -> Row {
     let [offset, radial, orbit, spin, across] = force.eps;
     let along = orbit * (site.motion.orbit_speed / r) - offset;
@@ -202,6 +205,7 @@ fn row(force: &InnerDual, r: f64, site: &ElementSite, x: [f64; 2], v: [f64; 2]) 
 }
 
 /// The same over the ring's coordinates in global axes.
+#[inline]
 fn over_global(mut row: Row, site: &ElementSite) -> Row {
     for at in [RING_POSITION, RING_VELOCITY] {
         [row[at], row[at + 1]] = site.to_global([row[at], row[at + 1]]);
@@ -209,6 +213,7 @@ fn over_global(mut row: Row, site: &ElementSite) -> Row {
     row
 }
 
+#[inline]
 fn lift<const N: usize>(m: &RollerMotion<f64>) -> RollerMotion<Dual<N>> {
     RollerMotion {
         radial_offset: Dual::variable(m.radial_offset, 0),
@@ -218,6 +223,7 @@ fn lift<const N: usize>(m: &RollerMotion<f64>) -> RollerMotion<Dual<N>> {
     }
 }
 
+#[inline]
 fn components<T: Copy>(wrench: &Wrench<T>) -> [T; 3] {
     [wrench.force[0], wrench.force[1], wrench.moment]
 }

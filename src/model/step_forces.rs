@@ -80,6 +80,7 @@ impl Model {
 
     /// How the speeds of a contact whose friction has the slope `secant` change from the evaluated velocities `v` to those of
     /// the step, by the motion of its roller.
+    #[inline]
     pub(super) fn step_changes(
         &self,
         site: &Site,

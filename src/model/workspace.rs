@@ -24,6 +24,7 @@ pub(super) struct ElementSite {
 
 impl ElementSite {
     /// Normal of a contact of this element in its local frame.
+    #[inline]
     pub(super) fn normal(&self, contact: &Site) -> [f64; 2] {
         match contact.mate {
             Mate::Outer | Mate::Inner => contact.frame.normal,
@@ -32,11 +33,13 @@ impl ElementSite {
     }
 
     /// A global vector in the element's local frame.
+    #[inline]
     pub(super) fn to_local(self, v: [f64; 2]) -> [f64; 2] {
         rotate(v, -self.sin, self.cos)
     }
 
     /// A local vector in the global frame.
+    #[inline]
     pub(super) fn to_global(self, v: [f64; 2]) -> [f64; 2] {
         rotate(v, self.sin, self.cos)
     }
@@ -155,11 +158,13 @@ impl Workspace {
     }
 
     /// All touching contacts.
+    #[inline]
     pub(super) fn contacts(&self) -> impl Iterator<Item = Loaded<'_>> {
         self.raceways.iter().chain(self.pockets.iter())
     }
 
     /// The batch of contacts with pockets.
+    #[inline]
     pub(super) fn pocket_batch(&mut self) -> &mut Batch {
         if self.joined { &mut self.raceways } else { &mut self.pockets }
     }

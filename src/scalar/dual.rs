@@ -6,9 +6,36 @@ use super::{Base, Numeric, Pack, Real};
 use pulp::Simd;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-/// A type of dual numbers whose operations are inlined as said. Loops, no closures: they would not always be inlined.
+/// Does `work` with `i` for each of the `N` directions.
+macro_rules! looped {
+    ($i:ident: $work:expr) => {
+        for $i in 0..N {
+            $work;
+        }
+    };
+}
+
+/// The same written out, for up to [`MOST_DIRECTIONS`]: loops in every operation would take most of the time of a build.
+macro_rules! written_out {
+    ($i:ident: $work:expr) => {{
+        const { assert!(N <= MOST_DIRECTIONS) };
+        written_out!($i: $work; 0 1 2 3 4 5 6 7);
+    }};
+    ($i:ident: $work:expr; $($at:literal)*) => {$(
+        if N > $at {
+            let $i = $at;
+            $work;
+        }
+    )*};
+}
+
+/// Largest number of directions of [`Duals`].
+const MOST_DIRECTIONS: usize = 8;
+
+/// A type of dual numbers whose operations are inlined and go through the directions as said. No closures: they would not
+/// always be inlined.
 macro_rules! dual_numbers {
-    ($name:ident, $inline:meta, $(#[$text:meta])*) => {
+    ($name:ident, $inline:meta, $each:ident, $(#[$text:meta])*) => {
     $(#[$text])*
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct $name<const N: usize, B = f64> {
@@ -31,18 +58,14 @@ macro_rules! dual_numbers {
         #[$inline]
         fn chain(self, re: B, slope: B) -> Self {
             let mut eps = self.eps;
-            for i in 0..N {
-                eps[i] = slope * eps[i];
-            }
+            $each!(i: eps[i] = slope * eps[i]);
             Self { re, eps }
         }
 
         #[$inline]
         fn combine(self, other: Self, re: B, a: B, b: B) -> Self {
             let mut eps = self.eps;
-            for i in 0..N {
-                eps[i] = a * eps[i] + b * other.eps[i];
-            }
+            $each!(i: eps[i] = a * eps[i] + b * other.eps[i]);
             Self { re, eps }
         }
     }
@@ -52,9 +75,7 @@ macro_rules! dual_numbers {
         #[$inline]
         fn add(self, o: Self) -> Self {
             let mut eps = self.eps;
-            for i in 0..N {
-                eps[i] += o.eps[i];
-            }
+            $each!(i: eps[i] += o.eps[i]);
             Self { re: self.re + o.re, eps }
         }
     }
@@ -64,9 +85,7 @@ macro_rules! dual_numbers {
         #[$inline]
         fn sub(self, o: Self) -> Self {
             let mut eps = self.eps;
-            for i in 0..N {
-                eps[i] -= o.eps[i];
-            }
+            $each!(i: eps[i] -= o.eps[i]);
             Self { re: self.re - o.re, eps }
         }
     }
@@ -94,9 +113,7 @@ macro_rules! dual_numbers {
         #[$inline]
         fn neg(self) -> Self {
             let mut eps = self.eps;
-            for i in 0..N {
-                eps[i] = -eps[i];
-            }
+            $each!(i: eps[i] = -eps[i]);
             Self { re: -self.re, eps }
         }
     }
@@ -136,9 +153,7 @@ macro_rules! dual_numbers {
         #[$inline]
         fn mul(self, o: f64) -> Self {
             let mut eps = self.eps;
-            for i in 0..N {
-                eps[i] = eps[i] * o;
-            }
+            $each!(i: eps[i] = eps[i] * o);
             Self { re: self.re * o, eps }
         }
     }
@@ -168,9 +183,7 @@ macro_rules! dual_numbers {
         fn select(condition: B::Mask, yes: Self, no: Self) -> Self {
             let mut out = no;
             out.re = B::select(condition, yes.re, no.re);
-            for i in 0..N {
-                out.eps[i] = B::select(condition, yes.eps[i], out.eps[i]);
-            }
+            $each!(i: out.eps[i] = B::select(condition, yes.eps[i], out.eps[i]));
             out
         }
         #[$inline]
@@ -208,11 +221,13 @@ macro_rules! dual_numbers {
 dual_numbers!(
     Dual,
     inline,
+    looped,
     /// A value with its `N` partial derivatives.
 );
 dual_numbers!(
     Duals,
     inline(always),
+    written_out,
     /// Values side by side with their `N` partial derivatives. Every operation is inlined, as [`Columns`](super::Columns)
     /// need it; in other places that would bloat the code.
 );
@@ -233,9 +248,7 @@ macro_rules! with_constants {
     (add $out:ident $o:ident) => {};
     (sub $out:ident $o:ident) => {};
     ($method:ident $out:ident $o:ident) => {
-        for i in 0..N {
-            $out.eps[i] = $out.eps[i].$method($o);
-        }
+        written_out!(i: $out.eps[i] = $out.eps[i].$method($o));
     };
 }
 

@@ -7,6 +7,8 @@ use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Sub, SubAssign};
 
 /// Largest number of numbers in a group.
 pub const WIDEST: usize = 16;
+/// Largest number of registers of a group.
+const LARGEST_GROUP: usize = 2;
 
 /// Work on columns of numbers, group by group.
 pub trait Columns {
@@ -91,20 +93,32 @@ impl<S: Simd, const K: usize> Pack<S, K> {
     }
 }
 
-/// Applies an operation of the instruction set to each register. No closures: they would not always be inlined.
+/// Does `work` with `i` for each of the `K` registers, written out: a loop in every operation would take most of the time of
+/// a build, and closures would not always be inlined.
+macro_rules! each_register {
+    ($i:ident: $work:expr) => {{
+        const { assert!(0 < K && K <= LARGEST_GROUP) };
+        {
+            let $i = 0;
+            $work;
+        }
+        if K > 1 {
+            let $i = 1;
+            $work;
+        }
+    }};
+}
+
+/// Applies an operation of the instruction set to each register.
 macro_rules! each {
     ($x:ident: $operation:ident($($argument:expr),*)) => {{
         let mut out = $x;
-        for i in 0..K {
-            out.v[i] = $x.simd.$operation($x.v[i] $(, $argument)*);
-        }
+        each_register!(i: out.v[i] = $x.simd.$operation($x.v[i] $(, $argument)*));
         out
     }};
     ($x:ident, $y:ident: $operation:ident) => {{
         let mut out = $x;
-        for i in 0..K {
-            out.v[i] = $x.simd.$operation($x.v[i], $y.v[i]);
-        }
+        each_register!(i: out.v[i] = $x.simd.$operation($x.v[i], $y.v[i]));
         out
     }};
 }
@@ -113,8 +127,8 @@ macro_rules! compare {
     ($x:ident, $y:ident: $operation:ident) => {{
         let simd = $x.simd;
         let mut m = [simd.$operation($x.v[0], $y.v[0]); K];
-        for i in 1..K {
-            m[i] = simd.$operation($x.v[i], $y.v[i]);
+        if K > 1 {
+            m[1] = simd.$operation($x.v[1], $y.v[1]);
         }
         PackMask { simd, m }
     }};
@@ -169,9 +183,7 @@ impl<S: Simd, const K: usize> BitAnd for PackMask<S, K> {
     #[inline(always)]
     fn bitand(self, o: Self) -> Self {
         let mut out = self;
-        for i in 0..K {
-            out.m[i] = self.simd.and_m64s(self.m[i], o.m[i]);
-        }
+        each_register!(i: out.m[i] = self.simd.and_m64s(self.m[i], o.m[i]));
         out
     }
 }
@@ -181,9 +193,7 @@ impl<S: Simd, const K: usize> BitOr for PackMask<S, K> {
     #[inline(always)]
     fn bitor(self, o: Self) -> Self {
         let mut out = self;
-        for i in 0..K {
-            out.m[i] = self.simd.or_m64s(self.m[i], o.m[i]);
-        }
+        each_register!(i: out.m[i] = self.simd.or_m64s(self.m[i], o.m[i]));
         out
     }
 }
@@ -204,9 +214,7 @@ impl<S: Simd, const K: usize> Numeric for Pack<S, K> {
     #[inline(always)]
     fn select(condition: Self::Mask, yes: Self, no: Self) -> Self {
         let mut out = yes;
-        for i in 0..K {
-            out.v[i] = yes.simd.select_f64s(condition.m[i], yes.v[i], no.v[i]);
-        }
+        each_register!(i: out.v[i] = yes.simd.select_f64s(condition.m[i], yes.v[i], no.v[i]));
         out
     }
     #[inline(always)]
@@ -260,48 +268,50 @@ impl<S: Simd, const K: usize> Base for Pack<S, K> {
     #[inline(always)]
     fn any(mask: Self::Mask) -> bool {
         let mut all = mask.m[0];
-        for m in mask.m {
-            all = mask.simd.or_m64s(all, m);
-        }
+        each_register!(i: all = mask.simd.or_m64s(all, mask.m[i]));
         mask.simd.first_true_m64s(all) < S::F64_LANES
     }
-    /// The exponent goes from the high half of a sum to its place.
     #[inline(always)]
     fn power_of_two(self) -> Self {
         let s = self.simd;
         let mut out = self;
-        for i in 0..K {
-            out.v[i] = if S::F64_LANES == 1 {
-                s.splat_f64s(cast::<_, f64>(self.v[i]).power_of_two())
-            } else {
-                let halves: S::u32s = cast(s.add_f64s(self.v[i], s.splat_f64s(1.5 * WHOLE + BIAS)));
-                cast(s.wrapping_dyn_shl_u32s(halves, s.splat_u32s(HIGH_BITS)))
-            };
-        }
+        each_register!(i: out.v[i] = power_of_two(s, self.v[i]));
         out
     }
     #[inline(always)]
     fn split(self) -> (Self, Self) {
         let s = self.simd;
         let (mut k, mut m) = (self, self);
-        for i in 0..K {
-            if S::F64_LANES == 1 {
-                let (exponent, mantissa) = cast::<_, f64>(self.v[i]).split();
-                k.v[i] = s.splat_f64s(exponent);
-                m.v[i] = s.splat_f64s(mantissa);
-                continue;
-            }
-            let bits: S::u64s = cast(self.v[i]);
-            let offset = s.splat_u64s(OFFSET << 52);
-            let above = s.add_u64s(s.sub_u64s(bits, s.splat_u64s(ROOT_HALF)), offset);
-            let exponent = s.and_u64s(above, s.splat_u64s(EXPONENT));
-            let low: S::u64s = cast(s.wrapping_dyn_shr_u32s(cast(exponent), s.splat_u32s(HIGH_BITS)));
-            let whole = s.or_u64s(low, s.splat_u64s(WHOLE.to_bits()));
-            k.v[i] = s.sub_f64s(cast(whole), s.splat_f64s(WHOLE + OFFSET as f64));
-            m.v[i] = cast(s.sub_u64s(bits, s.sub_u64s(exponent, offset)));
-        }
+        each_register!(i: (k.v[i], m.v[i]) = split(s, self.v[i]));
         (k, m)
     }
+}
+
+/// 2^x of whole numbers: the exponent goes from the high half of a sum to its place.
+#[inline(always)]
+fn power_of_two<S: Simd>(s: S, x: S::f64s) -> S::f64s {
+    if S::F64_LANES == 1 {
+        return s.splat_f64s(cast::<_, f64>(x).power_of_two());
+    }
+    let halves: S::u32s = cast(s.add_f64s(x, s.splat_f64s(1.5 * WHOLE + BIAS)));
+    cast(s.wrapping_dyn_shl_u32s(halves, s.splat_u32s(HIGH_BITS)))
+}
+
+/// Exponent and mantissa of each number, as [`Base::split`].
+#[inline(always)]
+fn split<S: Simd>(s: S, x: S::f64s) -> (S::f64s, S::f64s) {
+    if S::F64_LANES == 1 {
+        let (exponent, mantissa) = cast::<_, f64>(x).split();
+        return (s.splat_f64s(exponent), s.splat_f64s(mantissa));
+    }
+    let bits: S::u64s = cast(x);
+    let offset = s.splat_u64s(OFFSET << 52);
+    let above = s.add_u64s(s.sub_u64s(bits, s.splat_u64s(ROOT_HALF)), offset);
+    let exponent = s.and_u64s(above, s.splat_u64s(EXPONENT));
+    let low: S::u64s = cast(s.wrapping_dyn_shr_u32s(cast(exponent), s.splat_u32s(HIGH_BITS)));
+    let whole = s.or_u64s(low, s.splat_u64s(WHOLE.to_bits()));
+    let k = s.sub_f64s(cast(whole), s.splat_f64s(WHOLE + OFFSET as f64));
+    (k, cast(s.sub_u64s(bits, s.sub_u64s(exponent, offset))))
 }
 
 #[cfg(test)]
