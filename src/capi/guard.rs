@@ -12,11 +12,21 @@ thread_local! {
 /// Clears the error, runs `entry`, and returns its value, or `on_failure` after storing the error. A panic becomes
 /// [`Status::Internal`].
 pub fn guard<R>(on_failure: impl FnOnce(Status) -> R, entry: impl FnOnce() -> Result<R>) -> R {
+    let (mut entry, mut value) = (Some(entry), None);
+    let status = run(&mut || {
+        value = entry.take().map(|entry| entry()).transpose()?;
+        Ok(())
+    });
+    value.unwrap_or_else(|| on_failure(status))
+}
+
+/// Status of an entry; a failure is stored. All entries pass through this one function.
+fn run(entry: &mut dyn FnMut() -> Result<()>) -> Status {
     if last_status() != 0 {
         store(0, CString::default());
     }
     let error = match catch_unwind(AssertUnwindSafe(entry)) {
-        Ok(Ok(value)) => return value,
+        Ok(Ok(())) => return Status::Ok,
         Ok(Err(error)) => error,
         Err(panic) => {
             let text = panic.downcast_ref::<&str>().map(|s| (*s).to_owned());
@@ -25,7 +35,7 @@ pub fn guard<R>(on_failure: impl FnOnce(Status) -> R, entry: impl FnOnce() -> Re
         }
     };
     store(error.status as i32, to_c_string(&error.message));
-    on_failure(error.status)
+    error.status
 }
 
 /// [`guard`] for entries that return a status.
