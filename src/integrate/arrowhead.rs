@@ -17,7 +17,6 @@
 //! A singular spoke in a matrix that is not singular stops this elimination; such a matrix is solved as a dense one.
 
 use super::dense::DenseFactors;
-use faer::traits::ComplexField as DenseField;
 use nalgebra::{ComplexField, SMatrix, SVector};
 
 /// Unknowns of the hub.
@@ -29,9 +28,9 @@ pub const SPOKE: usize = 3;
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// Real and complex numbers.
-pub trait Number: ComplexField<RealField = f64> + DenseField + Copy {}
+pub trait Number: ComplexField<RealField = f64> + Copy {}
 
-impl<T: ComplexField<RealField = f64> + DenseField + Copy> Number for T {}
+impl<T: ComplexField<RealField = f64> + Copy> Number for T {}
 
 /// The part of the matrix that belongs to one spoke.
 #[derive(Clone, Copy, Debug, PartialEq)]

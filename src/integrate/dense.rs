@@ -2,13 +2,12 @@
 //! singular spoke in a regular matrix. Rare, so it takes its memory when it is needed.
 
 use super::arrowhead::{Arrowhead, HUB, Number, SPOKE};
-use faer::linalg::solvers::{PartialPivLu, Solve};
-use nalgebra::SVector;
+use nalgebra::{DMatrix, DVector, Dyn, LU, SVector};
 
 /// The factors of an [`Arrowhead`] as a dense matrix, rows and columns scaled to about one.
 #[derive(Clone, Debug)]
 pub(super) struct DenseFactors<T: Number> {
-    lu: PartialPivLu<T>,
+    lu: LU<T, Dyn, Dyn>,
     rows: Vec<f64>,
     columns: Vec<f64>,
 }
@@ -17,7 +16,7 @@ impl<T: Number> DenseFactors<T> {
     /// Factorises a matrix; `None` when it is singular within rounding or not finite.
     pub(super) fn new(a: &Arrowhead<T>) -> Option<Self> {
         let n = HUB + SPOKE * a.spokes.len();
-        let mut matrix = faer::Mat::<T>::zeros(n, n);
+        let mut matrix = DMatrix::<T>::zeros(n, n);
         for i in 0..HUB {
             for j in 0..HUB {
                 matrix[(i, j)] = a.hub[(i, j)];
@@ -47,23 +46,25 @@ impl<T: Number> DenseFactors<T> {
                 matrix[(i, j)] = matrix[(i, j)].scale(rows[i] * columns[j]);
             }
         }
-        let lu = matrix.partial_piv_lu();
+        let lu = matrix.lu();
         let rounding = f64::EPSILON * n as f64;
-        let regular = (0..n).all(|i| lu.U()[(i, i)].norm1() > rounding);
+        let regular = lu.u().diagonal().iter().all(|pivot| pivot.norm1() > rounding);
         regular.then_some(Self { lu, rows, columns })
     }
 
     /// Replaces the right-hand side (`hub`, `spokes`) by the solution.
     pub(super) fn solve(&self, hub: &mut SVector<T, HUB>, spokes: &mut [SVector<T, SPOKE>]) {
         let values = hub.iter().chain(spokes.iter().flatten()).zip(&self.rows);
-        let mut right = faer::Mat::<T>::zeros(self.rows.len(), 1);
+        let mut right = DVector::<T>::zeros(self.rows.len());
         for (i, (x, scale)) in values.enumerate() {
-            right[(i, 0)] = x.scale(*scale);
+            right[i] = x.scale(*scale);
         }
-        let solution = self.lu.solve(&right);
+        // The pivots are known not to be zero.
+        let solved = self.lu.solve_mut(&mut right);
+        debug_assert!(solved);
         let places = hub.iter_mut().chain(spokes.iter_mut().flatten()).zip(&self.columns);
         for (i, (x, scale)) in places.enumerate() {
-            *x = solution[(i, 0)].scale(*scale);
+            *x = right[i].scale(*scale);
         }
     }
 }

@@ -1,11 +1,11 @@
 //! The cage of a scene, with its pockets and its guide.
 
 use super::{ContactLaws, PlaneVector, Signal};
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The cage.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Cage {
     /// Mass, kg.
@@ -31,7 +31,8 @@ pub struct Cage {
 }
 
 /// External force and torque on the cage over time; the host can take each of them over.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct CageLoad {
     /// Force to the right, N.
@@ -50,7 +51,8 @@ impl Default for CageLoad {
 }
 
 /// Shape of the pockets and law of their contacts.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Pocket {
     /// Cylindrical walls with edges and lubricated line contacts.
@@ -60,7 +62,8 @@ pub enum Pocket {
 }
 
 /// Cylindrical pockets.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct CylinderPocket {
     /// Radial clearance R_p - R_b between roller and pocket wall, m.
@@ -78,7 +81,8 @@ pub struct CylinderPocket {
 }
 
 /// Pockets with plane walls.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PlanePocket {
     /// Circumferential clearance c_p between both walls (diametral), m.
@@ -88,7 +92,8 @@ pub struct PlanePocket {
 }
 
 /// Spring and damper in parallel (Voigt), with friction.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SolidContact {
     /// Stiffness k, N/m.
@@ -109,7 +114,8 @@ fn default_softening_depth() -> f64 {
 }
 
 /// Solid friction with a smooth transition through zero slip.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Friction {
     /// Friction coefficient.
@@ -119,7 +125,8 @@ pub struct Friction {
 }
 
 /// Guidance of the cage by a ring. A film, a solid contact, or both with their shares.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Guide {
     /// The ring that guides.
@@ -144,7 +151,8 @@ pub struct Guide {
 }
 
 /// The ring that guides the cage.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum GuideRing {
     /// The outer ring, at rest: the cage turns inside it.
@@ -155,7 +163,8 @@ pub enum GuideRing {
 }
 
 /// Lubricant film of the guide.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum GuideFilm {
     /// The clearance is full of oil: short journal bearing with two lands.
@@ -165,7 +174,8 @@ pub enum GuideFilm {
 }
 
 /// Short journal bearing with two lands.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct ShortBearingFilm {
     /// Width of one of the two lands, m.
@@ -176,7 +186,8 @@ pub struct ShortBearingFilm {
 }
 
 /// Lubricant layer of uniform thickness on one land. Needs the lubricant's pressure-viscosity coefficient.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct LayerFilm {
     /// Width L of the land, m.
@@ -192,7 +203,8 @@ pub struct LayerFilm {
 }
 
 /// Part of the pressure gradient in the shear stress of a lubricant layer.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum PressureShear {
     /// None: the stress of the sliding surfaces alone.
@@ -209,7 +221,8 @@ fn default_pressure_cap() -> f64 {
 }
 
 /// Solid contact of the guide.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct GuideSolid {
     /// Spring, damper and friction.
@@ -221,7 +234,8 @@ pub struct GuideSolid {
 }
 
 /// Share of the film in the guide force: 1 - exp(-1.8 L^1.2), L film ratio: smallest gap over roughness.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct FilmShare {
     /// Composite roughness sigma, m.
@@ -237,7 +251,8 @@ fn default_touching_ratio() -> f64 {
 }
 
 /// One harmonic of the cage roundness: radius deviation amplitude * cos(order * angle + phase).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct RoundnessHarmonic {
     /// Order n, at least 2.

@@ -1,8 +1,8 @@
 //! Case sets: many scenes as one base scene and the values that differ.
 
-use super::{Scene, json_error, set_path, strict};
+use super::Scene;
+use super::json::{parse, set_path, typed};
 use crate::error::{Error, Result, Status};
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -10,7 +10,8 @@ use std::collections::BTreeMap;
 pub const CASES_SCHEMA: &str = "cagedyn.cases/1";
 
 /// A series of runs that differ from a base scene in a few values.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct CaseSet {
     /// Format of this file: "cagedyn.cases/1".
@@ -25,13 +26,13 @@ pub struct CaseSet {
 }
 
 /// One run of a case set.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Case {
     /// Name, also used for files.
     pub name: String,
     /// Values by dotted path, as in "inner_ring.speed.constant". null removes an optional block.
-    #[serde(deserialize_with = "strict::map")]
     pub set: BTreeMap<String, serde_json::Value>,
 }
 
@@ -41,11 +42,7 @@ impl CaseSet {
     /// # Errors
     /// [`Status::BadJson`]; [`Status::BadScene`] for a wrong format name or names that cannot name files.
     pub fn from_json(text: &str) -> Result<Self> {
-        let mut reader = serde_json::Deserializer::from_str(text);
-        let set: Self = serde_path_to_error::deserialize(&mut reader)
-            .map_err(|e| json_error(e, serde_json::from_str(text).ok().as_ref()))?;
-        reader.end().map_err(|e| Error::new(Status::BadJson, e.to_string()))?;
-        strict::same_shape(text, &set)?;
+        let set: Self = typed(&parse(text)?)?;
         let bad = |text: String| Err(Error::new(Status::BadScene, text));
         if set.schema != CASES_SCHEMA {
             return bad(format!("schema: '{}' is not '{CASES_SCHEMA}'", set.schema));
@@ -70,9 +67,8 @@ impl CaseSet {
     /// # Errors
     /// As [`Scene::from_json_with`], with the name of the case in front.
     pub fn scenes(&self, base: &str) -> Result<Vec<Scene>> {
-        Scene::from_json(base)?;
-        let parsed: serde_json::Value =
-            serde_json::from_str(base).map_err(|e| Error::new(Status::BadJson, e.to_string()))?;
+        let parsed = parse(base)?;
+        Scene::from_value(&parsed)?;
         self.cases
             .iter()
             .map(|case| {
@@ -80,14 +76,9 @@ impl CaseSet {
                 case.set
                     .iter()
                     .try_for_each(|(path, new)| set_path(&mut value, path, new.clone()))
-                    .and_then(|()| Scene::from_value(value))
+                    .and_then(|()| Scene::from_value(&value))
                     .map_err(|e| Error::new(e.status, format!("case {}: {e}", case.name)))
             })
             .collect()
-    }
-
-    /// The JSON Schema (draft 2020-12) of the case set format.
-    pub fn json_schema() -> serde_json::Value {
-        schemars::schema_for!(CaseSet).to_value()
     }
 }

@@ -1,10 +1,10 @@
 //! Optional laws of line contacts in a scene.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Laws of the contacts between rollers and raceways.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Raceways {
     /// Laws besides elasticity. Normal forces follow Palmgren's line contact.
@@ -16,7 +16,8 @@ pub struct Raceways {
 }
 
 /// Optional laws of a line contact.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct ContactLaws {
     /// Damping of the normal motion. Absent: elastic impacts.
@@ -40,7 +41,8 @@ pub struct ContactLaws {
 }
 
 /// Normal damping proportional to contact stiffness.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct ContactDamping {
     /// Ratio of damping to stiffness tau_c, s.
@@ -50,7 +52,8 @@ pub struct ContactDamping {
 }
 
 /// Film thickness law.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum FilmLaw {
     /// Central film thickness of Pan and Hamrock (1989).
@@ -58,7 +61,8 @@ pub enum FilmLaw {
 }
 
 /// Thermal correction of the film thickness.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum ThermalCorrection {
     /// Ghosh and Pandey (1998).
@@ -68,7 +72,8 @@ pub enum ThermalCorrection {
 }
 
 /// Traction law of the full film.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum TractionLaw {
     /// Simplified equations of Muraki and Kimura (1983).
@@ -76,7 +81,8 @@ pub enum TractionLaw {
 }
 
 /// Self-heating model.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum SelfHeating {
     /// Mean rise across the film plus flash rise of both surfaces.
@@ -84,7 +90,8 @@ pub enum SelfHeating {
 }
 
 /// Friction in mixed and boundary lubrication.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct BoundaryFriction {
     /// Boundary friction coefficient mu_bd.
@@ -100,7 +107,8 @@ pub struct BoundaryFriction {
 }
 
 /// Rolling resistance and the contacts in which it acts.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct RollingResistance {
     /// Contacts in which it acts.
@@ -108,7 +116,8 @@ pub struct RollingResistance {
 }
 
 /// Contacts with rolling resistance.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Extent {
     /// All contacts, also those that carry only the centrifugal force of the roller.

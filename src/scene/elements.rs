@@ -1,11 +1,11 @@
 //! Rolling elements of a scene: rollers that move freely, or elements whose motion is prescribed.
 
 use super::Signal;
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A set of equal, equally spaced cylindrical rollers that move in the plane under the forces of their contacts.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Rollers {
     /// Number of rollers.
@@ -23,7 +23,8 @@ pub struct Rollers {
 }
 
 /// A set of equal, equally spaced rolling elements on a circle, with prescribed orbit and spin. They add no states.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct KinematicElements {
     /// Number of elements.
@@ -43,7 +44,8 @@ pub struct KinematicElements {
 }
 
 /// Prescribed motion of the rolling elements.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum ElementMotion {
     /// Rolling without slip between the inner ring, which turns with its speed, and the outer ring at rest.

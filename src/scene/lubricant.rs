@@ -1,11 +1,11 @@
 //! The lubricant of a scene: viscosity, and the constants of films and traction.
 
 use super::Signal;
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Lubricant. Only the constants that the scene's laws use are needed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Lubricant {
     /// Dynamic viscosity eta0 at ambient pressure.
@@ -29,7 +29,8 @@ pub struct Lubricant {
 }
 
 /// Viscosity at inlet temperature and ambient pressure.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Viscosity {
     /// Dynamic viscosity, Pa s.
@@ -39,7 +40,8 @@ pub enum Viscosity {
 }
 
 /// Viscosity from temperature: log10 log10(nu + 0.7) = A - B log10 T through two points, nu in mm^2/s, T in K.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct WaltherViscosity {
     /// First point.
@@ -53,7 +55,8 @@ pub struct WaltherViscosity {
 }
 
 /// Kinematic viscosity at one temperature.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct ViscosityPoint {
     /// Temperature, K.
@@ -63,7 +66,8 @@ pub struct ViscosityPoint {
 }
 
 /// Temperature of the lubricant.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Temperature {
     /// Function of time, K.

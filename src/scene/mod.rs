@@ -8,12 +8,11 @@ mod cases;
 mod check;
 mod contact_laws;
 mod elements;
+mod json;
 mod lubricant;
-mod overrides;
 mod rings;
 mod run;
 mod signal;
-mod strict;
 mod validate;
 mod validate_cage;
 
@@ -28,15 +27,15 @@ pub use contact_laws::{
     ThermalCorrection, TractionLaw,
 };
 pub use elements::{ElementMotion, KinematicElements, Rollers};
+pub use json::{parse_override, set_path};
 pub use lubricant::{Lubricant, Temperature, Viscosity, ViscosityPoint, WaltherViscosity};
-pub use overrides::{parse_override, set_path};
 pub use rings::{FreeRing, InnerRing, Load, OuterRing, RingMotion};
 pub use run::{Auto, ErrorControl, Initial, Leapfrog, Method, Preset, Record, RingStart, Solver};
 pub use signal::{Signal, SignalIntegral, interpolate, slope};
 pub(crate) use validate::VISCOSITY;
 
-use crate::error::{Error, Result, Status};
-use schemars::JsonSchema;
+use crate::error::Result;
+use json::{parse, typed};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -45,7 +44,8 @@ pub const SCENE_SCHEMA: &str = "cagedyn.scene/1";
 
 /// A rolling bearing and the run to make with it. SI units; angles in rad; y to the right, z up, rotation
 /// counter-clockwise positive; the outer ring is fixed and centred at the origin.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
     /// Format of this file: "cagedyn.scene/1".
@@ -57,7 +57,7 @@ pub struct Scene {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gravity: Option<PlaneVector>,
     /// Materials by name.
-    #[serde(default, deserialize_with = "strict::map", skip_serializing_if = "BTreeMap::is_empty")]
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub materials: BTreeMap<String, Material>,
     /// The lubricant. Needed by films, traction, rolling resistance and lubricated guides.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -91,7 +91,8 @@ pub struct Scene {
 }
 
 /// A vector in the plane of the bearing.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PlaneVector {
     /// Component to the right.
@@ -101,7 +102,8 @@ pub struct PlaneVector {
 }
 
 /// Elastic and thermal constants of a solid.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Material {
     /// Young's modulus, Pa.
@@ -114,7 +116,8 @@ pub struct Material {
 }
 
 /// Thermal constants of a solid.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct ThermalMaterial {
     /// Thermal conductivity, W/(m K).
@@ -132,13 +135,7 @@ impl Scene {
     /// [`Status::BadJson`] for syntax, types, unknown, missing or doubled fields; [`Status::BadScene`] for values
     /// out of range or contradictions. The message starts with the JSON path.
     pub fn from_json(text: &str) -> Result<Self> {
-        let mut reader = serde_json::Deserializer::from_str(text);
-        let scene: Self = serde_path_to_error::deserialize(&mut reader)
-            .map_err(|e| json_error(e, serde_json::from_str(text).ok().as_ref()))?;
-        reader.end().map_err(|e| Error::new(Status::BadJson, e.to_string()))?;
-        strict::same_shape(text, &scene)?;
-        scene.validate()?;
-        Ok(scene)
+        Self::from_value(&parse(text)?)
     }
 
     /// Reads a scene and replaces values in it: `("inner_ring.speed.constant", "-104.7")`. A value is JSON; `null`
@@ -150,27 +147,24 @@ impl Scene {
         text: &str,
         overrides: impl IntoIterator<Item = (&'a str, &'a str)>,
     ) -> Result<Self> {
-        let scene = Self::from_json(text)?;
+        let mut value = parse(text)?;
+        let scene = Self::from_value(&value)?;
         let mut overrides = overrides.into_iter().peekable();
         if overrides.peek().is_none() {
             return Ok(scene);
         }
-        let bad = |e: serde_json::Error| Error::new(Status::BadJson, e.to_string());
-        let mut value: serde_json::Value = serde_json::from_str(text).map_err(bad)?;
         for (path, new) in overrides {
             set_path(&mut value, path, parse_override(new))?;
         }
-        Self::from_value(value)
+        Self::from_value(&value)
     }
 
     /// Checks a scene given as a JSON value.
     ///
     /// # Errors
     /// As [`Scene::from_json`].
-    pub fn from_value(value: serde_json::Value) -> Result<Self> {
-        let scene: Self =
-            serde_path_to_error::deserialize(&value).map_err(|e| json_error(e, Some(&value)))?;
-        strict::same_shape_as(&value, &scene)?;
+    pub fn from_value(value: &serde_json::Value) -> Result<Self> {
+        let scene: Self = typed(value)?;
         scene.validate()?;
         Ok(scene)
     }
@@ -179,37 +173,4 @@ impl Scene {
     pub fn to_json(&self) -> String {
         serde_json::to_string_pretty(self).unwrap_or_default()
     }
-
-    /// The JSON Schema (draft 2020-12) of the scene format.
-    pub fn json_schema() -> serde_json::Value {
-        schemars::schema_for!(Scene).to_value()
-    }
-}
-
-/// A JSON error with its dotted path in `value`, if that is JSON at all.
-fn json_error(e: serde_path_to_error::Error<serde_json::Error>, value: Option<&serde_json::Value>) -> Error {
-    let mut path = String::new();
-    let mut place = value;
-    for segment in e.path() {
-        let name = segment.to_string();
-        let name = name.trim_matches(['[', ']']);
-        let separator = if path.is_empty() { "" } else { "." };
-        path += &format!("{separator}{name}");
-        place = place.and_then(|place| match name.parse::<usize>() {
-            Ok(index) if place.is_array() => place.get(index),
-            _ => place.get(name),
-        });
-    }
-    let mut text = e.into_inner().to_string();
-    // What serde_json says of a plain value where a choice is needed.
-    if let Some(found) = place
-        && (text.starts_with("expected value") || text.contains("expected string or map"))
-    {
-        let line = text.find(" at line").map_or("", |at| &text[at..]);
-        text = format!(
-            "the value {found} is of the wrong type, expected an object with one key or a word{line}"
-        );
-    }
-    let text = text.replace("expected value", "the value is of the wrong type");
-    Error::new(Status::BadJson, if path.is_empty() || path == "?" { text } else { format!("{path}: {text}") })
 }

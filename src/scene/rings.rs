@@ -1,11 +1,11 @@
 //! Rings of a scene.
 
 use super::{PlaneVector, Signal};
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The outer ring: fixed, centred at the origin.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct OuterRing {
     /// Raceway radius R_o, m.
@@ -15,7 +15,8 @@ pub struct OuterRing {
 }
 
 /// The inner ring with its shaft.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct InnerRing {
     /// Rotation speed over time, rad/s; negative is clockwise.
@@ -33,7 +34,8 @@ pub struct InnerRing {
 }
 
 /// Motion of the centre of the inner ring.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum RingMotion {
     /// Held at this position, m.
@@ -49,7 +51,8 @@ impl Default for RingMotion {
 }
 
 /// A ring that moves in the plane.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct FreeRing {
     /// Mass of the ring and what moves with it, kg.
@@ -63,7 +66,8 @@ pub struct FreeRing {
 }
 
 /// External load over time.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Load {
     /// Component to the right, N.

@@ -1,11 +1,11 @@
 //! Start, integration and records of a scene.
 
 use super::PlaneVector;
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Start of the run. Rolling elements start at kinematic speeds in the centres of their pockets.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Initial {
     /// Where a free inner ring and the rollers start.
@@ -26,7 +26,8 @@ pub struct Initial {
 }
 
 /// Start of the inner ring and the radial position of the rollers.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum RingStart {
     /// Ring centred (a fixed ring: at its place), rollers on the pitch circle; the load drops a free ring through
@@ -39,7 +40,8 @@ pub enum RingStart {
 
 /// How accurate a run is to be, by its purpose. Fills in every step and tolerance that the method leaves open;
 /// docs/accuracy.md has the measured error and cost.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Preset {
     /// For searching: many cases, trends, the kind of motion.
@@ -66,7 +68,8 @@ impl Preset {
 }
 
 /// Integration method and limits.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct Solver {
     /// How accurate, where the method leaves it open.
@@ -91,7 +94,8 @@ impl Default for Solver {
 }
 
 /// Integration method.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Method {
     /// Chooses method and step from the scene and from what it measures while running.
@@ -109,7 +113,8 @@ pub enum Method {
 }
 
 /// Parameters of the choice.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Auto {
     /// Local error in units of the model's reference clearance (see docs/model.md), for accurate trajectories. Absent:
@@ -119,7 +124,8 @@ pub struct Auto {
 }
 
 /// Parameters of the leapfrog.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Leapfrog {
     /// Step size, s. Absent: by the preset, in units of the highest contact frequency of the model.
@@ -128,7 +134,8 @@ pub struct Leapfrog {
 }
 
 /// Parameters of a method with error control.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct ErrorControl {
     /// Local error in units of the model's reference clearance (see docs/model.md). Absent: by the preset.
@@ -137,7 +144,8 @@ pub struct ErrorControl {
 }
 
 /// Length of the run and times of the records.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Record {
     /// Simulated time, s.

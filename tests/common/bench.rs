@@ -22,7 +22,7 @@ pub struct Bearing {
 
 impl Bearing {
     pub fn new(scene: Value) -> Self {
-        let checked = Scene::from_value(scene.clone()).unwrap_or_else(|e| panic!("{e}"));
+        let checked = Scene::from_value(&scene).unwrap_or_else(|e| panic!("{e}"));
         let sim = Sim::new(Arc::new(Model::new(checked.clone()).unwrap())).unwrap_or_else(|e| panic!("{e}"));
         let pocket = checked.cage.as_ref().and_then(|c| match c.pocket.as_ref()? {
             Pocket::LubricatedCylinder(pocket) => Some([pocket.radial_clearance, pocket.half_angle]),

@@ -1,9 +1,8 @@
 //! The command `schema`.
 
 use crate::{Format, SchemaArgs, terminal};
-use cagedyn::Scene;
 use cagedyn::scene::CaseSet;
-use cagedyn::{Error, Result, Status};
+use cagedyn::{Result, Scene};
 use std::process::ExitCode;
 
 /// Prints the JSON Schema of a format.
@@ -11,12 +10,9 @@ use std::process::ExitCode;
 /// # Errors
 /// [`Status::File`] when standard output cannot be written.
 pub fn command(args: &SchemaArgs) -> Result<ExitCode> {
-    let schema = match args.format {
-        Format::Scene => Scene::json_schema(),
-        Format::Cases => CaseSet::json_schema(),
-    };
-    let text =
-        serde_json::to_string_pretty(&schema).map_err(|e| Error::new(Status::Internal, e.to_string()))?;
-    terminal::print(&(text + "\n"))?;
+    terminal::print(match args.format {
+        Format::Scene => Scene::JSON_SCHEMA,
+        Format::Cases => CaseSet::JSON_SCHEMA,
+    })?;
     Ok(ExitCode::SUCCESS)
 }

@@ -1,0 +1,94 @@
+//! JSON text as a tree in which every key of an object stands once.
+
+use super::complaint;
+use crate::error::Result;
+use serde::de::{DeserializeSeed, Deserializer, Error as _, MapAccess, SeqAccess, Visitor};
+use serde_json::{Map, Value};
+use std::fmt;
+
+/// The longest path that a message shows; texts that nest deeper than scenes do are refused anyway.
+const LONGEST_PATH: usize = 16;
+
+/// Reads JSON text.
+///
+/// # Errors
+/// [`crate::Status::BadJson`] for syntax, doubled keys and numbers beyond the range, with path, line and column.
+pub fn parse(text: &str) -> Result<Value> {
+    let mut path = Vec::new();
+    let mut reader = serde_json::Deserializer::from_str(text);
+    let value = Tree(&mut path).deserialize(&mut reader);
+    value.and_then(|value| reader.end().map(|()| value)).map_err(|e| {
+        path.truncate(LONGEST_PATH);
+        complaint(&path, e.to_string().replace("expected value", "expected a JSON value"))
+    })
+}
+
+/// Reads one value. The path is that of the value being read, and so, after an error, that of the error.
+struct Tree<'a>(&'a mut Vec<String>);
+
+impl<'de> DeserializeSeed<'de> for Tree<'_> {
+    type Value = Value;
+
+    fn deserialize<D: Deserializer<'de>>(self, reader: D) -> std::result::Result<Value, D::Error> {
+        reader.deserialize_any(self)
+    }
+}
+
+impl<'de> Visitor<'de> for Tree<'_> {
+    type Value = Value;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a JSON value")
+    }
+
+    fn visit_unit<E>(self) -> std::result::Result<Value, E> {
+        Ok(Value::Null)
+    }
+
+    fn visit_bool<E>(self, value: bool) -> std::result::Result<Value, E> {
+        Ok(value.into())
+    }
+
+    fn visit_u64<E>(self, value: u64) -> std::result::Result<Value, E> {
+        Ok(value.into())
+    }
+
+    fn visit_i64<E>(self, value: i64) -> std::result::Result<Value, E> {
+        Ok(value.into())
+    }
+
+    fn visit_f64<E>(self, value: f64) -> std::result::Result<Value, E> {
+        Ok(value.into())
+    }
+
+    fn visit_str<E>(self, value: &str) -> std::result::Result<Value, E> {
+        Ok(value.into())
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut access: A) -> std::result::Result<Value, A::Error> {
+        let mut list = Vec::new();
+        loop {
+            self.0.push(list.len().to_string());
+            let item = access.next_element_seed(Tree(&mut *self.0))?;
+            self.0.pop();
+            match item {
+                Some(item) => list.push(item),
+                None => return Ok(Value::Array(list)),
+            }
+        }
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut access: A) -> std::result::Result<Value, A::Error> {
+        let mut map = Map::new();
+        while let Some(key) = access.next_key::<String>()? {
+            if map.contains_key(&key) {
+                return Err(A::Error::custom(format!("duplicate field `{key}`")));
+            }
+            self.0.push(key.clone());
+            let value = access.next_value_seed(Tree(&mut *self.0))?;
+            self.0.pop();
+            map.insert(key, value);
+        }
+        Ok(Value::Object(map))
+    }
+}

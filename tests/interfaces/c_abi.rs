@@ -1,0 +1,92 @@
+//! Compiles the C tests and the C example against the shared library just built, and runs them; under Valgrind
+//! too where it is installed (`CAGEDYN_REQUIRE_VALGRIND=1` makes a missing Valgrind a failure).
+
+use crate::c_programs::{compile, library, root, run_under_valgrind, succeed};
+use std::path::Path;
+use std::process::Command;
+
+const NU2310: &str = "scenes/nu2310.json";
+
+fn run_c_test(source: &str, scene: &str) {
+    let library = library();
+    let scene = root().join(scene);
+    let program = compile(Path::new(source), "c11", library.path(), &[]);
+    succeed(Command::new(&program).arg(&scene));
+    run_under_valgrind(&program, &[&scene]);
+}
+
+#[test]
+fn c_model() {
+    run_c_test("ctests/test_model.c", NU2310);
+}
+
+#[test]
+fn c_sim() {
+    run_c_test("ctests/test_sim.c", NU2310);
+}
+
+#[test]
+fn limits() {
+    run_c_test("ctests/test_limits.c", NU2310);
+}
+
+#[test]
+fn c_errors() {
+    run_c_test("ctests/test_errors.c", NU2310);
+}
+
+#[test]
+fn c_guide() {
+    run_c_test("ctests/test_guide.c", "scenes/grease_guide.json");
+}
+
+#[test]
+fn c_threads() {
+    run_c_test("ctests/test_threads.c", NU2310);
+}
+
+#[test]
+fn c_example_as_c99_and_cpp17() {
+    let library = library();
+    for standard in ["c99", "c++17"] {
+        let program = compile(Path::new("examples/nu2310.c"), standard, library.path(), &[]);
+        let csv = library.path().join(format!("{standard}.csv"));
+        let output = succeed(Command::new(&program).arg(root().join("scenes/nu2310.json")).arg(&csv));
+        let text = String::from_utf8_lossy(&output.stdout);
+        assert!(text.contains("inner_raceway") && text.contains("cage centre after 20 ms"), "{text}");
+        let table = std::fs::read_to_string(&csv).expect("the example wrote its table");
+        assert_eq!(table.lines().count(), 42);
+        assert!(table.starts_with("time [s],cage.y_ratio [1],"), "{table}");
+        // Without arguments it explains itself and fails.
+        assert!(!Command::new(&program).output().expect("it starts").status.success());
+    }
+}
+
+#[test]
+fn c_example_of_the_readme() {
+    let readme = std::fs::read_to_string(root().join("README.md")).expect("the README");
+    let code = readme.split("```c\n").nth(1).and_then(|rest| rest.split("```").next());
+    let library = library();
+    let source = library.path().join("readme.c");
+    std::fs::write(&source, code.expect("the README has a C example")).expect("a file");
+    let program = compile(&source, "c11", library.path(), &[]);
+    let output = succeed(Command::new(&program).current_dir(root()));
+    assert!(String::from_utf8_lossy(&output.stdout).contains("of the clearance"));
+}
+
+#[test]
+fn library_has_its_soname_and_exports_only_the_api() {
+    let library = library();
+    let so = library.path().join("libcagedyn.so");
+    let dynamic = succeed(Command::new("readelf").arg("-d").arg(&so));
+    assert!(String::from_utf8_lossy(&dynamic.stdout).contains("[libcagedyn.so.0]"));
+    let symbols = succeed(Command::new("nm").args(["-D", "--defined-only"]).arg(&so));
+    let symbols = String::from_utf8_lossy(&symbols.stdout).into_owned();
+    let header = std::fs::read_to_string(root().join("include/cagedyn.h")).expect("the header");
+    let mut count = 0;
+    for name in symbols.lines().filter_map(|line| line.split_whitespace().last()) {
+        assert!(header.contains(&format!("{name}(")), "{name} is exported but not in the header");
+        count += 1;
+    }
+    assert!(count >= 58, "{count} functions exported");
+}

@@ -1,0 +1,12 @@
+//! What users touch: command line, C ABI and its header, pages.
+
+#[path = "../common/c_programs.rs"]
+mod c_programs;
+#[path = "../common/mod.rs"]
+mod common;
+
+mod c_abi;
+mod c_cvode;
+mod cli;
+mod docs;
+mod header;

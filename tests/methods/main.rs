@@ -1,0 +1,11 @@
+//! Integration methods on known problems, their linear algebra, and how the default method chooses.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod arrowhead;
+mod auto;
+mod choice;
+mod implicit;
+mod orders;
+mod presets;

@@ -1,0 +1,9 @@
+//! Simulations as hosts run them, and the examples over time.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod grease_guide;
+mod limits;
+mod nu2310;
+mod sim;

@@ -1,0 +1,477 @@
+//! Simulations: determinism, saving, threads, inputs, events, failures, odd but valid scenes.
+
+use crate::common::{example_text, example_with};
+use cagedyn::model::PARTS;
+use cagedyn::sim::STATISTICS;
+use cagedyn::{Model, Scene, Sim, Status};
+use serde_json::{Value, json};
+use std::sync::Arc;
+
+const STIFF: (&str, &str) = ("solver", r#"{"method": {"rosenbrock": {"tolerance": 1e-5}}}"#);
+const CHOSEN: (&str, &str) = ("solver", r#"{"method": {"auto": {"tolerance": 1e-5}}}"#);
+const ACCURATE: (&str, &str) = ("solver", r#"{"method": {"dormand_prince": {"tolerance": 1e-7}}}"#);
+
+fn model(overrides: &[(&str, &str)]) -> Arc<Model> {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/nu2310.json");
+    let text = std::fs::read_to_string(path).unwrap();
+    let scene = Scene::from_json_with(&text, overrides.iter().copied()).unwrap_or_else(|e| panic!("{e}"));
+    Arc::new(Model::new(scene).unwrap_or_else(|e| panic!("{e}")))
+}
+
+fn sim(overrides: &[(&str, &str)]) -> Sim {
+    Sim::new(model(overrides)).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn state_at(overrides: &[(&str, &str)], t: f64) -> Vec<f64> {
+    let mut s = sim(overrides);
+    s.advance_to(t).unwrap_or_else(|e| panic!("{e}"));
+    s.state().to_vec()
+}
+
+fn bits(state: &[f64]) -> Vec<u64> {
+    state.iter().map(|x| x.to_bits()).collect()
+}
+
+#[test]
+fn the_same_scene_gives_the_same_bits() {
+    for method in [&[][..], &[CHOSEN][..], &[ACCURATE][..], &[STIFF][..]] {
+        assert_eq!(bits(&state_at(method, 2e-3)), bits(&state_at(method, 2e-3)));
+    }
+}
+
+#[test]
+fn threads_do_not_affect_each_other() {
+    let shared = model(&[]);
+    let run = |speed: f64| {
+        let mut s = Sim::new(shared.clone()).unwrap();
+        s.set_input(0, speed).unwrap();
+        s.advance_to(2e-3).unwrap();
+        bits(s.state())
+    };
+    let alone = [run(-300.0), run(-100.0)];
+    let together = std::thread::scope(|scope| {
+        let threads = [scope.spawn(|| run(-300.0)), scope.spawn(|| run(-100.0))];
+        threads.map(|t| t.join().unwrap())
+    });
+    assert_eq!(alone, together);
+    assert_ne!(alone[0], alone[1]);
+}
+
+#[test]
+fn saving_and_restoring_continues_with_the_same_bits() {
+    for method in [&[][..], &[CHOSEN][..], &[ACCURATE][..], &[STIFF][..]] {
+        let mut first = sim(method);
+        first.set_input(2, -3000.0).unwrap();
+        first.advance_to(0.7e-3).unwrap();
+        let saved = first.save();
+        assert_eq!(saved.len(), first.save_len());
+        let mut second = sim(method);
+        second.advance_to(0.1e-3).unwrap();
+        second.restore(&saved).unwrap();
+        assert_eq!((second.time(), second.input(2)), (first.time(), Ok(-3000.0)));
+        first.advance_to(1.5e-3).unwrap();
+        second.advance_to(1.5e-3).unwrap();
+        assert_eq!(bits(first.state()), bits(second.state()));
+        assert_eq!(first.statistics(), second.statistics());
+    }
+}
+
+#[test]
+fn damaged_and_foreign_snapshots_are_refused_and_change_nothing() {
+    let mut s = sim(&[]);
+    s.advance_to(0.3e-3).unwrap();
+    let good = s.save();
+    let before = bits(s.state());
+    let other = sim(&[("inner_ring.radial_clearance", "5e-6")]).save();
+    let mut cases = vec![vec![], good[1..].to_vec(), other];
+    for (i, value) in [(0, 1.0), (3, -1.0), (3, f64::NAN), (4, 0.5), (20, f64::INFINITY)] {
+        let mut damaged = good.clone();
+        damaged[i] = value;
+        cases.push(damaged);
+    }
+    for (i, snapshot) in cases.iter().enumerate() {
+        assert_eq!(s.restore(snapshot).map_err(|e| e.status), Err(Status::BadSnapshot), "case {i}");
+        assert_eq!(bits(s.state()), before, "case {i}");
+    }
+    s.restore(&good).unwrap();
+    s.advance_to(0.4e-3).unwrap();
+}
+
+#[test]
+fn all_methods_converge_to_the_same_trajectory() {
+    // Before chaos: the first 2 ms. Largest distance of any body from where the reference has it, m.
+    let solver = |method: &str| state_at(&[("solver", &format!("{{\"method\": {{{method}}}}}"))], 2e-3);
+    let adaptive = |tolerance: &str| solver(&format!(r#""dormand_prince": {{"tolerance": {tolerance}}}"#));
+    let rosenbrock = |tolerance: &str| solver(&format!(r#""rosenbrock": {{"tolerance": {tolerance}}}"#));
+    let leapfrog = |step: &str| solver(&format!(r#""leapfrog": {{"step": {step}}}"#));
+    let reference = adaptive("1e-9");
+    let distance = |state: Vec<f64>| {
+        let difference = |i: usize| (state[i] - reference[i]).abs();
+        let orbits = (6..29).step_by(2).map(|i| 0.04 * difference(i));
+        let lengths = (0..4).chain((5..29).step_by(2)).map(difference);
+        orbits.chain(lengths).fold(0.0, f64::max)
+    };
+    let (coarse, fine) = (distance(leapfrog("4e-6")), distance(leapfrog("0.25e-6")));
+    let (loose, tight) = (distance(adaptive("1e-4")), distance(adaptive("1e-7")));
+    let (wide, narrow) = (distance(rosenbrock("1e-4")), distance(rosenbrock("1e-7")));
+    println!(
+        "leapfrog {coarse:e} {fine:e}, Dormand-Prince {loose:e} {tight:e}, Rosenbrock {wide:e} {narrow:e}"
+    );
+    assert!(coarse < 2e-6 && fine < 0.2 * coarse, "{coarse:e} {fine:e}");
+    assert!(loose < 1e-6 && tight < 0.05 * loose, "{loose:e} {tight:e}");
+    assert!(wide < 2e-6 && narrow < 0.05 * wide, "{wide:e} {narrow:e}");
+}
+
+#[test]
+fn a_state_set_by_the_host_is_where_the_run_goes_on() {
+    let mut s = sim(&[]);
+    s.advance_to(1e-3).unwrap();
+    let state = s.state().to_vec();
+    // Setting the present state restarts the integrator: the same physics, another step sequence.
+    s.set_state(1e-3, &state).unwrap();
+    assert_eq!(s.state(), state);
+    s.advance_to(1.1e-3).unwrap();
+    let mut moved = state.clone();
+    moved[2] += 1e-6;
+    s.set_state(5.0, &moved).unwrap();
+    assert_eq!((s.time(), s.state()[2]), (5.0, moved[2]));
+    let e = s.set_state(0.0, &moved[1..]).unwrap_err();
+    assert_eq!(e.status, Status::WrongSize);
+    moved[2] = 0.3e-3;
+    let e = s.set_state(0.0, &moved).unwrap_err();
+    assert_eq!(e.status, Status::BadState);
+    assert!(e.message.contains("film between cage and guide"), "{e}");
+    assert_eq!(s.time(), 5.0);
+}
+
+#[test]
+fn forces_of_a_state_do_not_depend_on_history() {
+    let mut s = sim(&[]);
+    s.advance_to(1e-3).unwrap();
+    let stepped = s.forces().unwrap().clone();
+    let state = s.state().to_vec();
+    let mut rate = vec![0.0; state.len()];
+    s.derivative(0.5, &vec![0.0; state.len()], &mut rate).unwrap();
+    let mut fresh = sim(&[]);
+    fresh.set_state(1e-3, &state).unwrap();
+    assert_eq!(*fresh.forces().unwrap(), stepped);
+    assert_eq!(*s.forces().unwrap(), stepped);
+    s.derivative(1e-3, &state, &mut rate).unwrap();
+    assert_eq!(rate[29..], stepped.accelerations);
+}
+
+#[test]
+fn load_steps_ramps_sines_and_tables_are_followed() {
+    let load = "inner_ring.motion.free.load.z";
+    for (signal, events) in [
+        (r#"{"step": {"before": -4900, "after": -980, "time": 0.5e-3}}"#, 1),
+        (r#"{"ramp": {"from": -4900, "to": 4900, "start": 0.2e-3, "end": 0.9e-3}}"#, 2),
+        (r#"{"sine": {"mean": -3000, "amplitude": 1000, "frequency": 500, "phase": 0.3}}"#, 0),
+        (r#"{"table": {"time": [0, 3e-4, 6e-4], "value": [-4900, -2000, -6000]}}"#, 2),
+    ] {
+        for method in [&[][..], &[CHOSEN][..], &[ACCURATE][..], &[STIFF][..]] {
+            let overrides: Vec<_> = std::iter::once((load, signal)).chain(method.iter().copied()).collect();
+            let mut s = sim(&overrides);
+            s.advance_to(1.5e-3).unwrap_or_else(|e| panic!("{signal}: {e}"));
+            assert_eq!(s.statistics().driver.events, events, "{signal}");
+        }
+    }
+}
+
+#[test]
+fn inputs_taken_over_by_the_host_stay_until_released_or_reset() {
+    let mut s = sim(&[]);
+    let start = bits(s.state());
+    s.set_input(0, -100.0).unwrap();
+    s.set_input(1, 250.0).unwrap();
+    assert_eq!((s.input(0), s.input(1), s.input(2)), (Ok(-100.0), Ok(250.0), Ok(-4900.0)));
+    s.advance_to(0.5e-3).unwrap();
+    let sources = cagedyn::model::FORCE_SOURCES;
+    let load = sources.iter().position(|s| *s == "load").unwrap();
+    assert_eq!(s.forces().unwrap().bodies[1][load], [250.0, -4900.0, 0.0]);
+    s.release_input(1).unwrap();
+    assert_eq!(s.input(1), Ok(0.0));
+    s.reset().unwrap();
+    assert_eq!(s.input(0), Ok(-314.1592653589793));
+    assert_eq!(bits(s.state()), start);
+    assert_eq!(s.statistics(), sim(&[]).statistics());
+    assert_eq!(s.set_input(3, 0.0).unwrap_err().status, Status::BadIndex);
+    let fixed = sim(&[
+        ("inner_ring.motion", r#"{"fixed": {"y": 0, "z": -25e-6}}"#),
+        ("initial.inner_ring", "\"centred\""),
+    ]);
+    assert_eq!(fixed.model().input_count(), 1);
+}
+
+#[test]
+fn a_run_that_cannot_go_on_says_why_and_can_be_reset() {
+    // A step far beyond the stability limit throws rollers out; no smaller step is allowed.
+    let mut s = sim(&[("solver", r#"{"method": {"leapfrog": {"step": 1e-4}}, "min_step": 1e-6}"#)]);
+    let e = s.advance_to(1.0).unwrap_err();
+    assert_eq!(e.status, Status::StepTooSmall);
+    assert!(e.message.contains("at t = ") && e.message.contains("step"), "{e}");
+    assert!(s.time() < 1.0 && e.message.contains(&format!("t = {:?} s", s.time())), "{e}");
+    s.reset().unwrap();
+    assert_eq!(s.time(), 0.0);
+    s.advance_to(1e-5).unwrap();
+}
+
+#[test]
+fn odd_scenes_run() {
+    let free_of_cage = [("cage", "null")];
+    let no_guide = [("cage.guide", "null")];
+    let no_pockets = [("cage.pocket", "null")];
+    let one_roller = [("rollers.count", "1"), ("initial.inner_ring", "\"centred\"")];
+    let standing = [("inner_ring.speed.constant", "0")];
+    let reversed = [("inner_ring.speed.constant", "314")];
+    let preload = [("inner_ring.radial_clearance", "-5e-6")];
+    let unloaded = [("inner_ring.motion.free.load", "null"), ("gravity", "null")];
+    let elastic_only = [
+        ("raceways.contact", "{}"),
+        ("raceways.rolling_resistance", "null"),
+        ("cage.pocket.lubricated_cylinder.contact", "{}"),
+        ("lubricant", "null"),
+        ("cage.guide", "null"),
+    ];
+    let rough_cage = [(
+        "cage.guide.roundness",
+        r#"[{"order": 2, "amplitude": 10e-6, "phase": 0}, {"order": 4, "amplitude": 5e-6, "phase": 1}]"#,
+    )];
+    let scenes: [&[(&str, &str)]; 10] = [
+        &free_of_cage,
+        &no_guide,
+        &no_pockets,
+        &one_roller,
+        &standing,
+        &reversed,
+        &preload,
+        &unloaded,
+        &elastic_only,
+        &rough_cage,
+    ];
+    for overrides in scenes {
+        for method in [&[][..], &[CHOSEN][..], &[ACCURATE][..], &[STIFF][..]] {
+            let overrides: Vec<_> = overrides.iter().chain(method).copied().collect();
+            let mut s = sim(&overrides);
+            s.advance_to(1e-3).unwrap_or_else(|e| panic!("{overrides:?}: {e}"));
+            let mut out = vec![f64::NAN; s.channels().len()];
+            s.outputs(&mut out).unwrap();
+            assert!(out.iter().all(|x| x.is_finite()), "{overrides:?}");
+        }
+    }
+}
+
+#[test]
+fn several_hundred_rollers_run() {
+    let mut s = sim(&[
+        ("rollers.count", "400"),
+        ("outer_ring.raceway_radius", "1.3"),
+        ("cage.inertia", "0.59"),
+        ("cage.guide.guide_radius", "1.29"),
+    ]);
+    assert_eq!(s.state().len(), 2 * (2 + 3) + 5 * 400);
+    s.advance_to(0.2e-3).unwrap();
+}
+
+#[test]
+fn an_undamped_frictionless_bearing_keeps_its_energy() {
+    // Ring and rollers on elastic raceways without gravity: kinetic energy plus the elastic energy of the contacts.
+    let mut s = sim(&[
+        ("raceways.contact", "{}"),
+        ("raceways.rolling_resistance", "null"),
+        ("cage", "null"),
+        ("gravity", "null"),
+        ("inner_ring.motion.free.load", "null"),
+        ("inner_ring.motion.free.support_damping", "null"),
+        ("inner_ring.radial_clearance", "-2e-6"),
+        ("initial.inner_ring", "\"centred\""),
+        ("solver", r#"{"method": {"dormand_prince": {"tolerance": 1e-9}}}"#),
+    ]);
+    let model = s.model().clone();
+    let mut state = s.state().to_vec();
+    let nq = model.layout().positions();
+    state[nq] = 0.02;
+    s.set_state(0.0, &state).unwrap();
+    let energy = |s: &mut Sim| {
+        let forces = s.forces().unwrap().clone();
+        let state = s.state();
+        let (q, v) = state.split_at(nq);
+        let ring = 0.5 * 3.0 * (v[0] * v[0] + v[1] * v[1]);
+        let rollers: f64 = (0..12)
+            .map(|j| {
+                let i = model.layout().roller(j);
+                let r = model.pitch_radius() + q[i];
+                0.5 * 0.0304 * (v[i] * v[i] + (r * v[i + 1]).powi(2))
+            })
+            .sum();
+        // Palmgren: the integral of Q over the approach is 9/19 Q delta.
+        let elastic: f64 = forces.contacts.iter().map(|c| 9.0 / 19.0 * c[0] * c[1]).sum();
+        (ring + rollers + elastic, elastic)
+    };
+    let (before, elastic) = energy(&mut s);
+    for i in 1..=10 {
+        s.advance_to(f64::from(i) * 1e-4).unwrap();
+        let (now, _) = energy(&mut s);
+        assert!((now - before).abs() < 1e-5 * elastic, "{now} {before} (elastic {elastic})");
+    }
+}
+
+#[test]
+fn after_a_failed_advance_time_state_and_outputs_are_those_of_the_last_step() {
+    for method in [r#""leapfrog": {}"#, r#""dormand_prince": {"tolerance": 1e-6}"#] {
+        let solver = format!(r#"{{"method": {{{method}}}, "max_steps": 100}}"#);
+        let mut s = sim(&[("solver", &solver)]);
+        s.advance_to(0.1e-3).unwrap();
+        let e = s.advance_to(1.0).unwrap_err();
+        assert_eq!(e.status, Status::TooManySteps);
+        let time = s.time();
+        assert!(time > 0.11e-3 && time < 1.0 && e.message.contains(&format!("t = {time:?} s")), "{e}");
+        let mut reached = vec![0.0; s.channels().len()];
+        s.outputs(&mut reached).unwrap();
+        // The same as of a run that was asked for this time.
+        let mut whole = sim(&[("solver", &format!(r#"{{"method": {{{method}}}}}"#))]);
+        whole.advance_to(time).unwrap();
+        let mut expected = reached.clone();
+        whole.outputs(&mut expected).unwrap();
+        assert_eq!((bits(s.state()), bits(&reached)), (bits(whole.state()), bits(&expected)));
+        s.step(0.1e-3).unwrap();
+        assert!(s.state()[..4].iter().all(|x| x.abs() < 1e-4), "{:?}", &s.state()[..4]);
+    }
+}
+
+#[test]
+fn a_refused_state_leaves_the_outputs_alone() {
+    let mut s = sim(&[]);
+    s.advance_to(1e-3).unwrap();
+    let mut before = vec![0.0; s.channels().len()];
+    s.outputs(&mut before).unwrap();
+    for (i, value) in [(2, 1e-3), (5, 1.0), (5, -1e300), (0, 1e300), (2, -1e200)] {
+        let mut state = s.state().to_vec();
+        state[i] = value;
+        assert_eq!(s.set_state(1e-3, &state).unwrap_err().status, Status::BadState, "{i}");
+        let mut after = vec![0.0; before.len()];
+        s.outputs(&mut after).unwrap();
+        assert_eq!(bits(&before), bits(&after), "{i}");
+    }
+}
+
+#[test]
+fn no_number_in_a_snapshot_can_hang_or_break_a_run() {
+    let methods = [
+        r#""leapfrog": {}"#,
+        r#""dormand_prince": {"tolerance": 1e-5}"#,
+        r#""auto": {}"#,
+        r#""auto": {"tolerance": 1e-5}"#,
+    ];
+    for method in methods {
+        let solver = format!(r#"{{"method": {{{method}}}, "max_steps": 2000}}"#);
+        let mut s = sim(&[("solver", &solver)]);
+        s.advance_to(0.2e-3).unwrap();
+        let good = s.save();
+        let mut refused = 0;
+        for i in 0..good.len() {
+            for value in [0.0, -1.0, 0.3, 7.0, 1e300, -1e300, 5e-324] {
+                let mut damaged = good.clone();
+                damaged[i] = value;
+                if s.restore(&damaged).is_err() {
+                    refused += 1;
+                    continue;
+                }
+                // What is accepted goes forward or fails with a message; it never goes back or hangs.
+                let time = s.time();
+                match s.step(1e-6) {
+                    Ok(()) => assert!(s.time() >= time),
+                    Err(e) => assert!(!e.message.is_empty()),
+                }
+            }
+        }
+        assert!(refused > 100, "{refused}");
+        s.restore(&good).unwrap();
+        s.step(1e-4).unwrap();
+    }
+}
+
+#[test]
+fn times_too_large_for_a_step_are_refused() {
+    let mut s = sim(&[]);
+    let state = s.state().to_vec();
+    assert_eq!(s.set_state(1e12, &state).unwrap_err().status, Status::BadValue);
+    assert_eq!(s.advance_to(1e7).unwrap_err().status, Status::BadValue);
+    s.set_state(9.9e5, &state).unwrap();
+    s.step(1e-4).unwrap();
+}
+
+#[test]
+fn stiff_support_and_light_rings_get_the_step_they_need() {
+    let mut s = sim(&[("inner_ring.motion.free.support_damping", "1e9")]);
+    s.advance_to(2e-3).unwrap();
+    assert!(s.nominal_step() > 2.4e-6);
+    let light = sim(&[("inner_ring.motion.free.mass", "0.02")]);
+    assert!(light.nominal_step() < 0.5 * s.nominal_step(), "{}", light.nominal_step());
+}
+
+#[test]
+fn recordings_refuse_intervals_that_never_end() {
+    let mut s = sim(&[]);
+    for interval in [0.0, -1.0, f64::NAN, 1e-300] {
+        let mut recording = cagedyn::Recording::default();
+        let e = recording.run(&mut s, 1e-3, interval, |_| true).unwrap_err();
+        assert_eq!(e.status, Status::BadValue, "{interval}");
+    }
+}
+
+#[test]
+fn parts_of_an_evaluation_are_timed_without_leaving_a_trace() {
+    let text = example_text();
+    let times = |text: &str| {
+        let mut sim = Sim::new(Arc::new(Model::from_json(text).unwrap())).unwrap();
+        // Elements touch the cage only now and then.
+        let mut states = Vec::new();
+        for i in 1..=20 {
+            sim.advance_to(0.5e-3 * f64::from(i)).unwrap();
+            states.push((sim.time(), sim.state().to_vec()));
+        }
+        let (before, saved) = (sim.statistics(), sim.save());
+        let times = sim.time_parts(&states, 10).unwrap();
+        assert_eq!(sim.time_parts(&[], 10).unwrap(), [0.0; PARTS.len()]);
+        let far = vec![f64::NAN; sim.state().len()];
+        assert_eq!(sim.time_parts(&[(0.0, far)], 10).unwrap_err().status, Status::BadValue);
+        assert_eq!((sim.statistics(), sim.save()), (before, saved));
+        times
+    };
+    let all = times(&text);
+    assert!(all.iter().all(|t| *t > 0.0 && *t < 1e-2), "{all:?}");
+    let loose = example_with(&[("cage.pocket", Value::Null), ("cage.guide", Value::Null)]).to_string();
+    let part = |name: &str| PARTS.iter().position(|part| *part == name).unwrap();
+    let some = times(&loose);
+    assert_eq!([some[part("pockets")], some[part("guide")]], [0.0; 2]);
+    assert!(some[part("outer_raceway")] > 0.0);
+}
+
+#[test]
+fn runs_without_vector_instructions_have_the_same_bits() {
+    let model = Arc::new(Model::from_json(&example_text()).unwrap());
+    let mut sims = [Sim::new(model.clone()).unwrap(), Sim::new(model).unwrap()];
+    sims[1].set_vector_instructions(false);
+    for sim in &mut sims {
+        sim.advance_to(5e-3).unwrap();
+    }
+    assert_eq!(sims[0].save(), sims[1].save());
+}
+
+#[test]
+fn derivatives_are_counted() {
+    let count = |method: &str| {
+        let solver = json!({"method": {method: {}}});
+        let text = example_with(&[("solver", solver)]).to_string();
+        let mut sim = Sim::new(Arc::new(Model::from_json(&text).unwrap())).unwrap();
+        sim.advance_to(1e-4).unwrap();
+        let statistics = sim.statistics();
+        let place = STATISTICS.iter().position(|name| *name == "jacobians").unwrap();
+        assert_eq!(statistics.values()[place], statistics.jacobians as f64);
+        (statistics.jacobians, statistics.driver.steps)
+    };
+    assert_eq!(count("leapfrog").0, 0);
+    let (jacobians, steps) = count("rosenbrock");
+    assert!(jacobians >= steps && steps > 0, "{jacobians} {steps}");
+}
