@@ -1,3 +1,4 @@
+# make check     formatting, lints and quick tests, for every change: about two minutes
 # make test      everything that CI runs: formatting, lints, all tests
 # make run       the NU2310 example, results in out/
 # make cases     the twelve NU2310 cases, the grease guide over speed and its variants, results in out/cases/
@@ -10,6 +11,7 @@
 # make statistics  long runs of all methods in their statistics: docs/statistics.md
 # make accuracy  what accuracy costs in time, beside other solvers: docs/accuracy.md
 # make bench     time of a force evaluation and of a step
+# make build-times  what building and testing takes: docs/building.md; about an hour
 # make header    writes include/cagedyn.h and schemas/ anew after a change
 # make install   library, header and pkg-config file below $(DESTDIR)$(PREFIX)
 
@@ -18,9 +20,15 @@ DESTDIR ?=
 VERSION := $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -n 1)
 CARGO ?= cargo
 
-.PHONY: test tools fmt lint unit run cases pictures example effects verify hard random statistics accuracy bench header install clean
+.PHONY: check test tools fmt lint doc quick unit run cases pictures example effects verify hard random statistics \
+	accuracy bench build-times header install clean
 
-test: tools fmt lint unit
+# The same flags everywhere, so that nothing is built twice.
+FLAGS := --locked --workspace --all-features
+
+check: tools fmt lint quick
+
+test: tools fmt lint doc unit
 
 # What a fresh Debian machine lacks. Each line says what it installs; nothing happens when it is there.
 tools:
@@ -37,11 +45,17 @@ fmt:
 	$(CARGO) fmt --check
 
 lint:
-	$(CARGO) clippy --locked --workspace --all-targets -- -D warnings
-	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --locked --no-deps --quiet
+	$(CARGO) clippy $(FLAGS) --all-targets -- -D warnings
+
+doc:
+	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --locked --all-features --no-deps --quiet
+
+# Not among them: the long ones of docs/building.md.
+quick:
+	$(CARGO) test $(FLAGS) --lib --test scene --test forces --test methods --test runs
 
 unit:
-	CAGEDYN_REQUIRE_VALGRIND=1 $(CARGO) test --locked --workspace
+	CAGEDYN_REQUIRE_VALGRIND=1 $(CARGO) test $(FLAGS)
 
 run:
 	$(CARGO) run --release --locked -- run scenes/nu2310.json --out out
@@ -71,7 +85,7 @@ effects: tools
 	$(CARGO) run --release --locked --example effects -- --docs
 
 verify: tools
-	CAGEDYN_BLESS=1 $(CARGO) test --locked --test cvode --test auto -- --ignored --nocapture --test-threads 1 table
+	CAGEDYN_BLESS=1 $(CARGO) test $(FLAGS) --test cvode --test methods -- --ignored --nocapture --test-threads 1 table
 
 hard:
 	CAGEDYN_BLESS=1 $(CARGO) test --release --locked --test hard -- --ignored --nocapture
@@ -90,8 +104,11 @@ accuracy: tools
 bench:
 	$(CARGO) bench --locked
 
+build-times: tools
+	tools/build_times.sh --docs
+
 header:
-	CAGEDYN_BLESS=1 $(CARGO) test --locked --test header --test scene_files
+	CAGEDYN_BLESS=1 $(CARGO) test $(FLAGS) --test interfaces --test scene -- committed
 
 install:
 	$(CARGO) build --release --locked

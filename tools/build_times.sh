@@ -1,0 +1,76 @@
+#!/usr/bin/env bash
+# Times what building and testing takes, in a fresh clone with a target directory of its own, and prints the table of
+# docs/building.md; with --docs it writes the table there. Takes about an hour. Crates are fetched before.
+set -euo pipefail
+root=$(cd "$(dirname "$0")/.." && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+git clone -q "$root" "$work/cagedyn"
+cd "$work/cagedyn"
+unset CARGO_TARGET_DIR
+cargo fetch -q --locked
+law=src/laws/self_heating.rs
+TIMEFORMAT='%R %U %S'
+
+# One row: wall time and processor time (user and system, with all children) of a command.
+row() {
+    local name=$1 log="$work/log" times
+    shift
+    echo "timing: $name" >&2
+    if ! times=$({ time "$@" >"$log" 2>&1; } 2>&1); then
+        tail -n 40 "$log" >&2
+        exit 1
+    fi
+    read -r wall user system <<<"$times"
+    awk -v n="$name" -v w="$wall" -v c="$user" -v s="$system" \
+        'BEGIN { printf "| %s | %.0f s | %.0f s |\n", n, w, c + s }'
+}
+
+# Changes a constant of a law, so that its code is another.
+touch_law() {
+    local before
+    before=$(sha256sum "$law")
+    sed -i "s/^const FAST_STEPS: usize = .*/const FAST_STEPS: usize = $1;/" "$law"
+    [ "$before" != "$(sha256sum "$law")" ]
+}
+
+first=(cargo run --release --locked -- run scenes/nu2310.json --out out)
+{
+    echo "| what | wall time | processor time |"
+    echo "|---|---:|---:|"
+    row "first command of the README" "${first[@]}"
+    cargo clean -q --release --package cagedyn
+    row "of it library and tool, dependencies being there" cargo build --release --locked
+    touch_law 13
+    row "release build after touching one law" cargo build --release --locked
+    touch_law 12
+    row "\`make test\`, fresh clone" make test
+    cp "$work/log" "$work/tests"
+    row "\`make test\` again" make test
+    row "\`make check\` again" make check
+    touch_law 13
+    row "\`make check\` after touching one law" make check
+} >"$work/table"
+
+# What the test programs take by themselves, those from five seconds on.
+{
+    echo "| test program | wall time |"
+    echo "|---|---:|"
+    awk '/Running / { name = $2 == "unittests" ? "unit tests, " $3 : $2 }
+        /^test result/ { sub("s$", "", $NF); if ($NF >= 5) printf "%d| `%s` | %.0f s |\n", $NF, name, $NF }' \
+        "$work/tests" | sort -rn | sed 's/^[0-9]*//'
+} >"$work/programs"
+
+cat "$work/table" "$work/programs"
+if [ "${1:-}" = --docs ]; then
+    awk -v work="$work" '
+        /<!-- end -->/ { skip = 0 }
+        !skip { print }
+        /<!-- (table|programs) -->/ {
+            print ""
+            while ((getline line <(work "/" $2)) > 0) print line
+            skip = 1
+        }
+    ' "$root/docs/building.md" >"$work/page"
+    cp "$work/page" "$root/docs/building.md"
+fi
