@@ -29,6 +29,7 @@ static void check_limits(cagedyn_sim *sim)
 {
     CHECK_FAILS(cagedyn_sim_set_wall_time_limit(sim, NAN), CAGEDYN_ERR_BAD_VALUE, "seconds: NaN");
     CHECK_FAILS(cagedyn_sim_set_wall_time_limit(sim, -1.0), CAGEDYN_ERR_BAD_VALUE, "seconds: -1");
+    CHECK(cagedyn_sim_step(sim, 1e-4) == CAGEDYN_OK);
     CHECK(cagedyn_sim_set_wall_time_limit(sim, 0.05) == CAGEDYN_OK);
     CHECK_FAILS(cagedyn_sim_advance_to(sim, 1e3), CAGEDYN_ERR_OUT_OF_TIME, "wall time");
     CHECK_FAILS(cagedyn_sim_advance_to(sim, 1e3), CAGEDYN_ERR_OUT_OF_TIME, "at t = ");

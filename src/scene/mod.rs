@@ -132,7 +132,7 @@ impl Scene {
     /// Reads and checks a scene.
     ///
     /// # Errors
-    /// [`Status::BadJson`] for syntax, types, unknown, missing or doubled fields; [`Status::BadScene`] for values
+    /// [`crate::Status::BadJson`] for syntax, types, unknown, missing or doubled fields; [`crate::Status::BadScene`] for values
     /// out of range or contradictions. The message starts with the JSON path.
     pub fn from_json(text: &str) -> Result<Self> {
         Self::from_value(&parse(text)?)
@@ -142,7 +142,7 @@ impl Scene {
     /// removes an optional block.
     ///
     /// # Errors
-    /// As [`Scene::from_json`]; [`Status::UnknownName`] for a path that leads nowhere.
+    /// As [`Scene::from_json`]; [`crate::Status::UnknownName`] for a path that leads nowhere.
     pub fn from_json_with<'a>(
         text: &str,
         overrides: impl IntoIterator<Item = (&'a str, &'a str)>,

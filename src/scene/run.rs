@@ -76,8 +76,8 @@ pub struct Solver {
     pub preset: Preset,
     /// Method.
     pub method: Method,
-    /// Largest step of methods with error control, s. Absent: 0.1 ms; without rollers at most half the time of a
-    /// contact at the highest contact frequency.
+    /// Largest step of any method, s. Absent: for methods with error control 0.1 ms; without rollers at most half the time
+    /// of a contact at the highest contact frequency.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_step: Option<f64>,
     /// Smallest step size, s; a run that needs less fails.

@@ -9,6 +9,8 @@ use std::f64::consts::PI;
 
 pub(super) const RADIUS: Range = range(1e-4, 5.0, "m");
 pub(super) const WIDTH: Range = range(1e-5, 5.0, "m");
+/// Largest step of the leapfrog, s.
+const LARGEST_LEAPFROG_STEP: f64 = 1e-3;
 const ROLLER_CLEARANCE: Range = range(-2e-4, 2e-3, "m");
 pub(super) const POSITION: Range = range(-1e-2, 1e-2, "m");
 pub(super) const MASS: Range = range(1e-7, 1e6, "kg");
@@ -31,7 +33,7 @@ impl Scene {
     /// Checks every value and the geometry.
     ///
     /// # Errors
-    /// [`Status::BadScene`]; the message starts with the JSON path.
+    /// [`crate::Status::BadScene`]; the message starts with the JSON path.
     pub fn validate(&self) -> Result<()> {
         if self.schema != SCENE_SCHEMA {
             return Err(bad("schema", format!("'{}' is not '{SCENE_SCHEMA}'", self.schema)));
@@ -239,7 +241,8 @@ impl Scene {
         match &self.solver.method {
             Method::Auto(m) => optional("solver.method.auto.tolerance", m.tolerance, tolerance())?,
             Method::Leapfrog(m) => {
-                let allowed = range(self.solver.min_step.max(1e-10), 1e-3, "s");
+                let largest = self.solver.max_step.unwrap_or(LARGEST_LEAPFROG_STEP);
+                let allowed = range(self.solver.min_step.max(1e-10), largest.min(LARGEST_LEAPFROG_STEP), "s");
                 optional("solver.method.leapfrog.step", m.step, allowed)?;
             }
             Method::Rosenbrock(m) => {

@@ -5,9 +5,6 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// Steps between two looks at the clock.
-const CLOCK_INTERVAL: u32 = 16;
-
 /// Asks one simulation to stop, from any thread. Clones ask the same simulation; one that outlives it asks nobody.
 #[derive(Clone, Debug, Default)]
 pub struct Canceller(Arc<AtomicBool>);
@@ -25,8 +22,6 @@ impl Canceller {
 pub(super) struct RunLimits {
     canceller: Canceller,
     deadline: Option<Instant>,
-    /// Steps until the clock is looked at.
-    until_look: u32,
 }
 
 impl RunLimits {
@@ -39,30 +34,30 @@ impl RunLimits {
         // What a clock cannot count to is never.
         self.deadline =
             Duration::try_from_secs_f64(seconds).ok().and_then(|left| Instant::now().checked_add(left));
-        self.until_look = 0;
     }
 
-    /// Whether to stop, with a look at the clock.
-    pub(super) fn interruption_now(&mut self) -> Option<Interruption> {
-        self.until_look = 0;
-        self.interruption()
-    }
-
-    /// Whether to stop before the next step.
+    /// Whether to stop before the next attempted step. Looks at the clock each time: one attempt can take long.
     pub(super) fn interruption(&mut self) -> Option<Interruption> {
         if self.canceller.0.load(Ordering::Relaxed) {
             self.canceller.0.store(false, Ordering::Relaxed);
             return Some(Interruption::Cancelled);
         }
-        let deadline = self.deadline?;
-        if self.until_look > 0 {
-            self.until_look -= 1;
-            return None;
-        }
-        if Instant::now() >= deadline {
-            return Some(Interruption::OutOfTime);
-        }
-        self.until_look = CLOCK_INTERVAL;
-        None
+        (Instant::now() >= self.deadline?).then_some(Interruption::OutOfTime)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_clock_is_read_before_every_attempt() {
+        let mut limits = RunLimits::default();
+        limits.set_wall_time(3600.0);
+        assert_eq!(limits.interruption(), None);
+        limits.deadline = Some(Instant::now());
+        assert_eq!(limits.interruption(), Some(Interruption::OutOfTime));
+        limits.set_wall_time(f64::INFINITY);
+        assert_eq!(limits.interruption(), None);
     }
 }

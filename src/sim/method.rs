@@ -44,11 +44,16 @@ pub(super) fn limits(model: &Model, solver: &Solver) -> Limits {
         Method::DormandPrince(_) | Method::Rosenbrock(_) | Method::Radau(_) => first_step(model, solver),
     };
     Limits {
-        nominal_step: nominal_step.max(solver.min_step),
+        nominal_step: nominal_step.min(bound(solver)).max(solver.min_step),
         min_step: solver.min_step,
         max_step: largest_step(model, solver).max(solver.min_step),
         max_steps: solver.max_steps,
     }
+}
+
+/// Largest step that the scene allows any method, s; infinite where it does not say.
+fn bound(solver: &Solver) -> f64 {
+    solver.max_step.unwrap_or(f64::INFINITY)
 }
 
 /// Largest step of error control, s.
@@ -80,7 +85,7 @@ fn aim(model: &Model, solver: &Solver) -> Aim {
             frequency: model.highest_frequency(),
             damped: model.damped(),
             share: leapfrog_step,
-            largest_step: MAX_NOMINAL_STEP,
+            largest_step: MAX_NOMINAL_STEP.min(bound(solver)),
             largest_error: stretch_error,
             // The first velocity is one of translation.
             speed_unit: units.get(model.layout().positions()).copied().unwrap_or(1.0),

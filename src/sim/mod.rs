@@ -208,7 +208,7 @@ impl Sim {
             return Err(Error::new(Status::BadValue, text));
         }
         self.evaluated = Evaluated::Other;
-        if let Some(why) = self.bearing.limits_mut().interruption_now() {
+        if let Some(why) = self.bearing.limits_mut().interruption() {
             return Err(self.failure(Failure::Interrupted { time: self.time, why }));
         }
         let advanced = self.driver.advance(&mut self.bearing, t);

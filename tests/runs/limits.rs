@@ -41,6 +41,18 @@ fn an_interrupted_run_goes_on_with_the_same_bits() {
 }
 
 #[test]
+fn the_largest_step_binds_every_method() {
+    for method in ["auto", "leapfrog", "dormand_prince", "rosenbrock", "radau"] {
+        let bound = 1e-6;
+        let scene = example_with(&[("solver", json!({"method": {method: {}}, "max_step": bound}))]);
+        let mut sim = sim(&scene);
+        sim.advance_to(0.5e-3).unwrap();
+        let largest = sim.statistics().driver.largest_step;
+        assert!(0.0 < largest && largest <= bound, "{method}: {largest}");
+    }
+}
+
+#[test]
 fn a_request_from_another_thread_ends_a_run() {
     let mut sim = sim(&example_with(&[]));
     let canceller = sim.canceller();

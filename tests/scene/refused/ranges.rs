@@ -230,6 +230,12 @@ pub fn rows() -> Vec<Row> {
             &["1e-8 s"],
         ),
         scene_row(
+            "step above the largest step",
+            vec![("solver", json!({"method": {"leapfrog": {"step": 1e-6}}, "max_step": 1e-7}))],
+            "solver.method.leapfrog.step",
+            &["1e-6 s", "1e-7"],
+        ),
+        scene_row(
             "chosen with a tolerance of zero",
             vec![("solver", json!({"method": {"auto": {"tolerance": 0}}}))],
             "solver.method.auto.tolerance",
