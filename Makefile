@@ -20,7 +20,7 @@ DESTDIR ?=
 VERSION := $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -n 1)
 CARGO ?= cargo
 
-.PHONY: check test tools fmt lint doc quick unit run cases pictures example effects verify hard random statistics \
+.PHONY: check test tools fmt lint doc shipped quick unit run cases pictures example effects verify hard random statistics \
 	accuracy bench build-times header install clean
 
 # The same flags everywhere, so that nothing is built twice.
@@ -28,7 +28,7 @@ FLAGS := --locked --workspace --all-features
 
 check: tools fmt lint quick
 
-test: tools fmt lint doc unit
+test: tools fmt lint doc shipped unit
 
 # What a fresh Debian machine lacks. Each line says what it installs; nothing happens when it is there.
 tools:
@@ -50,7 +50,12 @@ lint:
 doc:
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --locked --all-features --no-deps --quiet
 
-# Not among them: the long ones of docs/building.md.
+# What users build, without what only tests switch on.
+shipped:
+	$(CARGO) check --locked --quiet
+	$(CARGO) check --locked --quiet --no-default-features --lib
+
+# The programs that take seconds; see docs/building.md for the others.
 quick:
 	$(CARGO) test $(FLAGS) --lib --test scene --test forces --test methods --test runs
 

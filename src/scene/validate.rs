@@ -242,7 +242,8 @@ impl Scene {
             Method::Auto(m) => optional("solver.method.auto.tolerance", m.tolerance, tolerance())?,
             Method::Leapfrog(m) => {
                 let largest = self.solver.max_step.unwrap_or(LARGEST_LEAPFROG_STEP);
-                let allowed = range(self.solver.min_step.max(1e-10), largest.min(LARGEST_LEAPFROG_STEP), "s");
+                let largest = largest.min(LARGEST_LEAPFROG_STEP);
+                let allowed = range(self.solver.min_step.max(1e-10).min(largest), largest, "s");
                 optional("solver.method.leapfrog.step", m.step, allowed)?;
             }
             Method::Rosenbrock(m) => {

@@ -8,7 +8,7 @@ use std::process::ExitCode;
 /// Prints the JSON Schema of a format.
 ///
 /// # Errors
-/// [`Status::File`] when standard output cannot be written.
+/// [`cagedyn::Status::File`] when standard output cannot be written.
 pub fn command(args: &SchemaArgs) -> Result<ExitCode> {
     terminal::print(match args.format {
         Format::Scene => Scene::JSON_SCHEMA,

@@ -1,7 +1,7 @@
 //! Typed data from parsed JSON: objects for blocks, words for choices, nothing left over. Stricter than serde_json, which
 //! takes arrays for blocks and objects for words.
 
-use super::complaint;
+use super::{complaint, shortened};
 use crate::error::Result;
 use serde::de::value::StrDeserializer;
 use serde::de::{
@@ -35,9 +35,7 @@ struct Complaint {
 
 impl Complaint {
     fn expected(what: &str, found: &Value) -> Self {
-        let found = found.to_string();
-        let cut = found.char_indices().nth(LONGEST_QUOTE);
-        let found = cut.map_or(found.clone(), |(at, _)| format!("{}...", &found[..at]));
+        let found = shortened(found.to_string(), LONGEST_QUOTE);
         de::Error::custom(format!("expected {what}, found {found}"))
     }
 
