@@ -11,7 +11,7 @@
 # make statistics  long runs of all methods in their statistics: docs/statistics.md
 # make accuracy  what accuracy costs in time, beside other solvers: docs/accuracy.md
 # make bench     time of a force evaluation and of a step
-# make build-times  what building and testing takes: docs/building.md; about an hour
+# make build-times  what building and testing takes: docs/building.md; half an hour
 # make header    writes include/cagedyn.h and schemas/ anew after a change
 # make install   library, header and pkg-config file below $(DESTDIR)$(PREFIX)
 

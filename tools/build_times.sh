@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Times what building and testing takes, in a fresh clone with a target directory of its own, and prints the table of
-# docs/building.md; with --docs it writes the table there. Takes about an hour. Crates are fetched before.
+# docs/building.md; with --docs it writes the table there. Takes about half an hour. Crates are fetched before.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 work=$(mktemp -d)
