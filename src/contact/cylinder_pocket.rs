@@ -13,6 +13,7 @@
 //! Local frame: (radial, circumferential) at the pocket centre, turning with the cage.
 
 use super::pocket::{Pillar, PillarContact, PocketMotion, PocketPlace};
+use crate::scalar::math;
 use crate::scalar::{Real, smoothstep};
 
 /// Shape of the pockets.
@@ -34,7 +35,7 @@ pub struct CylinderPocket {
 impl CylinderPocket {
     /// From the place, the clearance in m, the half angle of the wall and the angle of the blend in rad.
     pub fn new(place: PocketPlace, clearance: f64, half_angle: f64, edge_blend: f64) -> Self {
-        let (edge, blend) = (half_angle.sin_cos(), (half_angle - edge_blend).sin_cos());
+        let (edge, blend) = (math::sin_cos(half_angle), math::sin_cos(half_angle - edge_blend));
         Self { place, clearance, half_angle, edge_blend, edge, blend }
     }
 

@@ -13,6 +13,7 @@
 //! The Ghosh-Pandey factor is only partly legible in the paper's text; its form here is the best reading.
 
 use super::normal_contact::ElasticLine;
+use crate::scalar::math;
 use crate::scalar::{Base, Numeric, Of};
 use std::f64::consts::PI;
 
@@ -93,7 +94,7 @@ impl<T: Numeric> Entrainment<T> {
 impl ThermalLoad {
     /// From beta (1/K), eta0 (Pa s) and k' (W/(m K)).
     pub fn new(temperature_viscosity: f64, viscosity: f64, conductivity: f64) -> Self {
-        Self { ln_factor: (temperature_viscosity * viscosity / conductivity).ln() }
+        Self { ln_factor: math::ln(temperature_viscosity * viscosity / conductivity) }
     }
 
     /// ln(L_T).
@@ -128,10 +129,10 @@ impl FilmThickness {
     ) -> Self {
         let e_r = line.effective_modulus * line.equivalent_radius;
         let material = pressure_viscosity * line.effective_modulus;
-        let ln_load_factor = -(e_r * line.length).ln();
-        let ln_scale = (2.922 * line.equivalent_radius).ln() - 0.166 * ln_load_factor
-            + 0.692 * (viscosity / e_r).ln()
-            + 0.470 * material.ln();
+        let ln_load_factor = -math::ln(e_r * line.length);
+        let ln_scale = math::ln(2.922 * line.equivalent_radius) - 0.166 * ln_load_factor
+            + 0.692 * math::ln(viscosity / e_r)
+            + 0.470 * math::ln(material);
         let pressure_factor = 4.0 / PI / line.effective_modulus;
         Self { ln_scale, ln_load_factor, pressure_factor, thermal }
     }

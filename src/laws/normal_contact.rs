@@ -11,6 +11,7 @@
 //! Technical Review 71 (2004), Eq. 1 and 4. Damping is an assumption of this library (the paper names none):
 //! it is proportional to stiffness, and the factor s lets Q start continuously at first touch.
 
+use crate::scalar::math;
 use crate::scalar::{Base, Of};
 use std::f64::consts::PI;
 
@@ -72,20 +73,20 @@ pub struct NormalForce<T> {
 impl ElasticLine {
     /// Constants from E' (Pa), R_e (m) and effective length (m), all > 0.
     pub fn new(effective_modulus: f64, equivalent_radius: f64, length: f64) -> Self {
-        let compliance = 0.39 * (8.0 / effective_modulus).powf(0.9) / length.powf(0.8);
+        let compliance = 0.39 * math::powf(8.0 / effective_modulus, 0.9) / math::powf(length, 0.8);
         let width_factor = 8.0 * equivalent_radius / (PI * length * effective_modulus);
-        let ln_compliance = compliance.ln();
+        let ln_compliance = math::ln(compliance);
         Self { effective_modulus, equivalent_radius, length, compliance, ln_compliance, width_factor }
     }
 
     /// Elastic approach delta in m under the load `q` >= 0 in N.
     pub fn approach(&self, q: f64) -> f64 {
-        self.compliance * q.powf(0.9)
+        self.compliance * math::powf(q, 0.9)
     }
 
     /// Elastic stiffness dQ_el/d(delta) in N/m under the load `q` > 0 in N.
     pub fn stiffness_at_load(&self, q: f64) -> f64 {
-        10.0 / 9.0 * q.powf(0.1) / self.compliance
+        10.0 / 9.0 * math::powf(q, 0.1) / self.compliance
     }
 }
 

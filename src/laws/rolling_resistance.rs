@@ -14,6 +14,7 @@
 
 use super::film_thickness::{Entrainment, ThermalLoad};
 use super::normal_contact::ElasticLine;
+use crate::scalar::math;
 use crate::scalar::{Base, Of, smoothstep};
 use std::f64::consts::PI;
 
@@ -55,8 +56,8 @@ impl RollingResistance {
         let w = 1.0 / (line.effective_modulus * line.equivalent_radius * line.length);
         Self {
             scale: 29.2 * line.equivalent_radius * line.length / pressure_viscosity
-                * g_u.powf(0.648)
-                * w.powf(0.246),
+                * math::powf(g_u, 0.648)
+                * math::powf(w, 0.246),
             pressure_factor: 4.0 / PI / line.effective_modulus,
             thermal,
             extent,

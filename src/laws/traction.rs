@@ -12,6 +12,7 @@
 
 use super::film_thickness::Entrainment;
 use crate::scalar::Numeric;
+use crate::scalar::math;
 use std::f64::consts::LN_2;
 
 /// Above this ln(Sigma), asinh(Sigma) equals ln(2 Sigma) to round-off.
@@ -53,7 +54,12 @@ pub struct MeanShear<T> {
 impl Traction {
     /// From eta0 (Pa s), alpha (1/Pa), tau0 (Pa) and G_l (Pa), all > 0.
     pub fn new(viscosity: f64, pressure_viscosity: f64, eyring_stress: f64, shear_modulus: f64) -> Self {
-        Self { ln_time: (viscosity / eyring_stress).ln(), pressure_viscosity, eyring_stress, shear_modulus }
+        Self {
+            ln_time: math::ln(viscosity / eyring_stress),
+            pressure_viscosity,
+            eyring_stress,
+            shear_modulus,
+        }
     }
 
     /// The shear state at mean pressure (Pa), film thickness (m) and its ln, and half width (m).

@@ -7,6 +7,7 @@
 //!
 //! Valid for nu above about 2 mm^2/s, between and somewhat beyond the two points that fix A and B.
 
+use crate::scalar::math;
 use std::f64::consts::LN_10;
 
 /// mm^2/s per m^2/s.
@@ -27,8 +28,8 @@ impl Walther {
     /// The line through two points (temperature in K, kinematic viscosity in m^2/s above 0.3e-6) for an oil of the
     /// given density (kg/m^3).
     pub fn new(cold: (f64, f64), hot: (f64, f64), density: f64) -> Self {
-        let ordinate = |nu: f64| (nu * MM2_PER_S + SHIFT).log10().log10();
-        let (x0, x1) = (cold.0.log10(), hot.0.log10());
+        let ordinate = |nu: f64| math::log10(math::log10(nu * MM2_PER_S + SHIFT));
+        let (x0, x1) = (math::log10(cold.0), math::log10(hot.0));
         let (y0, y1) = (ordinate(cold.1), ordinate(hot.1));
         let slope = (y0 - y1) / (x1 - x0);
         Self { intercept: y0 + slope * x0, slope, density }
@@ -36,15 +37,15 @@ impl Walther {
 
     /// Dynamic viscosity eta0 in Pa s at `temperature` in K. NaN where the line gives no viscosity.
     pub fn viscosity(&self, temperature: f64) -> f64 {
-        let nu = 10f64.powf(10f64.powf(self.intercept - self.slope * temperature.log10())) - SHIFT;
+        let nu = math::ten_to(math::ten_to(self.intercept - self.slope * math::log10(temperature))) - SHIFT;
         let viscosity = nu / MM2_PER_S * self.density;
         if viscosity > 0.0 && viscosity.is_finite() { viscosity } else { f64::NAN }
     }
 
     /// Derivative of ln eta0 over the temperature in 1/K at `temperature` in K, where the line gives a viscosity.
     pub fn relative_slope(&self, temperature: f64) -> f64 {
-        let exponent = 10f64.powf(self.intercept - self.slope * temperature.log10());
-        let shifted = 10f64.powf(exponent);
+        let exponent = math::ten_to(self.intercept - self.slope * math::log10(temperature));
+        let shifted = math::ten_to(exponent);
         -shifted / (shifted - SHIFT) * LN_10 * exponent * self.slope / temperature
     }
 }

@@ -5,6 +5,7 @@ use super::{ElementKind, HostInputs, Input, Model, RingBody};
 use crate::contact::raceway::{RacewayGeometry, RingMotion, RollerMotion};
 use crate::contact::rotate;
 use crate::error::{Error, Result, Status};
+use crate::scalar::math;
 use crate::scene::RingStart;
 
 /// Steps for the equilibrium of the ring; about twenty are usual.
@@ -35,10 +36,10 @@ impl Model {
         }
         let ElementKind::Rollers(rollers) = &self.elements.kind else { return Ok(state) };
         for j in 0..layout.count {
-            let (sin, cos) = self.elements.reference_angles[j].sin_cos();
+            let (sin, cos) = math::sin_cos(self.elements.reference_angles[j]);
             // The pocket of a cage off centre lies beside its angle.
             let beside = start.cage.z * cos - start.cage.y * sin;
-            q[layout.roller(j) + 1] = (beside / rollers.geometry.pitch_radius).asin();
+            q[layout.roller(j) + 1] = math::asin(beside / rollers.geometry.pitch_radius);
             v[layout.roller(j) + 1] = orbit;
             v[layout.spin(j)] = spin;
         }
@@ -84,7 +85,7 @@ impl StillBearing<'_> {
     /// Position of the ring, m, at which the rollers carry `load` (N): the minimum of the potential energy, found by
     /// Newton steps whose length a Levenberg-Marquardt parameter controls.
     fn equilibrium(&self, load: [f64; 2]) -> Result<[f64; 2]> {
-        let size = load[0].hypot(load[1]);
+        let size = math::hypot(load[0], load[1]);
         if size == 0.0 {
             return Ok([0.0; 2]);
         }
@@ -93,7 +94,7 @@ impl StillBearing<'_> {
         let mut here = self.ring_balance(x, load);
         let mut parameter = size / reach;
         for _ in 0..MAX_ITERATIONS {
-            let residual = here.force[0].hypot(here.force[1]);
+            let residual = math::hypot(here.force[0], here.force[1]);
             if residual <= TOLERANCE * size + NEGLIGIBLE_FORCE {
                 return Ok(x);
             }
@@ -105,7 +106,8 @@ impl StillBearing<'_> {
                 [x[0] + (kzz * fy - kyz * fz) / determinant, x[1] + (kyy * fz - kyz * fy) / determinant];
             let there = self.ring_balance(trial, load);
             // Close to the minimum the energy drowns in round-off, and the force alone tells progress.
-            let better = there.energy < here.energy || there.force[0].hypot(there.force[1]) < 0.5 * residual;
+            let better =
+                there.energy < here.energy || math::hypot(there.force[0], there.force[1]) < 0.5 * residual;
             if better {
                 (x, here) = (trial, there);
             }
@@ -137,7 +139,7 @@ impl StillBearing<'_> {
 
     /// Equilibrium of roller `j` with the ring at `x` in m, and sine and cosine of its azimuth.
     fn roller(&self, j: usize, x: [f64; 2]) -> (RollerBalance, (f64, f64)) {
-        let (sin, cos) = self.model.azimuth(self.q, j).sin_cos();
+        let (sin, cos) = math::sin_cos(self.model.azimuth(self.q, j));
         (self.roller_balance(rotate(x, -sin, cos)), (sin, cos))
     }
 

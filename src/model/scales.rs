@@ -4,6 +4,7 @@
 use super::laws::PocketLaws;
 use super::{ElementKind, Input, Model, RingBody, RollerSet};
 use crate::laws::line_contact::LineContact;
+use crate::scalar::math;
 
 /// Ratio of velocity to position scale in the error control, 1/s: slow against contact vibration (2e5 1/s), fast
 /// against the cage (1e2 1/s).
@@ -66,13 +67,13 @@ impl Model {
             RingBody::Fixed(_) => 0.0,
             RingBody::Free { mass, .. } => mass,
         };
-        let weight = ring_mass * self.gravity[0].hypot(self.gravity[1]);
+        let weight = ring_mass * math::hypot(self.gravity[0], self.gravity[1]);
         let orbit = largest(Input::RingSpeed) * rollers.orbit_ratio();
         let centrifugal = rollers.mass * rollers.geometry.pitch_radius * orbit * orbit;
         let preload = inner.elastic.load(-rollers.geometry.gap);
         // 4.1 F/Z is the largest roller load of a line contact bearing without clearance; 1 N keeps it positive.
         let per_roller = 4.1 / (self.layout.count as f64).max(4.1);
-        let load = largest(Input::LoadY).hypot(largest(Input::LoadZ)) + weight;
+        let load = math::hypot(largest(Input::LoadY), largest(Input::LoadZ)) + weight;
         let q = per_roller * load + centrifugal + preload + 1.0;
         let stiffness = inner.elastic.stiffness_at_load(q) + outer.elastic.stiffness_at_load(q);
         let roller = stiffness / rollers.mass;

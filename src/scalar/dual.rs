@@ -2,7 +2,7 @@
 
 #![allow(clippy::needless_range_loop)]
 
-use super::{Base, Numeric, Pack, Real};
+use super::{Base, Numeric, Pack, Real, math};
 use pulp::Simd;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
@@ -259,12 +259,12 @@ impl<const N: usize> Real for Dual<N> {
         self.chain(Real::powf(self.re, p), p * Real::powf(self.re, p - 1.0))
     }
     fn sin_cos(self) -> (Self, Self) {
-        let (s, c) = self.re.sin_cos();
+        let (s, c) = math::sin_cos(self.re);
         (self.chain(s, c), self.chain(c, -s))
     }
     fn atan2(self, x: Self) -> Self {
         let r2 = self.re * self.re + x.re * x.re;
-        self.combine(x, self.re.atan2(x.re), x.re / r2, -self.re / r2)
+        self.combine(x, math::atan2(self.re, x.re), x.re / r2, -self.re / r2)
     }
 }
 

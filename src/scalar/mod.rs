@@ -6,6 +6,7 @@
 
 mod dual;
 pub mod elementary;
+pub mod math;
 mod pack;
 
 pub use dual::{Dual, Duals};
@@ -235,13 +236,13 @@ impl Base for f64 {
 
 impl Real for f64 {
     fn powf(self, p: f64) -> Self {
-        if self == 0.0 && p > 0.0 { 0.0 } else { elementary::exp(p * elementary::ln(self)) }
+        math::powf(self, p)
     }
     fn sin_cos(self) -> (Self, Self) {
-        self.sin_cos()
+        math::sin_cos(self)
     }
     fn atan2(self, x: Self) -> Self {
-        self.atan2(x)
+        math::atan2(self, x)
     }
 }
 

@@ -1,6 +1,7 @@
 //! Range checks with messages that name the path, the value and what is allowed.
 
 use crate::error::{Error, Result, Status};
+use crate::scalar::math;
 
 /// Allowed range of a number, both ends included.
 #[derive(Clone, Copy, Debug)]
@@ -49,7 +50,7 @@ fn unit_slip(value: f64, allowed: Range) -> Option<(f64, &'static str)> {
     let Range { min, max, unit } = allowed;
     // The middle of the range by order of magnitude; a range that reaches zero has its usual values below its end.
     let usual = if min > 0.0 { (min * max).sqrt() } else { 1e-2 * max };
-    let distance = |si: f64| (si.abs() / usual).ln().abs();
+    let distance = |si: f64| math::ln(si.abs() / usual).abs();
     UNIT_SLIPS
         .iter()
         .filter(|(_, _, name)| {

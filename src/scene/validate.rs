@@ -5,6 +5,7 @@
 
 use super::check::{Range, bad, number, optional, range};
 use super::*;
+use crate::scalar::math;
 use std::f64::consts::PI;
 
 pub(super) const RADIUS: Range = range(1e-4, 5.0, "m");
@@ -188,7 +189,7 @@ impl Scene {
     /// Distance between neighbouring centres must exceed twice `radius`.
     pub(super) fn neighbours_apart(&self, path: &str, radius: f64, what: &str) -> Result<()> {
         let count = self.element_count();
-        let spacing = 2.0 * self.pitch_radius() * (PI / f64::from(count)).sin();
+        let spacing = 2.0 * self.pitch_radius() * math::sin(PI / f64::from(count));
         if count > 1 && spacing <= 2.0 * radius {
             let text = format!(
                 "{count} {what} of radius {radius:?} m overlap on a pitch circle of radius {:?} m",

@@ -12,6 +12,7 @@
 //! Without a clearance, the largest distance of the centre from the guide centre in the window stands in for it.
 
 use super::Spread;
+use crate::scalar::math;
 use serde::Serialize;
 use std::f64::consts::{PI, TAU};
 
@@ -147,15 +148,16 @@ impl<'a> WhirlRecord<'a> {
             return speed.mean * (last - first) / TAU;
         }
         let steps = self.places().zip(self.places().skip(1));
-        let angles = steps.map(|((y0, z0), (y1, z1))| (y0 * z1 - z0 * y1).atan2(y0 * y1 + z0 * z1));
+        let angles = steps.map(|((y0, z0), (y1, z1))| math::atan2(y0 * z1 - z0 * y1, y0 * y1 + z0 * z1));
         angles.sum::<f64>() / TAU
     }
 
     fn motion(&self, speed: &Spread, radius: f64, turns: f64) -> CageMotion {
-        let largest = self.places().map(|(y, z)| y.hypot(z)).fold(0.0, f64::max);
+        let largest = self.places().map(|(y, z)| math::hypot(y, z)).fold(0.0, f64::max);
         let reference = self.clearance.unwrap_or(largest);
         let centre = self.centre.map(mean);
-        let distances: Vec<f64> = self.places().map(|(y, z)| (y - centre[0]).hypot(z - centre[1])).collect();
+        let distances: Vec<f64> =
+            self.places().map(|(y, z)| math::hypot(y - centre[0], z - centre[1])).collect();
         let Some(distance) = Spread::of(&distances) else { return CageMotion::Irregular };
         let one_sense = speed.p05 * speed.p95 > 0.0;
         if distance.max <= RESTING_REACH * reference {
@@ -203,7 +205,7 @@ mod tests {
                 // Central differences over a time that is short for every orbit here.
                 let ((a, b), (c, d)) = (place(t - 1e-7), place(t + 1e-7));
                 let speed = (y * (d - b) - z * (c - a)) / (2e-7 * (y * y + z * z).max(1e-12));
-                let row = [t, speed, CLEARANCE * y.hypot(z), CLEARANCE * y, CLEARANCE * z, cage_speed];
+                let row = [t, speed, CLEARANCE * math::hypot(y, z), CLEARANCE * y, CLEARANCE * z, cage_speed];
                 columns.iter_mut().zip(row).for_each(|(column, x)| column.push(x));
             }
             Self(columns)
