@@ -39,8 +39,8 @@ impl GuideSide {
             GuideSide::CageOutside => (ring, cage),
         };
         JournalMotion {
-            position: std::array::from_fn(|k| journal.position[k] - bush.position[k]),
-            velocity: std::array::from_fn(|k| journal.velocity[k] - bush.velocity[k]),
+            position: difference(journal.position, bush.position),
+            velocity: difference(journal.velocity, bush.velocity),
             journal_speed: journal.speed,
             bush_speed: bush.speed,
             profile_angle: cage.angle,
@@ -54,9 +54,9 @@ impl GuideSide {
         match self {
             GuideSide::CageInside => *f,
             GuideSide::CageOutside => GuideForce {
-                pressure: f.pressure.map(|x| -x),
-                shear: f.shear.map(|x| -x),
-                solid: f.solid.map(|x| -x),
+                pressure: opposite(f.pressure),
+                shear: opposite(f.shear),
+                solid: opposite(f.solid),
                 moment: -(f.moment + carried(f, m)),
                 film_moment: -(f.film_moment + carried(&f.of_film(), m)),
                 ..*f
@@ -69,12 +69,22 @@ impl GuideSide {
     pub fn wrenches<T: Real>(self, f: &GuideForce<T>, m: &JournalMotion<T>) -> [Wrench<T>; 2] {
         let force = f.force();
         let on_journal = Wrench { force, moment: f.moment };
-        let on_bush = Wrench { force: force.map(|x| -x), moment: -(f.moment + carried(f, m)) };
+        let on_bush = Wrench { force: opposite(force), moment: -(f.moment + carried(f, m)) };
         match self {
             GuideSide::CageInside => [on_journal, on_bush],
             GuideSide::CageOutside => [on_bush, on_journal],
         }
     }
+}
+
+#[inline]
+fn difference<T: Real>(a: [T; 2], b: [T; 2]) -> [T; 2] {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+#[inline]
+fn opposite<T: Real>([y, z]: [T; 2]) -> [T; 2] {
+    [-y, -z]
 }
 
 /// Moment of the force on the journal about the centre of the bush.

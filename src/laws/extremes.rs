@@ -126,7 +126,9 @@ fn guide_films() {
         clearance: 0.2e-3,
         land_width: 7e-3,
         squeeze: true,
+        pressure_moment: false,
         roundness: Vec::new(),
+        profile_on_journal: true,
     };
     let layer = LubricantLayer {
         viscosity: 0.1,
@@ -138,6 +140,7 @@ fn guide_films() {
         thickness: 80e-6,
         pressure_shear: PressureShear::WithinArc,
         roundness: Vec::new(),
+        profile_on_journal: true,
     };
     for i in 0..100_000 {
         let moving = journal(&mut random, 0.2e-3);

@@ -18,7 +18,7 @@
 
 use super::contact_pair::ContactMotion;
 use super::journal::{FilmForce, JournalMotion, NoFilm};
-use super::lubricant_layer::LubricantLayer;
+use super::lubricant_layer::{LubricantLayer, PressureShear};
 use super::short_bearing::ShortBearing;
 use super::solid_contact::SolidContact;
 use crate::scalar::{Real, smoothstep};
@@ -81,7 +81,8 @@ impl<T: Real> GuideForce<T> {
     /// Sum of all components (y, z), N.
     #[inline]
     pub fn force(&self) -> [T; 2] {
-        std::array::from_fn(|k| self.pressure[k] + self.shear[k] + self.solid[k])
+        let (p, s, c) = (self.pressure, self.shear, self.solid);
+        [p[0] + s[0] + c[0], p[1] + s[1] + c[1]]
     }
 
     /// What the film alone does.
@@ -101,6 +102,21 @@ impl GuideFilm {
         match self {
             GuideFilm::ShortBearing(film) => film.force(m),
             GuideFilm::LubricantLayer(film) => film.force(m),
+        }
+    }
+
+    /// Whether the film takes energy at every motion; otherwise the field of the scene that says it does not.
+    ///
+    /// # Errors
+    /// That field.
+    pub fn passive(&self) -> Result<(), &'static str> {
+        match self {
+            GuideFilm::ShortBearing(film) if !film.squeeze => Err("short_bearing.squeeze"),
+            GuideFilm::ShortBearing(film) if !film.pressure_moment => Err("short_bearing.pressure_moment"),
+            GuideFilm::LubricantLayer(film) if film.pressure_shear != PressureShear::WithEdges => {
+                Err("lubricant_layer.pressure_shear")
+            }
+            GuideFilm::ShortBearing(_) | GuideFilm::LubricantLayer(_) => Ok(()),
         }
     }
 
@@ -199,8 +215,8 @@ fn apart<T: Real>(gap: T) -> GuideForce<T> {
 #[inline]
 fn from_film<T: Real>(film: FilmForce<T>, share: T) -> GuideForce<T> {
     GuideForce {
-        pressure: film.pressure.map(|f| f * share),
-        shear: film.shear.map(|f| f * share),
+        pressure: [film.pressure[0] * share, film.pressure[1] * share],
+        shear: [film.shear[0] * share, film.shear[1] * share],
         solid: [T::constant(0.0); 2],
         moment: film.moment * share,
         film_moment: film.moment * share,
@@ -212,7 +228,6 @@ fn from_film<T: Real>(film: FilmForce<T>, share: T) -> GuideForce<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laws::lubricant_layer::PressureShear;
     use crate::laws::solid_friction::SolidFriction;
 
     fn layer() -> GuideFilm {
@@ -226,6 +241,7 @@ mod tests {
             thickness: 80e-6,
             pressure_shear: PressureShear::WithinArc,
             roundness: Vec::new(),
+            profile_on_journal: true,
         })
     }
 

@@ -11,6 +11,7 @@
 
 use super::journal::{Harmonic, JournalMotion};
 use crate::scalar::Real;
+use crate::scalar::math;
 
 /// The film at one place. Vectors are in the axes of the gap that gives it.
 #[derive(Clone, Copy)]
@@ -21,6 +22,8 @@ pub(super) struct Place<T> {
     pub inverse_film: T,
     /// dh/dtheta, m/rad.
     pub slope: T,
+    /// Part of it that the profile makes, m/rad.
+    pub lobe_slope: T,
     /// G = (w_1 + w_2) dh/dtheta + 2 dh/dt, m/s; negative where the film builds up pressure.
     pub opening: T,
     /// u_1 - u_2, m/s.
@@ -85,11 +88,11 @@ impl RoundGap<f64> {
     #[inline]
     pub fn sign_changes(&self) -> [f64; 2] {
         let (a, s) = (self.wedge, self.squeeze);
-        let n = a.hypot(s);
+        let n = math::hypot(a, s);
         // Sine and cosine of half the angle atan2(s, a), up to a common factor.
         let (sin, cos) = if a < 0.0 { (n - a, s) } else { (s, n + a) };
         let (wide, thin) = (self.thickest.sqrt(), self.thinnest.sqrt());
-        let fold = |y: f64, x: f64| 2.0 * (if x < 0.0 { (-y).atan2(-x) } else { y.atan2(x) });
+        let fold = |y: f64, x: f64| 2.0 * (if x < 0.0 { math::atan2(-y, -x) } else { math::atan2(y, x) });
         let (first, second) = (fold(wide * sin, thin * cos), fold(wide * cos, -thin * sin));
         [first.min(second), first.max(second)]
     }
@@ -109,6 +112,7 @@ impl<T: Real> Gap<T> for RoundGap<T> {
             film: self.mean * arc,
             inverse_film: sum * self.inverse_square,
             slope: self.eccentricity * sin,
+            lobe_slope: T::constant(0.0),
             opening: self.wedge * sin - self.squeeze * cos,
             sliding: self.rolling - radial * sin + tangential * cos,
             normal: [cos, sin],
@@ -175,20 +179,22 @@ impl<T: Real> Gap<T> for ProfileGap<'_, T> {
         let m = &self.motion;
         let ([y, z], [vy, vz]) = (m.position, m.velocity);
         let mut film = -(y * cos + z * sin) + self.clearance;
-        let mut slope = y * sin - z * cos;
+        let mut lobe_slope = T::constant(0.0);
         let mut rate = -(vy * cos + vz * sin);
         let angle = sin.atan2(cos) - m.profile_angle;
         for a in self.roundness {
             let n = f64::from(a.order);
             let (s, c) = (angle * n + a.phase).sin_cos();
             film -= c * a.amplitude;
-            slope += s * (a.amplitude * n);
+            lobe_slope += s * (a.amplitude * n);
             rate -= s * (a.amplitude * n) * m.profile_speed;
         }
+        let slope = y * sin - z * cos + lobe_slope;
         Place {
             film,
             inverse_film: T::constant(1.0) / film,
             slope,
+            lobe_slope,
             opening: (m.journal_speed + m.bush_speed) * slope + rate * 2.0,
             sliding: (m.journal_speed - m.bush_speed) * self.radius - vy * sin + vz * cos,
             normal: [cos, sin],

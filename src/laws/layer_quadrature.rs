@@ -12,6 +12,7 @@ use super::barus_film::BarusFilm;
 use super::layer_gap::{Gap, Place, parts};
 use super::lubricant_layer::{LubricantLayer, PressureShear};
 use crate::scalar::Real;
+use crate::scalar::math;
 use std::f64::consts::PI;
 
 /// Largest s for which a piece is integrated as if the film were isoviscous.
@@ -50,7 +51,7 @@ impl Piece {
     #[inline]
     fn at(&self, x: f64) -> (f64, f64) {
         if self.capped {
-            let (sin, cos) = x.sin_cos();
+            let (sin, cos) = math::sin_cos(x);
             (self.middle - self.half * cos, self.half * sin)
         } else {
             (x, 1.0)
@@ -133,7 +134,9 @@ impl<'a, T: Real, G: Gap<T>, P: Gap<f64>> Integrator<'a, T, G, P> {
         let mut samples = [0.0; 5];
         if !mild {
             let quarter = 0.25 * (x[1] - x[0]);
-            samples = [0.0, 1.0, 2.0, 3.0, 4.0].map(|i| self.coordinate(&piece, x[0] + i * quarter));
+            for (i, sample) in samples.iter_mut().enumerate() {
+                *sample = self.coordinate(&piece, x[0] + i as f64 * quarter);
+            }
         }
         self.panels(&piece, [arc.start, stretch], x, &samples, 0);
     }
@@ -148,13 +151,12 @@ impl<'a, T: Real, G: Gap<T>, P: Gap<f64>> Integrator<'a, T, G, P> {
     /// the middle and the quarters of `x`.
     fn panels(&mut self, piece: &Piece, map: [T; 2], x: [f64; 2], samples: &[f64; 5], depth: u32) {
         let (middle, half) = (0.5 * (x[0] + x[1]), 0.5 * (x[1] - x[0]));
-        let [from, to] = x.map(|x| piece.at(x).0);
+        let (from, to) = (piece.at(x[0]).0, piece.at(x[1]).0);
         let width = to - from;
         // Larger half axis of the ellipse through a pole.
         let (far, narrow) = (PI - 0.5 * (from + to).abs(), 2.0 * self.narrowness);
-        let [near_end, far_end] =
-            [far - 0.5 * width, far + 0.5 * width].map(|d| (d * d + narrow * narrow).sqrt());
-        let axis = (near_end + far_end) / width;
+        let to_pole = |d: f64| (d * d + narrow * narrow).sqrt();
+        let axis = (to_pole(far - 0.5 * width) + to_pole(far + 0.5 * width)) / width;
         let limit = self.film.coordinate(0.0, piece.capped).1;
         let terms = chebyshev(samples);
         let suits = |rule: &&Rule| {
@@ -217,6 +219,9 @@ impl<'a, T: Real, G: Gap<T>, P: Gap<f64>> Integrator<'a, T, G, P> {
                 let [y, z] = &mut self.sums.shear;
                 *y -= inward * cos;
                 *z -= inward * sin;
+            }
+            if law.turns_lobes() {
+                self.sums.moment -= line * place.lobe_slope * law.radius;
             }
         } else {
             along = along * weight;

@@ -53,7 +53,8 @@ pub enum PressureShear {
     Absent,
     /// The gradient within the wet arcs, but not across the jump of the pressure at their ends.
     WithinArc,
-    /// The gradient with that jump. Only then does the film dissipate at every motion.
+    /// The gradient with that jump, and the moment of the pressure on the lobes of a profile. Only then does the film
+    /// dissipate at every motion.
     WithEdges,
 }
 
@@ -78,6 +79,8 @@ pub struct LubricantLayer {
     pub pressure_shear: PressureShear,
     /// Roundness; empty for round surfaces.
     pub roundness: Vec<Harmonic>,
+    /// Whether the journal carries it, and not the bush.
+    pub profile_on_journal: bool,
 }
 
 impl LubricantLayer {
@@ -89,6 +92,14 @@ impl LubricantLayer {
         } else {
             self.profile_force(m, eccentricity.value(), direction.map(Real::value))
         }
+    }
+
+    /// Whether the pressure on lobes turns the journal.
+    #[inline]
+    pub(super) fn turns_lobes(&self) -> bool {
+        self.pressure_shear == PressureShear::WithEdges
+            && self.profile_on_journal
+            && !self.roundness.is_empty()
     }
 
     fn round_force<T: Real>(
@@ -299,6 +310,7 @@ mod tests {
             thickness: 80e-6,
             pressure_shear: PressureShear::WithinArc,
             roundness: Vec::new(),
+            profile_on_journal: true,
         }
     }
 

@@ -4,13 +4,15 @@
 //! h(th) = c - (y cos th + z sin th) - Sum_{n>=2} a_n cos(n (th - psi) + b_n)
 //! g(th) = (1/h^3) [((w_1 + w_2)/2) dh/dth + dh/dt],   kept only where g < 0 (Guembel)
 //! (F_y, F_z) = 2 eta0 R l^3 Int g (cos th, sin th) dth                          (two lands of width l)
-//! M = -4 pi eta0 (w_1 - w_2) R^3 l / (c sqrt(1 - eps^2))
+//! M = -4 pi eta0 (w_1 - w_2) R^3 l / (c sqrt(1 - eps^2)) + 1/2 Int p dh/dth dA - M_lobes
 //! ```
 //!
 //! c radial clearance, (y, z) centre of the journal in the bush, w_1 and w_2 speeds of journal and bush, psi angle of
 //! the profile, dh/dt with the profile turning. Valid for l/(2R) up to about 0.25, laminar isoviscous
-//! film. The moment uses the full film although the pressure is cut, as the paper does. Source: NTN Eq. 13-21, there
-//! for a bush at rest.
+//! film. The moment of sliding uses the full film although the pressure is cut, as the paper does. That of the pressure, half
+//! on each side, and on the lobes of a profile, Int p dw/dth dA on the body that carries them, is `pressure_moment`: without it,
+//! as in the paper, the film puts energy into a journal that whirls fast enough far off the centre. Source: NTN Eq. 13-21,
+//! there for a bush at rest.
 //!
 //! With Sommerfeld's substitution cos b = (cos g + eps)/(1 + eps cos g) the integrals of a round cage are
 //! elementary, so its force is exact. With roundness the same substitution places the quadrature nodes where the
@@ -19,6 +21,7 @@
 
 use super::journal::{FilmForce, Harmonic, JournalMotion, NoFilm};
 use crate::scalar::Real;
+use crate::scalar::math;
 use std::f64::consts::{PI, TAU};
 
 /// A film thinner than this share of the clearance counts as gone: less than a molecule in any real guide, and too
@@ -38,8 +41,12 @@ pub struct ShortBearing {
     pub land_width: f64,
     /// Whether dh/dt is included.
     pub squeeze: bool,
+    /// Whether the moment is that of the pressure, too; with it and the squeeze the film dissipates at every motion.
+    pub pressure_moment: bool,
     /// Roundness; empty for round surfaces.
     pub roundness: Vec<Harmonic>,
+    /// Whether the journal carries it, and not the bush.
+    pub profile_on_journal: bool,
 }
 
 /// Eccentricity in polar form; the direction is arbitrary (+y) when the cage is centred.
@@ -58,13 +65,20 @@ impl ShortBearing {
         if !exists {
             return Err(NoFilm { minimum_film: film.value() });
         }
-        let (force, minimum_film) = if self.roundness.is_empty() {
-            (self.round_force(m, &e), film)
+        let (force, slopes, minimum_film) = if self.roundness.is_empty() {
+            let force = self.round_force(m, &e);
+            (force, eccentric(m.position, force), film)
         } else {
             self.profile_force(m, &e)?
         };
         let scale = -4.0 * PI * self.viscosity * self.radius.powi(3) * self.land_width / self.clearance;
-        let moment = (m.journal_speed - m.bush_speed) * scale / one_minus_square(e.ratio).sqrt();
+        let mut moment = (m.journal_speed - m.bush_speed) * scale / one_minus_square(e.ratio).sqrt();
+        if self.pressure_moment {
+            moment += slopes * 0.5;
+            if self.profile_on_journal {
+                moment -= slopes - eccentric(m.position, force);
+            }
+        }
         Ok(FilmForce { pressure: force, shear: [T::constant(0.0); 2], moment, minimum_film })
     }
 
@@ -125,12 +139,12 @@ impl ShortBearing {
         [radial * dy - tangential * dz, radial * dz + tangential * dy]
     }
 
-    /// Force with a roundness profile, by Gauss quadrature on panels between the sign changes of g.
+    /// Force with a roundness profile, the integral of p dh/dtheta in N m, and the thinnest film, by Gauss quadrature on panels between the sign changes of g.
     fn profile_force<T: Real>(
         &self,
         m: &JournalMotion<T>,
         e: &Eccentricity<T>,
-    ) -> Result<([T; 2], T), NoFilm> {
+    ) -> Result<([T; 2], T, T), NoFilm> {
         let highest = self.roundness.iter().map(|a| a.order).max().unwrap_or(2) as usize;
         // The substitution widens panels on the far side by up to (1 + eps)/q.
         let q = one_minus_square(e.ratio.value()).sqrt();
@@ -146,7 +160,7 @@ impl ShortBearing {
         };
         let plain_e = Eccentricity { ratio: e.ratio.value(), direction: e.direction.map(Real::value) };
         let rate = |gamma: f64| self.profile_node(&plain, &plain_e, gamma).rate;
-        let mut sum = [T::constant(0.0); 2];
+        let mut sum = [T::constant(0.0); 3];
         let mut thinnest = T::constant(f64::INFINITY);
         let mut visit = |gamma: f64| {
             let node = self.profile_node(m, e, gamma);
@@ -178,18 +192,20 @@ impl ShortBearing {
                 let weight = node.rate / (node.film * node.film * node.film) * node.arc * (w * half);
                 sum[0] += weight * node.direction[0];
                 sum[1] += weight * node.direction[1];
+                sum[2] -= weight * node.slope;
             }
         }
         let defined = thinnest.value() > 0.0 && sum[0].value().is_finite() && sum[1].value().is_finite();
         if !defined {
             return Err(NoFilm { minimum_film: thinnest.value() });
         }
-        Ok((sum.map(|s| s * self.force_scale()), thinnest))
+        let [y, z, slopes] = sum.map(|s| s * self.force_scale());
+        Ok(([y, z], slopes, thinnest))
     }
 
     /// Film thickness, h^3 g and the arc element at the Sommerfeld angle `gamma`.
     fn profile_node<T: Real>(&self, m: &JournalMotion<T>, e: &Eccentricity<T>, gamma: f64) -> ProfileNode<T> {
-        let (sin_g, cos_g) = gamma.sin_cos();
+        let (sin_g, cos_g) = math::sin_cos(gamma);
         let stretch = e.ratio * cos_g + 1.0;
         let q = one_minus_square(e.ratio).sqrt();
         let (cos_b, sin_b) = ((e.ratio + cos_g) / stretch, q * sin_g / stretch);
@@ -211,7 +227,7 @@ impl ShortBearing {
         if self.squeeze {
             rate += time_rate;
         }
-        ProfileNode { film, rate, arc: q / stretch, direction: [cos_t, sin_t] }
+        ProfileNode { film, rate, slope, arc: q / stretch, direction: [cos_t, sin_t] }
     }
 }
 
@@ -219,9 +235,17 @@ struct ProfileNode<T> {
     film: T,
     /// h^3 g.
     rate: T,
+    /// dh/dtheta, m/rad.
+    slope: T,
     /// d(theta)/d(gamma).
     arc: T,
     direction: [T; 2],
+}
+
+/// What the eccentricity makes of the integral of p dh/dtheta, N m, with this force of the pressure.
+#[inline]
+fn eccentric<T: Real>([y, z]: [T; 2], [fy, fz]: [T; 2]) -> T {
+    z * fy - y * fz
 }
 
 #[inline]
@@ -263,7 +287,9 @@ mod tests {
             clearance: 0.2225e-3,
             land_width: 7e-3,
             squeeze: true,
+            pressure_moment: false,
             roundness: Vec::new(),
+            profile_on_journal: true,
         }
     }
 

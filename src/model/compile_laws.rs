@@ -19,6 +19,7 @@ use crate::laws::short_bearing::ShortBearing;
 use crate::laws::solid_contact::SolidContact;
 use crate::laws::solid_friction::SolidFriction;
 use crate::laws::traction::Traction;
+use crate::scalar::math;
 use crate::scene::{self, Cage, ContactLaws, Guide, GuideRing, Lubricant, Material, Scene};
 use crate::scene::{bad_scene, needed};
 use std::f64::consts::TAU;
@@ -279,7 +280,9 @@ impl Builder<'_> {
                 clearance,
                 land_width: film.land_width,
                 squeeze: film.squeeze,
+                pressure_moment: film.pressure_moment,
                 roundness,
+                profile_on_journal: guide.ring == GuideRing::OuterRing,
             })),
             Some(scene::GuideFilm::LubricantLayer(film)) => Some(GuideFilm::LubricantLayer(LubricantLayer {
                 viscosity: self.viscosity("lubricant_layer")?,
@@ -295,6 +298,7 @@ impl Builder<'_> {
                     scene::PressureShear::WithEdges => PressureShear::WithEdges,
                 },
                 roundness,
+                profile_on_journal: guide.ring == GuideRing::OuterRing,
             })),
         };
         let share = guide.film_share.as_ref();
@@ -327,7 +331,7 @@ fn highest_place(roundness: &[Harmonic]) -> f64 {
     (0..samples)
         .map(|i| {
             let angle = TAU * f64::from(i) / f64::from(samples);
-            roundness.iter().map(|a| a.amplitude * (f64::from(a.order) * angle + a.phase).cos()).sum()
+            roundness.iter().map(|a| a.amplitude * math::cos(f64::from(a.order) * angle + a.phase)).sum()
         })
         .fold(0.0, f64::max)
 }

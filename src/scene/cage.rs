@@ -181,8 +181,15 @@ pub struct ShortBearingFilm {
     /// Width of one of the two lands, m.
     pub land_width: f64,
     /// Whether the film is squeezed (dh/dt of the moving centre and of the turning roundness).
-    #[serde(default)]
+    #[serde(default = "present")]
     pub squeeze: bool,
+    /// Whether the pressure turns the cage, too. Without it, as in the paper, a film can give energy to a cage that whirls.
+    #[serde(default = "present")]
+    pub pressure_moment: bool,
+}
+
+fn present() -> bool {
+    true
 }
 
 /// Lubricant layer of uniform thickness on one land. Needs the lubricant's pressure-viscosity coefficient.
@@ -209,10 +216,11 @@ pub struct LayerFilm {
 pub enum PressureShear {
     /// None: the stress of the sliding surfaces alone.
     Absent,
-    /// The gradient within the wet arcs, not across the jump of the pressure at their ends.
-    #[default]
+    /// The gradient within the wet arcs, not across the jump of the pressure at their ends, as the paper reads.
     WithinArc,
-    /// The gradient with that jump.
+    /// The gradient with that jump, and the moment of the pressure on the lobes of a profile. Only then does the film take
+    /// energy at every motion.
+    #[default]
     WithEdges,
 }
 

@@ -3,6 +3,7 @@
 use super::check::{Range, bad, number, optional, range};
 use super::validate::*;
 use super::*;
+use crate::scalar::math;
 use std::f64::consts::FRAC_PI_2;
 
 const POCKET_CLEARANCE: Range = range(1e-7, 1e-2, "m");
@@ -53,7 +54,7 @@ impl Scene {
                 Pocket::LubricatedCylinder(pocket) => pocket.radial_clearance,
                 Pocket::SolidPlane(pocket) => pocket.diametral_clearance / 2.0,
             };
-            let start = self.initial.cage.y.hypot(self.initial.cage.z);
+            let start = math::hypot(self.initial.cage.y, self.initial.cage.z);
             if start > 2.0 * clearance {
                 let text = format!(
                     "the centre {start:?} m off presses elements through pockets of {clearance:?} m clearance; at most \
@@ -77,9 +78,9 @@ impl Scene {
         let element = self.element_radius();
         let radius = element + pocket.radial_clearance;
         // Elements start beside each other in their pockets; radially, the edges must not reach into them.
-        let edge = radius * pocket.half_angle.sin();
+        let edge = radius * math::sin(pocket.half_angle);
         let discriminant = edge * edge - (radius * radius - element * element);
-        let start = self.initial.cage.y.hypot(self.initial.cage.z);
+        let start = math::hypot(self.initial.cage.y, self.initial.cage.z);
         if discriminant > 0.0 && start > edge - discriminant.sqrt() {
             let text = format!(
                 "the centre {start:?} m off pushes pocket edges into rollers; at most {:e} m",
@@ -176,7 +177,7 @@ impl Scene {
             (GuideRing::InnerRing, Some(RingMotion::Fixed(position))) => *position,
             _ => PlaneVector::default(),
         };
-        let start = (self.initial.cage.y - ring.y).hypot(self.initial.cage.z - ring.z);
+        let start = math::hypot(self.initial.cage.y - ring.y, self.initial.cage.z - ring.z);
         // A solid contact may start pressed, but not through the ring.
         let room = if guide.solid.is_some() { 2.0 * clearance } else { clearance - roundness };
         if start >= room {

@@ -6,5 +6,6 @@ mod common;
 mod balance;
 mod continuity;
 mod effects;
+mod passive;
 mod static_equilibrium;
 mod symmetry;

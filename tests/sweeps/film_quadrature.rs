@@ -145,13 +145,24 @@ impl<'a> Reference<'a> {
         [-r * pressure * cos, -r * pressure * sin, r * shear * sin, -r * shear * cos, -r * r * shear]
     }
 
+    /// Moment per angle of the pressure on the lobes of the journal, by which it holds back what turns them.
+    fn on_lobes(&self, d: f64, section: &Section, pressure: f64) -> f64 {
+        let turns = self.layer.profile_on_journal && self.layer.pressure_shear == PressureShear::WithEdges;
+        let lobes = section.film[1] - self.eccentricity * d.sin();
+        if turns { self.layer.radius * pressure * lobes } else { 0.0 }
+    }
+
     /// Gauss sum over a part of a segment, whose ends are square-root points: d = a + (b - a) t^2 (3 - 2 t).
     fn panel(&self, [a, b]: [f64; 2], [from, to]: [f64; 2]) -> Sums {
         self.along.iter().fold([0.0; 5], |sums, (node, weight)| {
             let t = from + (to - from) * node;
             let d = a + (b - a) * t * t * (3.0 - 2.0 * t);
             let step = weight * (to - from) * (b - a) * 6.0 * t * (1.0 - t);
-            combined(&sums, &self.acting(d, self.line_loads(&self.section(d))), |sum, f| sum + step * f)
+            let section = self.section(d);
+            let loads = self.line_loads(&section);
+            let mut acting = self.acting(d, loads);
+            acting[4] -= self.on_lobes(d, &section, loads[0]);
+            combined(&sums, &acting, |sum, f| sum + step * f)
         })
     }
 
@@ -312,6 +323,7 @@ fn random_layer(random: &mut Random) -> (LubricantLayer, f64) {
         thickness,
         pressure_shear: if random.chance(0.5) { PressureShear::WithEdges } else { PressureShear::WithinArc },
         roundness: Vec::new(),
+        profile_on_journal: true,
     };
     (layer, e)
 }
@@ -323,7 +335,9 @@ fn short_bearing(layer: &LubricantLayer, squeeze: bool) -> ShortBearing {
         clearance: layer.clearance,
         land_width: layer.width,
         squeeze,
+        pressure_moment: false,
         roundness: layer.roundness.clone(),
+        profile_on_journal: true,
     }
 }
 
@@ -476,6 +490,7 @@ fn hard_states_agree() {
             thickness,
             pressure_shear: shear,
             roundness,
+            profile_on_journal: true,
         };
         let motion = JournalMotion {
             position: [y, z],
