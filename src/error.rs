@@ -38,13 +38,15 @@ pub enum Status {
     Cancelled = -14,
     /// The limit on the wall time was reached.
     OutOfTime = -15,
+    /// A run did not keep what its preset promises.
+    Untrusted = -16,
     /// A defect in the library; the object should be freed.
     Internal = -99,
 }
 
 impl Status {
     /// All kinds, in the order of their codes.
-    pub const ALL: [Status; 17] = [
+    pub const ALL: [Status; 18] = [
         Status::Ok,
         Status::NullArgument,
         Status::WrongSize,
@@ -61,6 +63,7 @@ impl Status {
         Status::BadSnapshot,
         Status::Cancelled,
         Status::OutOfTime,
+        Status::Untrusted,
         Status::Internal,
     ];
 
@@ -83,6 +86,7 @@ impl Status {
             Status::BadSnapshot => "ERR_BAD_SNAPSHOT\0",
             Status::Cancelled => "ERR_CANCELLED\0",
             Status::OutOfTime => "ERR_OUT_OF_TIME\0",
+            Status::Untrusted => "ERR_UNTRUSTED\0",
             Status::Internal => "ERR_INTERNAL\0",
         }
     }

@@ -16,6 +16,8 @@
 //! }
 //! ```
 
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
 pub mod capi;
 pub mod contact;
 mod error;

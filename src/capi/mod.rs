@@ -60,6 +60,8 @@ pub const CAGEDYN_ERR_BAD_SNAPSHOT: i32 = -13;
 pub const CAGEDYN_ERR_CANCELLED: i32 = -14;
 /// The limit on the wall time was reached, see cagedyn_sim_set_wall_time_limit().
 pub const CAGEDYN_ERR_OUT_OF_TIME: i32 = -15;
+/// A run did not keep what its preset promises, see cagedyn_sim_trust().
+pub const CAGEDYN_ERR_UNTRUSTED: i32 = -16;
 /// A defect in the library; free the object.
 pub const CAGEDYN_ERR_INTERNAL: i32 = -99;
 
@@ -113,6 +115,7 @@ mod tests {
             CAGEDYN_ERR_BAD_SNAPSHOT,
             CAGEDYN_ERR_CANCELLED,
             CAGEDYN_ERR_OUT_OF_TIME,
+            CAGEDYN_ERR_UNTRUSTED,
             CAGEDYN_ERR_INTERNAL,
         ];
         assert_eq!(constants.to_vec(), Status::ALL.map(|s| s as i32).to_vec());

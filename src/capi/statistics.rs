@@ -33,6 +33,8 @@ const STATISTIC_NAMES: [&CStr; STATISTICS.len()] = [
     c"failed_not_finite",
     c"failed_no_slope",
     c"jacobians",
+    c"undone_steps",
+    c"failed_out_of_pocket",
 ];
 
 /// Names of [`LAWS`], NUL-terminated.
@@ -70,6 +72,7 @@ pub extern "C" fn cagedyn_statistic_count() -> i64 {
 ///   vibration with a step to vibration with half of it), highest_frequency (rad/s): what "auto" found when it repeated
 ///   leapfrog steps with half the step.
 /// - failed_...: failed_steps by cause.
+/// - jacobians: derivatives of all forces; undone_steps: steps that "auto" took back because they missed energy.
 #[unsafe(no_mangle)]
 pub extern "C" fn cagedyn_statistic_name(index: i64) -> *const c_char {
     let name = usize::try_from(index).ok().and_then(|i| STATISTIC_NAMES.get(i));
@@ -87,9 +90,22 @@ pub unsafe extern "C" fn cagedyn_sim_statistics(sim: *const cagedyn_sim, out: *m
     status(|| unsafe { write_array("out", &shared("sim", sim)?.sim.statistics().values(), out, length) })
 }
 
+/// Whether the run since the start of the scene or the last set state kept what its preset promises: CAGEDYN_OK, or
+/// CAGEDYN_ERR_UNTRUSTED with the reasons in cagedyn_error_message(). Promised is that no more than 1 % (draft), 0.1 %
+/// (engineering) or 0.01 % (reference) of the energy that passed through is missing, and that leapfrog steps that were asked
+/// for are stable. Costs a force evaluation.
+///
+/// # Safety
+/// `sim` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_trust(sim: *mut cagedyn_sim) -> i32 {
+    // SAFETY: see above.
+    status(|| unsafe { exclusive("sim", sim) }?.sim.trust())
+}
+
 /// What the integration does and why, and what went wrong on the way, in one line for people: the method and the reason
-/// it was chosen for, the error found by checks, failed attempts with the contact or body that caused the last one. ""
-/// on failure. Lives until the next call for this simulation.
+/// it was chosen for, the error found by checks, failed attempts with the contact or body that caused the last one, what
+/// speaks against trusting the run. "" on failure. Lives until the next call for this simulation.
 ///
 /// # Safety
 /// `sim` is NULL or a live handle.

@@ -20,7 +20,7 @@ use crate::laws::contact_pair::ContactMotion;
 use crate::scalar::{Numeric, Real};
 
 /// Motion of a roller in cylindrical coordinates.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RollerMotion<T> {
     /// rho, radial offset from the pitch circle, m.
     pub radial_offset: T,

@@ -278,8 +278,17 @@ fn row_weights<T: Number, const N: usize>(a: &[[T; N]; N]) -> Option<[f64; N]> {
     if !columns.iter().sum::<f64>().is_finite() {
         return None;
     }
-    let columns = columns.map(inverse_power);
-    Some(a.map(|row| inverse_power(row.iter().zip(&columns).map(|(a, c)| a.norm1() * c).sum())))
+    for x in &mut columns {
+        *x = inverse_power(*x);
+    }
+    let mut weights = [0.0; N];
+    for (weight, row) in weights.iter_mut().zip(a) {
+        for (a, c) in row.iter().zip(&columns) {
+            *weight += a.norm1() * c;
+        }
+        *weight = inverse_power(*weight);
+    }
+    Some(weights)
 }
 
 /// A power of two near 1/x, of a finite x >= 0.

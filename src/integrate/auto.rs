@@ -1,16 +1,18 @@
 //! Chooses among the other methods, from what is known about a system and from what it does.
 //!
-//! - A system that vibrates most of the time is followed in its statistics: the leapfrog, watched over by [`Watch`]. When
+//! - A system that vibrates most of the time is followed in its statistics: the leapfrog, monitored by [`StepMonitor`]. When
 //!   it fails, or would need steps that cost as much as error control, the Rosenbrock method takes over until probes
-//!   say that the leapfrog would do again. It also has the quiet phases, in which it costs little more: see `integrate::quiet`.
+//!   say that the leapfrog would do again. It also has the quiet phases, in which it costs little more.
 //! - Any other system, or with a tolerance that was asked for, is followed in its trajectory: Dormand-Prince or the
 //!   Rosenbrock method, whichever advances further per evaluation.
+//!
+//! Every stretch of steps is judged by the energy that it misses. A wrong one is made again: those of the leapfrog with error
+//! control, those of error control with a tenth of the tolerance.
 
 use super::control::{Estimate, Law};
 use super::ledger::Ledger;
-use super::quiet::Quiet;
-use super::race::Race;
-use super::watch::{Expectation, Findings, Verdict, Watch};
+use super::selection::Selection;
+use super::step_monitor::{Expectation, Findings, StepMonitor, Verdict};
 use super::{Applied, DormandPrince, Leapfrog, Quadratures, Reader, Rosenbrock, Stepper, System};
 
 /// Evaluations of an attempt of Dormand-Prince, of the Rosenbrock method, and of its start from a new state, where the
@@ -18,7 +20,7 @@ use super::{Applied, DormandPrince, Leapfrog, Quadratures, Reader, Rosenbrock, S
 const EXPLICIT_COST: f64 = 6.0;
 const IMPLICIT_COST: f64 = 5.0;
 const LINEARIZATION_COST: f64 = 5.0;
-/// Places of the methods in the race.
+/// Places of the methods in the selection.
 const EXPLICIT: usize = 0;
 const IMPLICIT: usize = 1;
 /// Failed attempts in a row after which the leapfrog gives way, and after which one method with error control does.
@@ -26,8 +28,21 @@ const PATIENCE: u64 = 3;
 const LONG_PATIENCE: u64 = 12;
 /// At most this many changes for that reason before a step is accepted.
 const MOST_CHANGES: u64 = 4;
-/// Evaluations of error control between two probes whether the leapfrog would do.
-const PROBE_INTERVAL: f64 = 500.0;
+/// Stretches that error control has at the start, the first of which are short, and after an event; and the least between two
+/// events that it has for this reason: events may follow each other closely.
+const START: u64 = 5;
+const TRANSIENT: u64 = 8;
+const EVENT_INTERVAL: u64 = 256;
+/// Stretches of the leapfrog between trials of error control: at first, and at most.
+const FIRST_PAUSE: u64 = 256;
+const LONGEST_PAUSE: u64 = 64 * FIRST_PAUSE;
+/// Stretches that are followed more closely after a wrong one: at first, and at most. As many right ones of the method before
+/// make it the first number again.
+const FIRST_HOLD: u64 = 4;
+const LONGEST_HOLD: u64 = 64 * FIRST_HOLD;
+/// Each level of strictness divides the tolerance by this, and there are so many.
+const STRICTER: f64 = 10.0;
+const STRICTEST: u64 = 5;
 
 /// How to follow a system.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,6 +59,8 @@ pub struct Aim {
     pub affordable: f64,
     /// First step of error control, s.
     pub first_step: f64,
+    /// Share of the energy that a run may miss.
+    pub missing_energy: f64,
 }
 
 impl Aim {
@@ -63,6 +80,9 @@ pub enum Kind {
     /// [`Rosenbrock`].
     Rosenbrock,
 }
+
+/// The methods, by their numbers.
+const KINDS: [Kind; 3] = [Kind::Leapfrog, Kind::DormandPrince, Kind::Rosenbrock];
 
 /// Why a method was chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -112,9 +132,8 @@ pub struct Auto {
     leapfrog: Leapfrog,
     explicit: DormandPrince,
     implicit: Rosenbrock,
-    watch: Watch,
-    race: Race,
-    quiet: Quiet,
+    monitor: StepMonitor,
+    selection: Selection,
     ledger: Ledger,
     active: Kind,
     reason: Reason,
@@ -125,8 +144,26 @@ pub struct Auto {
     /// Attempts since the last change or accepted step, and changes because of them.
     attempts: u64,
     gave_way: u64,
-    /// Evaluations of error control until the next probe of the leapfrog.
-    probe: f64,
+    /// Whether a stretch has just been judged.
+    judged: bool,
+    /// The method of that stretch; not taken back with it.
+    wrong: Kind,
+    /// Simulated time (s) and evaluations of error control in the stretch.
+    advanced: f64,
+    cost: f64,
+    /// Level of strictness of error control.
+    strictness: u64,
+    /// Stretches until it may be less strict or give way, and those after the next wrong one.
+    hold: u64,
+    next_hold: u64,
+    /// Right stretches since the last change.
+    right: u64,
+    /// Stretches of the leapfrog until error control is tried, and between trials.
+    wait: u64,
+    pause: u64,
+    /// Stretches until an event calls for error control again, and whether one does.
+    event_wait: u64,
+    event: bool,
     steps: [u64; 3],
     changes: u64,
     /// Whether the state was set since the last refresh, which is no event of the system then.
@@ -161,17 +198,27 @@ impl Auto {
             leapfrog: Leapfrog::new(system),
             explicit: DormandPrince::new(system, &tolerance),
             implicit: Rosenbrock::new(system, &tolerance),
-            watch: Watch::new(system, aim.expected, &aim.units),
-            race: Race::new(EXPLICIT),
-            quiet: Quiet::new(),
-            ledger: Ledger::new(system.velocities()),
+            monitor: StepMonitor::new(system, aim.expected, &aim.units),
+            selection: Selection::new(EXPLICIT),
+            ledger: Ledger::new(system.velocities(), aim.missing_energy),
             active: Kind::DormandPrince,
             reason: Reason::Trajectory,
             last_steps: [aim.first_step; 2],
             h: aim.first_step,
             attempts: 0,
             gave_way: 0,
-            probe: 0.0,
+            judged: false,
+            wrong: Kind::Leapfrog,
+            advanced: 0.0,
+            cost: 0.0,
+            strictness: 0,
+            hold: 0,
+            next_hold: 0,
+            right: 0,
+            wait: 0,
+            pause: 0,
+            event_wait: 0,
+            event: false,
             steps: [0; 3],
             changes: 0,
             placed: true,
@@ -183,17 +230,20 @@ impl Auto {
     }
 
     fn start_over(&mut self) {
-        self.watch.forget();
-        self.quiet = Quiet::new();
+        self.monitor.forget();
         self.ledger.forget();
         self.last_steps = [self.aim.first_step; 2];
-        (self.attempts, self.gave_way, self.probe) = (0, 0, 0.0);
+        (self.attempts, self.gave_way) = (0, 0);
+        (self.judged, self.advanced, self.cost) = (false, 0.0, 0.0);
+        (self.strictness, self.hold, self.next_hold, self.right) = (0, START, FIRST_HOLD, 0);
+        (self.wait, self.pause) = (0, FIRST_PAUSE);
+        (self.event_wait, self.event) = (0, false);
         (self.steps, self.changes) = ([0; 3], 0);
         (self.active, self.reason) = match self.aim.statistics {
             true => (Kind::Rosenbrock, Reason::Quiet),
             false => (Kind::DormandPrince, Reason::Trajectory),
         };
-        self.race = Race::new(if self.aim.statistics { IMPLICIT } else { EXPLICIT });
+        self.selection = Selection::new(if self.aim.statistics { IMPLICIT } else { EXPLICIT });
     }
 
     /// Goes on with another method from the present state at time `t`. Returns the step to take, or nothing if the
@@ -210,99 +260,123 @@ impl Auto {
         }
         self.reason = reason;
         self.changes += 1;
-        self.attempts = 0;
-        self.ledger.hurry();
+        (self.attempts, self.right) = (0, 0);
+        (self.advanced, self.cost) = (0.0, 0.0);
         Some(match kind {
-            Kind::Leapfrog => self.watch.step(),
+            Kind::Leapfrog => self.monitor.step(),
             Kind::DormandPrince => self.last_steps[EXPLICIT],
             Kind::Rosenbrock => self.last_steps[IMPLICIT],
         })
     }
 
+    /// From the leapfrog to error control.
+    fn control_errors<S: System>(&mut self, reason: Reason, system: &mut S, t: f64) -> Option<f64> {
+        self.selection = Selection::new(IMPLICIT);
+        self.last_steps = [self.monitor.step(); 2];
+        self.change_to(Kind::Rosenbrock, reason, system, t)
+    }
+
     fn review_leapfrog<S: System>(&mut self, system: &mut S, t: f64, t_last: f64) -> Option<f64> {
-        if self.attempts == 0 && self.quiet.begins() {
-            self.race = Race::new(IMPLICIT);
-            self.last_steps = [self.watch.step(); 2];
-            let step = self.change_to(Kind::Rosenbrock, Reason::Quiet, system, t);
-            if step.is_none() {
-                self.quiet.end();
-            }
-            return step;
+        let stretch_over = std::mem::take(&mut self.judged);
+        if stretch_over {
+            self.note_right_stretch();
+            self.wait = self.wait.saturating_sub(1);
         }
-        let missed = self.attempts == 0 && self.misses_energy(system, t);
-        let verdict = if missed {
-            self.ledger.settle();
-            self.watch.refine()
-        } else {
-            self.watch.look(system, &self.leapfrog, t, t_last, self.ledger.can_spare())
-        };
-        let reason = match verdict {
+        let event = std::mem::take(&mut self.event);
+        if event || stretch_over && self.wait == 0 {
+            self.hold = if event { TRANSIENT } else { 0 };
+            return self.control_errors(Reason::Quiet, system, t);
+        }
+        let can_spare = self.ledger.can_spare();
+        let reason = match self.monitor.look(system, &self.leapfrog, t, t_last, can_spare) {
             _ if self.attempts >= PATIENCE => Reason::Failures,
-            Verdict::Hopeless if missed => Reason::Balance,
             Verdict::Hopeless => Reason::Cost,
             Verdict::Keep => return None,
             Verdict::Change => {
                 self.changes += 1;
-                return Some(self.watch.step());
+                return Some(self.monitor.step());
             }
         };
-        self.watch.give_up();
-        self.race = Race::new(IMPLICIT);
-        self.last_steps = [self.watch.step(); 2];
-        self.probe = PROBE_INTERVAL;
-        self.change_to(Kind::Rosenbrock, reason, system, t)
+        self.monitor.give_up();
+        self.hold = 0;
+        self.control_errors(reason, system, t)
     }
 
-    fn review_race<S: System>(&mut self, system: &mut S, t: f64, t_last: f64) -> Option<f64> {
+    /// After a right stretch of error control: whether the leapfrog takes over, or how strict the next one is.
+    fn ease<S: System>(&mut self, system: &mut S, t: f64, t_last: f64) -> Option<f64> {
+        let (advanced, cost) = (std::mem::take(&mut self.advanced), std::mem::take(&mut self.cost));
+        self.note_right_stretch();
+        if self.hold > 0 {
+            self.hold -= 1;
+            return None;
+        }
+        if self.strictness > 0 {
+            self.strictness -= 1;
+            self.hold = FIRST_HOLD;
+            return None;
+        }
+        if !self.aim.statistics {
+            return None;
+        }
         if self.reason == Reason::Quiet {
-            if self.quiet.ends(self.aim.affordable, self.watch.step()) {
-                let step = self.change_to(Kind::Leapfrog, Reason::Vibration, system, t)?;
-                return self.review_leapfrog(system, t, t_last).or(Some(step));
+            if advanced * self.aim.affordable >= cost * self.monitor.step() {
+                self.pause = FIRST_PAUSE;
+                return None;
             }
-        } else if self.aim.statistics && self.probe <= 0.0 {
-            self.probe = PROBE_INTERVAL;
-            if self.may_leapfrog(system, t, t_last) {
-                return self.change_to(Kind::Leapfrog, Reason::Vibration, system, t);
-            }
+            (self.wait, self.pause) = (self.pause, (2 * self.pause).min(LONGEST_PAUSE));
+        } else if !self.may_leapfrog(system, t, t_last) {
+            return None;
+        }
+        self.wait = self.wait.max(FIRST_PAUSE);
+        self.change_to(Kind::Leapfrog, Reason::Vibration, system, t)
+    }
+
+    fn note_right_stretch(&mut self) {
+        self.right += 1;
+        self.event_wait = self.event_wait.saturating_sub(1);
+        if self.right >= self.next_hold {
+            self.next_hold = FIRST_HOLD;
+        }
+    }
+
+    fn review_error_control<S: System>(&mut self, system: &mut S, t: f64, t_last: f64) -> Option<f64> {
+        if std::mem::take(&mut self.event) {
+            self.hold = self.hold.max(TRANSIENT);
+        }
+        if std::mem::take(&mut self.judged)
+            && let Some(step) = self.ease(system, t, t_last)
+        {
+            return match self.active {
+                Kind::Leapfrog => self.review_leapfrog(system, t, t_last).or(Some(step)),
+                _ => Some(step),
+            };
         }
         let stuck = self.attempts >= LONG_PATIENCE && self.gave_way < MOST_CHANGES;
         if stuck {
             self.gave_way += 1;
-            if self.reason == Reason::Quiet {
-                self.quiet.end();
-            }
-            self.last_steps[self.race.active()] = self.h;
-            self.race.give_up();
+            self.last_steps[self.selection.active()] = self.h;
+            self.selection.give_up();
         }
         // In statistics the explicit method at loose tolerance drives the vibration: it only helps out.
-        let changed = stuck || (!self.aim.statistics || self.race.active() == EXPLICIT) && self.race.decide();
-        if self.reason == Reason::Trial && !self.race.on_trial() {
+        let changed =
+            stuck || (!self.aim.statistics || self.selection.active() == EXPLICIT) && self.selection.decide();
+        if self.reason == Reason::Trial && !self.selection.on_trial() {
             self.reason = Reason::Speed;
         }
         if !changed {
             return None;
         }
-        let kind = if self.race.active() == EXPLICIT { Kind::DormandPrince } else { Kind::Rosenbrock };
-        let reason = match self.race.on_trial() {
+        let kind = if self.selection.active() == EXPLICIT { Kind::DormandPrince } else { Kind::Rosenbrock };
+        let reason = match self.selection.on_trial() {
             _ if stuck => Reason::Failures,
             true => Reason::Trial,
             false => Reason::Speed,
         };
         let step = self.change_to(kind, reason, system, t);
         if step.is_none() {
-            self.race.give_up();
+            self.selection.give_up();
         }
         step
-    }
-
-    /// Whether a look at the balance says that the leapfrog misses too much, if it is time for one.
-    fn misses_energy<S: System>(&mut self, system: &mut S, t: f64) -> bool {
-        if !self.ledger.is_due() {
-            return false;
-        }
-        let state = Stepper::<S>::state(&self.leapfrog);
-        // A failure is the run's own in a moment.
-        self.ledger.look(system, t, state).is_ok() && self.ledger.misses_much()
     }
 
     /// Whether a probe says that the leapfrog could go on from the present state.
@@ -311,16 +385,14 @@ impl Auto {
         state.copy_from_slice(Stepper::<S>::state(self));
         Stepper::<S>::set_state(&mut self.leapfrog, &state);
         self.state = state;
-        self.ledger.look(system, t, Stepper::<S>::state(&self.leapfrog)).is_ok()
-            && self.ledger.can_spare()
+        self.ledger.can_spare()
             && self.leapfrog.refresh(system, t).is_ok()
-            && self.watch.probe(system, &self.leapfrog, t, t_last)
+            && self.monitor.probe(system, &self.leapfrog, t, t_last)
     }
 
     fn note_cost(&mut self, evaluations: f64) {
-        self.race.note_cost(evaluations);
-        self.quiet.note_cost(evaluations);
-        self.probe -= evaluations;
+        self.selection.note_cost(evaluations);
+        self.cost += evaluations;
     }
 }
 
@@ -332,20 +404,20 @@ impl<S: System> Stepper<S> for Auto {
     }
 
     fn refresh(&mut self, system: &mut S, t: f64) -> Result<(), S::Fault> {
-        if !std::mem::take(&mut self.placed) {
-            self.quiet.note_event();
+        if !std::mem::take(&mut self.placed) && self.aim.statistics && self.event_wait == 0 {
+            (self.event, self.event_wait) = (true, EVENT_INTERVAL);
         }
         active!(self, S, refresh(system, t))
     }
 
     fn review(&mut self, system: &mut S, t: f64, t_last: f64) -> Option<f64> {
-        if self.aim.statistics && self.ledger.is_closed() {
+        if !self.ledger.is_open() {
             // A failure is the run's own in a moment.
-            self.ledger.look(system, t, active!(self, ref S, state())).ok();
+            self.ledger.open(system, t, active!(self, ref S, state())).ok();
         }
         match self.active {
             Kind::Leapfrog => self.review_leapfrog(system, t, t_last),
-            Kind::DormandPrince | Kind::Rosenbrock => self.review_race(system, t, t_last),
+            Kind::DormandPrince | Kind::Rosenbrock => self.review_error_control(system, t, t_last),
         }
     }
 
@@ -358,35 +430,82 @@ impl<S: System> Stepper<S> for Auto {
         let result = active!(self, S, attempt(system, t, h, t_last));
         self.attempts += 1;
         match self.active {
-            Kind::Leapfrog => {}
+            Kind::Leapfrog => return result,
             Kind::DormandPrince => self.note_cost(EXPLICIT_COST),
             Kind::Rosenbrock => self.note_cost(IMPLICIT_COST),
         }
-        result
+        let stricter = STRICTER.powi(self.strictness as i32);
+        result.map(|estimate| {
+            estimate.map(|estimate| Estimate { error: stricter * estimate.error, ..estimate })
+        })
     }
 
     fn accept(&mut self) {
-        if self.aim.statistics {
-            self.ledger.add(active!(self, ref S, integrals()));
-        }
+        self.ledger.add(active!(self, ref S, integrals()));
         active!(self, S, accept());
         self.steps[self.active as usize] += 1;
         (self.attempts, self.gave_way) = (0, 0);
         match self.active {
-            Kind::Leapfrog => {
-                self.watch.count_step();
-                self.quiet.count_step();
-            }
+            Kind::Leapfrog => self.monitor.count_step(),
             Kind::DormandPrince => {
                 self.last_steps[EXPLICIT] = self.h;
-                self.race.note_advance(self.h);
+                self.selection.note_advance(self.h);
+                self.advanced += self.h;
             }
             Kind::Rosenbrock => {
                 self.last_steps[IMPLICIT] = self.h;
-                self.race.note_advance(self.h);
-                self.quiet.note_advance(self.h);
+                self.selection.note_advance(self.h);
+                self.advanced += self.h;
                 self.note_cost(LINEARIZATION_COST);
             }
+        }
+    }
+
+    fn is_judged(&self) -> bool {
+        true
+    }
+
+    fn judge(&mut self, system: &mut S, t: f64) -> bool {
+        // The leapfrog does not evaluate where it arrives; with error control a failure is the run's own in a moment.
+        let settled = self.ledger.settle(system, t, active!(self, ref S, state()));
+        let right = settled.unwrap_or(self.active != Kind::Leapfrog);
+        self.judged = true;
+        self.wrong = self.active;
+        right || self.active != Kind::Leapfrog && self.strictness == STRICTEST
+    }
+
+    /// The stretch may have begun with a change of method or strictness, which is undone, too.
+    fn go_back(&mut self, system: &mut S, t: f64) -> Option<f64> {
+        (self.hold, self.right) = (self.next_hold, 0);
+        self.next_hold = (2 * self.next_hold).min(LONGEST_HOLD);
+        if self.wrong == Kind::Leapfrog {
+            self.monitor.give_up();
+            self.reason = Reason::Balance;
+        } else {
+            self.strictness = (self.strictness + 1).min(STRICTEST);
+        }
+        if self.active == Kind::Leapfrog { self.control_errors(self.reason, system, t) } else { None }
+    }
+
+    fn keep(&self, out: &mut Vec<f64>) {
+        out.push(self.active as usize as f64);
+        active!(self, ref S, keep(out));
+    }
+
+    fn recall(&self, kept: &[f64], theta: f64, out: &mut [f64]) {
+        let Some((kind, kept)) = kept.split_first() else { return };
+        match KINDS[*kind as usize] {
+            Kind::Leapfrog => Stepper::<S>::recall(&self.leapfrog, kept, theta, out),
+            Kind::DormandPrince => Stepper::<S>::recall(&self.explicit, kept, theta, out),
+            Kind::Rosenbrock => Stepper::<S>::recall(&self.implicit, kept, theta, out),
+        }
+    }
+
+    fn applied_in<'a>(&'a self, kept: &'a [f64]) -> Option<Applied<'a>> {
+        let (kind, kept) = kept.split_first()?;
+        match KINDS[*kind as usize] {
+            Kind::Leapfrog => Stepper::<S>::applied_in(&self.leapfrog, kept),
+            Kind::DormandPrince | Kind::Rosenbrock => None,
         }
     }
 
@@ -416,23 +535,24 @@ impl<S: System> Stepper<S> for Auto {
             reason: self.reason,
             steps: self.steps,
             changes: self.changes,
-            leapfrog_step: self.watch.step(),
-            lead: self.race.lead(),
-            findings: *self.watch.findings(),
+            leapfrog_step: self.monitor.step(),
+            lead: self.selection.lead(),
+            findings: *self.monitor.findings(),
         })
     }
 
     /// All methods are saved, so that the length is always the same.
     fn save(&self, out: &mut Vec<f64>) {
         out.extend([self.active as usize as f64, self.reason as usize as f64]);
-        out.extend([self.last_steps[0], self.last_steps[1], self.h, self.attempts as f64, self.probe]);
-        out.push(self.gave_way as f64);
-        out.push(f64::from(u8::from(self.placed)));
+        out.extend([self.last_steps[0], self.last_steps[1], self.h, self.advanced, self.cost]);
+        out.extend([self.placed, self.judged, self.event].map(|x| f64::from(u8::from(x))));
+        let counts = [self.attempts, self.gave_way, self.strictness, self.hold, self.next_hold];
+        out.extend(counts.map(|n| n as f64));
+        out.extend([self.right, self.wait, self.pause, self.event_wait].map(|n| n as f64));
         out.extend(self.steps.map(|n| n as f64));
         out.push(self.changes as f64);
-        self.watch.save(out);
-        self.race.save(out);
-        self.quiet.save(out);
+        self.monitor.save(out);
+        self.selection.save(out);
         self.ledger.save(out);
         Stepper::<S>::save(&self.leapfrog, out);
         Stepper::<S>::save(&self.explicit, out);
@@ -440,7 +560,6 @@ impl<S: System> Stepper<S> for Auto {
     }
 
     fn load(&mut self, from: &mut Reader<'_>) -> Option<()> {
-        let kinds = [Kind::Leapfrog, Kind::DormandPrince, Kind::Rosenbrock];
         let reasons = [
             Reason::Vibration,
             Reason::Trajectory,
@@ -451,22 +570,31 @@ impl<S: System> Stepper<S> for Auto {
             Reason::Balance,
             Reason::Quiet,
         ];
-        self.active = *kinds.get(usize::try_from(from.count()?).ok()?)?;
+        self.active = *KINDS.get(usize::try_from(from.count()?).ok()?)?;
         self.reason = *reasons.get(usize::try_from(from.count()?).ok()?)?;
         for step in self.last_steps.iter_mut().chain([&mut self.h]) {
             *step = from.number().filter(|h| *h > 0.0)?;
         }
-        self.attempts = from.count()?;
-        self.probe = from.number()?;
-        self.gave_way = from.count()?;
-        self.placed = from.flag()?;
+        self.advanced = from.number().filter(|x| *x >= 0.0)?;
+        self.cost = from.number().filter(|x| *x >= 0.0)?;
+        for flag in [&mut self.placed, &mut self.judged, &mut self.event] {
+            *flag = from.flag()?;
+        }
+        for count in [&mut self.attempts, &mut self.gave_way, &mut self.strictness, &mut self.hold] {
+            *count = from.count()?;
+        }
+        self.strictness = self.strictness.min(STRICTEST);
+        for count in
+            [&mut self.next_hold, &mut self.right, &mut self.wait, &mut self.pause, &mut self.event_wait]
+        {
+            *count = from.count()?;
+        }
         for steps in &mut self.steps {
             *steps = from.count()?;
         }
         self.changes = from.count()?;
-        self.watch.load(from)?;
-        self.race.load(from)?;
-        self.quiet.load(from)?;
+        self.monitor.load(from)?;
+        self.selection.load(from)?;
         self.ledger.load(from)?;
         Stepper::<S>::load(&mut self.leapfrog, from)?;
         Stepper::<S>::load(&mut self.explicit, from)?;

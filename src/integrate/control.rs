@@ -6,6 +6,7 @@
 //! (smooth limiter).
 
 use super::System;
+use crate::scalar::math;
 
 /// Aim at this share of the largest step that the error estimate allows.
 const SAFETY: f64 = 0.9;
@@ -124,11 +125,11 @@ impl Controller {
     /// Factor for the next step after an accepted one with the error `error` <= 1.
     pub fn accepted(&mut self, error: f64, law: Law) -> f64 {
         let Law { order, exponents: [now, last, change] } = law;
-        let aim = SAFETY.powf(order);
+        let aim = math::powf(SAFETY, order);
         let error = error.max(SMALLEST_ERROR) / aim;
-        let followed = error.powf(-now / order) * self.last_error.powf(-last / order);
-        let wanted = followed * self.last_change.powf(-change);
-        let limited = 1.0 + LIMIT * ((wanted - 1.0) / LIMIT).atan();
+        let followed = math::powf(error, -now / order) * math::powf(self.last_error, -last / order);
+        let wanted = followed * math::powf(self.last_change, -change);
+        let limited = 1.0 + LIMIT * math::atan((wanted - 1.0) / LIMIT);
         let factor = if self.after_rejection { limited.min(1.0) } else { limited };
         *self = Self { last_error: error, last_change: factor, after_rejection: false };
         factor
@@ -141,7 +142,7 @@ impl Controller {
         }
         self.after_rejection = true;
         let [most, least] = REJECTED_SHRINK;
-        (SAFETY * error.powf(-1.0 / law.order)).clamp(most, least)
+        (SAFETY * math::powf(error, -1.0 / law.order)).clamp(most, least)
     }
 
     /// Factor for the retry of a step whose evaluation failed.

@@ -69,8 +69,13 @@ impl GroupDamping {
     /// # Panics
     /// If there is no such group.
     pub(crate) fn solve_one(&self, group: usize, h: f64, p: [f64; 3], y: [f64; 3]) -> [f64; 3] {
-        let [implicit, full] = [&self.implicit, &self.full]
-            .map(|columns| columns.each_ref().map(|row| row.each_ref().map(|column| column[group])));
+        let (mut implicit, mut full) = ([[0.0; 3]; 3], [[0.0; 3]; 3]);
+        for i in 0..3 {
+            for k in 0..3 {
+                implicit[i][k] = self.implicit[i][k][group];
+                full[i][k] = self.full[i][k][group];
+            }
+        }
         solve(&implicit, &full, h, p, y)
     }
 

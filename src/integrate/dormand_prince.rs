@@ -83,6 +83,15 @@ impl DormandPrince {
     }
 }
 
+/// State at the fraction `theta` of the step with this dense output.
+fn interpolate(parts: [&[f64]; 5], theta: f64, out: &mut [f64]) {
+    let (x, y) = (theta, 1.0 - theta);
+    let [d0, d1, d2, d3, d4] = parts;
+    for (i, out) in out.iter_mut().enumerate() {
+        *out = d0[i] + x * (d1[i] + y * (d2[i] + x * (d3[i] + y * d4[i])));
+    }
+}
+
 impl<S: System> Stepper<S> for DormandPrince {
     fn set_state(&mut self, state: &[f64]) {
         self.state.copy_from_slice(state);
@@ -145,11 +154,16 @@ impl<S: System> Stepper<S> for DormandPrince {
     }
 
     fn interpolate(&self, theta: f64, out: &mut [f64]) {
-        let (x, y) = (theta, 1.0 - theta);
-        let [d0, d1, d2, d3, d4] = &self.dense;
-        for (i, out) in out.iter_mut().enumerate() {
-            *out = d0[i] + x * (d1[i] + y * (d2[i] + x * (d3[i] + y * d4[i])));
-        }
+        interpolate(self.dense.each_ref().map(Vec::as_slice), theta, out);
+    }
+
+    fn keep(&self, out: &mut Vec<f64>) {
+        self.dense.iter().for_each(|part| out.extend_from_slice(part));
+    }
+
+    fn recall(&self, kept: &[f64], theta: f64, out: &mut [f64]) {
+        let n = self.state.len();
+        interpolate(std::array::from_fn(|i| &kept[i * n..(i + 1) * n]), theta, out);
     }
 
     fn control(&self) -> Law {

@@ -2,6 +2,11 @@
 //!
 //! The driver runs ahead of the time its caller asks for and answers from the dense output of the last step, so
 //! the times of the questions never influence the steps.
+//!
+//! The steps of a method that is judged ([`Stepper::is_judged`]) count in stretches. The driver runs ahead by one of them and
+//! answers from the dense output of all its steps; nobody sees a stretch before it was judged. After a wrong one everything
+//! goes back to its start. From a new state or input on, stretches grow from a single step, so that a host that sets inputs
+//! often wastes few steps.
 
 use super::auto::Choice;
 use super::control::{Controller, Estimate, RECOVERY_GROWTH};
@@ -20,6 +25,12 @@ pub struct Limits {
     pub max_steps: u64,
 }
 
+/// Steps of a stretch, at most.
+const LONGEST_STRETCH: usize = 32;
+
+/// Most numbers that a method keeps of a step, per state.
+const MOST_KEPT: usize = 6;
+
 /// Counts of a driver.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Statistics {
@@ -31,6 +42,8 @@ pub struct Statistics {
     pub faults: u64,
     /// Events landed on.
     pub events: u64,
+    /// Steps that were taken back, which count nowhere else.
+    pub undone: u64,
     /// Smallest accepted step that was not cut by an event, s; zero before the first.
     pub smallest_step: f64,
     /// Largest accepted step, s.
@@ -76,6 +89,18 @@ pub enum Failure<F> {
     },
 }
 
+impl<F> Failure<F> {
+    /// The same at another time (s).
+    fn at(mut self, now: f64) -> Self {
+        let (Self::AtStart { time, .. }
+        | Self::StepTooSmall { time, .. }
+        | Self::TooManySteps { time, .. }
+        | Self::Interrupted { time, .. }) = &mut self;
+        *time = now;
+        self
+    }
+}
+
 /// Integrates a system with one method.
 pub struct Driver<S: System> {
     stepper: Box<dyn Stepper<S> + Send>,
@@ -91,6 +116,27 @@ pub struct Driver<S: System> {
     statistics: Statistics,
     /// Integrals of the system's quadratures up to `from`, and over the last step.
     integrals: [Quadratures; 2],
+    /// Number of steps of the next stretch.
+    length: usize,
+    /// Steps of the last stretch, of which `made` count; none with a method that is not judged.
+    stretch: Vec<Step>,
+    made: usize,
+    /// Whether the host stopped the run within the stretch; what was made of it then has yet to be judged.
+    unfinished: bool,
+    /// All of this before the stretch.
+    mark: Vec<f64>,
+}
+
+/// One step of a stretch.
+#[derive(Default)]
+struct Step {
+    /// Its time, s.
+    from: f64,
+    to: f64,
+    /// Integrals up to `from`, and over the step.
+    integrals: [Quadratures; 2],
+    /// What the stepper keeps of it.
+    kept: Vec<f64>,
 }
 
 /// A step size, and whether an event cut it.
@@ -105,7 +151,7 @@ struct Plan {
 impl<S: System> Driver<S> {
     /// A driver at rest; [`Driver::start`] comes next.
     pub fn new(stepper: Box<dyn Stepper<S> + Send>, limits: Limits) -> Self {
-        Self {
+        let mut driver = Self {
             stepper,
             limits,
             from: 0.0,
@@ -116,7 +162,19 @@ impl<S: System> Driver<S> {
             needs_refresh: true,
             statistics: Statistics::default(),
             integrals: Default::default(),
+            length: 1,
+            stretch: Vec::new(),
+            made: 0,
+            unfinished: false,
+            mark: Vec::new(),
+        };
+        if driver.stepper.is_judged() {
+            let room = MOST_KEPT * driver.stepper.state().len();
+            let step = |_| Step { kept: Vec::with_capacity(room), ..Step::default() };
+            driver.stretch = (0..LONGEST_STRETCH).map(step).collect();
+            driver.set_mark();
         }
+        driver
     }
 
     /// Starts at time `t` from `state`. Counts go on, and so do integrals if `t` is within the last step.
@@ -127,11 +185,12 @@ impl<S: System> Driver<S> {
         self.next_step = self.nominal_step;
         self.control = Controller::default();
         self.needs_refresh = true;
+        (self.length, self.made, self.unfinished) = (1, 0, false);
     }
 
     /// Time the integration has reached, s; at least the time asked for.
     pub fn reached(&self) -> f64 {
-        self.to
+        if self.unfinished { self.stretch[0].from } else { self.to }
     }
 
     /// What a method that chooses among others has chosen.
@@ -162,51 +221,138 @@ impl<S: System> Driver<S> {
     /// A [`Failure`]; everything up to the last accepted step stays available.
     pub fn advance(&mut self, system: &mut S, t: f64) -> Result<(), Failure<S::Fault>> {
         let mut attempts = 0;
-        while self.to < t {
-            if self.needs_refresh {
-                let refreshed = self.stepper.refresh(system, self.to);
-                refreshed.map_err(|fault| Failure::AtStart { time: self.to, fault })?;
-                self.needs_refresh = false;
+        while self.reached() < t {
+            if self.stepper.is_judged() {
+                let made = self.make_stretch(system, &mut attempts);
+                // What fails beyond the time that is asked for fails again when it is reached.
+                if self.reached() < t {
+                    made?;
+                }
+            } else {
+                self.make_step(system, &mut attempts)?;
             }
-            self.step(system, &mut attempts)?;
         }
         Ok(())
     }
 
-    /// Whether time `t` (s) lies within the last step.
-    pub fn covers(&self, t: f64) -> bool {
-        self.from <= t && t <= self.to
+    /// Makes a stretch of steps that is right, again and more closely if it is not.
+    fn make_stretch(&mut self, system: &mut S, attempts: &mut u64) -> Result<(), Failure<S::Fault>> {
+        loop {
+            if !std::mem::take(&mut self.unfinished) {
+                self.set_mark();
+            }
+            let length = self.length;
+            let made = (self.made..length).try_for_each(|_| {
+                self.make_step(system, attempts)?;
+                self.keep_step();
+                Ok(())
+            });
+            if let Err(Failure::Interrupted { .. } | Failure::TooManySteps { .. }) = made {
+                // From outside, and no reason to judge less than a whole stretch: it goes on when the host does.
+                self.unfinished = self.made > 0;
+                return made.map_err(|failure| failure.at(self.reached()));
+            }
+            if self.made == 0 || self.stepper.judge(system, self.to) {
+                self.length = (2 * length).min(LONGEST_STRETCH);
+                return made;
+            }
+            self.go_back(system);
+        }
     }
 
-    /// State at time `t` within the last step (s).
+    fn set_mark(&mut self) {
+        self.made = 0;
+        let mut mark = std::mem::take(&mut self.mark);
+        mark.clear();
+        self.save_now(&mut mark);
+        self.mark = mark;
+    }
+
+    /// Back to the mark, and on from there with a method that follows the system more closely.
+    fn go_back(&mut self, system: &mut S) {
+        let undone = self.statistics.undone + self.made as u64;
+        let mark = std::mem::take(&mut self.mark);
+        let loaded = self.load(&mut Reader::new(&mark));
+        debug_assert!(loaded.is_some(), "what was saved fits");
+        self.mark = mark;
+        self.statistics.undone = undone;
+        if let Some(step) = self.stepper.go_back(system, self.to) {
+            self.set_step(step);
+        }
+        self.set_mark();
+    }
+
+    /// Keeps the last step for questions about it.
+    fn keep_step(&mut self) {
+        let step = &mut self.stretch[self.made];
+        (step.from, step.to, step.integrals) = (self.from, self.to, self.integrals);
+        step.kept.clear();
+        self.stepper.keep(&mut step.kept);
+        self.made += 1;
+    }
+
+    /// The step of the last stretch that time `t` (s) lies in, if it is one of several.
+    fn step_at(&self, t: f64) -> Option<&Step> {
+        let made = &self.stretch[..self.made];
+        made.get(made.partition_point(|step| step.to < t)).or(made.last())
+    }
+
+    fn make_step(&mut self, system: &mut S, attempts: &mut u64) -> Result<(), Failure<S::Fault>> {
+        if self.needs_refresh {
+            let refreshed = self.stepper.refresh(system, self.to);
+            refreshed.map_err(|fault| Failure::AtStart { time: self.to, fault })?;
+            self.needs_refresh = false;
+        }
+        self.step(system, attempts)
+    }
+
+    /// Whether time `t` (s) lies within the last step or stretch.
+    pub fn covers(&self, t: f64) -> bool {
+        let from = if self.made > 0 { self.stretch[0].from } else { self.from };
+        from <= t && t <= self.to
+    }
+
+    /// State at time `t` within the last step or stretch (s).
     pub fn state_at(&self, t: f64, out: &mut [f64]) {
         if t >= self.to || self.to <= self.from {
             out.copy_from_slice(self.stepper.state());
+        } else if let Some(step) = self.step_at(t) {
+            self.stepper.recall(&step.kept, (t - step.from) / (step.to - step.from), out);
         } else {
             self.stepper.interpolate((t - self.from) / (self.to - self.from), out);
         }
     }
 
-    /// Start time of the last step (s) and what it was made with, for methods whose forces are those of steps.
-    pub fn applied(&self) -> Option<(f64, Applied<'_>)> {
+    /// Start time of the step at time `t` (s) and what it was made with, for methods whose forces are those of steps.
+    pub fn applied_at(&self, t: f64) -> Option<(f64, Applied<'_>)> {
+        if let Some(step) = self.step_at(t) {
+            return self.stepper.applied_in(&step.kept).map(|applied| (step.from, applied));
+        }
         (self.to > self.from).then(|| self.stepper.applied()).flatten().map(|step| (self.from, step))
     }
 
-    /// Integrals of the system's quadratures since they were forgotten, up to time `t` (s) within the last step.
+    /// Integrals of the system's quadratures since they were forgotten, up to time `t` (s) within the last step or stretch.
     pub fn integrals_at(&self, t: f64) -> Quadratures {
-        let [mut sum, last] = self.integrals;
-        let step = self.to - self.from;
-        add_weighted(
-            &mut sum,
-            if step > 0.0 { ((t - self.from) / step).clamp(0.0, 1.0) } else { 1.0 },
-            &last,
-        );
+        let (from, to, [mut sum, last]) = match self.step_at(t) {
+            Some(step) => (step.from, step.to, step.integrals),
+            None => (self.from, self.to, self.integrals),
+        };
+        let step = to - from;
+        add_weighted(&mut sum, if step > 0.0 { ((t - from) / step).clamp(0.0, 1.0) } else { 1.0 }, &last);
         sum
     }
 
-    /// Sets the integrals to zero.
+    /// Sets the integrals to zero; comes after [`Driver::start`].
     pub fn forget_integrals(&mut self) {
         self.integrals = Default::default();
+    }
+
+    /// Goes on with this step (s), and without memory of errors.
+    fn set_step(&mut self, step: f64) {
+        let largest = self.limits.nominal_step.max(self.limits.max_step);
+        let step = step.clamp(self.limits.min_step, largest);
+        (self.nominal_step, self.next_step) = (step, step);
+        self.control = Controller::default();
     }
 
     /// Makes one accepted step.
@@ -222,12 +368,11 @@ impl<S: System> Driver<S> {
             *attempts += 1;
             let event = system.next_event(self.to);
             if let Some(step) = self.stepper.review(system, self.to, event.next_down()) {
-                let largest = self.limits.nominal_step.max(self.limits.max_step);
-                let step = step.clamp(self.limits.min_step, largest);
-                (self.nominal_step, self.next_step) = (step, step);
-                self.control = Controller::default();
+                self.set_step(step);
             }
-            let plan = self.plan(event);
+            let (q, v) = self.stepper.state().split_at(system.positions());
+            let longest = system.longest_step(self.to, q, v, self.next_step);
+            let plan = self.plan(event, longest);
             if plan.end <= self.to {
                 // The step is lost in the round-off of the time.
                 return Err(Failure::StepTooSmall {
@@ -295,28 +440,39 @@ impl<S: System> Driver<S> {
         }
     }
 
-    /// The next step: never across an event, and not leaving a tiny rest before it.
-    fn plan(&self, event: f64) -> Plan {
+    /// The next step: never across an event or longer than the system can see, and not leaving a tiny rest before an event.
+    fn plan(&self, event: f64, longest: f64) -> Plan {
         let rest = event - self.to;
-        let h = self.next_step;
+        let h = self.next_step.min(longest.max(self.limits.min_step));
         if rest <= h {
             Plan { h: rest, end: event, t_last: event.next_down(), cut: true, on_event: true }
         } else if rest < 2.0 * h {
             let h = 0.5 * rest;
             Plan { h, end: self.to + h, t_last: event.next_down(), cut: true, on_event: false }
         } else {
-            Plan { h, end: self.to + h, t_last: event.next_down(), cut: false, on_event: false }
+            let cut = h < self.next_step;
+            Plan { h, end: self.to + h, t_last: event.next_down(), cut, on_event: false }
         }
     }
 
-    /// Appends everything that the next steps depend on.
+    /// Appends everything that the next steps depend on, as it was before the last stretch: after [`Driver::load`] the stretch
+    /// has to be made again.
     pub fn save(&self, out: &mut Vec<f64>) {
+        if self.made > 0 {
+            out.extend_from_slice(&self.mark);
+        } else {
+            self.save_now(out);
+        }
+    }
+
+    fn save_now(&self, out: &mut Vec<f64>) {
         let s = &self.statistics;
         let c = &self.control;
         out.extend([self.from, self.to, self.nominal_step, self.next_step]);
         out.extend([c.last_error, c.last_change, f64::from(u8::from(c.after_rejection))]);
         out.push(f64::from(u8::from(self.needs_refresh)));
-        out.extend([s.steps, s.rejected, s.faults, s.events].map(|n| n as f64));
+        out.push(self.length as f64);
+        out.extend([s.steps, s.rejected, s.faults, s.events, s.undone].map(|n| n as f64));
         out.extend([s.smallest_step, s.largest_step, s.vibration.squares, s.vibration.count]);
         out.extend(self.integrals.iter().flatten());
         self.stepper.save(out);
@@ -334,11 +490,14 @@ impl<S: System> Driver<S> {
         let last_change = from.number().filter(|c| *c > 0.0)?;
         self.control = Controller { last_error, last_change, after_rejection: from.flag()? };
         self.needs_refresh = from.flag()?;
+        self.length = from.count().filter(|n| (1..=LONGEST_STRETCH as u64).contains(n))? as usize;
+        (self.made, self.unfinished) = (0, false);
         self.statistics = Statistics {
             steps: from.count()?,
             rejected: from.count()?,
             faults: from.count()?,
             events: from.count()?,
+            undone: from.count()?,
             smallest_step: from.number().filter(|h| *h >= 0.0)?,
             largest_step: from.number().filter(|h| *h >= 0.0)?,
             vibration: Vibration {

@@ -78,6 +78,29 @@ impl Leapfrog {
     }
 }
 
+/// State within a step of `h` s at the fraction `theta` of it: cubic Hermite interpolation of positions, linear of velocities;
+/// both of the method's order.
+fn interpolate(positions: usize, h: f64, start: &[f64], end: &[f64], theta: f64, out: &mut [f64]) {
+    let x = theta;
+    let hermite = [
+        (1.0 + 2.0 * x) * (1.0 - x) * (1.0 - x),
+        x * (1.0 - x) * (1.0 - x) * h,
+        x * x * (3.0 - 2.0 * x),
+        x * x * (x - 1.0) * h,
+    ];
+    let (out_q, out_v) = out.split_at_mut(positions);
+    for (i, out) in out_q.iter_mut().enumerate() {
+        *out = hermite[0] * start[i]
+            + hermite[1] * start[positions + i]
+            + hermite[2] * end[i]
+            + hermite[3] * end[positions + i];
+    }
+    let ends = start.iter().zip(end).skip(positions);
+    for (out, (start, end)) in out_v.iter_mut().zip(ends) {
+        *out = start + x * (end - start);
+    }
+}
+
 impl<S: System> Stepper<S> for Leapfrog {
     fn set_state(&mut self, state: &[f64]) {
         self.start.copy_from_slice(state);
@@ -183,27 +206,28 @@ impl<S: System> Stepper<S> for Leapfrog {
         &self.end
     }
 
-    /// Cubic Hermite interpolation of positions, linear of velocities: both of the method's order.
     fn interpolate(&self, theta: f64, out: &mut [f64]) {
-        let nq = self.positions;
-        let (x, h) = (theta, self.h);
-        let hermite = [
-            (1.0 + 2.0 * x) * (1.0 - x) * (1.0 - x),
-            x * (1.0 - x) * (1.0 - x) * h,
-            x * x * (3.0 - 2.0 * x),
-            x * x * (x - 1.0) * h,
-        ];
-        let (positions, velocities) = out.split_at_mut(nq);
-        for (i, out) in positions.iter_mut().enumerate() {
-            *out = hermite[0] * self.start[i]
-                + hermite[1] * self.start[nq + i]
-                + hermite[2] * self.end[i]
-                + hermite[3] * self.end[nq + i];
+        interpolate(self.positions, self.h, &self.start, &self.end, theta, out);
+    }
+
+    fn keep(&self, out: &mut Vec<f64>) {
+        out.push(self.h);
+        for part in [&self.start, &self.end, &self.applied] {
+            out.extend_from_slice(part);
         }
-        let ends = self.start.iter().zip(&self.end).skip(nq);
-        for (out, (start, end)) in velocities.iter_mut().zip(ends) {
-            *out = start + x * (end - start);
+    }
+
+    fn recall(&self, kept: &[f64], theta: f64, out: &mut [f64]) {
+        if let Some(Applied { start, end, h, .. }) = Stepper::<S>::applied_in(self, kept) {
+            interpolate(self.positions, h, start, end, theta, out);
         }
+    }
+
+    fn applied_in<'a>(&'a self, kept: &'a [f64]) -> Option<Applied<'a>> {
+        let (h, rest) = kept.split_first()?;
+        let (start, rest) = rest.split_at_checked(self.start.len())?;
+        let (end, predicted) = rest.split_at_checked(self.end.len())?;
+        Some(Applied { start, end, predicted, h: *h })
     }
 
     fn control(&self) -> Law {

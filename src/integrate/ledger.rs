@@ -1,15 +1,14 @@
-//! Keeps account of the energy of a run, and tells when a method without error estimate misses too much of it.
+//! Keeps account of the energy of a run, stretch by stretch, and tells which of them missed too much of it.
 //!
 //! The works of all forces ([`System::quadratures`]) less the gain of stored energy ([`System::energy`]) are zero for an exact
-//! solution. What is missing, as a share of what passed through, is an error of the whole run.
+//! solution. What is missing, as a share of what passed through, is an error of all of the integration.
 
 use super::{Quadratures, Reader, System, add_weighted};
 
-/// Share of the energy that may be missing before something is done about it.
-const MUCH: f64 = 2e-4;
-/// Steps from one look to the next: at first, and at most. A look costs an evaluation.
-const FIRST_INTERVAL: u64 = 8;
-const LONGEST_INTERVAL: u64 = 64;
+/// A stretch may miss this part of what a whole run may.
+const PART: f64 = 0.2;
+/// Less than this share of the stored energy is round-off.
+const ROUNDING: f64 = 1e-12;
 
 /// Energy that passed through a system, J: all that came in by work, or was stored before and is no longer.
 pub fn throughput(works: impl IntoIterator<Item = f64>, gains: impl IntoIterator<Item = f64>) -> f64 {
@@ -21,133 +20,139 @@ pub fn throughput(works: impl IntoIterator<Item = f64>, gains: impl IntoIterator
     came.max(went)
 }
 
+/// Works and gains of stored energy over some time, J.
+#[derive(Clone, Copy, Debug, Default)]
+struct Turnover {
+    works: Quadratures,
+    gains: [f64; 3],
+}
+
+impl Turnover {
+    fn add(&mut self, other: &Self) {
+        add_weighted(&mut self.works, 1.0, &other.works);
+        for (sum, gain) in self.gains.iter_mut().zip(other.gains) {
+            *sum += gain;
+        }
+    }
+
+    fn missing(&self) -> f64 {
+        self.works.iter().sum::<f64>() - self.gains.iter().sum::<f64>()
+    }
+
+    /// What is missing as a share of what passed through; zero where nothing passed.
+    fn missing_share(&self) -> f64 {
+        let missing = self.missing();
+        let passed = throughput(self.works, self.gains);
+        if missing == 0.0 { 0.0 } else { (missing / passed).abs() }
+    }
+}
+
 /// The account.
 #[derive(Clone, Debug)]
 pub struct Ledger {
-    /// Whether `start` is known.
+    /// Share that a run may miss.
+    allowed: f64,
+    /// Whether `energy` is that of the start of the stretch.
     open: bool,
-    start: [f64; 3],
-    works: Quadratures,
-    /// What was missing at the last look, what of it has been acted upon, and what passed through, J.
-    missing: f64,
-    settled: f64,
-    passed: f64,
-    /// The first and the last of these when the account was opened.
-    missing_before: f64,
-    passed_before: f64,
-    /// Steps until the next look, and between looks.
-    due: u64,
-    interval: u64,
+    energy: [f64; 3],
+    stretch: Turnover,
+    /// All before the stretch.
+    before: Turnover,
     a: Vec<f64>,
 }
 
 impl Ledger {
-    /// An empty account of a system with this many velocities.
-    pub fn new(velocities: usize) -> Self {
+    /// An empty account of a system with this many velocities, whose runs may miss this share of their energy.
+    pub fn new(velocities: usize, allowed: f64) -> Self {
         Self {
+            allowed,
             open: false,
-            start: [0.0; 3],
-            works: Quadratures::default(),
-            missing: 0.0,
-            settled: 0.0,
-            passed: 0.0,
-            missing_before: 0.0,
-            passed_before: 0.0,
-            due: FIRST_INTERVAL,
-            interval: FIRST_INTERVAL,
+            energy: [0.0; 3],
+            stretch: Turnover::default(),
+            before: Turnover::default(),
             a: vec![0.0; velocities],
         }
     }
 
-    /// Forgets everything: the next look opens the account.
+    /// Forgets everything: the next stretch opens the account.
     pub fn forget(&mut self) {
-        *self = Self { a: std::mem::take(&mut self.a), ..Self::new(0) };
+        self.close();
+        self.before = Turnover::default();
     }
 
-    /// Ends the account, as the state may jump; the next look goes on from there with what was missing and what passed.
+    /// Ends the stretch without a judgement, as the state may jump.
     pub fn close(&mut self) {
         self.open = false;
-        (self.missing_before, self.passed_before) = (self.missing, self.passed);
+        self.stretch = Turnover::default();
     }
 
-    /// Looks more often, as at first: another method goes on.
-    pub fn hurry(&mut self) {
-        (self.due, self.interval) = (FIRST_INTERVAL, FIRST_INTERVAL);
+    /// Whether a stretch has begun.
+    pub fn is_open(&self) -> bool {
+        self.open
+    }
+
+    /// Begins a stretch at time `t` (s) and this state.
+    ///
+    /// # Errors
+    /// The system's fault at this state.
+    pub fn open<S: System>(&mut self, system: &mut S, t: f64, state: &[f64]) -> Result<(), S::Fault> {
+        self.energy = self.energy_at(system, t, state)?;
+        (self.open, self.stretch) = (true, Turnover::default());
+        Ok(())
     }
 
     /// Adds the works of a step.
     pub fn add(&mut self, works: &Quadratures) {
-        add_weighted(&mut self.works, 1.0, works);
-        self.due = self.due.saturating_sub(1);
+        add_weighted(&mut self.stretch.works, 1.0, works);
     }
 
-    /// Whether the next look opens the account.
-    pub fn is_closed(&self) -> bool {
-        !self.open
-    }
-
-    /// Whether it is time for a look.
-    pub fn is_due(&self) -> bool {
-        self.due == 0
-    }
-
-    /// Looks at the present state, `positions` of positions and the velocities, at time `t` in s.
+    /// Ends the stretch at time `t` (s) and this state, where the next one begins. Whether it missed little enough, or the
+    /// whole run has.
     ///
     /// # Errors
-    /// The system's fault at this state.
-    pub fn look<S: System>(&mut self, system: &mut S, t: f64, state: &[f64]) -> Result<(), S::Fault> {
-        if self.due == 0 {
-            self.interval = (2 * self.interval).min(LONGEST_INTERVAL);
-            self.due = self.interval;
-        }
+    /// The system's fault at this state; the stretch then goes on.
+    pub fn settle<S: System>(&mut self, system: &mut S, t: f64, state: &[f64]) -> Result<bool, S::Fault> {
+        let energy = self.energy_at(system, t, state)?;
+        self.stretch.gains = [0, 1, 2].map(|k| energy[k] - self.energy[k]);
+        self.energy = energy;
+        let stretch = std::mem::take(&mut self.stretch);
+        self.before.add(&stretch);
+        let stored: f64 = energy.iter().map(|x| x.abs()).sum();
+        // Written so that what is not a number is too much.
+        Ok(stretch.missing().abs() <= ROUNDING * stored
+            || stretch.missing_share() <= PART * self.allowed
+            || self.can_spare())
+    }
+
+    /// Whether little enough of all is missing for steps that may miss some more.
+    pub fn can_spare(&self) -> bool {
+        self.before.missing_share() <= PART * self.allowed
+    }
+
+    fn energy_at<S: System>(&mut self, system: &mut S, t: f64, state: &[f64]) -> Result<[f64; 3], S::Fault> {
         let (q, v) = state.split_at(system.positions());
         system.accelerations(t, q, v, &mut self.a)?;
-        let energy = system.energy(q, v);
-        if !self.open {
-            (self.open, self.start, self.works) = (true, energy, Quadratures::default());
-        }
-        let gains = [0, 1, 2].map(|k| energy[k] - self.start[k]);
-        let missing = self.works.iter().sum::<f64>() - gains.iter().sum::<f64>();
-        self.missing = self.missing_before + missing;
-        self.passed = self.passed_before + throughput(self.works, gains);
-        Ok(())
-    }
-
-    /// Whether too much more is missing than when something was done about it last.
-    pub fn misses_much(&self) -> bool {
-        let much = MUCH * self.passed;
-        self.missing.abs() > much && (self.missing - self.settled).abs() > much
-    }
-
-    /// Something is done about what is missing.
-    pub fn settle(&mut self) {
-        self.settled = self.missing;
-    }
-
-    /// Whether little enough is missing of all for steps that may miss some more.
-    pub fn can_spare(&self) -> bool {
-        self.missing.abs() <= MUCH * self.passed
+        Ok(system.energy(q, v))
     }
 
     /// Appends everything that the next decisions depend on.
     pub fn save(&self, out: &mut Vec<f64>) {
         out.push(f64::from(u8::from(self.open)));
-        out.extend(self.start.iter().chain(&self.works));
-        out.extend([self.missing, self.settled, self.passed, self.missing_before, self.passed_before]);
-        out.extend([self.due, self.interval].map(|n| n as f64));
+        out.extend(self.energy);
+        for turnover in [&self.stretch, &self.before] {
+            out.extend(turnover.works);
+            out.extend(turnover.gains);
+        }
     }
 
     /// Takes back what [`Ledger::save`] wrote; `None` if it does not fit.
     pub fn load(&mut self, from: &mut Reader<'_>) -> Option<()> {
         self.open = from.flag()?;
-        from.fill(&mut self.start)?;
-        from.fill(&mut self.works)?;
-        let [missing, passed] = [&mut self.missing_before, &mut self.passed_before];
-        for number in [&mut self.missing, &mut self.settled, &mut self.passed, missing, passed] {
-            *number = from.number()?;
+        from.fill(&mut self.energy)?;
+        for turnover in [&mut self.stretch, &mut self.before] {
+            from.fill(&mut turnover.works)?;
+            from.fill(&mut turnover.gains)?;
         }
-        self.due = from.count()?;
-        self.interval = from.count().filter(|n| (FIRST_INTERVAL..=LONGEST_INTERVAL).contains(n))?;
         Some(())
     }
 }

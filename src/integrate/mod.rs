@@ -11,12 +11,11 @@ mod leapfrog;
 mod ledger;
 pub mod mode;
 mod pack;
-mod quiet;
-mod race;
 mod radau;
 mod rosenbrock;
+mod selection;
 pub(crate) mod shifted;
-pub mod watch;
+pub mod step_monitor;
 
 pub use damping::{DampingBlock, GroupDamping, implicit_share};
 pub use dormand_prince::DormandPrince;
@@ -51,6 +50,11 @@ pub trait System {
     fn not_finite(&self, velocity: usize) -> Self::Fault;
     /// The first time after `t` at which the accelerations jump or kink by themselves; infinity if there is none.
     fn next_event(&self, t: f64) -> f64;
+    /// The longest step (s) from this state at time `t` in which nothing narrow can be passed unseen, or any longer one than
+    /// `wanted`. No method takes a longer one.
+    fn longest_step(&self, _t: f64, _q: &[f64], _v: &[f64], _wanted: f64) -> f64 {
+        f64::INFINITY
+    }
     /// Number of groups of up to three velocities that belong together, as those of one body do.
     fn groups(&self) -> usize;
     /// Velocity indices of such a group; `None` for an unused place.
@@ -238,6 +242,29 @@ pub trait Stepper<S: System> {
     fn state(&self) -> &[f64];
     /// State within the last accepted step at the fraction 0 <= `theta` <= 1 of it.
     fn interpolate(&self, theta: f64, out: &mut [f64]);
+    /// Whether steps count only when a stretch of them has been judged.
+    fn is_judged(&self) -> bool {
+        false
+    }
+    /// Whether the steps since the last judgement were right, at time `t`. If not, the driver goes back to their start.
+    fn judge(&mut self, _system: &mut S, _t: f64) -> bool {
+        true
+    }
+    /// Called at time `t` of the start of a stretch that was wrong, with the memory of then: the method must follow the
+    /// system more closely. Returns the step to go on with, if it is to change.
+    fn go_back(&mut self, _system: &mut S, _t: f64) -> Option<f64> {
+        None
+    }
+    /// Appends what [`Stepper::recall`] needs to know of the last accepted step.
+    fn keep(&self, _out: &mut Vec<f64>) {}
+    /// State within a step of which this was kept, at the fraction 0 <= `theta` <= 1 of it.
+    fn recall(&self, _kept: &[f64], theta: f64, out: &mut [f64]) {
+        self.interpolate(theta, out);
+    }
+    /// As [`Stepper::applied`], of a step of which this was kept.
+    fn applied_in<'a>(&'a self, _kept: &'a [f64]) -> Option<Applied<'a>> {
+        self.applied()
+    }
     /// How the steps follow the errors; of no use for methods without error estimate.
     fn control(&self) -> Law;
     /// What a method that chooses among others has chosen.

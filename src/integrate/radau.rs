@@ -27,6 +27,7 @@
 use super::control::{ErrorNorm, Estimate, Law};
 use super::shifted::Shifted;
 use super::{Linearization, Quadratures, Reader, Stepper, Structure, System, add_weighted};
+use crate::scalar::math;
 use nalgebra::Complex;
 
 /// Times of the stages in units of the step.
@@ -175,7 +176,7 @@ impl Radau {
     ) -> Result<Iteration, S::Fault> {
         let (nq, n) = (self.positions, self.state.len());
         let (real, pair) = (GAMMA / h, Complex::new(ALPHA, BETA) / h);
-        self.contraction = self.contraction.max(f64::EPSILON).powf(0.8);
+        self.contraction = math::powf(self.contraction.max(f64::EPSILON), 0.8);
         let (mut last_size, mut last_ratio) = (0.0, 0.0);
         for iteration in 1..=MAX_ITERATIONS {
             let stages = self.stages.iter().zip(&mut self.a).zip(&mut self.quadratures).zip(TIMES);

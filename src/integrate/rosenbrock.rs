@@ -133,6 +133,25 @@ impl Rosenbrock {
     }
 }
 
+/// out = sum of the `stages`, each with its weight: whole stages one after another, so that entries share registers.
+fn weighted_sum(out: &mut [f64], stages: &[Vec<f64>], weights: &[f64]) {
+    out.fill(0.0);
+    for (stage, weight) in stages.iter().zip(weights) {
+        for (x, u) in out.iter_mut().zip(stage) {
+            *x += weight * u;
+        }
+    }
+}
+
+/// State at the fraction `theta` of the step with this dense output.
+fn interpolate(parts: [&[f64]; 4], theta: f64, out: &mut [f64]) {
+    let (x, y) = (theta, 1.0 - theta);
+    let [start, end, bend, twist] = parts;
+    for (i, out) in out.iter_mut().enumerate() {
+        *out = start[i] * y + x * (end[i] + y * (bend[i] + x * twist[i]));
+    }
+}
+
 impl<S: System> Stepper<S> for Rosenbrock {
     fn set_state(&mut self, state: &[f64]) {
         self.state.copy_from_slice(state);
@@ -153,7 +172,7 @@ impl<S: System> Stepper<S> for Rosenbrock {
     }
 
     fn attempt(&mut self, system: &mut S, t: f64, h: f64, t_last: f64) -> Result<Option<Estimate>, S::Fault> {
-        let (nq, n) = (self.positions, self.state.len());
+        let nq = self.positions;
         let (q, v) = self.state.split_at(nq);
         if !self.linearized {
             system.linearize(t, q, v, &mut self.start_a, &mut self.slope)?;
@@ -166,9 +185,9 @@ impl<S: System> Stepper<S> for Rosenbrock {
         self.trial.copy_from_slice(&self.state);
         let mut end_quadratures = Quadratures::default();
         for i in 0..6 {
-            for k in 0..n {
-                let sum: f64 = self.stages[..i].iter().zip(&A[i]).map(|(u, a)| a * u[k]).sum();
-                self.trial[k] = self.state[k] + sum;
+            weighted_sum(&mut self.trial, &self.stages[..i], &A[i]);
+            for (x, start) in self.trial.iter_mut().zip(&self.state) {
+                *x += start;
             }
             let (q, v) = self.trial.split_at(nq);
             if i == 0 {
@@ -180,28 +199,27 @@ impl<S: System> Stepper<S> for Rosenbrock {
                 end_quadratures = system.quadratures(q, v, None);
             }
             let (done, rest) = self.stages.split_at_mut(i);
-            for k in 0..n {
-                let sum: f64 = done.iter().zip(&C[i]).map(|(u, c)| c / h * u[k]).sum();
-                let rate = match k.checked_sub(nq) {
-                    None => v[k],
-                    Some(k) => self.a[k] + h * RATE[i] * self.slope.over_time[k],
-                };
-                rest[0][k] = rate + sum;
+            let stage = &mut rest[0];
+            weighted_sum(stage, done, &C[i].map(|c| c / h));
+            let (stage_q, stage_v) = stage.split_at_mut(nq);
+            for (x, v) in stage_q.iter_mut().zip(v) {
+                *x += v;
             }
-            self.system.solve(&self.slope, &self.structure, nq, &mut rest[0]);
+            for ((x, a), drift) in stage_v.iter_mut().zip(&self.a).zip(&self.slope.over_time) {
+                *x += a + h * RATE[i] * drift;
+            }
+            self.system.solve(&self.slope, &self.structure, nq, stage);
         }
-        for k in 0..n {
-            // The last stage is the error; with it the step is complete.
-            let end = self.trial[k] + self.stages[5][k];
-            let bend =
-                |weights: &[f64; 5]| -> f64 { self.stages.iter().zip(weights).map(|(u, w)| w * u[k]).sum() };
-            self.trial_dense[0][k] = self.state[k];
-            self.trial_dense[2][k] = bend(&DENSE[0]);
-            self.trial_dense[3][k] = bend(&DENSE[1]);
-            self.trial_dense[1][k] = end;
-            self.trial[k] = end;
-        }
+        // The last stage is the error; with it the step is complete.
         let last = &self.stages[5];
+        for (x, error) in self.trial.iter_mut().zip(last) {
+            *x += error;
+        }
+        let [start, end, bend, twist] = &mut self.trial_dense;
+        start.copy_from_slice(&self.state);
+        end.copy_from_slice(&self.trial);
+        weighted_sum(bend, &self.stages[..5], &DENSE[0]);
+        weighted_sum(twist, &self.stages[..5], &DENSE[1]);
         let estimate = self.norm.of(|k| last[k]);
         if estimate.error <= 1.0 {
             self.integrate(system, &end_quadratures, t, h, t_last);
@@ -224,11 +242,16 @@ impl<S: System> Stepper<S> for Rosenbrock {
     }
 
     fn interpolate(&self, theta: f64, out: &mut [f64]) {
-        let (x, y) = (theta, 1.0 - theta);
-        let [start, end, bend, twist] = &self.dense;
-        for (i, out) in out.iter_mut().enumerate() {
-            *out = start[i] * y + x * (end[i] + y * (bend[i] + x * twist[i]));
-        }
+        interpolate(self.dense.each_ref().map(Vec::as_slice), theta, out);
+    }
+
+    fn keep(&self, out: &mut Vec<f64>) {
+        self.dense.iter().for_each(|part| out.extend_from_slice(part));
+    }
+
+    fn recall(&self, kept: &[f64], theta: f64, out: &mut [f64]) {
+        let n = self.state.len();
+        interpolate(std::array::from_fn(|i| &kept[i * n..(i + 1) * n]), theta, out);
     }
 
     fn control(&self) -> Law {

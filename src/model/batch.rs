@@ -95,7 +95,7 @@ impl Batch {
         self.sites.len()
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn push(&mut self, site: Site, motion: &ContactMotion<f64>) {
         let i = self.len();
         let (kind, law, edge_share) = match &site.mate {
@@ -157,7 +157,7 @@ impl Batch {
     }
 
     /// Normal force, friction and rolling resistance of contact `i`, N, and their derivatives over what the law sees.
-    #[inline]
+    #[inline(always)]
     pub(super) fn slopes(&self, i: usize) -> ([f64; FORCES], Slopes) {
         let f = &self.force;
         ([f.normal[i], f.friction[i], f.rolling_resistance[i]], self.slopes.of(i))

@@ -5,6 +5,7 @@ use super::forces::{CAGE_BODY, FILM_THICKNESS, Forces, GUIDE, INNER, NORMAL_FORC
 use super::{ElementKind, GuideReport, Input, InputValues, Model, Workspace};
 use crate::contact::rotate;
 use crate::laws::guide::GuideFilm;
+use crate::scalar::math;
 
 /// A ring slower than this stands still for the slip channels, rad/s.
 const STANDSTILL: f64 = 1e-9;
@@ -226,7 +227,7 @@ impl Model {
             Source::OuterRingTorque => forces.bodies[0][OUTER][2] + forces.bodies[0][GUIDE][2],
             Source::OrbitAngle(j) => match self.elements.kind {
                 ElementKind::Rollers(_) => self.azimuth(q, j),
-                ElementKind::Kinematic(_) => self.elements.reference_angles[j] + inputs.orbit_travel,
+                ElementKind::Kinematic => self.elements.reference_angles[j] + inputs.orbit_travel,
             },
             Source::RollerSlip(j) => slip(v[self.layout.spin(j)], spin),
             Source::PocketPosition(j) => direction * self.pocket_position(q, inputs, j),
@@ -246,10 +247,10 @@ impl Model {
         let (Some(pocket), Some(c)) = (&self.laws.pocket, self.layout.cage) else { return 0.0 };
         let (radial_offset, travel) = match self.elements.kind {
             ElementKind::Rollers(_) => (q[self.layout.roller(j)], q[self.layout.roller(j) + 1]),
-            ElementKind::Kinematic(_) => (0.0, inputs.orbit_travel),
+            ElementKind::Kinematic => (0.0, inputs.orbit_travel),
         };
-        let (sin, cos) = (self.elements.reference_angles[j] + travel).sin_cos();
-        let lead = (travel - q[c + 2]).sin_cos();
+        let (sin, cos) = math::sin_cos(self.elements.reference_angles[j] + travel);
+        let lead = math::sin_cos(travel - q[c + 2]);
         let cage = rotate(rotate([q[c], q[c + 1]], -sin, cos), lead.0, lead.1);
         pocket.place().offset(radial_offset, lead, cage)[1]
     }
@@ -282,7 +283,7 @@ impl ChannelList {
 impl GuideReport {
     /// Distance of the cage centre from the guide centre, m.
     fn radius(&self) -> f64 {
-        self.offset[0].hypot(self.offset[1])
+        math::hypot(self.offset[0], self.offset[1])
     }
 
     /// Angular speed of the cage centre about the guide centre, rad/s; zero in the centre.

@@ -2,11 +2,12 @@
 
 use super::compile_laws::compile_laws;
 use super::inputs::{Input, InputSignals, InputSource, Oil, Orbit};
-use super::{CageBody, ElementKind, ElementSet, KinematicSet, Layout, Model, RingBody, RollerSet};
+use super::{CageBody, ElementKind, ElementSet, Layout, Model, RingBody, RollerSet};
 use crate::contact::guide::GuideSide;
 use crate::contact::raceway::RacewayGeometry;
 use crate::error::Result;
 use crate::laws::walther::Walther;
+use crate::scalar::math;
 use crate::scene::{Cage, ElementMotion, GuideRing, RingMotion, Scene, Signal, SignalIntegral};
 use crate::scene::{Temperature, VISCOSITY, Viscosity, bad_scene, interpolate};
 use std::f64::consts::TAU;
@@ -23,7 +24,7 @@ pub(super) fn compile(scene: Scene) -> Result<Model> {
     };
     let (geometry, rollers) = match &elements.kind {
         ElementKind::Rollers(rollers) => (Some(&rollers.geometry), elements.count),
-        ElementKind::Kinematic(_) => (None, 0),
+        ElementKind::Kinematic => (None, 0),
     };
     let inputs = inputs(&scene)?;
     let viscosity = match (&inputs.oil, scene.lubricant.as_ref().map(|l| &l.viscosity)) {
@@ -55,11 +56,10 @@ fn elements(scene: &Scene) -> ElementSet {
             let geometry = RacewayGeometry::new(outer, radius, clearance);
             ElementKind::Rollers(RollerSet { geometry, mass: rollers.mass, inertia: rollers.inertia })
         }
-        None => ElementKind::Kinematic(KinematicSet {
-            directions: reference_angles.iter().map(|angle| [angle.cos(), angle.sin()]).collect(),
-        }),
+        None => ElementKind::Kinematic,
     };
-    ElementSet { count, radius, pitch_radius: scene.pitch_radius(), reference_angles, kind }
+    let directions = reference_angles.iter().map(|angle| [math::cos(*angle), math::sin(*angle)]).collect();
+    ElementSet { count, radius, pitch_radius: scene.pitch_radius(), reference_angles, directions, kind }
 }
 
 fn cage(cage: &Cage) -> CageBody {
@@ -160,7 +160,7 @@ fn inputs(scene: &Scene) -> Result<InputSignals> {
 /// The spin is the component along the bearing axis of the rotation about the axis across the contact line, and the
 /// rotation of that axis with the orbit.
 fn rolling(radius_ratio: f64, contact_angle: f64, ring_speed: &Signal) -> Orbit {
-    let cos = contact_angle.cos();
+    let cos = math::cos(contact_angle);
     let gamma = radius_ratio * cos;
     let orbit_ratio = 0.5 * (1.0 - gamma);
     let spin_ratio = orbit_ratio - 0.5 / radius_ratio * (1.0 - gamma * gamma) * cos;

@@ -58,7 +58,7 @@ impl Model {
         let mut block = DampingBlock::default();
         let Some(cage) = &self.cage else { return block };
         let mut slope = self.guide_slope(cage, q, v, ws);
-        if let ElementKind::Kinematic(_) = self.elements.kind {
+        if let ElementKind::Kinematic = self.elements.kind {
             slope += pocket_slope(ws);
         }
         let angle = self.layout.cage.map_or(0.0, |c| q[c + 2]);

@@ -20,6 +20,7 @@ use super::{ElementKind, Input, Model, RingBody};
 use crate::contact::Wrench;
 use crate::contact::guide::BodyMotion;
 use crate::integrate::{Quadratures, SemiImplicit};
+use crate::laws::guide::GuideForce;
 
 /// Names of the powers, W. Those of loads and of prescribed motions are positive where they drive the bearing; those of
 /// forces inside are negative where they take energy. The solid contact of the guide gives back what its spring took.
@@ -110,10 +111,11 @@ impl Model {
         if let (Some(cage), Some(c)) = (&self.cage, self.layout.cage) {
             if let (Some(force), Some(motion)) = (&ws.guide, &ws.journal) {
                 let bodies = self.guide_bodies(q, v, &ws.inputs);
-                let [all, film] = [*force, force.of_film()].map(|force| {
-                    let [on_cage, ring] = cage.guide_side.wrenches(&force, motion);
+                let power_and_moment = |force: &GuideForce<f64>| {
+                    let [on_cage, ring] = cage.guide_side.wrenches(force, motion);
                     (power(&on_cage, &bodies[0]) + power(&ring, &bodies[1]), ring.moment)
-                });
+                };
+                let (all, film) = (power_and_moment(force), power_and_moment(&force.of_film()));
                 p[GUIDE_FILM] = film.0;
                 p[GUIDE_SOLID] = all.0 - film.0;
                 on_ring += if cage.guided_by_inner_ring { all.1 } else { 0.0 };
@@ -129,7 +131,7 @@ impl Model {
             p[RING_SUPPORT] = -damping * (y * y + z * z);
         }
         p[RING_DRIVE] = -on_ring * ring_speed;
-        if let ElementKind::Kinematic(_) = self.elements.kind {
+        if let ElementKind::Kinematic = self.elements.kind {
             p[ELEMENT_DRIVE] = -self.power_on_elements(ws);
         }
         p

@@ -11,6 +11,7 @@ use crate::contact::guide::BodyMotion;
 use crate::contact::{PairFrame, Wrench, rotate};
 use crate::laws::contact_pair::ContactForce;
 use crate::laws::guide::GuideLaw;
+use crate::scalar::math;
 
 impl Model {
     /// Accelerations `a` (shape: velocities; m/s^2 or rad/s^2) at positions `q` and velocities `v`.
@@ -50,7 +51,7 @@ impl Model {
         if ratio.is_nan() {
             return Err(Fault::NoViscosity { temperature });
         }
-        ws.thickening = ratio.ln();
+        ws.thickening = math::ln(ratio);
         ws.temperature = temperature;
         let films = (ws.guide_law.as_mut(), self.laws.guide.as_ref());
         if let (Some(GuideLaw { film: Some(present), .. }), Some(GuideLaw { film: Some(film), .. })) = films {
@@ -68,6 +69,7 @@ impl Model {
     }
 
     /// Ring position and velocity, global frame.
+    #[inline]
     pub(super) fn ring_motion(&self, q: &[f64], v: &[f64]) -> ([f64; 2], [f64; 2]) {
         match (self.ring, self.layout.ring) {
             (RingBody::Fixed(position), _) => (position, [0.0; 2]),
@@ -123,6 +125,7 @@ impl Model {
     }
 
     /// Motion of the cage and of the ring that guides it.
+    #[inline]
     pub(super) fn guide_bodies(&self, q: &[f64], v: &[f64], inputs: &InputValues) -> [BodyMotion<f64>; 2] {
         let still = BodyMotion { position: [0.0; 2], velocity: [0.0; 2], angle: 0.0, speed: 0.0 };
         let cage = self.layout.cage.map_or(still, |c| BodyMotion {
@@ -225,7 +228,7 @@ impl CageBody {
     /// Centre of mass relative to the geometric centre at the cage angle `angle` (rad), global axes, m; `None` for a
     /// balanced cage.
     pub(super) fn mass_offset(&self, angle: f64) -> Option<[f64; 2]> {
-        let (sin, cos) = self.mass_eccentricity.map(|_| angle.sin_cos())?;
+        let (sin, cos) = self.mass_eccentricity.map(|_| math::sin_cos(angle))?;
         self.mass_eccentricity.map(|u| rotate(u, sin, cos))
     }
 

@@ -22,6 +22,13 @@ pub enum Fault {
         /// Offset from the pitch circle, m.
         radial_offset: f64,
     },
+    /// A rolling element is further round from its pocket than its own radius, where no law describes what it touches.
+    OutOfPocket {
+        /// Number of the element.
+        element: usize,
+        /// Angle by which it leads the pocket, rad.
+        lead: f64,
+    },
     /// The inner ring has left the bearing.
     LostRing,
     /// The cage has left the bearing.
@@ -41,8 +48,16 @@ pub enum Fault {
 }
 
 /// The kinds of [`Fault`].
-pub const FAULTS: [&str; 7] =
-    ["no_guide_film", "no_viscosity", "lost_roller", "lost_ring", "lost_cage", "not_finite", "no_slope"];
+pub const FAULTS: [&str; 8] = [
+    "no_guide_film",
+    "no_viscosity",
+    "lost_roller",
+    "lost_ring",
+    "lost_cage",
+    "not_finite",
+    "no_slope",
+    "out_of_pocket",
+];
 
 /// Number of faults of each kind, in the order of [`FAULTS`].
 pub type FaultCounts = [u64; FAULTS.len()];
@@ -58,6 +73,7 @@ impl Fault {
             Self::LostCage => 4,
             Self::NotFinite { .. } => 5,
             Self::NoSlope { .. } => 6,
+            Self::OutOfPocket { .. } => 7,
         }
     }
 }
@@ -74,6 +90,10 @@ impl Model {
             }
             Fault::LostRoller { roller, radial_offset } => {
                 format!("roller[{roller}] has left the bearing (radial offset {radial_offset:e} m)")
+            }
+            Fault::OutOfPocket { element, lead } => {
+                let kind = self.element_kind();
+                format!("{kind}[{element}] is out of its pocket (ahead of it by {lead:e} rad)")
             }
             Fault::LostRing => "the inner ring has left the bearing".to_owned(),
             Fault::LostCage => "the cage has left the bearing".to_owned(),

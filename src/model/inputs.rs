@@ -149,6 +149,28 @@ impl InputSignals {
         followed
             .map(|(_, source)| match source {
                 InputSource::Time(signal) => signal.next_event(t),
+                InputSource::RingSpeed(speed, _) => self.next_speed(t, speed, host),
+            })
+            .fold(f64::INFINITY, f64::min)
+    }
+
+    /// The first time after `t` (s) at which the magnitude of the ring speed passes one of these (rad/s).
+    fn next_speed(&self, t: f64, speeds: &[f64], host: &HostInputs) -> f64 {
+        let ring = self.list.iter().find(|(input, _)| *input == Input::RingSpeed);
+        let Some((_, InputSource::Time(signal))) = ring else { return f64::INFINITY };
+        if host.values[Input::RingSpeed as usize].is_some() {
+            return f64::INFINITY;
+        }
+        let both = speeds.iter().flat_map(|speed| [*speed, -speed]);
+        both.map(|speed| signal.next_passage(t, speed)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Shortest period of the sines that are followed, s; infinity without any.
+    pub(super) fn shortest_period(&self, host: &HostInputs) -> f64 {
+        let followed = self.list.iter().filter(|(input, _)| host.values[*input as usize].is_none());
+        followed
+            .map(|(_, source)| match source {
+                InputSource::Time(signal) => signal.period(),
                 InputSource::RingSpeed(..) => f64::INFINITY,
             })
             .fold(f64::INFINITY, f64::min)

@@ -41,7 +41,7 @@ impl LawSlopes {
     }
 
     /// Derivatives of the forces of contact `i`.
-    #[inline]
+    #[inline(always)]
     pub(super) fn of(&self, i: usize) -> Slopes {
         let mut slopes = [[0.0; DIRECTIONS]; FORCES];
         for (row, columns) in slopes.iter_mut().zip(&self.0) {

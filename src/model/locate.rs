@@ -6,13 +6,16 @@ use super::batch::{Batch, Mate, PocketSite, Site};
 use super::laws::PocketLaws;
 use super::places::Surroundings;
 use super::workspace::{ElementSite, Workspace};
-use super::{ElementKind, Fault, Input, KinematicSet, Model, RollerSet};
+use super::{ElementKind, Fault, Input, Model, RollerSet};
 use crate::contact::pocket::{Pillar, PillarContact, PocketMotion, PocketPlace};
 use crate::contact::raceway::{RingMotion, RollerMotion};
 use crate::contact::rotate;
+use crate::scalar::math;
 
 /// A roller this far from the pitch circle, in pitch radii, has left the bearing.
 const LOST_ROLLER: f64 = 0.25;
+/// An element this far round from its pocket, in radii of its own, is out of it.
+const OUT_OF_POCKET: f64 = 1.0;
 /// A ring or cage this far from the centre, in pitch radii, has left the bearing.
 const LOST_BODY: f64 = 1.0;
 
@@ -22,15 +25,15 @@ impl Model {
         let laws = &self.laws;
         ws.clear();
         let reach = LOST_BODY * self.elements.pitch_radius;
-        if self.layout.cage.is_some_and(|c| q[c].hypot(q[c + 1]) > reach) {
+        if self.layout.cage.is_some_and(|c| math::hypot(q[c], q[c + 1]) > reach) {
             return Err(Fault::LostCage);
         }
         let pockets = laws.pocket.as_ref().map(PocketLaws::place);
         match &self.elements.kind {
             ElementKind::Rollers(rollers) => self.locate_rollers(rollers, pockets, q, v, ws)?,
-            ElementKind::Kinematic(elements) => {
+            ElementKind::Kinematic => {
                 if let Some(place) = pockets {
-                    self.place_elements(elements, place, q, ws);
+                    self.place_elements(place, q, ws)?;
                 }
             }
         }
@@ -83,10 +86,14 @@ impl Model {
         let geometry = &rollers.geometry;
         let (ring_position, ring_velocity) = self.ring_motion(q, v);
         let ring_speed = ws.inputs.of(Input::RingSpeed);
-        if ring_position[0].hypot(ring_position[1]) > LOST_BODY * geometry.pitch_radius {
+        if math::hypot(ring_position[0], ring_position[1]) > LOST_BODY * geometry.pitch_radius {
             return Err(Fault::LostRing);
         }
         let n = self.layout.count;
+        let largest_lead = match pockets {
+            Some(place) => OUT_OF_POCKET * place.element_radius / place.pitch_radius,
+            None => f64::INFINITY,
+        };
         let angles = (ws.places.azimuth.iter_mut(), ws.places.lead.iter_mut());
         let columns = ws.places.radial_offset.iter_mut().zip(angles.0).zip(angles.1);
         let cage_angle = self.layout.cage.map_or(0.0, |c| q[c + 2]);
@@ -95,6 +102,9 @@ impl Model {
             (*radial_offset, *azimuth, *lead) = (state[0], reference + state[1], state[1] - cage_angle);
             if state[0].abs() > LOST_ROLLER * geometry.pitch_radius {
                 return Err(Fault::LostRoller { roller: j, radial_offset: state[0] });
+            }
+            if lead.abs() > largest_lead {
+                return Err(Fault::OutOfPocket { element: j, lead: *lead });
             }
         }
         let pockets = pockets.and_then(|place| self.layout.cage.map(|c| (place, [q[c], q[c + 1]])));
@@ -113,7 +123,7 @@ impl Model {
                 let (contact, frame) = geometry.outer(&motion);
                 ws.raceways.push(Site { element: j, frame, mate: Mate::Outer }, &contact);
             }
-            ws.elements.push(ws.places.site(j, motion));
+            ws.elements[j] = ws.places.site(j, motion);
         }
         for j in 0..n {
             if touching(ws.places.inner_approach[j]) {
@@ -128,7 +138,7 @@ impl Model {
     }
 
     /// Sites of kinematic elements. All lead their pockets by the same angle.
-    fn place_elements(&self, elements: &KinematicSet, place: PocketPlace, q: &[f64], ws: &mut Workspace) {
+    fn place_elements(&self, place: PocketPlace, q: &[f64], ws: &mut Workspace) -> Result<(), Fault> {
         let motion = RollerMotion {
             radial_offset: 0.0,
             radial_speed: 0.0,
@@ -137,14 +147,19 @@ impl Model {
         };
         let travel = ws.inputs.orbit_travel;
         let (cage, angle) = self.layout.cage.map_or(([0.0; 2], 0.0), |c| ([q[c], q[c + 1]], q[c + 2]));
-        let lead = (travel - angle).sin_cos();
-        let (sin, cos) = travel.sin_cos();
-        for direction in &elements.directions {
+        let largest_lead = OUT_OF_POCKET * place.element_radius / place.pitch_radius;
+        if self.layout.cage.is_some() && (travel - angle).abs() > largest_lead {
+            return Err(Fault::OutOfPocket { element: 0, lead: travel - angle });
+        }
+        let lead = math::sin_cos(travel - angle);
+        let (sin, cos) = math::sin_cos(travel);
+        for (placed, direction) in ws.elements.iter_mut().zip(&self.elements.directions) {
             let [cos, sin] = rotate(*direction, sin, cos);
             let mut site = ElementSite { motion, sin, cos, lead, pocket_offset: [0.0; 2] };
             site.pocket_offset = place.offset(0.0, lead, rotate(site.to_local(cage), lead.0, lead.1));
-            ws.elements.push(site);
+            *placed = site;
         }
+        Ok(())
     }
 
     /// Runs over the pockets and hands the elements that can touch them to `touch`.
@@ -170,7 +185,7 @@ impl Model {
     }
 }
 
-#[inline]
+#[inline(always)]
 fn push(
     batch: &mut Batch,
     element: usize,

@@ -20,6 +20,7 @@ mod laws;
 mod layout;
 mod locate;
 mod names;
+mod onsets;
 mod places;
 mod pocket_slopes;
 mod raceway_slopes;
@@ -66,13 +67,16 @@ struct ElementSet {
     pitch_radius: f64,
     /// Angle from which the travel of each element counts, and of its pocket in the cage, rad.
     reference_angles: Vec<f64>,
+    /// Their cosines and sines.
+    directions: Vec<[f64; 2]>,
     kind: ElementKind,
 }
 
 #[derive(Clone, Debug, PartialEq)]
 enum ElementKind {
     Rollers(RollerSet),
-    Kinematic(KinematicSet),
+    /// Their motion is prescribed.
+    Kinematic,
 }
 
 /// Rollers with states of their own.
@@ -81,13 +85,6 @@ struct RollerSet {
     geometry: RacewayGeometry,
     mass: f64,
     inertia: f64,
-}
-
-/// Elements with prescribed motion.
-#[derive(Clone, Debug, PartialEq)]
-struct KinematicSet {
-    /// Cosine and sine of the reference angles.
-    directions: Vec<[f64; 2]>,
 }
 
 /// The cage.
@@ -174,6 +171,12 @@ impl Model {
         self.inputs.next_event(t, host)
     }
 
+    /// The field of the scene by which the film of the guide can give energy to the cage, if it can.
+    pub fn energy_giving_film(&self) -> Option<String> {
+        let film = self.laws.guide.as_ref()?.film.as_ref()?;
+        film.passive().err().map(|field| format!("cage.guide.film.{field}"))
+    }
+
     /// Number of rolling elements, whether they have states or not.
     pub fn element_count(&self) -> usize {
         self.elements.count
@@ -196,7 +199,7 @@ impl Model {
                 let g = &rollers.geometry;
                 Some(g.pitch_radius - g.roller_radius - g.gap)
             }
-            ElementKind::Kinematic(_) => None,
+            ElementKind::Kinematic => None,
         }
     }
 
@@ -204,7 +207,7 @@ impl Model {
     /// or as prescribed.
     pub fn kinematic_speeds(&self, inputs: &InputValues) -> [f64; 2] {
         match &self.elements.kind {
-            ElementKind::Kinematic(_) => [inputs.of(Input::OrbitSpeed), inputs.of(Input::SpinSpeed)],
+            ElementKind::Kinematic => [inputs.of(Input::OrbitSpeed), inputs.of(Input::SpinSpeed)],
             ElementKind::Rollers(rollers) => {
                 let orbit = rollers.orbit_ratio() * inputs.of(Input::RingSpeed);
                 let spin_ratio =

@@ -11,7 +11,7 @@ use crate::laws::guide::{GuideForce, GuideLaw};
 use crate::laws::journal::JournalMotion;
 
 /// Motion of an element and the direction of its local frame.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ElementSite {
     pub(super) motion: RollerMotion<f64>,
     pub(super) sin: f64,
@@ -94,7 +94,7 @@ impl Workspace {
         };
         Self {
             places: Places::new(rollers),
-            elements: Vec::with_capacity(n),
+            elements: vec![ElementSite::default(); n],
             raceways: batch(2 * rollers + in_pockets - apart, laws.raceways),
             pockets: batch(apart, laws.pockets),
             joined: laws.joined,
@@ -170,7 +170,6 @@ impl Workspace {
     }
 
     pub(super) fn clear(&mut self) {
-        self.elements.clear();
         self.raceways.clear();
         self.pockets.clear();
     }

@@ -1,5 +1,6 @@
 //! Functions of time for loads and speeds.
 
+use crate::scalar::math;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
@@ -67,7 +68,7 @@ impl Signal {
                 from + (to - from) * x
             }
             Signal::Sine { mean, amplitude, frequency, phase } => {
-                mean + amplitude * (TAU * frequency * t + phase).sin()
+                mean + amplitude * math::sin(TAU * frequency * t + phase)
             }
             Signal::Table { time, value } => interpolate(time, value, t),
         }
@@ -85,7 +86,7 @@ impl Signal {
                 }
             }
             Signal::Sine { amplitude, frequency, phase, .. } => {
-                amplitude * TAU * frequency * (TAU * frequency * t + phase).cos()
+                amplitude * TAU * frequency * math::cos(TAU * frequency * t + phase)
             }
             Signal::Table { time, value } => {
                 let next = time.partition_point(|&x| x <= t);
@@ -107,6 +108,49 @@ impl Signal {
             Signal::Table { time, .. } => {
                 time.get(time.partition_point(|&x| x <= t)).copied().unwrap_or(f64::INFINITY)
             }
+        }
+    }
+
+    /// The first time after `t` (s) at which the signal passes `level` without a jump; infinity when there is none.
+    pub fn next_passage(&self, t: f64, level: f64) -> f64 {
+        // On the line from one point to the next, if it leads through.
+        let on_line = |[t0, t1]: [f64; 2], [v0, v1]: [f64; 2]| {
+            let at = t0 + (t1 - t0) * ((level - v0) / (v1 - v0));
+            (at > t && (v0 - level) * (v1 - level) < 0.0).then_some(at)
+        };
+        match self {
+            Signal::Constant(_) | Signal::Step { .. } => f64::INFINITY,
+            Signal::Ramp { from, to, start, end } => {
+                on_line([*start, *end], [*from, *to]).unwrap_or(f64::INFINITY)
+            }
+            Signal::Table { time, value } => {
+                let first = time.partition_point(|&x| x <= t).saturating_sub(1);
+                let lines = time.windows(2).zip(value.windows(2)).skip(first);
+                lines.filter_map(|(t, v)| on_line([t[0], t[1]], [v[0], v[1]])).next().unwrap_or(f64::INFINITY)
+            }
+            Signal::Sine { mean, amplitude, frequency, phase } => {
+                let share = (level - mean) / amplitude;
+                if share.is_nan() || share.abs() > 1.0 || *frequency == 0.0 {
+                    return f64::INFINITY;
+                }
+                let angle = math::asin(share);
+                let passage = |angle: f64| {
+                    // Rising once and falling once per period; a time depends on the number of the period alone.
+                    let at = |n: f64| ((angle - phase) / TAU + n) / frequency;
+                    let n = (frequency * t - (angle - phase) / TAU).floor();
+                    let times = [n - 1.0, n, n + 1.0, n + 2.0].map(at);
+                    times.into_iter().filter(|x| *x > t).fold(f64::INFINITY, f64::min)
+                };
+                passage(angle).min(passage(std::f64::consts::PI - angle))
+            }
+        }
+    }
+
+    /// Period of a sine that is switched on, s; infinity for everything else.
+    pub fn period(&self) -> f64 {
+        match self {
+            Signal::Sine { amplitude, frequency, .. } if *amplitude != 0.0 => 1.0 / frequency.abs(),
+            _ => f64::INFINITY,
         }
     }
 
@@ -167,7 +211,8 @@ impl SignalIntegral {
             Signal::Sine { mean, amplitude, frequency, phase } => {
                 // The mean of the sine over the time, without the difference of two cosines.
                 let half = 0.5 * TAU * frequency * t;
-                let mean_sine = (phase + half).sin() * if half == 0.0 { 1.0 } else { half.sin() / half };
+                let mean_sine =
+                    math::sin(phase + half) * if half == 0.0 { 1.0 } else { math::sin(half) / half };
                 (mean + amplitude * mean_sine) * t
             }
             Signal::Table { time, value } => {
@@ -226,6 +271,38 @@ mod tests {
         let sine = Signal::Sine { mean: 1.0, amplitude: 2.0, frequency: 0.25, phase: 0.0 };
         assert!((sine.at(1.0) - 3.0).abs() < 1e-15);
         assert_eq!(sine.largest(), 3.0);
+    }
+
+    #[test]
+    fn passages_are_found_in_order() {
+        let signals = [
+            Signal::Ramp { from: 1.0, to: 4.0, start: 0.2, end: 0.9 },
+            Signal::Sine { mean: 1.0, amplitude: 2.0, frequency: 1.3, phase: 0.5 },
+            Signal::Sine { mean: 1.0, amplitude: -2.0, frequency: 1.3, phase: 0.5 },
+            Signal::Table { time: vec![0.1, 0.5, 1.2, 1.5], value: vec![1.0, 3.0, -1.0, 2.0] },
+        ];
+        for signal in signals {
+            for level in [-0.9003, 0.3001, 1.7002, 2.5003] {
+                // By small steps.
+                let step = 1e-4;
+                let passed = |i: &i32| {
+                    let (a, b) = (signal.at(f64::from(*i) * step), signal.at(f64::from(i + 1) * step));
+                    (a - level) * (b - level) < 0.0
+                };
+                let expected: Vec<f64> = (0..20_000).filter(passed).map(|i| f64::from(i) * step).collect();
+                let (mut found, mut t) = (Vec::new(), 0.0);
+                loop {
+                    t = signal.next_passage(t, level);
+                    if t >= 2.0 {
+                        break;
+                    }
+                    found.push(t);
+                }
+                assert_eq!(found.len(), expected.len(), "{signal:?} {level}: {found:?} {expected:?}");
+                assert!(found.iter().zip(&expected).all(|(a, b)| (a - b).abs() < 2e-4), "{signal:?} {level}");
+            }
+        }
+        assert_eq!(Signal::Constant(1.0).next_passage(0.0, 1.0), f64::INFINITY);
     }
 
     #[test]

@@ -18,7 +18,7 @@ pub(super) struct Start {
 pub struct PowerBalance {
     /// From the start of the scene, or the last [`Sim::set_state`], s.
     pub from: f64,
-    /// To this time, s; the integration may be ahead of [`Sim::time`] by a step.
+    /// To this time, s; the integration may be ahead of [`Sim::time`] by some steps.
     pub to: f64,
     /// Work of each of [`POWERS`], J; positive where it goes into the bearing.
     pub work: [f64; POWERS.len()],

@@ -259,6 +259,10 @@ impl System for Bearing {
         self.model.next_event(t, &self.host)
     }
 
+    fn longest_step(&self, t: f64, q: &[f64], v: &[f64], wanted: f64) -> f64 {
+        self.model.longest_step(t, [q, v], &self.host, wanted)
+    }
+
     /// Rollers, then the ring and the cage, whichever exist.
     fn groups(&self) -> usize {
         self.rejections.len()
@@ -385,7 +389,7 @@ mod tests {
                 if forces.contacts.iter().any(|c| c[normal] == 0.0 && c[approach] > 0.0) {
                     continue;
                 }
-                let (_, step) = sim.driver.applied().unwrap();
+                let (_, step) = sim.driver.applied_at(sim.time).unwrap();
                 for (body, at, mass) in [(1, ring, ring_mass(&model)), (2, cage, cage_mass(&model))] {
                     for k in 0..2 {
                         let sum: f64 = forces.bodies[body].iter().map(|force| force[k]).sum();

@@ -3,7 +3,7 @@
 use super::bearing::Bearing;
 use super::preset::{Numbers, UNDAMPED_SHARE, numbers};
 use crate::integrate::auto::{Aim, Auto, Choice, Kind, Reason};
-use crate::integrate::watch::Expectation;
+use crate::integrate::step_monitor::Expectation;
 use crate::integrate::{DormandPrince, Leapfrog, Limits, Radau, Rosenbrock, Stepper};
 use crate::model::Model;
 use crate::scene::{Method, Solver};
@@ -76,7 +76,8 @@ fn aim(model: &Model, solver: &Solver) -> Aim {
         Method::Auto(auto) => auto.tolerance,
         _ => None,
     };
-    let Numbers { statistics, leapfrog_step, stretch_error, tolerance, affordable } = numbers(solver.preset);
+    let Numbers { statistics, leapfrog_step, stretch_error, tolerance, affordable, missing_energy } =
+        numbers(solver.preset);
     let statistics = statistics && model.has_rollers() && asked.is_none();
     let units = model.state_scales();
     Aim {
@@ -93,6 +94,7 @@ fn aim(model: &Model, solver: &Solver) -> Aim {
         units,
         tolerance: asked.unwrap_or(tolerance),
         affordable,
+        missing_energy,
         first_step: first_step(model, solver),
     }
 }

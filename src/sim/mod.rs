@@ -10,12 +10,14 @@ mod preset;
 mod recording;
 mod snapshot;
 mod statistics;
+mod trust;
 mod whirl;
 
 pub use audit::PowerBalance;
 pub use limits::Canceller;
 pub use recording::{Recording, Spread};
 pub use statistics::{RunStatistics, STATISTICS};
+pub use trust::Doubt;
 pub use whirl::{CageMotion, WhirlRecord, WhirlSummary};
 
 use crate::error::{Error, Result, Status};
@@ -318,7 +320,7 @@ impl Sim {
 
     /// Finds the forces for outputs at the present time.
     fn find_output_forces(&mut self) -> Result<()> {
-        let Some((t, step)) = self.driver.applied() else { return self.forces().map(|_| ()) };
+        let Some((t, step)) = self.driver.applied_at(self.time) else { return self.forces().map(|_| ()) };
         if self.evaluated != Evaluated::Step {
             self.evaluated = Evaluated::Other;
             let reported = self.bearing.report_step(t, &step, &self.state, &mut self.output_forces);
@@ -383,8 +385,9 @@ impl Sim {
         Ok(mean)
     }
 
-    /// What the integration does and why, and what went wrong on the way, in one line for people.
-    pub fn report(&self) -> String {
+    /// What the integration does and why, what went wrong on the way, and what speaks against trusting it, in one line for
+    /// people.
+    pub fn report(&mut self) -> String {
         let mut text = match self.driver.choice() {
             Some(choice) => method::describe(&choice),
             None => method::named(&self.solver.method).to_owned(),
@@ -401,6 +404,13 @@ impl Sim {
         }
         if let Some((body, count)) = self.bearing.most_rejections() {
             text += &format!("; {count} of {} rejected steps for {body}", self.driver.statistics().rejected);
+        }
+        if let Some(field) = self.model().energy_giving_film() {
+            text += &format!("; the film of the guide can give energy to the cage ({field})");
+        }
+        let doubts = self.doubts();
+        if !doubts.is_empty() {
+            text += &format!("; not to be trusted: {}", trust::in_words(&doubts));
         }
         text
     }

@@ -9,7 +9,7 @@ use crate::scene::Solver;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// First number of a snapshot; changes when its content changes.
-const FORMAT: f64 = 9.0;
+const FORMAT: f64 = 10.0;
 
 impl Sim {
     /// Everything the future of this simulation depends on, for the same model in the same build of the library.
@@ -72,7 +72,8 @@ impl Sim {
         for count in &mut fault_counts {
             *count = from.count()?;
         }
-        for count in self.bearing.rejections_mut() {
+        let mut rejections = self.bearing.rejections().to_vec();
+        for count in &mut rejections {
             *count = from.count()?;
         }
         let mut host = HostInputs::default();
@@ -85,16 +86,22 @@ impl Sim {
         from.fill(&mut state)?;
         let audit = Start::load(&mut from)?;
         self.driver.load(&mut from)?;
-        // The state must be the one that the driver's last step gives at this time.
+        from.finished().then_some(())?;
+        *self.bearing.host_mut() = host;
+        // The stretch that covers this time is made again, whatever the wall time; the state must be the one that it gives.
+        let limits = std::mem::take(self.bearing.limits_mut());
+        let made = self.driver.advance(&mut self.bearing, time);
+        *self.bearing.limits_mut() = limits;
+        made.ok()?;
         self.driver.covers(time).then_some(())?;
         self.driver.state_at(time, &mut self.state);
-        if !from.finished() || self.state != state {
+        if self.state != state {
             return None;
         }
         self.time = time;
         self.audit = audit;
-        *self.bearing.host_mut() = host;
         self.bearing.set_counts(counts, law_counts);
+        self.bearing.rejections_mut().copy_from_slice(&rejections);
         self.bearing.set_fault_counts(fault_counts);
         self.evaluated = Evaluated::Other;
         Some(())

@@ -22,7 +22,7 @@ pub struct RunStatistics {
 }
 
 /// Names of [`RunStatistics::values`].
-pub const STATISTICS: [&str; 25] = [
+pub const STATISTICS: [&str; 27] = [
     "steps",
     "rejected_steps",
     "failed_steps",
@@ -48,6 +48,8 @@ pub const STATISTICS: [&str; 25] = [
     "failed_not_finite",
     "failed_no_slope",
     "jacobians",
+    "undone_steps",
+    "failed_out_of_pocket",
 ];
 
 impl RunStatistics {
@@ -66,8 +68,9 @@ impl RunStatistics {
             values[13..15].copy_from_slice(&[found.mean_error, found.largest_error]);
             values[15..17].copy_from_slice(&[found.vibration_ratio(), found.frequency]);
         }
-        values[17..24].copy_from_slice(&self.faults.map(|n| n as f64));
-        values[24] = self.jacobians as f64;
+        let [faults @ .., last] = self.faults.map(|n| n as f64);
+        values[17..24].copy_from_slice(&faults);
+        values[24..].copy_from_slice(&[self.jacobians as f64, d.undone as f64, last]);
         values
     }
 }
@@ -79,7 +82,7 @@ mod tests {
 
     #[test]
     fn failures_are_named_as_faults() {
-        let names = STATISTICS[17..24].iter().map(|name| name.strip_prefix("failed_"));
-        assert!(names.eq(FAULTS.map(Some)));
+        let failed = STATISTICS.iter().filter_map(|name| name.strip_prefix("failed_"));
+        assert!(failed.filter(|name| *name != "steps").eq(FAULTS));
     }
 }

@@ -126,5 +126,8 @@ fn cvode_takes_the_structured_solver_of_the_library() {
         assert!(largest < 2e-5, "{name}: {largest:e}");
         assert!(50 * statistics.newton_failures < statistics.steps, "{name}: {statistics:?}");
     }
-    assert!(runs[2].1.evaluations < runs[0].1.evaluations / 2, "no difference quotients");
+    // An iteration or two per step; quotients take one more for every state and derivative.
+    let per_step = |statistics: &cvode::Statistics| statistics.evaluations as f64 / statistics.steps as f64;
+    let [quotients, _, structured] = [0, 1, 2].map(|k| per_step(&runs[k].1));
+    assert!(structured < 1.5 && quotients > 2.0, "{structured}, {quotients} evaluations per step");
 }

@@ -10,6 +10,17 @@ mod cvode;
 #[path = "../../examples/statistics/judge.rs"]
 mod judge;
 
+/// Where the judged scenes expect them.
+mod random {
+    pub use crate::common::Random;
+}
+#[path = "../../examples/judge/run.rs"]
+mod run;
+#[path = "../../examples/judge/scenes.rs"]
+mod scenes;
+#[path = "../../examples/judge/summary.rs"]
+mod summary;
+
 mod agreement;
 mod bearing;
 mod guide;
@@ -255,4 +266,40 @@ fn a_minute_of_simulated_time() {
     let residual = sim.power_balance().expect("a balance").relative_residual();
     println!("residual {residual:.1e}; {}", sim.report());
     assert!(residual.abs() < RESIDUAL);
+}
+
+/// Judges plausible random scenes, `make judge`: how many were not trusted or failed, and the table.
+fn judge_scenes(numbers: std::ops::Range<u64>, presets: &[&str], means: bool) -> [usize; 2] {
+    let presets = presets.iter().map(|preset| (*preset).to_owned()).collect();
+    let options = run::Options { duration: 0.03, means, presets, wall_time: 120.0 };
+    let outcomes = run::judge_all(numbers, &options, |outcome| {
+        if let Some(line) = summary::line(outcome) {
+            println!("{line}");
+        }
+    });
+    println!("{}", summary::table(&outcomes));
+    let [mut bad, mut broken] = [0; 2];
+    for outcome in &outcomes {
+        match &outcome.verdict {
+            run::Verdict::Ran { trusted: true, residual, apart, .. } => {
+                let kept = residual.abs() <= outcome.promise && apart.is_none_or(|(apart, _)| apart <= 1.0);
+                broken += usize::from(!kept);
+            }
+            _ => bad += 1,
+        }
+    }
+    [bad, broken]
+}
+
+#[test]
+fn random_scenes_keep_the_promise_of_engineering() {
+    assert_eq!(judge_scenes(0..20, &["engineering"], false), [0, 0]);
+}
+
+#[test]
+#[ignore = "make hard"]
+fn two_hundred_random_scenes_keep_every_promise() {
+    let [bad, broken] = judge_scenes(0..200, &[], false);
+    assert!(bad <= 3, "{bad}");
+    assert_eq!(broken, 0);
 }

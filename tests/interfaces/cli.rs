@@ -66,6 +66,47 @@ fn overrides_reach_the_run() {
 }
 
 #[test]
+fn runs_that_are_not_to_be_trusted_say_so() {
+    let dir = tempfile::tempdir().expect("a directory");
+    let out = dir.path().to_string_lossy().into_owned();
+    let solver = r#"solver={"method": {"leapfrog": {"step": 1e-5}}}"#;
+    let trusted = |set: &[&str]| {
+        let mut arguments = vec!["run", "scenes/nu2310.json", "--until", "0.01", "--out", &out];
+        arguments.extend(set);
+        (run(&arguments), json(&dir.path().join("summary.json")))
+    };
+    let (output, summary) = trusted(&[]);
+    assert!(output.status.success());
+    assert_eq!((&summary["trusted"], &summary["doubts"]), (&true.into(), &serde_json::Value::Null));
+    let (output, summary) = trusted(&["--set", solver]);
+    assert_eq!(output.status.code(), Some(3));
+    assert!(text(&output.stderr).contains("not to be trusted: leapfrog steps of 1.000e-5 s are unstable"));
+    assert_eq!(text(&output.stderr).lines().count(), 1);
+    assert!(text(&output.stdout).contains("trusted            NO:"), "{}", text(&output.stdout));
+    assert_eq!(summary["trusted"], false);
+    assert!(summary["doubts"][0].as_str().is_some_and(|doubt| doubt.contains("unstable")), "{summary}");
+}
+
+/// The system's mathematical functions are others on processors without fused operations; the library calls none of them.
+#[test]
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+fn bits_do_not_depend_on_the_processor() {
+    for scene in ["ball_short_bearing", "nu2310_grease", "grease_guide"] {
+        let table = |tunables: &str| {
+            let dir = tempfile::tempdir().expect("a directory");
+            let (scene, out) = (format!("scenes/{scene}.json"), dir.path().to_string_lossy().into_owned());
+            let arguments = ["run", &scene, "--until", "0.02", "--out", &out];
+            let output =
+                cagedyn().env("GLIBC_TUNABLES", tunables).args(arguments).output().expect("it starts");
+            assert!(output.status.success(), "{}", text(&output.stderr));
+            std::fs::read(dir.path().join("timeseries.csv")).expect("a table")
+        };
+        let without = "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F,-AVX2_Usable,-FMA_Usable";
+        assert!(table("") == table(without), "{scene}");
+    }
+}
+
+#[test]
 fn mistakes_are_one_line_and_exit_with_1() {
     let dir = tempfile::tempdir().expect("a directory");
     let out = dir.path().join("out").to_string_lossy().into_owned();

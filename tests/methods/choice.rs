@@ -1,9 +1,9 @@
-//! The choice of a method on small systems: what it measures, when it leaves the leapfrog and returns, and the race
+//! The choice of a method on small systems: what it measures, when it leaves the leapfrog and returns, and the selection
 //! between the methods with error control.
 
 use cagedyn::integrate::auto::{Aim, Auto, Kind, Reason};
 use cagedyn::integrate::mode::{Mode, ModeFinder};
-use cagedyn::integrate::watch::Expectation;
+use cagedyn::integrate::step_monitor::Expectation;
 use cagedyn::integrate::{
     Driver, GroupDamping, Leapfrog, Limits, Linearization, Structure, System, Vibration,
 };
@@ -124,6 +124,7 @@ fn auto(system: &Stiffening, statistics: bool) -> Driver<Stiffening> {
         tolerance: 1e-8,
         affordable: 6.0,
         first_step: 1e-3,
+        missing_energy: 1e-3,
     };
     let limits = limits(aim.nominal_step());
     let mut driver = Driver::new(Box::new(Auto::new(system, aim)), limits);
@@ -142,7 +143,7 @@ fn the_choice_leaves_the_leapfrog_where_it_must_and_returns() {
         driver.advance(system, t).unwrap();
         driver.choice().unwrap()
     };
-    let before = at(&mut driver, &mut system, 59.0);
+    let before = at(&mut driver, &mut system, 55.0);
     assert_eq!((before.method, before.reason), (Kind::Leapfrog, Reason::Vibration));
     // No damping was found: half the step.
     assert!((before.leapfrog_step - 0.05).abs() < 1e-3, "{before:?}");
@@ -184,9 +185,9 @@ fn checks_of_the_leapfrog_leave_the_run_alone() {
 
 #[test]
 fn the_choice_gives_way_when_attempts_fail() {
-    let mut system = Stiffening { squares: [(0.0, 1.0); 3], fails_from: 30.0, failures: 3 };
+    let mut system = Stiffening { squares: [(0.0, 1.0); 3], fails_from: 31.0, failures: 3 };
     let mut driver = auto(&system, true);
-    driver.advance(&mut system, 30.5).unwrap();
+    driver.advance(&mut system, 31.5).unwrap();
     let choice = driver.choice().unwrap();
     assert_eq!((choice.method, choice.reason), (Kind::Rosenbrock, Reason::Failures), "{choice:?}");
     assert!(driver.statistics().faults >= 3);

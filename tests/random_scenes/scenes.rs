@@ -255,7 +255,7 @@ fn solver() -> impl Strategy<Value = Value> {
         magnitude(1e-7, 1e-3).prop_map(|tolerance| json!({"rosenbrock": {"tolerance": tolerance}})),
         magnitude(1e-7, 1e-3).prop_map(|tolerance| json!({"radau": {"tolerance": tolerance}})),
     ]
-    .prop_map(|method| json!({"method": method, "min_step": 1e-13, "max_steps": 1_500}))
+    .prop_map(|method| json!({"method": method, "min_step": 1e-13, "max_steps": 2_500}))
 }
 
 /// Puts rollers between two rings, without a cage now and then.

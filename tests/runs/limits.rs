@@ -40,6 +40,31 @@ fn an_interrupted_run_goes_on_with_the_same_bits() {
     }
 }
 
+/// Within a stretch of judged steps as anywhere else.
+#[test]
+fn a_run_of_many_short_advances_has_the_same_bits() {
+    for text in [read("scenes/nu2310.json"), read("scenes/grease_guide.json")] {
+        let mut scene: Value = serde_json::from_str(&text).unwrap();
+        let mut whole = sim(&scene);
+        let until = 1.5e-3;
+        whole.advance_to(until).unwrap();
+        scene["solver"]["max_steps"] = json!(7);
+        let mut parts = sim(&scene);
+        let mut advances = 0;
+        let mut outputs = vec![0.0; parts.channels().len()];
+        while let Err(e) = parts.advance_to(until) {
+            assert_eq!(e.status, Status::TooManySteps, "{e}");
+            assert!(e.message.contains(&format!("t = {:?} s", parts.time())) && parts.time() < until, "{e}");
+            parts.outputs(&mut outputs).unwrap();
+            parts.power_balance().unwrap();
+            advances += 1;
+        }
+        assert!(advances > 20, "{advances}");
+        assert_eq!(bits(parts.state()), bits(whole.state()));
+        assert_eq!(parts.statistics().driver, whole.statistics().driver);
+    }
+}
+
 #[test]
 fn the_largest_step_binds_every_method() {
     for method in ["auto", "leapfrog", "dormand_prince", "rosenbrock", "radau"] {

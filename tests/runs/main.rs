@@ -6,4 +6,5 @@ mod common;
 mod grease_guide;
 mod limits;
 mod nu2310;
+mod promises;
 mod sim;

@@ -68,13 +68,14 @@ pub fn command(args: &CasesArgs) -> Result<ExitCode> {
     let head: Vec<String> = comparison.columns.iter().map(|(name, _)| (*name).to_owned()).collect();
     print_row(&head, &widths)?;
     let mut done = Vec::new();
-    let mut failed = false;
+    let (mut failed, mut untrusted) = (false, false);
     for (case, scene) in set.cases.iter().zip(scenes) {
         match run_case(args, &base, case, scene) {
-            Ok((finished, failure)) => {
+            Ok((finished, failure, trust)) => {
                 print_row(&(comparison.row)(&finished), &widths)?;
                 done.push(finished);
                 failed |= failure.inspect(|e| report(args, case, e)).is_some();
+                untrusted |= trust.inspect_err(|e| report(args, case, e)).is_err();
             }
             Err(e) => {
                 report(args, case, &e);
@@ -90,17 +91,18 @@ pub fn command(args: &CasesArgs) -> Result<ExitCode> {
     Ok(match (terminal::stop_requested(), failed) {
         (true, _) => ExitCode::from(INTERRUPTED),
         (_, true) => ExitCode::FAILURE,
+        _ if untrusted => ExitCode::from(run::UNTRUSTED),
         _ => ExitCode::SUCCESS,
     })
 }
 
-/// Runs one case and writes its files. The second result is why it ended early, if it failed.
+/// Runs one case and writes its files. The second result is why it ended early, if it failed, the last whether to trust it.
 fn run_case<'a>(
     args: &CasesArgs,
     base: &Path,
     case: &'a Case,
     mut scene: Scene,
-) -> Result<(Done<'a>, Option<cagedyn::Error>)> {
+) -> Result<(Done<'a>, Option<cagedyn::Error>, Result<()>)> {
     args.instead.apply(&mut scene);
     let run = run::simulate(scene, &case.name, &case.name, args.instead.max_wall_time)?;
     let folder: PathBuf = args.out.join(&case.name);
@@ -108,7 +110,8 @@ fn run_case<'a>(
     let set = case.set.iter().map(|(path, value)| format!("{path}={value}")).collect();
     let mut summary = Summary::new(&run, base, Some(&case.name), set);
     output::write(&run, &mut summary, &folder)?;
-    Ok((Done { case, speed: speed_at_end(&run), summary }, run.failure))
+    let trust = run.trust();
+    Ok((Done { case, speed: speed_at_end(&run), summary }, run.failure, trust))
 }
 
 fn speed_at_end(run: &Run) -> f64 {

@@ -106,11 +106,12 @@ fn effort(run: &Run, summary: &Summary, folder: &Path) -> Vec<Vec<String>> {
         format!("{} of {} s", grouped(i.steps), number(i.largest_step_s))
     } else {
         format!(
-            "{} of {} s to {} s, {} rejected",
+            "{} of {} s to {} s, {} rejected, {} undone",
             grouped(i.steps),
             number(i.smallest_step_s),
             number(i.largest_step_s),
-            grouped(i.rejected)
+            grouped(i.rejected),
+            grouped(i.undone)
         )
     };
     let time = format!(
@@ -129,6 +130,9 @@ fn effort(run: &Run, summary: &Summary, folder: &Path) -> Vec<Vec<String>> {
         ("time", time),
         ("where it goes", time_shares(&i.time_shares)),
     ];
+    if !run.doubts.is_empty() {
+        rows.push(("trusted", format!("NO: {}", run.doubts.join("; "))));
+    }
     if run.interrupted {
         rows.push(("ended", "interrupted, results are incomplete".to_owned()));
     } else if run.failure.is_some() {

@@ -22,6 +22,9 @@ const LARGEST_WINDOW_SHARE: f64 = 1.0 / 3.0;
 const SAMPLES: f64 = 16.0;
 const REPEATS: u32 = 200;
 
+/// Exit code of runs that ended but are not to be trusted.
+pub const UNTRUSTED: u8 = 3;
+
 /// A run that has ended: by itself, by Ctrl-C or by a failure.
 pub struct Run {
     /// Title for tables and pictures.
@@ -38,6 +41,8 @@ pub struct Run {
     pub statistics: RunStatistics,
     /// Works and energies, if forces are defined at the end.
     pub balance: Option<PowerBalance>,
+    /// What speaks against trusting the run.
+    pub doubts: Vec<String>,
     /// What the integration did and why.
     pub report: String,
     /// Simulated time, s.
@@ -51,6 +56,15 @@ pub struct Run {
 }
 
 impl Run {
+    /// An error with all doubts, if there are any.
+    pub fn trust(&self) -> Result<()> {
+        if self.doubts.is_empty() {
+            return Ok(());
+        }
+        let text = format!("{}: not to be trusted: {}", self.title, self.doubts.join("; "));
+        Err(Error::new(Status::Untrusted, text))
+    }
+
     /// Values of a channel, if the scene has it.
     pub fn column(&self, name: &str) -> Option<&[f64]> {
         let index = self.channels.iter().position(|c| c.name == name)?;
@@ -115,6 +129,10 @@ pub fn command(args: &RunArgs) -> Result<ExitCode> {
         terminal::complain(failure);
         return Ok(ExitCode::FAILURE);
     }
+    if let Err(untrusted) = run.trust() {
+        terminal::complain(&untrusted);
+        return Ok(ExitCode::from(UNTRUSTED));
+    }
     Ok(if run.interrupted { ExitCode::from(INTERRUPTED) } else { ExitCode::SUCCESS })
 }
 
@@ -148,6 +166,7 @@ pub fn simulate(scene: Scene, fallback_title: &str, label: &str, max_wall_time: 
         channels: sim.channels().to_vec(),
         parts,
         statistics: sim.statistics(),
+        doubts: sim.doubts().iter().map(ToString::to_string).collect(),
         report: sim.report(),
         time: sim.time(),
         wall,

@@ -29,6 +29,11 @@ pub struct Summary {
     /// Why the run failed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error: Option<String>,
+    /// Whether the run kept what its preset promises.
+    pub trusted: bool,
+    /// What speaks against that.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub doubts: Vec<String>,
     /// Simulated time, s.
     pub simulated_time_s: f64,
     /// Wall time of the simulation, s.
@@ -85,6 +90,8 @@ pub struct Integration {
     pub steps: u64,
     /// Steps rejected by the error estimate.
     pub rejected: u64,
+    /// Steps taken back because they missed energy.
+    pub undone: u64,
     /// Steps abandoned because forces were undefined.
     pub faults: u64,
     /// The same by cause; those that never occurred are left out.
@@ -209,6 +216,8 @@ impl Summary {
             version: env!("CARGO_PKG_VERSION"),
             interrupted: run.interrupted,
             error: run.failure.as_ref().map(|e| e.message.clone()),
+            trusted: run.doubts.is_empty(),
+            doubts: run.doubts.clone(),
             simulated_time_s: run.time,
             wall_time_s: run.wall,
             simulated_over_wall: if run.wall > 0.0 { run.time / run.wall } else { 0.0 },
@@ -280,6 +289,7 @@ fn integration(run: &Run) -> Integration {
         report: run.report.clone(),
         steps: driver.steps,
         rejected: driver.rejected,
+        undone: driver.undone,
         faults: driver.faults,
         faults_by_cause: FAULTS.into_iter().zip(run.statistics.faults).filter(|(_, n)| *n > 0).collect(),
         raceway_vibration_rms: driver.vibration.rms(),

@@ -1,4 +1,4 @@
-//! Watches over the leapfrog, which has no error estimate of its own, and chooses its step.
+//! Monitors the leapfrog, which has no error estimate of its own, and chooses its step.
 //!
 //! The step is `share / highest frequency`, halved `level` times. From time to time the highest frequency is measured
 //! at the present state, and a stretch of steps is made twice, with the step and with half of it: their difference is
@@ -111,9 +111,9 @@ pub enum Verdict {
     Hopeless,
 }
 
-/// The watch and its memory.
+/// The monitor and its memory.
 #[derive(Clone, Debug)]
-pub struct Watch {
+pub struct StepMonitor {
     expected: Expectation,
     coarse: Leapfrog,
     fine: Leapfrog,
@@ -135,11 +135,11 @@ pub struct Watch {
     findings: Findings,
 }
 
-impl Watch {
-    /// A watch over a system; `units` are one unit of error of each state.
+impl StepMonitor {
+    /// A monitor of a system; `units` are one unit of error of each state.
     pub fn new<S: System>(system: &S, expected: Expectation, units: &[f64]) -> Self {
         let (structure, leapfrog) = (system.structure(), Leapfrog::new(system));
-        let mut watch = Self {
+        let mut monitor = Self {
             expected,
             coarse: leapfrog.clone(),
             fine: leapfrog,
@@ -156,8 +156,8 @@ impl Watch {
             weight: 0.0,
             findings: Findings::default(),
         };
-        watch.forget();
-        watch
+        monitor.forget();
+        monitor
     }
 
     /// Forgets everything that was measured.
@@ -356,7 +356,7 @@ impl Watch {
         out.extend(self.vibrations.iter().chain(&f.vibrations).flat_map(|v| [v.squares, v.count]));
     }
 
-    /// Takes back what [`Watch::save`] wrote; `None` if it does not fit.
+    /// Takes back what [`StepMonitor::save`] wrote; `None` if it does not fit.
     pub fn load(&mut self, from: &mut Reader<'_>) -> Option<()> {
         let positive = |from: &mut Reader<'_>| from.number().filter(|x| *x >= 0.0);
         self.due = from.count()?;

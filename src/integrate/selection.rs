@@ -15,7 +15,7 @@ const CLEAR_LEAD: f64 = 1.2;
 
 /// Two methods, numbered 0 and 1, one of which is active.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Race {
+pub struct Selection {
     active: usize,
     /// Simulated time in s and evaluations in the present window.
     advanced: f64,
@@ -29,8 +29,8 @@ pub struct Race {
     pause: f64,
 }
 
-impl Race {
-    /// A race in which `first` is active.
+impl Selection {
+    /// A selection in which `first` is active.
     pub fn new(first: usize) -> Self {
         Self {
             active: first,
@@ -113,7 +113,7 @@ impl Race {
         out.extend([f64::from(u8::from(self.trial)), self.wait, self.pause]);
     }
 
-    /// Takes back what [`Race::save`] wrote; `None` if it does not fit.
+    /// Takes back what [`Selection::save`] wrote; `None` if it does not fit.
     pub fn load(&mut self, from: &mut Reader<'_>) -> Option<()> {
         self.active = usize::from(from.flag()?);
         for number in [&mut self.advanced, &mut self.cost].into_iter().chain(&mut self.rates) {

@@ -1,0 +1,109 @@
+//! Whether a run kept what its preset promises, and if not, why.
+
+use super::preset::numbers;
+use super::{PowerBalance, Sim};
+use crate::error::{Error, Result, Status};
+use crate::scene::Method;
+use std::fmt;
+
+/// Less than this share of the stored energy is round-off of a run.
+const ROUNDING: f64 = 1e-10;
+/// The leapfrog is stable up to this many times the inverse of the highest frequency.
+const STABLE: f64 = 2.0;
+
+/// Why a run is not to be trusted.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Doubt {
+    /// More energy is missing than the preset promises.
+    MissingEnergy {
+        /// What is missing as a share of what passed through.
+        share: f64,
+        /// The largest share that the preset allows.
+        promised: f64,
+    },
+    /// The balance cannot be closed, because forces are undefined at the end.
+    NoBalance(String),
+    /// The steps of the leapfrog that was asked for are too long for the fastest contact.
+    UnstableStep {
+        /// The step, s.
+        step: f64,
+        /// The longest stable one, s.
+        longest: f64,
+    },
+}
+
+impl fmt::Display for Doubt {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Doubt::MissingEnergy { share, promised } => {
+                let (share, promised) = (100.0 * share, 100.0 * promised);
+                write!(
+                    f,
+                    "{share:+.2} % of the energy that passed through is missing, allowed are {promised} %"
+                )
+            }
+            Doubt::NoBalance(why) => write!(f, "the power balance cannot be closed: {why}"),
+            Doubt::UnstableStep { step, longest } => {
+                write!(
+                    f,
+                    "leapfrog steps of {step:.3e} s are unstable in the fastest contact above {longest:.3e} s"
+                )
+            }
+        }
+    }
+}
+
+impl PowerBalance {
+    /// Whether no more than this share of the energy that passed through is missing, or no more than round-off.
+    pub fn closes(&self, share: f64) -> bool {
+        let stored: f64 = self.energy.iter().map(|e| e.kinetic + e.elastic + e.potential.abs()).sum();
+        // Written so that what is not a number does not close.
+        self.residual().abs() <= share * self.throughput() + ROUNDING * stored
+    }
+}
+
+impl Sim {
+    /// Share of the energy that this simulation's preset lets a trusted run miss: 1e-2 at `draft`, 1e-3 at `engineering`,
+    /// 1e-4 at `reference`.
+    pub fn promised_balance(&self) -> f64 {
+        numbers(self.solver.preset).missing_energy
+    }
+
+    /// What speaks against this run, since the start of the scene or the last [`Sim::set_state`]; nothing, if it is to be
+    /// trusted.
+    pub fn doubts(&mut self) -> Vec<Doubt> {
+        let mut doubts = Vec::new();
+        if let Method::Leapfrog(_) = self.solver.method {
+            let (step, longest) = (self.nominal_step(), STABLE / self.model().highest_frequency());
+            if step > longest {
+                doubts.push(Doubt::UnstableStep { step, longest });
+            }
+        }
+        let promised = self.promised_balance();
+        match self.power_balance() {
+            Err(e) => doubts.push(Doubt::NoBalance(e.message)),
+            Ok(balance) if !balance.closes(promised) => {
+                doubts.push(Doubt::MissingEnergy { share: balance.relative_residual(), promised });
+            }
+            Ok(_) => {}
+        }
+        doubts
+    }
+
+    /// Whether the run is to be trusted.
+    ///
+    /// # Errors
+    /// [`Status::Untrusted`] with every doubt.
+    pub fn trust(&mut self) -> Result<()> {
+        let doubts = self.doubts();
+        if doubts.is_empty() {
+            return Ok(());
+        }
+        Err(Error::new(Status::Untrusted, in_words(&doubts)))
+    }
+}
+
+/// All doubts in one line.
+pub(super) fn in_words(doubts: &[Doubt]) -> String {
+    doubts.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
+}
