@@ -7,6 +7,7 @@
 # make effects   cost of every effect and what it changes: docs/effects.md
 # make verify    errors of the integration methods against CVODE: docs/verification.md
 # make hard     hard cases with every method and preset: docs/hard-cases.md
+# make judge     the presets on random scenes that nothing was tuned to, from SEED on, N of them
 # make random   forty thousand random scenes; about an hour
 # make statistics  long runs of all methods in their statistics: docs/statistics.md
 # make accuracy  what accuracy costs in time, beside other solvers: docs/accuracy.md
@@ -20,7 +21,7 @@ DESTDIR ?=
 VERSION := $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -n 1)
 CARGO ?= cargo
 
-.PHONY: check test tools fmt lint doc shipped quick unit run cases pictures example effects verify hard random statistics \
+.PHONY: check test tools fmt lint doc shipped quick unit run cases pictures example effects verify hard judge random statistics \
 	accuracy bench build-times header install clean
 
 # The same flags everywhere, so that nothing is built twice.
@@ -94,6 +95,12 @@ verify: tools
 
 hard:
 	CAGEDYN_BLESS=1 $(CARGO) test --release --locked --test hard -- --ignored --nocapture
+
+SEED ?= 1000
+N ?= 200
+
+judge:
+	$(CARGO) run --release --locked --example judge -- --seed $(SEED) --n $(N) $(ARGS)
 
 # Twenty times as many random scenes as every test run has; about an hour.
 random:

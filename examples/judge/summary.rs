@@ -1,0 +1,69 @@
+//! What the judged runs amount to.
+
+use super::run::{Outcome, PRESETS, Verdict};
+
+/// Whether more is missing than promised, or what is no number.
+fn breaks(residual: f64, promise: f64) -> bool {
+    residual.is_nan() || residual.abs() > promise
+}
+
+/// A line about a run that is not as it should be.
+pub fn line(outcome: &Outcome) -> Option<String> {
+    let Outcome { number, preset, promise, verdict } = outcome;
+    let text = match verdict {
+        Verdict::Failed(e) => format!("failed: {e}"),
+        Verdict::Ran { trusted: false, report, residual, .. } => {
+            format!("not trusted, residual {residual:.1e}: {report}")
+        }
+        Verdict::Ran { residual, report, evaluations, .. } if breaks(*residual, *promise) => {
+            format!("residual {residual:.1e}, {evaluations} evaluations: {report}")
+        }
+        Verdict::Ran { apart: Some((apart, channel)), report, residual, .. } if *apart > 1.0 => {
+            format!(
+                "mean of {channel} {apart:.1} times too far from reference, residual {residual:.1e}: {report}"
+            )
+        }
+        _ => return None,
+    };
+    Some(format!("{number} {preset}: {text}"))
+}
+
+/// Counts by preset.
+pub fn table(outcomes: &[Outcome]) -> String {
+    let mut text = "\n| preset | scenes | refused | failed | not trusted | trusted, balance broken | trusted, means apart | \
+                    largest missing share of the trusted | median evaluations per run |\n|---|---|---|---|---|---|---|---|---|\n"
+        .to_owned();
+    for (preset, promise) in PRESETS {
+        let list: Vec<&Outcome> = outcomes.iter().filter(|o| o.preset == preset).collect();
+        if list.is_empty() {
+            continue;
+        }
+        let count = |f: &dyn Fn(&Verdict) -> bool| list.iter().filter(|o| f(&o.verdict)).count();
+        let mut evaluations: Vec<u64> = list
+            .iter()
+            .filter_map(|o| {
+                if let Verdict::Ran { evaluations, .. } = o.verdict { Some(evaluations) } else { None }
+            })
+            .collect();
+        evaluations.sort_unstable();
+        let largest = list.iter().fold(0.0f64, |most, o| match o.verdict {
+            Verdict::Ran { residual, trusted: true, .. } => most.max(residual.abs()),
+            _ => most,
+        });
+        text += &format!(
+            "| {preset} | {} | {} | {} | {} | {} | {} | {largest:.1e} | {} |\n",
+            list.len(),
+            count(&|v| matches!(v, Verdict::Refused)),
+            count(&|v| matches!(v, Verdict::Failed(_))),
+            count(&|v| matches!(v, Verdict::Ran { trusted: false, .. })),
+            count(
+                &|v| matches!(v, Verdict::Ran { trusted: true, residual, .. } if breaks(*residual, promise))
+            ),
+            count(
+                &|v| matches!(v, Verdict::Ran { trusted: true, apart: Some((apart, _)), .. } if *apart > 1.0)
+            ),
+            evaluations.get(evaluations.len() / 2).copied().unwrap_or(0),
+        );
+    }
+    text
+}
