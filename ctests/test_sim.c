@@ -3,7 +3,7 @@
 
 #include "check.h"
 
-enum { STATISTICS = 25 };
+enum { STATISTICS = 27 };
 
 static void check_state_and_derivative(const cagedyn_model *m)
 {
@@ -147,11 +147,13 @@ static void check_steps_and_outputs(const cagedyn_model *m)
     }
     CHECK(cagedyn_statistic_count() == STATISTICS);
     CHECK(strcmp(cagedyn_statistic_name(0), "steps") == 0);
-    CHECK(strcmp(cagedyn_statistic_name(STATISTICS - 1), "jacobians") == 0);
+    CHECK(strcmp(cagedyn_statistic_name(STATISTICS - 1), "failed_out_of_pocket") == 0);
     CHECK(cagedyn_statistic_name(STATISTICS)[0] == '\0');
     CHECK(cagedyn_sim_statistics(sim, count, STATISTICS) == CAGEDYN_OK && count[0] > 100.0);
     CHECK(strncmp(cagedyn_sim_report(sim), "rosenbrock: errors are controlled", 33) == 0);
     CHECK(cagedyn_sim_report(NULL)[0] == '\0');
+    CHECK(cagedyn_sim_trust(sim) == CAGEDYN_OK);
+    CHECK_FAILS(cagedyn_sim_trust(NULL), CAGEDYN_ERR_NULL_ARGUMENT, "sim: is NULL");
     cagedyn_sim_free(sim);
     cagedyn_sim_free(other);
     free(all), free(one), free(many);

@@ -105,6 +105,9 @@
 // The limit on the wall time was reached, see cagedyn_sim_set_wall_time_limit().
 #define CAGEDYN_ERR_OUT_OF_TIME -15
 
+// A run did not keep what its preset promises, see cagedyn_sim_trust().
+#define CAGEDYN_ERR_UNTRUSTED -16
+
 // A defect in the library; free the object.
 #define CAGEDYN_ERR_INTERNAL -99
 
@@ -391,6 +394,7 @@ int64_t cagedyn_statistic_count(void);
 //   vibration with a step to vibration with half of it), highest_frequency (rad/s): what "auto" found when it repeated
 //   leapfrog steps with half the step.
 // - failed_...: failed_steps by cause.
+// - jacobians: derivatives of all forces; undone_steps: steps that "auto" took back because they missed energy.
 const char *cagedyn_statistic_name(int64_t index);
 
 // Writes the statistics since creation or reset; a restored simulation goes on from the saved ones (length: statistic
@@ -399,9 +403,15 @@ int32_t cagedyn_sim_statistics(const cagedyn_sim *sim,
                                double *out,
                                int64_t length);
 
+// Whether the run since the start of the scene or the last set state kept what its preset promises: CAGEDYN_OK, or
+// CAGEDYN_ERR_UNTRUSTED with the reasons in cagedyn_error_message(). Promised is that no more than 1 % (draft), 0.1 %
+// (engineering) or 0.01 % (reference) of the energy that passed through is missing, and that leapfrog steps that were asked
+// for are stable. Costs a force evaluation.
+int32_t cagedyn_sim_trust(cagedyn_sim *sim);
+
 // What the integration does and why, and what went wrong on the way, in one line for people: the method and the reason
-// it was chosen for, the error found by checks, failed attempts with the contact or body that caused the last one. ""
-// on failure. Lives until the next call for this simulation.
+// it was chosen for, the error found by checks, failed attempts with the contact or body that caused the last one, what
+// speaks against trusting the run. "" on failure. Lives until the next call for this simulation.
 const char *cagedyn_sim_report(cagedyn_sim *sim);
 
 // Number of force laws whose evaluations are counted.
