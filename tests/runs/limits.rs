@@ -46,7 +46,7 @@ fn a_run_of_many_short_advances_has_the_same_bits() {
     for text in [read("scenes/nu2310.json"), read("scenes/grease_guide.json")] {
         let mut scene: Value = serde_json::from_str(&text).unwrap();
         let mut whole = sim(&scene);
-        let until = 1.5e-3;
+        let until = 3e-3;
         whole.advance_to(until).unwrap();
         scene["solver"]["max_steps"] = json!(7);
         let mut parts = sim(&scene);
@@ -59,7 +59,7 @@ fn a_run_of_many_short_advances_has_the_same_bits() {
             parts.power_balance().unwrap();
             advances += 1;
         }
-        assert!(advances > 20, "{advances}");
+        assert!(advances > 10, "{advances}");
         assert_eq!(bits(parts.state()), bits(whole.state()));
         assert_eq!(parts.statistics().driver, whole.statistics().driver);
     }
