@@ -364,7 +364,7 @@ fn no_number_in_a_snapshot_can_hang_or_break_a_run() {
         r#""auto": {"tolerance": 1e-5}"#,
     ];
     for method in methods {
-        let solver = format!(r#"{{"method": {{{method}}}, "max_steps": 2000}}"#);
+        let solver = format!(r#"{{"method": {{{method}}}, "max_steps": 600}}"#);
         // Few rollers: a restore makes a stretch again, and there are as many as there are numbers.
         let mut s = sim(&[("solver", &solver), ("rollers.count", "5")]);
         s.advance_to(0.2e-3).unwrap();
