@@ -7,8 +7,6 @@ mod cases;
 mod common;
 #[path = "common/cvode/mod.rs"]
 mod cvode;
-#[path = "../examples/statistics/judge.rs"]
-mod judge;
 #[path = "../examples/statistics/methods.rs"]
 mod methods;
 #[path = "../examples/statistics/readings.rs"]
@@ -18,9 +16,9 @@ mod spectrum;
 #[path = "../examples/statistics/study.rs"]
 mod study;
 
+use cagedyn::sim::{LEVEL, Sample, Verdict, student};
 use cases::{Case, NU2310};
 use common::{Random, repository};
-use judge::{LEVEL, Sample, Verdict, student};
 use methods::Solver;
 use readings::QUANTITIES;
 use std::f64::consts::TAU;

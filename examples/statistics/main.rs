@@ -6,7 +6,6 @@ mod cases;
 #[allow(dead_code)] // shared with the tests, which also use its other method
 #[path = "../../tests/common/cvode/mod.rs"]
 mod cvode;
-mod judge;
 mod methods;
 mod readings;
 mod report;

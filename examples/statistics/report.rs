@@ -1,9 +1,9 @@
 //! Tables of the study, and their place in the documentation.
 
-use crate::judge::Verdict;
 use crate::readings::QUANTITIES;
 use crate::study::{Outcome, Outcomes};
 use crate::table::Table;
+use cagedyn::sim::Verdict;
 use cagedyn::{Error, Result, Status};
 use std::path::Path;
 

@@ -2,9 +2,9 @@
 
 use crate::cases::Case;
 use crate::cvode::{self, Derivatives};
-use crate::judge::{LEVEL, Sample, Verdict};
 use crate::methods::{METHODS, Method, Solver};
 use crate::readings::{QUANTITIES, Record};
+use cagedyn::sim::{LEVEL, Sample, Verdict};
 use cagedyn::{Error, Result, Sim, Status};
 use serde_json::json;
 use std::path::Path;

@@ -1,6 +1,6 @@
 //! Outputs recorded on a fixed time grid, and their statistics.
 
-use super::Sim;
+use super::{Sample, Sim};
 use crate::error::{Error, Result, Status};
 use serde::Serialize;
 
@@ -23,6 +23,10 @@ pub struct Spread {
     pub mean: f64,
     /// Standard deviation.
     pub deviation: f64,
+    /// Standard error of the mean, see [`Sample`].
+    pub standard_error: f64,
+    /// Whether the window is long enough for it: no drift or swing as long as itself.
+    pub stationary: bool,
     /// Smallest value.
     pub min: f64,
     /// Largest value.
@@ -94,6 +98,7 @@ impl Spread {
         let n = values.len() as f64;
         let mean = values.iter().sum::<f64>() / n;
         let variance = values.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / n;
+        let sample = Sample::of_series(values);
         let percentile = |p: f64| {
             let place = p * (n - 1.0);
             let (low, share) = (place.floor() as usize, place.fract());
@@ -103,6 +108,8 @@ impl Spread {
         Some(Self {
             mean,
             deviation: variance.sqrt(),
+            standard_error: sample.map_or(0.0, |sample| sample.standard_error()),
+            stationary: sample.is_some_and(|sample| sample.stationary),
             min,
             max,
             p05: percentile(0.05),

@@ -7,8 +7,6 @@
 mod common;
 #[path = "../common/cvode/mod.rs"]
 mod cvode;
-#[path = "../../examples/statistics/judge.rs"]
-mod judge;
 
 /// Where the judged scenes expect them.
 mod random {
@@ -29,6 +27,7 @@ mod numbers;
 mod tables;
 
 use cagedyn::integrate::auto::Kind;
+use cagedyn::sim::{LEVEL, Sample};
 use cagedyn::{Error, Model, Sim};
 use motion::{Class, Path, Readings};
 use serde_json::{Value, json};
@@ -251,12 +250,12 @@ fn a_minute_of_simulated_time() {
         seconds.push(means);
     }
     let sample = |part: &[[f64; 4]], k: usize| {
-        judge::Sample::of(&part.iter().map(|means| means[k]).collect::<Vec<_>>()).expect("two seconds")
+        Sample::of(&part.iter().map(|means| means[k]).collect::<Vec<_>>()).expect("two seconds")
     };
     for (k, name) in names.into_iter().enumerate() {
         // The first seconds still warm up slip.
         let verdict =
-            sample(&seconds[40..], k).against(&sample(&seconds[2..22], k), judge::LEVEL, names.len());
+            sample(&seconds[40..], k).against(&sample(&seconds[2..22], k), LEVEL, names.len());
         println!(
             "{name}: last 20 s less 20 s from 2 s on {:+.2e}, band {:.2e}",
             verdict.difference, verdict.band

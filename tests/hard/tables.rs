@@ -2,8 +2,8 @@
 
 use crate::agreement::{SAME, compared, reference, within};
 use crate::common::{replace_between, repository};
-use crate::judge::Verdict;
 use crate::{Case, Outcome, RESIDUAL, cases, run};
+use cagedyn::sim::Verdict;
 use serde_json::json;
 use std::fs::File;
 

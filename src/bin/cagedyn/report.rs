@@ -9,10 +9,15 @@ use std::path::Path;
 struct Rows(Vec<Vec<String>>);
 
 impl Rows {
-    /// A mean with its deviation in another unit, `scale` of it per SI unit. What is zero all the time is left out.
+    /// A mean with its deviation and its error in another unit, `scale` of it per SI unit. What is zero all the time is left
+    /// out.
     fn spread(&mut self, name: &str, s: Option<&Statistics>, scale: f64, unit: &str, remark: &str) {
         if let Some(s) = s.filter(|s| (s.spread.min, s.spread.max) != (0.0, 0.0)) {
-            let deviation = format!("± {}", number(s.spread.deviation * scale));
+            let error = match s.spread.stationary {
+                true => number(s.spread.standard_error * scale),
+                false => "?".to_owned(),
+            };
+            let deviation = format!("± {} ({error})", number(s.spread.deviation * scale));
             self.add(name, number(s.spread.mean * scale), &deviation, unit, remark);
         }
     }
@@ -27,7 +32,7 @@ pub fn text(run: &Run, summary: &Summary, folder: &Path) -> String {
     let w = &summary.window;
     let mut text = format!("{}\n", summary.title);
     text.push_str(&format!(
-        "mean ± standard deviation from {} s to {} s ({} records)\n",
+        "mean ± standard deviation (standard error of the mean; ? if still changing) from {} s to {} s ({} records)\n",
         rounded(w.from_s),
         rounded(w.to_s),
         w.records

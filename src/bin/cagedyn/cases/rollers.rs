@@ -4,7 +4,7 @@ use super::series::series;
 use super::{Comparison, Done};
 use crate::plots::{self, Point};
 use crate::table::rounded;
-use cagedyn::Result;
+use cagedyn::{Result, Spread};
 
 /// The comparison.
 pub const ROLLERS: Comparison =
@@ -49,6 +49,7 @@ fn csv_rows(done: &[Done<'_>]) -> Vec<Vec<String>> {
     for name in &channels {
         head.push(format!("{name} mean [{}]", unit(name)));
         head.push(format!("{name} deviation [{}]", unit(name)));
+        head.push(format!("{name} standard error [{}]", unit(name)));
     }
     head.extend(
         ["max roller slip [1]", "simulated time [s]", "wall time [s]", "complete"].map(str::to_owned),
@@ -60,6 +61,7 @@ fn csv_rows(done: &[Done<'_>]) -> Vec<Vec<String>> {
             let of = s.of(name);
             row.push(of.map_or(String::new(), |s| format!("{:?}", s.spread.mean)));
             row.push(of.map_or(String::new(), |s| format!("{:?}", s.spread.deviation)));
+            row.push(of.map_or(String::new(), |s| known_error(&s.spread)));
         }
         row.push(s.max_roller_slip.as_ref().map_or(String::new(), |slip| format!("{:?}", slip.value)));
         row.push(format!("{:?}", s.simulated_time_s));
@@ -68,6 +70,11 @@ fn csv_rows(done: &[Done<'_>]) -> Vec<Vec<String>> {
         row
     });
     std::iter::once(head).chain(body).collect()
+}
+
+/// Standard error of a mean that has settled.
+fn known_error(spread: &Spread) -> String {
+    if spread.stationary { format!("{:?}", spread.standard_error) } else { String::new() }
 }
 
 /// Mean cage centres, if any cage is guided.
