@@ -390,9 +390,7 @@ int64_t cagedyn_statistic_count(void);
 // - raceway_vibration_rms: root mean square approach speed of the loaded raceway contacts, m/s.
 // - leapfrog_steps, dormand_prince_steps, rosenbrock_steps, method_changes (of method or leapfrog step): what the
 //   method "auto" did; zero with other methods.
-// - checks, mean_check_error, largest_check_error (in units of the reference clearance), check_vibration_ratio (of
-//   vibration with a step to vibration with half of it), highest_frequency (rad/s): what "auto" found when it repeated
-//   leapfrog steps with half the step.
+// - highest_frequency (rad/s): what "auto" measured while it made leapfrog steps.
 // - failed_...: failed_steps by cause.
 // - jacobians: derivatives of all forces; undone_steps: steps that "auto" took back because they missed energy.
 const char *cagedyn_statistic_name(int64_t index);
@@ -410,8 +408,8 @@ int32_t cagedyn_sim_statistics(const cagedyn_sim *sim,
 int32_t cagedyn_sim_trust(cagedyn_sim *sim);
 
 // What the integration does and why, and what went wrong on the way, in one line for people: the method and the reason
-// it was chosen for, the error found by checks, failed attempts with the contact or body that caused the last one, what
-// speaks against trusting the run. "" on failure. Lives until the next call for this simulation.
+// it was chosen for, failed attempts with the contact or body that caused the last one, what speaks against trusting the
+// run. "" on failure. Lives until the next call for this simulation.
 const char *cagedyn_sim_report(cagedyn_sim *sim);
 
 // Number of force laws whose evaluations are counted.

@@ -20,10 +20,6 @@ const STATISTIC_NAMES: [&CStr; STATISTICS.len()] = [
     c"dormand_prince_steps",
     c"rosenbrock_steps",
     c"method_changes",
-    c"checks",
-    c"mean_check_error",
-    c"largest_check_error",
-    c"check_vibration_ratio",
     c"highest_frequency",
     c"failed_no_guide_film",
     c"failed_no_viscosity",
@@ -68,9 +64,7 @@ pub extern "C" fn cagedyn_statistic_count() -> i64 {
 /// - raceway_vibration_rms: root mean square approach speed of the loaded raceway contacts, m/s.
 /// - leapfrog_steps, dormand_prince_steps, rosenbrock_steps, method_changes (of method or leapfrog step): what the
 ///   method "auto" did; zero with other methods.
-/// - checks, mean_check_error, largest_check_error (in units of the reference clearance), check_vibration_ratio (of
-///   vibration with a step to vibration with half of it), highest_frequency (rad/s): what "auto" found when it repeated
-///   leapfrog steps with half the step.
+/// - highest_frequency (rad/s): what "auto" measured while it made leapfrog steps.
 /// - failed_...: failed_steps by cause.
 /// - jacobians: derivatives of all forces; undone_steps: steps that "auto" took back because they missed energy.
 #[unsafe(no_mangle)]
@@ -104,8 +98,8 @@ pub unsafe extern "C" fn cagedyn_sim_trust(sim: *mut cagedyn_sim) -> i32 {
 }
 
 /// What the integration does and why, and what went wrong on the way, in one line for people: the method and the reason
-/// it was chosen for, the error found by checks, failed attempts with the contact or body that caused the last one, what
-/// speaks against trusting the run. "" on failure. Lives until the next call for this simulation.
+/// it was chosen for, failed attempts with the contact or body that caused the last one, what speaks against trusting the
+/// run. "" on failure. Lives until the next call for this simulation.
 ///
 /// # Safety
 /// `sim` is NULL or a live handle.

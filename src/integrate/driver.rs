@@ -3,7 +3,7 @@
 //! The driver runs ahead of the time its caller asks for and answers from the dense output of the last step, so
 //! the times of the questions never influence the steps.
 //!
-//! The steps of a method that is judged ([`Stepper::is_judged`]) count in stretches. The driver runs ahead by one of them and
+//! The steps of a method that is judged ([`Stepper::longest_stretch`]) count in stretches. The driver runs ahead by one of them and
 //! answers from the dense output of all its steps; nobody sees a stretch before it was judged. After a wrong one everything
 //! goes back to its start. From a new state or input on, stretches grow from a single step, so that a host that sets inputs
 //! often wastes few steps.
@@ -24,9 +24,6 @@ pub struct Limits {
     /// Largest number of attempts in one advance.
     pub max_steps: u64,
 }
-
-/// Steps of a stretch, at most.
-const LONGEST_STRETCH: usize = 32;
 
 /// Most numbers that a method keeps of a step, per state.
 const MOST_KEPT: usize = 6;
@@ -168,10 +165,11 @@ impl<S: System> Driver<S> {
             unfinished: false,
             mark: Vec::new(),
         };
-        if driver.stepper.is_judged() {
+        let longest = driver.stepper.longest_stretch();
+        if longest > 0 {
             let room = MOST_KEPT * driver.stepper.state().len();
             let step = |_| Step { kept: Vec::with_capacity(room), ..Step::default() };
-            driver.stretch = (0..LONGEST_STRETCH).map(step).collect();
+            driver.stretch = (0..longest).map(step).collect();
             driver.set_mark();
         }
         driver
@@ -222,7 +220,7 @@ impl<S: System> Driver<S> {
     pub fn advance(&mut self, system: &mut S, t: f64) -> Result<(), Failure<S::Fault>> {
         let mut attempts = 0;
         while self.reached() < t {
-            if self.stepper.is_judged() {
+            if !self.stretch.is_empty() {
                 let made = self.make_stretch(system, &mut attempts);
                 // What fails beyond the time that is asked for fails again when it is reached.
                 if self.reached() < t {
@@ -253,7 +251,7 @@ impl<S: System> Driver<S> {
                 return made.map_err(|failure| failure.at(self.reached()));
             }
             if self.made == 0 || self.stepper.judge(system, self.to) {
-                self.length = (2 * length).min(LONGEST_STRETCH);
+                self.length = (2 * length).min(self.stretch.len());
                 return made;
             }
             self.go_back(system);
@@ -367,7 +365,7 @@ impl<S: System> Driver<S> {
             }
             *attempts += 1;
             let event = system.next_event(self.to);
-            if let Some(step) = self.stepper.review(system, self.to, event.next_down()) {
+            if let Some(step) = self.stepper.review(system, self.to) {
                 self.set_step(step);
             }
             let (q, v) = self.stepper.state().split_at(system.positions());
@@ -490,7 +488,7 @@ impl<S: System> Driver<S> {
         let last_change = from.number().filter(|c| *c > 0.0)?;
         self.control = Controller { last_error, last_change, after_rejection: from.flag()? };
         self.needs_refresh = from.flag()?;
-        self.length = from.count().filter(|n| (1..=LONGEST_STRETCH as u64).contains(n))? as usize;
+        self.length = from.count().filter(|n| (1..=self.stretch.len().max(1) as u64).contains(n))? as usize;
         (self.made, self.unfinished) = (0, false);
         self.statistics = Statistics {
             steps: from.count()?,

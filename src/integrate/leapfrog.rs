@@ -70,12 +70,6 @@ impl Leapfrog {
             integrals: Quadratures::default(),
         }
     }
-
-    /// Goes to where another method for the same system is.
-    pub fn copy_from(&mut self, other: &Self) {
-        self.end.copy_from_slice(&other.end);
-        self.mean_a.copy_from_slice(&other.mean_a);
-    }
 }
 
 /// State within a step of `h` s at the fraction `theta` of it: cubic Hermite interpolation of positions, linear of velocities;

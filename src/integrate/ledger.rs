@@ -3,12 +3,7 @@
 //! The works of all forces ([`System::quadratures`]) less the gain of stored energy ([`System::energy`]) are zero for an exact
 //! solution. What is missing, as a share of what passed through, is an error of all of the integration.
 
-use super::{Quadratures, Reader, System, add_weighted};
-
-/// A stretch may miss this part of what a whole run may.
-const PART: f64 = 0.2;
-/// Less than this share of the stored energy is round-off.
-const ROUNDING: f64 = 1e-12;
+use super::{Quadratures, Reader, System, Tuning, add_weighted};
 
 /// Energy that passed through a system, J: all that came in by work, or was stored before and is no longer.
 pub fn throughput(works: impl IntoIterator<Item = f64>, gains: impl IntoIterator<Item = f64>) -> f64 {
@@ -50,6 +45,7 @@ impl Turnover {
 /// The account.
 #[derive(Clone, Debug)]
 pub struct Ledger {
+    tuning: Tuning,
     /// Share that a run may miss.
     allowed: f64,
     /// Whether `energy` is that of the start of the stretch.
@@ -63,8 +59,9 @@ pub struct Ledger {
 
 impl Ledger {
     /// An empty account of a system with this many velocities, whose runs may miss this share of their energy.
-    pub fn new(velocities: usize, allowed: f64) -> Self {
+    pub fn new(velocities: usize, allowed: f64, tuning: Tuning) -> Self {
         Self {
+            tuning,
             allowed,
             open: false,
             energy: [0.0; 3],
@@ -119,14 +116,14 @@ impl Ledger {
         self.before.add(&stretch);
         let stored: f64 = energy.iter().map(|x| x.abs()).sum();
         // Written so that what is not a number is too much.
-        Ok(stretch.missing().abs() <= ROUNDING * stored
-            || stretch.missing_share() <= PART * self.allowed
+        Ok(stretch.missing().abs() <= self.tuning.energy_rounding * stored
+            || stretch.missing_share() <= self.tuning.energy_share * self.allowed
             || self.can_spare())
     }
 
     /// Whether little enough of all is missing for steps that may miss some more.
     pub fn can_spare(&self) -> bool {
-        self.before.missing_share() <= PART * self.allowed
+        self.before.missing_share() <= self.tuning.energy_share * self.allowed
     }
 
     fn energy_at<S: System>(&mut self, system: &mut S, t: f64, state: &[f64]) -> Result<[f64; 3], S::Fault> {

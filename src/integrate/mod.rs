@@ -15,7 +15,8 @@ mod radau;
 mod rosenbrock;
 mod selection;
 pub(crate) mod shifted;
-pub mod step_monitor;
+pub mod stability;
+mod tuning;
 
 pub use damping::{DampingBlock, GroupDamping, implicit_share};
 pub use dormand_prince::DormandPrince;
@@ -25,6 +26,7 @@ pub use ledger::throughput;
 pub use pack::Reader;
 pub use radau::Radau;
 pub use rosenbrock::Rosenbrock;
+pub use tuning::{Constant, Tuning};
 
 use arrowhead::{Arrowhead, HUB, SPOKE};
 use auto::Choice;
@@ -73,6 +75,10 @@ pub trait System {
         a: &mut [f64],
         out: &mut Linearization,
     ) -> Result<(), Self::Fault>;
+    /// Time that the derivatives take beside the accelerations, in evaluations of these.
+    fn linearization_cost(&self) -> f64 {
+        2.0
+    }
     /// Damping within each of the groups at the last evaluated state (`q`, `v`), for a step of size `h` in s.
     fn damping(&self, h: f64, q: &[f64], v: &[f64], out: &mut GroupDamping);
     /// Number of groups whose step a semi-implicit method finds first. The others follow: what the forces of the first have
@@ -217,9 +223,9 @@ pub trait Stepper<S: System> {
     /// # Errors
     /// The system's fault at this state.
     fn refresh(&mut self, system: &mut S, t: f64) -> Result<(), S::Fault>;
-    /// Called before every attempt from time `t`: the method may measure the system, up to `t_last`, and change
-    /// itself. Returns the step to go on with, if it is to change.
-    fn review(&mut self, _system: &mut S, _t: f64, _t_last: f64) -> Option<f64> {
+    /// Called before every attempt from time `t`: the method may measure the system and change itself. Returns the
+    /// step to go on with, if it is to change.
+    fn review(&mut self, _system: &mut S, _t: f64) -> Option<f64> {
         None
     }
     /// Forgets what was learned from earlier states.
@@ -242,9 +248,9 @@ pub trait Stepper<S: System> {
     fn state(&self) -> &[f64];
     /// State within the last accepted step at the fraction 0 <= `theta` <= 1 of it.
     fn interpolate(&self, theta: f64, out: &mut [f64]);
-    /// Whether steps count only when a stretch of them has been judged.
-    fn is_judged(&self) -> bool {
-        false
+    /// Largest number of steps that are judged together before they count; zero if they count at once.
+    fn longest_stretch(&self) -> usize {
+        0
     }
     /// Whether the steps since the last judgement were right, at time `t`. If not, the driver goes back to their start.
     fn judge(&mut self, _system: &mut S, _t: f64) -> bool {

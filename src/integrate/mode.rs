@@ -46,7 +46,7 @@ impl ModeFinder {
     pub fn new(structure: &Structure, positions: usize, units: &[f64]) -> Self {
         let Structure { hub, spokes } = structure;
         let positions = &units[..positions.min(units.len())];
-        let unit = |i: Option<usize>| i.and_then(|i| positions.get(i)).copied().unwrap_or(0.0);
+        let unit = |i: Option<usize>| positions.get(i.unwrap_or(usize::MAX)).copied().unwrap_or(0.0);
         let hub_unit = SVector::from_fn(|k, _| unit(hub[k]));
         let spoke_units: Vec<_> =
             spokes.iter().map(|places| SVector::from_fn(|k, _| unit(Some(places[k])))).collect();

@@ -3,19 +3,12 @@
 //! Both work on the run itself, so a trial of the slower one costs time but no accuracy. A method that loses waits
 //! twice as long for its next trial. All of it counts evaluations and not seconds of a clock, so it is reproducible.
 
-use super::Reader;
-
-/// Evaluations in one window.
-const WINDOW: f64 = 400.0;
-/// Windows between trials: at first, and at most.
-const FIRST_PAUSE: f64 = 2.0;
-const LONGEST_PAUSE: f64 = 64.0;
-/// The other method must advance this many times as far.
-const CLEAR_LEAD: f64 = 1.2;
+use super::{Reader, Tuning};
 
 /// Two methods, numbered 0 and 1, one of which is active.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Selection {
+    tuning: Tuning,
     active: usize,
     /// Simulated time in s and evaluations in the present window.
     advanced: f64,
@@ -31,15 +24,16 @@ pub struct Selection {
 
 impl Selection {
     /// A selection in which `first` is active.
-    pub fn new(first: usize) -> Self {
+    pub fn new(first: usize, tuning: Tuning) -> Self {
         Self {
+            tuning,
             active: first,
             advanced: 0.0,
             cost: 0.0,
             rates: [0.0; 2],
             trial: false,
-            wait: FIRST_PAUSE,
-            pause: FIRST_PAUSE,
+            wait: tuning.first_trial,
+            pause: tuning.first_trial,
         }
     }
 
@@ -73,7 +67,7 @@ impl Selection {
     /// The active method cannot go on: the other takes over, and it waits.
     pub fn give_up(&mut self) {
         self.rates[self.active] = 0.0;
-        self.pause = (2.0 * self.pause).min(LONGEST_PAUSE);
+        self.pause = (2.0 * self.pause).min(self.tuning.longest_trial);
         (self.trial, self.wait) = (false, self.pause);
         (self.advanced, self.cost) = (0.0, 0.0);
         self.active = 1 - self.active;
@@ -81,7 +75,7 @@ impl Selection {
 
     /// At the end of a window: decides. Whether the active method changed.
     pub fn decide(&mut self) -> bool {
-        if self.cost < WINDOW {
+        if self.cost < self.tuning.window {
             return false;
         }
         self.rates[self.active] = self.advanced / self.cost;
@@ -90,11 +84,11 @@ impl Selection {
         if self.trial {
             self.trial = false;
             self.wait = self.pause;
-            if self.rates[self.active] > CLEAR_LEAD * self.rates[other] {
-                self.pause = FIRST_PAUSE;
+            if self.rates[self.active] > self.tuning.clear_lead * self.rates[other] {
+                self.pause = self.tuning.first_trial;
                 return false;
             }
-            self.pause = (2.0 * self.pause).min(LONGEST_PAUSE);
+            self.pause = (2.0 * self.pause).min(self.tuning.longest_trial);
             self.active = other;
             return true;
         }
@@ -121,7 +115,8 @@ impl Selection {
         }
         self.trial = from.flag()?;
         self.wait = from.number()?;
-        self.pause = from.number().filter(|x| (FIRST_PAUSE..=LONGEST_PAUSE).contains(x))?;
+        self.pause =
+            from.number().filter(|x| (self.tuning.first_trial..=self.tuning.longest_trial).contains(x))?;
         Some(())
     }
 }

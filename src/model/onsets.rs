@@ -10,26 +10,23 @@
 use super::laws::{PlaneLaws, PocketLaws};
 use super::{CageBody, ElementKind, HostInputs, Input, Model};
 use crate::contact::rotate;
+use crate::integrate::Tuning;
 use crate::laws::guide::{GuideFilm, GuideLaw};
 use crate::laws::solid_contact::SolidContact;
 use crate::scalar::math;
 
-/// Steps per period of a sine, at least.
-const STEPS_PER_PERIOD: f64 = 10.0;
-/// Share of the depth of an onset that a step from outside may end behind it, and of a gap that one may close.
-const SHARE: f64 = 0.25;
-/// Share of the time sqrt(m/k) that a solid contact takes to turn a body, in which a step may pass its onset.
-const SHARE_OF_TURN: f64 = 0.25;
-/// The film of rough surfaces fades at this many roughness heights: its share there is 0.999.
-const FADING: f64 = 3.0;
-/// Thinner films than this share of the clearance are left to the error control.
-const THINNEST: f64 = 1e-4;
-
 impl Model {
     /// The longest step (s) from the state (q, v) at time `t` that passes no narrow law unseen, or any longer one than
     /// `wanted`.
-    pub fn longest_step(&self, t: f64, [q, v]: [&[f64]; 2], host: &HostInputs, wanted: f64) -> f64 {
-        let mut longest = self.inputs.shortest_period(host) / STEPS_PER_PERIOD;
+    pub fn longest_step(
+        &self,
+        t: f64,
+        [q, v]: [&[f64]; 2],
+        host: &HostInputs,
+        wanted: f64,
+        tuning: &Tuning,
+    ) -> f64 {
+        let mut longest = self.inputs.shortest_period(host) / tuning.steps_per_period;
         let Some(cage) = &self.cage else { return longest };
         if let Some(guide) = &self.laws.guide {
             let inputs = if cage.guided_by_inner_ring { self.inputs_at(t, host) } else { Default::default() };
@@ -37,7 +34,7 @@ impl Model {
             let relative = |a: [f64; 2], b: [f64; 2]| [a[0] - b[0], a[1] - b[1]];
             let position = relative(of_cage.position, of_ring.position);
             let velocity = relative(of_cage.velocity, of_ring.velocity);
-            longest = longest.min(in_guide(guide, cage, position, velocity));
+            longest = longest.min(in_guide(guide, cage, position, velocity, tuning));
         }
         if let Some(PocketLaws::Plane(laws)) = &self.laws.pocket {
             let prescribed = match &self.elements.kind {
@@ -47,7 +44,7 @@ impl Model {
                     Some([inputs.orbit_travel, inputs.of(Input::OrbitSpeed)])
                 }
             };
-            longest = longest.min(self.in_pockets(laws, prescribed, [q, v], wanted));
+            longest = longest.min(self.in_pockets(laws, prescribed, [q, v], wanted, tuning));
         }
         longest
     }
@@ -59,6 +56,7 @@ impl Model {
         prescribed: Option<[f64; 2]>,
         [q, v]: [&[f64]; 2],
         wanted: f64,
+        tuning: &Tuning,
     ) -> f64 {
         let (Some(cage), Some(c)) = (&self.cage, self.layout.cage) else { return f64::INFINITY };
         let mass = match &self.elements.kind {
@@ -69,7 +67,7 @@ impl Model {
         // Position and velocity of the cage in its own axes.
         let (place, speed) = (rotate([q[c], q[c + 1]], -sin, cos), rotate([v[c], v[c + 1]], -sin, cos));
         let pitch = self.elements.pitch_radius;
-        let pass = Passage::of(&laws.contact, mass);
+        let pass = Passage::of(&laws.contact, mass, tuning);
         let mut longest = f64::INFINITY;
         for (j, [x, y]) in self.elements.directions.iter().enumerate() {
             let [angle, orbit] = match prescribed {
@@ -97,9 +95,9 @@ struct Passage {
 
 impl Passage {
     /// For a body of `mass` kg.
-    fn of(contact: &SolidContact, mass: f64) -> Self {
+    fn of(contact: &SolidContact, mass: f64, tuning: &Tuning) -> Self {
         let turn = if contact.stiffness > 0.0 { (mass / contact.stiffness).sqrt() } else { 0.0 };
-        Self { turn: SHARE_OF_TURN * turn, depth: SHARE * contact.softening_depth }
+        Self { turn: tuning.turn_share * turn, depth: tuning.onset_share * contact.softening_depth }
     }
 
     /// In s, at this speed in m/s.
@@ -109,7 +107,14 @@ impl Passage {
 }
 
 /// The same for a journal at `position` (m) from the centre of its bush, with `velocity` (m/s).
-fn in_guide(guide: &GuideLaw, cage: &CageBody, position: [f64; 2], velocity: [f64; 2]) -> f64 {
+fn in_guide(
+    guide: &GuideLaw,
+    cage: &CageBody,
+    position: [f64; 2],
+    velocity: [f64; 2],
+    tuning: &Tuning,
+) -> f64 {
+    let share = tuning.onset_share;
     let e = math::hypot(position[0], position[1]);
     let speed = math::hypot(velocity[0], velocity[1]);
     let along = position[0] * velocity[0] + position[1] * velocity[1];
@@ -121,15 +126,15 @@ fn in_guide(guide: &GuideLaw, cage: &CageBody, position: [f64; 2], velocity: [f6
     };
     let gap = guide.free_clearance - e;
     // Where surfaces touch before the film is gone, the gap may close.
-    let fading = FADING * guide.roughness;
-    let least = if guide.solid.is_some() { fading } else { THINNEST * guide.free_clearance };
+    let fading = tuning.fading * guide.roughness;
+    let least = if guide.solid.is_some() { fading } else { tuning.thinnest_film * guide.free_clearance };
     let mut longest = f64::INFINITY;
     if gap > 0.0 && guide.film.is_some() {
-        longest = until(e + SHARE * gap.max(least));
+        longest = until(e + share * gap.max(least));
     }
     let mut onset = |rest: f64, depth: f64| {
         if rest > 0.0 {
-            longest = longest.min(until(e + rest + SHARE * depth));
+            longest = longest.min(until(e + rest + share * depth));
         }
     };
     if let Some(GuideFilm::LubricantLayer(layer)) = &guide.film {
@@ -138,8 +143,8 @@ fn in_guide(guide: &GuideLaw, cage: &CageBody, position: [f64; 2], velocity: [f6
     if let Some(solid) = &guide.solid {
         let rest = gap - solid.asperity_height;
         if rest > 0.0 {
-            let depth = speed * Passage::of(&solid.contact, cage.mass).time(speed);
-            onset(rest, depth / SHARE);
+            let depth = speed * Passage::of(&solid.contact, cage.mass, tuning).time(speed);
+            onset(rest, depth / share);
         }
         if guide.film.is_some() {
             onset(gap - fading, fading);
@@ -164,7 +169,7 @@ mod tests {
         let (mut q, mut v) = ([y, 0.0, 0.0], [speed, 0.0, 0.0]);
         let inputs = model.inputs_at(0.0, &HostInputs::default());
         (q[2], v[2]) = (inputs.orbit_travel, inputs.of(Input::OrbitSpeed));
-        model.longest_step(0.0, [&q, &v], &HostInputs::default(), f64::INFINITY)
+        model.longest_step(0.0, [&q, &v], &HostInputs::default(), f64::INFINITY, &Tuning::default())
     }
 
     #[test]
@@ -195,9 +200,11 @@ mod tests {
         let fast = model(&[("inner_ring.speed", sine)]);
         let (q, v) = ([0.0; 3], [0.0; 3]);
         let mut host = HostInputs::default();
-        assert!((fast.longest_step(0.0, [&q, &v], &host, 1.0) / 5e-7 - 1.0).abs() < 1e-12);
+        assert!(
+            (fast.longest_step(0.0, [&q, &v], &host, 1.0, &Tuning::default()) / 5e-7 - 1.0).abs() < 1e-12
+        );
         fast.set_input(&mut host, 0.0, Input::RingSpeed, Some(300.0));
-        assert!(fast.longest_step(0.0, [&q, &v], &host, 1.0) > 1e-6);
+        assert!(fast.longest_step(0.0, [&q, &v], &host, 1.0, &Tuning::default()) > 1e-6);
     }
 
     #[test]
@@ -206,7 +213,7 @@ mod tests {
         // The cage turns ahead of its elements at 0.09 m/s: half the clearance of 0.555 mm is left to each wall.
         let inputs = model.inputs_at(0.0, &HostInputs::default());
         let v = [0.0, 0.0, inputs.of(Input::OrbitSpeed) + 2.0];
-        let h = model.longest_step(0.0, [&[0.0; 3], &v], &HostInputs::default(), 1.0);
+        let h = model.longest_step(0.0, [&[0.0; 3], &v], &HostInputs::default(), 1.0, &Tuning::default());
         let turn = 0.25 * (12.34e-3f64 / 1e6).sqrt();
         assert!((h / (0.2775e-3 / 0.09 + turn) - 1.0).abs() < 1e-6, "{h}");
     }

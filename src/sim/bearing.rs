@@ -3,7 +3,7 @@
 use super::jacobian::Slopes;
 use super::limits::RunLimits;
 use crate::integrate::{
-    Applied, GroupDamping, Interruption, Linearization, Quadratures, SemiImplicit, Structure, System,
+    Applied, GroupDamping, Interruption, Linearization, Quadratures, SemiImplicit, Structure, System, Tuning,
     Vibration,
 };
 use crate::model::{
@@ -24,6 +24,7 @@ pub(super) struct Bearing {
     rejections: Vec<u64>,
     limits: RunLimits,
     memory: StepMemory,
+    tuning: Tuning,
 }
 
 /// Memory for the forces of a step: the state it was evaluated at, mean velocities, accelerations.
@@ -35,7 +36,7 @@ struct StepMemory {
 }
 
 impl Bearing {
-    pub(super) fn new(model: Arc<Model>) -> Self {
+    pub(super) fn new(model: Arc<Model>, tuning: Tuning) -> Self {
         let workspace = Workspace::new(&model);
         let layout = model.layout();
         let groups = layout.count + usize::from(layout.ring.is_some()) + usize::from(layout.cage.is_some());
@@ -48,6 +49,7 @@ impl Bearing {
             last_fault: None,
             rejections: vec![0; groups],
             limits: RunLimits::default(),
+            tuning,
             memory: StepMemory {
                 middle: Vec::with_capacity(layout.states()),
                 mean: Vec::with_capacity(layout.velocities()),
@@ -59,6 +61,10 @@ impl Bearing {
 
     pub(super) fn model(&self) -> &Arc<Model> {
         &self.model
+    }
+
+    pub(super) fn tuning(&self) -> Tuning {
+        self.tuning
     }
 
     pub(super) fn host(&self) -> &HostInputs {
@@ -260,7 +266,7 @@ impl System for Bearing {
     }
 
     fn longest_step(&self, t: f64, q: &[f64], v: &[f64], wanted: f64) -> f64 {
-        self.model.longest_step(t, [q, v], &self.host, wanted)
+        self.model.longest_step(t, [q, v], &self.host, wanted, &self.tuning)
     }
 
     /// Rollers, then the ring and the cage, whichever exist.
@@ -300,6 +306,10 @@ impl System for Bearing {
         let rates = self.model.input_rates_at(t, &self.host);
         self.model.linearize(q, v, &mut self.workspace, &rates, out);
         Ok(())
+    }
+
+    fn linearization_cost(&self) -> f64 {
+        self.model.jacobian_cost()
     }
 
     fn vibration(&self) -> Vibration {

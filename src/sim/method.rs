@@ -3,8 +3,8 @@
 use super::bearing::Bearing;
 use super::preset::{Numbers, UNDAMPED_SHARE, numbers};
 use crate::integrate::auto::{Aim, Auto, Choice, Kind, Reason};
-use crate::integrate::step_monitor::Expectation;
-use crate::integrate::{DormandPrince, Leapfrog, Limits, Radau, Rosenbrock, Stepper};
+use crate::integrate::stability::Expectation;
+use crate::integrate::{DormandPrince, Leapfrog, Limits, Radau, Rosenbrock, Stepper, Tuning};
 use crate::model::Model;
 use crate::scene::{Method, Solver};
 
@@ -24,7 +24,7 @@ pub(super) fn stepper(model: &Model, solver: &Solver, bearing: &Bearing) -> Box<
     let usual = numbers(solver.preset).tolerance;
     let tolerance = |t: Option<f64>| units.iter().map(|unit| t.unwrap_or(usual) * unit).collect::<Vec<_>>();
     match &solver.method {
-        Method::Auto(_) => Box::new(Auto::new(bearing, aim(model, solver))),
+        Method::Auto(_) => Box::new(Auto::new(bearing, aim(model, solver, bearing.tuning()))),
         Method::Leapfrog(_) => Box::new(Leapfrog::new(bearing)),
         Method::DormandPrince(m) => Box::new(DormandPrince::new(bearing, &tolerance(m.tolerance))),
         Method::Rosenbrock(m) => Box::new(Rosenbrock::new(bearing, &tolerance(m.tolerance))),
@@ -35,7 +35,7 @@ pub(super) fn stepper(model: &Model, solver: &Solver, bearing: &Bearing) -> Box<
 /// Steps and limits that a run starts with.
 pub(super) fn limits(model: &Model, solver: &Solver) -> Limits {
     let nominal_step = match &solver.method {
-        Method::Auto(_) => aim(model, solver).nominal_step(),
+        Method::Auto(_) => aim(model, solver, Tuning::default()).nominal_step(),
         Method::Leapfrog(m) => m.step.unwrap_or_else(|| {
             let damped = numbers(solver.preset).leapfrog_step;
             let share = if model.damped() { damped } else { UNDAMPED_SHARE * damped };
@@ -71,13 +71,12 @@ fn first_step(model: &Model, solver: &Solver) -> f64 {
 
 /// Rollers between raceways vibrate most of the time and make the motion chaotic within milliseconds, so their statistics
 /// are what can be had at little cost; everything else is smooth between contacts.
-fn aim(model: &Model, solver: &Solver) -> Aim {
+fn aim(model: &Model, solver: &Solver, tuning: Tuning) -> Aim {
     let asked = match &solver.method {
         Method::Auto(auto) => auto.tolerance,
         _ => None,
     };
-    let Numbers { statistics, leapfrog_step, stretch_error, tolerance, affordable, missing_energy } =
-        numbers(solver.preset);
+    let Numbers { statistics, leapfrog_step, tolerance, affordable, missing_energy } = numbers(solver.preset);
     let statistics = statistics && model.has_rollers() && asked.is_none();
     let units = model.state_scales();
     Aim {
@@ -87,15 +86,13 @@ fn aim(model: &Model, solver: &Solver) -> Aim {
             damped: model.damped(),
             share: leapfrog_step,
             largest_step: MAX_NOMINAL_STEP.min(bound(solver)),
-            largest_error: stretch_error,
-            // The first velocity is one of translation.
-            speed_unit: units.get(model.layout().positions()).copied().unwrap_or(1.0),
         },
         units,
         tolerance: asked.unwrap_or(tolerance),
         affordable,
         missing_energy,
         first_step: first_step(model, solver),
+        tuning,
     }
 }
 
@@ -121,7 +118,6 @@ pub(super) fn named(method: &Method) -> &'static str {
 
 /// What was chosen and why, in words.
 pub(super) fn describe(choice: &Choice) -> String {
-    let found = &choice.findings;
     let step = format!("leapfrog with steps of {:.3e} s", choice.leapfrog_step);
     let mut text = match choice.method {
         Kind::Leapfrog => step.clone(),
@@ -142,16 +138,8 @@ pub(super) fn describe(choice: &Choice) -> String {
     if choice.lead > 0.0 && choice.method != Kind::Leapfrog {
         text += &format!(" ({:.2} times as far as the other method)", choice.lead);
     }
-    if found.checks > 0 {
-        text += &format!(
-            "; {} checks with half the step: mean error {:.1e}, largest {:.1e} of the reference clearance, \
-             vibration {:+.1} %, highest frequency {:.3e} rad/s",
-            found.checks,
-            found.mean_error,
-            found.largest_error,
-            100.0 * (found.vibration_ratio() - 1.0),
-            found.frequency
-        );
+    if choice.highest_frequency > 0.0 {
+        text += &format!("; highest frequency {:.3e} rad/s", choice.highest_frequency);
     }
     let steps = choice.steps;
     text + &format!(

@@ -23,7 +23,7 @@ pub use trust::Doubt;
 pub use whirl::{CageMotion, WhirlRecord, WhirlSummary};
 
 use crate::error::{Error, Result, Status};
-use crate::integrate::{Driver, Failure, Interruption};
+use crate::integrate::{Driver, Failure, Interruption, Tuning};
 use crate::model::{Channel, FAULTS, Fault, Forces, Input, Model, PartTimes};
 use crate::scene::{Preset, Solver};
 use bearing::Bearing;
@@ -76,8 +76,7 @@ impl Sim {
     /// [`Status::BadScene`] when the initial state cannot be found, [`Status::BadState`] when forces are undefined
     /// there.
     pub fn new(model: Arc<Model>) -> Result<Self> {
-        let solver = model.scene().solver.clone();
-        Self::with_solver(model, solver)
+        Self::with_tuning(model, Tuning::default())
     }
 
     /// A simulation at the start of the scene, with this preset instead of the scene's; what else the scene says about
@@ -87,16 +86,25 @@ impl Sim {
     /// As [`Sim::new`].
     pub fn with_preset(model: Arc<Model>, preset: Preset) -> Result<Self> {
         let solver = Solver { preset, ..model.scene().solver.clone() };
-        Self::with_solver(model, solver)
+        Self::with_solver(model, solver, Tuning::default())
     }
 
-    fn with_solver(model: Arc<Model>, solver: Solver) -> Result<Self> {
+    /// A simulation at the start of the scene with other constants of the method `auto`, for studies of what they do.
+    ///
+    /// # Errors
+    /// As [`Sim::new`].
+    pub fn with_tuning(model: Arc<Model>, tuning: Tuning) -> Result<Self> {
+        let solver = model.scene().solver.clone();
+        Self::with_solver(model, solver, tuning)
+    }
+
+    fn with_solver(model: Arc<Model>, solver: Solver, tuning: Tuning) -> Result<Self> {
         let state = model.initial_state()?;
-        let bearing = Bearing::new(model.clone());
+        let bearing = Bearing::new(model.clone(), tuning);
         let driver = Driver::new(method::stepper(&model, &solver, &bearing), method::limits(&model, &solver));
         let mut sim = Self {
             channels: model.channels().into(),
-            fingerprint: snapshot::fingerprint(&model, &solver),
+            fingerprint: snapshot::fingerprint(&model, &solver, &tuning),
             accelerations: vec![0.0; model.layout().velocities()],
             bearing,
             driver,

@@ -11,8 +11,6 @@ pub(super) struct Numbers {
     pub statistics: bool,
     /// Leapfrog step in units of 1/(highest frequency), with contact damping; without it takes half.
     pub leapfrog_step: f64,
-    /// Largest error of a stretch of leapfrog steps, in units of the state scales: see `integrate::step_monitor`.
-    pub stretch_error: f64,
     /// Tolerance of error control; for rollers in quiet phases, and where the leapfrog will not do.
     pub tolerance: f64,
     /// Evaluations of error control that its accuracy is worth for one of the leapfrog.
@@ -24,24 +22,11 @@ pub(super) struct Numbers {
 /// Leapfrog step without contact damping, relative to that with it.
 pub(super) const UNDAMPED_SHARE: f64 = 0.5;
 
-const ENGINEERING: Numbers = Numbers {
-    statistics: true,
-    leapfrog_step: 1.0,
-    stretch_error: 3e-4,
-    tolerance: 1e-6,
-    affordable: 9.0,
-    missing_energy: 1e-3,
-};
+const ENGINEERING: Numbers =
+    Numbers { statistics: true, leapfrog_step: 1.0, tolerance: 1e-6, affordable: 9.0, missing_energy: 1e-3 };
 
-/// Errors of a stretch grow with the cube of the step.
-const DRAFT: Numbers = Numbers {
-    leapfrog_step: 1.4,
-    stretch_error: 8e-4,
-    tolerance: 1e-4,
-    affordable: 2.0,
-    missing_energy: 1e-2,
-    ..ENGINEERING
-};
+const DRAFT: Numbers =
+    Numbers { leapfrog_step: 1.4, tolerance: 1e-4, affordable: 2.0, missing_energy: 1e-2, ..ENGINEERING };
 
 const REFERENCE: Numbers =
     Numbers { statistics: false, leapfrog_step: 0.15, tolerance: 1e-8, missing_energy: 1e-4, ..ENGINEERING };

@@ -3,13 +3,13 @@
 use super::audit::Start;
 use super::{Evaluated, Sim};
 use crate::error::{Error, Result, Status};
-use crate::integrate::Reader;
+use crate::integrate::{Reader, Tuning};
 use crate::model::{FaultCounts, HostInputs, LawCounts, Model};
 use crate::scene::Solver;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// First number of a snapshot; changes when its content changes.
-const FORMAT: f64 = 10.0;
+const FORMAT: f64 = 11.0;
 
 impl Sim {
     /// Everything the future of this simulation depends on, for the same model in the same build of the library.
@@ -108,12 +108,13 @@ impl Sim {
     }
 }
 
-/// Scene, preset and library version, hashed into two numbers that fit exactly into f64.
-pub(super) fn fingerprint(model: &Model, solver: &Solver) -> [f64; 2] {
+/// Scene, preset, tuning and library version, hashed into two numbers that fit exactly into f64.
+pub(super) fn fingerprint(model: &Model, solver: &Solver, tuning: &Tuning) -> [f64; 2] {
     let mut hasher = DefaultHasher::new();
     env!("CARGO_PKG_VERSION").hash(&mut hasher);
     model.scene().to_json().hash(&mut hasher);
     solver.preset.hash(&mut hasher);
+    tuning.values().iter().for_each(|value| value.to_bits().hash(&mut hasher));
     let bits = hasher.finish();
     [(bits >> 32) as f64, (bits & 0xffff_ffff) as f64]
 }

@@ -22,7 +22,7 @@ pub struct RunStatistics {
 }
 
 /// Names of [`RunStatistics::values`].
-pub const STATISTICS: [&str; 27] = [
+pub const STATISTICS: [&str; 23] = [
     "steps",
     "rejected_steps",
     "failed_steps",
@@ -35,10 +35,6 @@ pub const STATISTICS: [&str; 27] = [
     "dormand_prince_steps",
     "rosenbrock_steps",
     "method_changes",
-    "checks",
-    "mean_check_error",
-    "largest_check_error",
-    "check_vibration_ratio",
     "highest_frequency",
     "failed_no_guide_film",
     "failed_no_viscosity",
@@ -53,8 +49,7 @@ pub const STATISTICS: [&str; 27] = [
 ];
 
 impl RunStatistics {
-    /// The numbers named by [`STATISTICS`]. Steps in s, vibration in m/s, frequency in rad/s, errors of checks in units
-    /// of the reference clearance, everything else a count or a ratio. Zero for what was not measured.
+    /// The numbers named by [`STATISTICS`]. Steps in s, vibration in m/s, frequency in rad/s, everything else a count. Zero for what was not measured.
     pub fn values(&self) -> [f64; STATISTICS.len()] {
         let d = &self.driver;
         let mut values = [0.0; STATISTICS.len()];
@@ -62,15 +57,12 @@ impl RunStatistics {
         values[..5].copy_from_slice(&counts);
         values[5..8].copy_from_slice(&[d.smallest_step, d.largest_step, d.vibration.rms()]);
         if let Some(choice) = &self.choice {
-            let found = &choice.findings;
             values[8..11].copy_from_slice(&choice.steps.map(|n| n as f64));
-            values[11..13].copy_from_slice(&[choice.changes as f64, found.checks as f64]);
-            values[13..15].copy_from_slice(&[found.mean_error, found.largest_error]);
-            values[15..17].copy_from_slice(&[found.vibration_ratio(), found.frequency]);
+            values[11..13].copy_from_slice(&[choice.changes as f64, choice.highest_frequency]);
         }
         let [faults @ .., last] = self.faults.map(|n| n as f64);
-        values[17..24].copy_from_slice(&faults);
-        values[24..].copy_from_slice(&[self.jacobians as f64, d.undone as f64, last]);
+        values[13..20].copy_from_slice(&faults);
+        values[20..].copy_from_slice(&[self.jacobians as f64, d.undone as f64, last]);
         values
     }
 }

@@ -96,9 +96,7 @@ fn it_is_the_default_and_costs_little_more_than_the_leapfrog_once_rollers_vibrat
     let choice = choice(&default);
     assert_eq!((choice.method, choice.reason), (Kind::Leapfrog, Reason::Vibration));
     assert!(choice.steps[Kind::Rosenbrock as usize] > 20 && choice.changes < 10, "{choice:?}");
-    assert!(choice.findings.checks >= 8, "{choice:?}");
-    assert!(choice.findings.mean_error > 1e-6 && choice.findings.mean_error < 3e-4, "{choice:?}");
-    assert!((1.5e5..3e5).contains(&choice.findings.frequency), "{choice:?}");
+    assert!((1.5e5..3e5).contains(&choice.highest_frequency), "{choice:?}");
     scene["solver"] = json!({ "method": auto() });
     assert_eq!(default.model().scene().solver, sim(&scene, auto()).model().scene().solver.clone());
 }
@@ -198,38 +196,34 @@ fn events_that_follow_each_other_closely_cost_little() {
     assert!(kinks > constant && kinks < most, "{kinks} {constant}");
 }
 
+/// Half the step would not make them vibrate otherwise.
 #[test]
-fn rollers_get_the_method_and_the_step_that_their_scene_needs() {
-    for (name, scene, expected) in [
-        ("1000 rpm", nu2310(&[rpm(1000.0)]), (Kind::Leapfrog, 1.0..=1.0)),
-        ("3000 rpm", nu2310(&[]), (Kind::Leapfrog, 1.0..=1.0)),
-        ("40 kN", nu2310(&[load(40e3)]), (Kind::Leapfrog, 1.0..=1.0)),
-        // Between the two: either.
-        ("8000 rpm", nu2310(&[rpm(8000.0)]), (Kind::Leapfrog, 0.5..=1.0)),
-        ("12 000 rpm", nu2310(&[rpm(12e3)]), (Kind::Leapfrog, 0.5..=1.0)),
-        ("20 000 rpm", nu2310(&[rpm(20e3)]), (Kind::Leapfrog, 0.5..=0.5)),
-        ("30 000 rpm", nu2310(&[rpm(30e3)]), (Kind::Leapfrog, 0.5..=0.5)),
-        // The leapfrog would need a quarter of its own step or less.
-        ("50 000 rpm", nu2310(&[rpm(50e3)]), (Kind::Rosenbrock, 0.5..=0.5)),
-        ("undamped", undamped(), (Kind::Leapfrog, 0.5..=0.5)),
+fn rollers_get_the_step_that_their_scene_needs() {
+    for (name, scene, share) in [
+        ("1000 rpm", nu2310(&[rpm(1000.0)]), 1.0),
+        ("3000 rpm", nu2310(&[]), 1.0),
+        ("40 kN", nu2310(&[load(40e3)]), 1.0),
+        ("20 000 rpm", nu2310(&[rpm(20e3)]), 1.0),
+        ("50 000 rpm", nu2310(&[rpm(50e3)]), 1.0),
+        ("undamped", undamped(), 0.5),
     ] {
         // Without damping vibration builds up for tens of milliseconds.
         let mut run = run(&scene, auto(), if name == "undamped" { 80e-3 } else { 50e-3 });
         let choice = choice(&run);
         println!("{name}: {}", run.report());
-        let share = choice.leapfrog_step * run.model().highest_frequency();
-        let (method, shares) = expected;
-        assert_eq!(choice.method, method, "{name}");
-        assert!(run.statistics().driver.vibration.rms() > 1e-4, "{name}");
-        if choice.method == Kind::Leapfrog {
-            // The measured frequency may be higher than the expected one.
-            assert!(share < 1.01 * shares.end() && share > 0.55 * shares.start(), "{name}: {share}");
-            let largest = if name == "undamped" { 3e-3 } else { 5e-4 };
-            assert!(choice.findings.mean_error < largest, "{name}: {choice:?}");
-            assert!((0.9..1.2).contains(&choice.findings.vibration_ratio()), "{name}: {choice:?}");
-        } else {
-            assert!(matches!(choice.reason, Reason::Cost | Reason::Balance), "{name}");
-        }
+        // The measured frequency may be higher than the expected one.
+        let found = choice.leapfrog_step * run.model().highest_frequency();
+        assert!(found < 1.01 * share && found > 0.9 * share, "{name}: {found}");
+        assert!(choice.steps[Kind::Leapfrog as usize] > 5000, "{name}: {choice:?}");
+        let duration = run.time();
+        let [coarse, fine] = [1.0, 0.5].map(|part| {
+            let leapfrog = json!({ "leapfrog": { "step": part * choice.leapfrog_step } });
+            self::run(&scene, leapfrog, duration).statistics().driver.vibration.rms()
+        });
+        println!("vibration {:.3} of that with half the step", coarse / fine);
+        // Without damping it goes on growing, at a rate that scatters.
+        let most = if name == "undamped" { 1.4 } else { 1.2 };
+        assert!((0.9..most).contains(&(coarse / fine)), "{name}: {coarse} {fine}");
     }
 }
 
@@ -334,12 +328,14 @@ fn choices_continue_with_the_same_bits_after_saving() {
 
 #[test]
 fn a_set_state_is_met_without_memory_and_inputs_with_it() {
-    let scene = nu2310(&[rpm(20e3)]);
-    let mut sim = run(&scene, auto(), 50e-3);
+    let mut sim = sim(&nu2310(&[]), auto());
+    let first = sim.nominal_step();
+    // Contacts are stiffer than at any load of the scene.
+    sim.set_input(2, -300e3).unwrap();
+    sim.advance_to(20e-3).unwrap();
     let step = choice(&sim).leapfrog_step;
-    let first = self::sim(&scene, auto()).nominal_step();
-    assert!(step < 0.6 * first, "{step} {first}");
-    sim.set_input(2, -4000.0).unwrap();
+    assert!(step < 0.9 * first, "{step} {first}");
+    sim.set_input(2, -290e3).unwrap();
     assert_eq!(choice(&sim).leapfrog_step, step);
     let state = sim.state().to_vec();
     sim.set_state(0.0, &state).unwrap();
@@ -349,7 +345,7 @@ fn a_set_state_is_met_without_memory_and_inputs_with_it() {
 #[test]
 fn the_report_says_what_was_chosen_and_why() {
     let report = run(&nu2310(&[]), auto(), 5e-3).report();
-    for part in ["leapfrog with steps of 4.730e-6 s", "vibrate", "checks", "mean error", "rms"] {
+    for part in ["leapfrog with steps of 4.730e-6 s", "vibrate", "highest frequency", "rms"] {
         assert!(report.contains(part), "{part}: {report}");
     }
     let report = run(&scene("scenes/grease_guide.json", &[]), auto(), 30e-3).report();
@@ -362,7 +358,7 @@ fn the_report_says_what_was_chosen_and_why() {
     let values = plain.statistics().values();
     let at = |name: &str| values[STATISTICS.iter().position(|n| *n == name).expect("a name")];
     assert_eq!(at("steps"), plain.statistics().driver.steps as f64);
-    assert_eq!((at("checks"), at("leapfrog_steps"), at("failed_not_finite")), (0.0, 0.0, 0.0));
+    assert_eq!((at("highest_frequency"), at("leapfrog_steps"), at("failed_not_finite")), (0.0, 0.0, 0.0));
     assert!(at("raceway_vibration_rms") > 0.0);
 }
 

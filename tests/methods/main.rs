@@ -9,3 +9,4 @@ mod choice;
 mod implicit;
 mod orders;
 mod presets;
+mod tuning;

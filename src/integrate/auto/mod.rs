@@ -1,0 +1,380 @@
+//! Chooses among the other methods, from what is known about a system and from what it does.
+//!
+//! - A system that vibrates most of the time is followed in its statistics: the leapfrog, monitored by [`StabilityMonitor`]. When
+//!   it fails, or would need steps that cost as much as error control, the Rosenbrock method takes over until probes
+//!   say that the leapfrog would do again. It also has the quiet phases, in which it costs little more.
+//! - Any other system, or with a tolerance that was asked for, is followed in its trajectory: Dormand-Prince or the
+//!   Rosenbrock method, whichever advances further per evaluation.
+//!
+//! Every stretch of steps is judged by the energy that it misses. A wrong one is made again: those of the leapfrog with error
+//! control, those of error control with a tenth of the tolerance.
+
+/// Calls a method of the active stepper.
+macro_rules! active {
+    ($self:ident, $system:ty, $method:ident($($argument:expr),*)) => {
+        match $self.active {
+            Kind::Leapfrog => Stepper::<$system>::$method(&mut $self.leapfrog, $($argument),*),
+            Kind::DormandPrince => Stepper::<$system>::$method(&mut $self.explicit, $($argument),*),
+            Kind::Rosenbrock => Stepper::<$system>::$method(&mut $self.implicit, $($argument),*),
+        }
+    };
+    ($self:ident, ref $system:ty, $method:ident($($argument:expr),*)) => {
+        match $self.active {
+            Kind::Leapfrog => Stepper::<$system>::$method(&$self.leapfrog, $($argument),*),
+            Kind::DormandPrince => Stepper::<$system>::$method(&$self.explicit, $($argument),*),
+            Kind::Rosenbrock => Stepper::<$system>::$method(&$self.implicit, $($argument),*),
+        }
+    };
+}
+
+mod stepper;
+
+use super::ledger::Ledger;
+use super::selection::Selection;
+use super::stability::{Expectation, StabilityMonitor, Verdict};
+use super::{DormandPrince, Leapfrog, Rosenbrock, Stepper, System, Tuning};
+
+/// Places of the methods in the selection.
+const EXPLICIT: usize = 0;
+const IMPLICIT: usize = 1;
+
+/// How to follow a system.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Aim {
+    /// In its statistics, by the leapfrog; otherwise in its trajectory.
+    pub statistics: bool,
+    /// What the leapfrog's step is chosen from.
+    pub expected: Expectation,
+    /// One unit of error of each state.
+    pub units: Vec<f64>,
+    /// Tolerance of error control, in these units.
+    pub tolerance: f64,
+    /// Evaluations of error control that accuracy is worth for one of the leapfrog.
+    pub affordable: f64,
+    /// First step of error control, s.
+    pub first_step: f64,
+    /// Share of the energy that a run may miss.
+    pub missing_energy: f64,
+    /// Constants of the choice.
+    pub tuning: Tuning,
+}
+
+impl Aim {
+    /// The step that a run starts with, s.
+    pub fn nominal_step(&self) -> f64 {
+        if self.statistics { self.expected.step() } else { self.first_step }
+    }
+}
+
+/// A method to choose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// [`Leapfrog`].
+    Leapfrog,
+    /// [`DormandPrince`].
+    DormandPrince,
+    /// [`Rosenbrock`].
+    Rosenbrock,
+}
+
+/// The methods, by their numbers.
+const KINDS: [Kind; 3] = [Kind::Leapfrog, Kind::DormandPrince, Kind::Rosenbrock];
+
+/// Why a method was chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reason {
+    /// The system vibrates.
+    Vibration,
+    /// The system does not vibrate all the time, or a tolerance was asked for.
+    Trajectory,
+    /// It advances further per evaluation.
+    Speed,
+    /// It is tried whether it does.
+    Trial,
+    /// The attempts of the one before failed.
+    Failures,
+    /// The leapfrog would have to take steps that cost as much.
+    Cost,
+    /// The leapfrog missed too much energy.
+    Balance,
+    /// Nothing vibrates, or it is tried whether that is so: errors are controlled at little cost.
+    Quiet,
+}
+
+/// What was chosen, and what it rests on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Choice {
+    /// The active method.
+    pub method: Kind,
+    /// Why.
+    pub reason: Reason,
+    /// Accepted steps of each method, in the order of [`Kind`].
+    pub steps: [u64; 3],
+    /// Changes of the method or the leapfrog's step.
+    pub changes: u64,
+    /// Step of the leapfrog, s.
+    pub leapfrog_step: f64,
+    /// How many times as far as its rival the active method with error control advances per evaluation; zero before
+    /// both have been tried.
+    pub lead: f64,
+    /// Highest frequency met by the leapfrog, rad/s; zero before it was used.
+    pub highest_frequency: f64,
+}
+
+/// The methods and the choice among them.
+#[derive(Clone, Debug)]
+pub struct Auto {
+    aim: Aim,
+    leapfrog: Leapfrog,
+    explicit: DormandPrince,
+    implicit: Rosenbrock,
+    monitor: StabilityMonitor,
+    selection: Selection,
+    ledger: Ledger,
+    active: Kind,
+    reason: Reason,
+    /// Step that each method with error control took last, s.
+    last_steps: [f64; 2],
+    /// Size of the last attempt, s.
+    h: f64,
+    /// Attempts since the last change or accepted step, and changes because of them.
+    attempts: u64,
+    gave_way: u64,
+    /// Whether a stretch has just been judged.
+    judged: bool,
+    /// The method of that stretch; not taken back with it.
+    wrong: Kind,
+    /// Simulated time (s) and evaluations of error control in the stretch.
+    advanced: f64,
+    cost: f64,
+    /// Level of strictness of error control.
+    strictness: u64,
+    /// Evaluations that the derivatives of the system cost.
+    linearization_cost: f64,
+    /// Stretches until it may be less strict or give way, and those after the next wrong one.
+    hold: u64,
+    next_hold: u64,
+    /// Right stretches since the last change.
+    right: u64,
+    /// Stretches of the leapfrog until error control is tried, and between trials.
+    wait: u64,
+    pause: u64,
+    /// Stretches until an event calls for error control again, and whether one does.
+    event_wait: u64,
+    event: bool,
+    steps: [u64; 3],
+    changes: u64,
+    /// Whether the state was set since the last refresh, which is no event of the system then.
+    placed: bool,
+    /// Where states change hands.
+    state: Vec<f64>,
+}
+
+impl Auto {
+    /// Memory for a system.
+    pub fn new<S: System>(system: &S, aim: Aim) -> Self {
+        let tolerance: Vec<f64> = aim.units.iter().map(|unit| unit * aim.tolerance).collect();
+        let mut auto = Self {
+            leapfrog: Leapfrog::new(system),
+            explicit: DormandPrince::new(system, &tolerance),
+            implicit: Rosenbrock::new(system, &tolerance),
+            monitor: StabilityMonitor::new(system, aim.expected, &aim.units, aim.tuning),
+            selection: Selection::new(EXPLICIT, aim.tuning),
+            ledger: Ledger::new(system.velocities(), aim.missing_energy, aim.tuning),
+            active: Kind::DormandPrince,
+            reason: Reason::Trajectory,
+            last_steps: [aim.first_step; 2],
+            h: aim.first_step,
+            attempts: 0,
+            gave_way: 0,
+            judged: false,
+            wrong: Kind::Leapfrog,
+            advanced: 0.0,
+            cost: 0.0,
+            strictness: 0,
+            linearization_cost: system.linearization_cost(),
+            hold: 0,
+            next_hold: 0,
+            right: 0,
+            wait: 0,
+            pause: 0,
+            event_wait: 0,
+            event: false,
+            steps: [0; 3],
+            changes: 0,
+            placed: true,
+            state: vec![0.0; system.positions() + system.velocities()],
+            aim,
+        };
+        auto.start_over();
+        auto
+    }
+
+    fn start_over(&mut self) {
+        self.monitor.forget();
+        self.ledger.forget();
+        self.last_steps = [self.aim.first_step; 2];
+        (self.attempts, self.gave_way) = (0, 0);
+        (self.judged, self.advanced, self.cost) = (false, 0.0, 0.0);
+        (self.strictness, self.hold, self.next_hold, self.right) =
+            (0, self.aim.tuning.start, self.aim.tuning.first_hold, 0);
+        (self.wait, self.pause) = (0, self.aim.tuning.first_pause);
+        (self.event_wait, self.event) = (0, false);
+        (self.steps, self.changes) = ([0; 3], 0);
+        (self.active, self.reason) = match self.aim.statistics {
+            true => (Kind::Rosenbrock, Reason::Quiet),
+            false => (Kind::DormandPrince, Reason::Trajectory),
+        };
+        self.selection =
+            Selection::new(if self.aim.statistics { IMPLICIT } else { EXPLICIT }, self.aim.tuning);
+    }
+
+    /// Goes on with another method from the present state at time `t`. Returns the step to take, or nothing if the
+    /// method cannot start there.
+    fn change_to<S: System>(&mut self, kind: Kind, reason: Reason, system: &mut S, t: f64) -> Option<f64> {
+        let mut state = std::mem::take(&mut self.state);
+        state.copy_from_slice(Stepper::<S>::state(self));
+        let before = std::mem::replace(&mut self.active, kind);
+        active!(self, S, set_state(&state));
+        self.state = state;
+        if active!(self, S, refresh(system, t)).is_err() {
+            self.active = before;
+            return None;
+        }
+        self.reason = reason;
+        self.changes += 1;
+        (self.attempts, self.right) = (0, 0);
+        (self.advanced, self.cost) = (0.0, 0.0);
+        Some(match kind {
+            Kind::Leapfrog => self.monitor.step(),
+            Kind::DormandPrince => self.last_steps[EXPLICIT],
+            Kind::Rosenbrock => self.last_steps[IMPLICIT],
+        })
+    }
+
+    /// From the leapfrog to error control.
+    fn control_errors<S: System>(&mut self, reason: Reason, system: &mut S, t: f64) -> Option<f64> {
+        self.selection = Selection::new(IMPLICIT, self.aim.tuning);
+        self.last_steps = [self.monitor.step(); 2];
+        self.change_to(Kind::Rosenbrock, reason, system, t)
+    }
+
+    fn review_leapfrog<S: System>(&mut self, system: &mut S, t: f64) -> Option<f64> {
+        let stretch_over = std::mem::take(&mut self.judged);
+        if stretch_over {
+            self.note_right_stretch();
+            self.wait = self.wait.saturating_sub(1);
+        }
+        let event = std::mem::take(&mut self.event);
+        if event || stretch_over && self.wait == 0 {
+            self.hold = if event { self.aim.tuning.transient } else { 0 };
+            return self.control_errors(Reason::Quiet, system, t);
+        }
+        let reason = match self.monitor.look(system, &self.leapfrog, t) {
+            _ if self.attempts >= self.aim.tuning.patience => Reason::Failures,
+            Verdict::TooFast => Reason::Cost,
+            Verdict::Keep => return None,
+            Verdict::Change => {
+                self.changes += 1;
+                return Some(self.monitor.step());
+            }
+        };
+        self.hold = 0;
+        self.control_errors(reason, system, t)
+    }
+
+    /// After a right stretch of error control: whether the leapfrog takes over, or how strict the next one is.
+    fn ease<S: System>(&mut self, system: &mut S, t: f64) -> Option<f64> {
+        let (advanced, cost) = (std::mem::take(&mut self.advanced), std::mem::take(&mut self.cost));
+        self.note_right_stretch();
+        if self.hold > 0 {
+            self.hold -= 1;
+            return None;
+        }
+        if self.strictness > 0 {
+            self.strictness -= 1;
+            self.hold = self.aim.tuning.first_hold;
+            return None;
+        }
+        if !self.aim.statistics {
+            return None;
+        }
+        if self.reason == Reason::Quiet {
+            if advanced * self.aim.affordable >= cost * self.monitor.step() {
+                self.pause = self.aim.tuning.first_pause;
+                self.hold = self.aim.tuning.first_hold;
+                return None;
+            }
+            (self.wait, self.pause) = (self.pause, (2 * self.pause).min(self.aim.tuning.longest_pause));
+        } else if !self.may_leapfrog(system, t) {
+            return None;
+        }
+        self.wait = self.wait.max(self.aim.tuning.first_pause);
+        self.change_to(Kind::Leapfrog, Reason::Vibration, system, t)
+    }
+
+    fn note_right_stretch(&mut self) {
+        self.right += 1;
+        self.event_wait = self.event_wait.saturating_sub(1);
+        if self.right >= self.next_hold {
+            self.next_hold = self.aim.tuning.first_hold;
+        }
+    }
+
+    fn review_error_control<S: System>(&mut self, system: &mut S, t: f64) -> Option<f64> {
+        if std::mem::take(&mut self.event) {
+            self.hold = self.hold.max(self.aim.tuning.transient);
+        }
+        if std::mem::take(&mut self.judged)
+            && let Some(step) = self.ease(system, t)
+        {
+            return match self.active {
+                Kind::Leapfrog => self.review_leapfrog(system, t).or(Some(step)),
+                _ => Some(step),
+            };
+        }
+        let stuck =
+            self.attempts >= self.aim.tuning.long_patience && self.gave_way < self.aim.tuning.most_changes;
+        if stuck {
+            self.gave_way += 1;
+            self.last_steps[self.selection.active()] = self.h;
+            self.selection.give_up();
+        }
+        // In statistics the explicit method at loose tolerance drives the vibration: it only helps out.
+        let changed =
+            stuck || (!self.aim.statistics || self.selection.active() == EXPLICIT) && self.selection.decide();
+        if self.reason == Reason::Trial && !self.selection.on_trial() {
+            self.reason = Reason::Speed;
+        }
+        if !changed {
+            return None;
+        }
+        let kind = if self.selection.active() == EXPLICIT { Kind::DormandPrince } else { Kind::Rosenbrock };
+        let reason = match self.selection.on_trial() {
+            _ if stuck => Reason::Failures,
+            true => Reason::Trial,
+            false => Reason::Speed,
+        };
+        let step = self.change_to(kind, reason, system, t);
+        if step.is_none() {
+            self.selection.give_up();
+        }
+        step
+    }
+
+    /// Whether a probe says that the leapfrog could go on from the present state.
+    fn may_leapfrog<S: System>(&mut self, system: &mut S, t: f64) -> bool {
+        let mut state = std::mem::take(&mut self.state);
+        state.copy_from_slice(Stepper::<S>::state(self));
+        Stepper::<S>::set_state(&mut self.leapfrog, &state);
+        self.state = state;
+        self.ledger.can_spare()
+            && self.leapfrog.refresh(system, t).is_ok()
+            && self.monitor.allows(system, &self.leapfrog, t)
+    }
+
+    fn note_cost(&mut self, evaluations: f64) {
+        self.selection.note_cost(evaluations);
+        self.cost += evaluations;
+    }
+}

@@ -1,0 +1,210 @@
+//! The chosen method at work: attempts, accounts, judgement, memory.
+
+use super::super::control::{Estimate, Law};
+use super::super::{Applied, Quadratures, Reader, Stepper, System};
+use super::{Auto, Choice, EXPLICIT, IMPLICIT, KINDS, Kind, Reason};
+
+impl<S: System> Stepper<S> for Auto {
+    fn set_state(&mut self, state: &[f64]) {
+        self.ledger.close();
+        self.placed = true;
+        active!(self, S, set_state(state));
+    }
+
+    fn refresh(&mut self, system: &mut S, t: f64) -> Result<(), S::Fault> {
+        if !std::mem::take(&mut self.placed) && self.aim.statistics && self.event_wait == 0 {
+            (self.event, self.event_wait) = (true, self.aim.tuning.event_interval);
+        }
+        active!(self, S, refresh(system, t))
+    }
+
+    fn review(&mut self, system: &mut S, t: f64) -> Option<f64> {
+        if !self.ledger.is_open() {
+            // A failure is the run's own in a moment.
+            self.ledger.open(system, t, active!(self, ref S, state())).ok();
+        }
+        match self.active {
+            Kind::Leapfrog => self.review_leapfrog(system, t),
+            Kind::DormandPrince | Kind::Rosenbrock => self.review_error_control(system, t),
+        }
+    }
+
+    fn forget(&mut self) {
+        self.start_over();
+    }
+
+    fn attempt(&mut self, system: &mut S, t: f64, h: f64, t_last: f64) -> Result<Option<Estimate>, S::Fault> {
+        self.h = h;
+        let result = active!(self, S, attempt(system, t, h, t_last));
+        self.attempts += 1;
+        match self.active {
+            Kind::Leapfrog => return result,
+            Kind::DormandPrince => self.note_cost(self.aim.tuning.explicit_cost),
+            Kind::Rosenbrock => self.note_cost(self.aim.tuning.implicit_cost),
+        }
+        let stricter = self.aim.tuning.stricter.powi(self.strictness as i32);
+        result.map(|estimate| {
+            estimate.map(|estimate| Estimate { error: stricter * estimate.error, ..estimate })
+        })
+    }
+
+    fn accept(&mut self) {
+        self.ledger.add(active!(self, ref S, integrals()));
+        active!(self, S, accept());
+        self.steps[self.active as usize] += 1;
+        (self.attempts, self.gave_way) = (0, 0);
+        match self.active {
+            Kind::Leapfrog => self.monitor.count_step(),
+            Kind::DormandPrince => {
+                self.last_steps[EXPLICIT] = self.h;
+                self.selection.note_advance(self.h);
+                self.advanced += self.h;
+            }
+            Kind::Rosenbrock => {
+                self.last_steps[IMPLICIT] = self.h;
+                self.selection.note_advance(self.h);
+                self.advanced += self.h;
+                self.note_cost(self.aim.tuning.start_cost + self.linearization_cost);
+            }
+        }
+    }
+
+    fn longest_stretch(&self) -> usize {
+        self.aim.tuning.longest_stretch
+    }
+
+    fn judge(&mut self, system: &mut S, t: f64) -> bool {
+        // The leapfrog does not evaluate where it arrives; with error control a failure is the run's own in a moment.
+        let settled = self.ledger.settle(system, t, active!(self, ref S, state()));
+        let right = settled.unwrap_or(self.active != Kind::Leapfrog);
+        self.judged = true;
+        self.wrong = self.active;
+        right || self.active != Kind::Leapfrog && self.strictness == self.aim.tuning.strictest
+    }
+
+    /// The stretch may have begun with a change of method or strictness, which is undone, too.
+    fn go_back(&mut self, system: &mut S, t: f64) -> Option<f64> {
+        (self.hold, self.right) = (self.next_hold, 0);
+        self.next_hold = (2 * self.next_hold).min(self.aim.tuning.longest_hold);
+        if self.wrong == Kind::Leapfrog {
+            self.reason = Reason::Balance;
+        } else {
+            self.strictness = (self.strictness + 1).min(self.aim.tuning.strictest);
+        }
+        if self.active == Kind::Leapfrog { self.control_errors(self.reason, system, t) } else { None }
+    }
+
+    fn keep(&self, out: &mut Vec<f64>) {
+        out.push(self.active as usize as f64);
+        active!(self, ref S, keep(out));
+    }
+
+    fn recall(&self, kept: &[f64], theta: f64, out: &mut [f64]) {
+        let Some((kind, kept)) = kept.split_first() else { return };
+        match KINDS[*kind as usize] {
+            Kind::Leapfrog => Stepper::<S>::recall(&self.leapfrog, kept, theta, out),
+            Kind::DormandPrince => Stepper::<S>::recall(&self.explicit, kept, theta, out),
+            Kind::Rosenbrock => Stepper::<S>::recall(&self.implicit, kept, theta, out),
+        }
+    }
+
+    fn applied_in<'a>(&'a self, kept: &'a [f64]) -> Option<Applied<'a>> {
+        let (kind, kept) = kept.split_first()?;
+        match KINDS[*kind as usize] {
+            Kind::Leapfrog => Stepper::<S>::applied_in(&self.leapfrog, kept),
+            Kind::DormandPrince | Kind::Rosenbrock => None,
+        }
+    }
+
+    fn integrals(&self) -> &Quadratures {
+        active!(self, ref S, integrals())
+    }
+
+    fn applied(&self) -> Option<Applied<'_>> {
+        active!(self, ref S, applied())
+    }
+
+    fn state(&self) -> &[f64] {
+        active!(self, ref S, state())
+    }
+
+    fn interpolate(&self, theta: f64, out: &mut [f64]) {
+        active!(self, ref S, interpolate(theta, out));
+    }
+
+    fn control(&self) -> Law {
+        active!(self, ref S, control())
+    }
+
+    fn choice(&self) -> Option<Choice> {
+        Some(Choice {
+            method: self.active,
+            reason: self.reason,
+            steps: self.steps,
+            changes: self.changes,
+            leapfrog_step: self.monitor.step(),
+            lead: self.selection.lead(),
+            highest_frequency: self.monitor.highest_frequency(),
+        })
+    }
+
+    /// All methods are saved, so that the length is always the same.
+    fn save(&self, out: &mut Vec<f64>) {
+        out.extend([self.active as usize as f64, self.reason as usize as f64]);
+        out.extend([self.last_steps[0], self.last_steps[1], self.h, self.advanced, self.cost]);
+        out.extend([self.placed, self.judged, self.event].map(|x| f64::from(u8::from(x))));
+        let counts = [self.attempts, self.gave_way, self.strictness, self.hold, self.next_hold];
+        out.extend(counts.map(|n| n as f64));
+        out.extend([self.right, self.wait, self.pause, self.event_wait].map(|n| n as f64));
+        out.extend(self.steps.map(|n| n as f64));
+        out.push(self.changes as f64);
+        self.monitor.save(out);
+        self.selection.save(out);
+        self.ledger.save(out);
+        Stepper::<S>::save(&self.leapfrog, out);
+        Stepper::<S>::save(&self.explicit, out);
+        Stepper::<S>::save(&self.implicit, out);
+    }
+
+    fn load(&mut self, from: &mut Reader<'_>) -> Option<()> {
+        let reasons = [
+            Reason::Vibration,
+            Reason::Trajectory,
+            Reason::Speed,
+            Reason::Trial,
+            Reason::Failures,
+            Reason::Cost,
+            Reason::Balance,
+            Reason::Quiet,
+        ];
+        self.active = *KINDS.get(usize::try_from(from.count()?).ok()?)?;
+        self.reason = *reasons.get(usize::try_from(from.count()?).ok()?)?;
+        for step in self.last_steps.iter_mut().chain([&mut self.h]) {
+            *step = from.number().filter(|h| *h > 0.0)?;
+        }
+        self.advanced = from.number().filter(|x| *x >= 0.0)?;
+        self.cost = from.number().filter(|x| *x >= 0.0)?;
+        for flag in [&mut self.placed, &mut self.judged, &mut self.event] {
+            *flag = from.flag()?;
+        }
+        for count in [&mut self.attempts, &mut self.gave_way, &mut self.strictness, &mut self.hold] {
+            *count = from.count()?;
+        }
+        self.strictness = self.strictness.min(self.aim.tuning.strictest);
+        for count in
+            [&mut self.next_hold, &mut self.right, &mut self.wait, &mut self.pause, &mut self.event_wait]
+        {
+            *count = from.count()?;
+        }
+        for steps in &mut self.steps {
+            *steps = from.count()?;
+        }
+        self.changes = from.count()?;
+        self.monitor.load(from)?;
+        self.selection.load(from)?;
+        self.ledger.load(from)?;
+        Stepper::<S>::load(&mut self.leapfrog, from)?;
+        Stepper::<S>::load(&mut self.explicit, from)?;
+        Stepper::<S>::load(&mut self.implicit, from)
+    }
+}

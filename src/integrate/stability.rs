@@ -1,0 +1,156 @@
+//! Keeps the step of the leapfrog, which has no error estimate, below what its fastest vibration allows.
+//!
+//! The step is `share / highest frequency`, and half of it where that vibration is hardly damped. A system tells the frequency
+//! that it expects; from time to time it is measured at the present state.
+
+use super::mode::{Mode, ModeFinder};
+use super::{Leapfrog, Linearization, Reader, Stepper, System, Tuning};
+
+/// What is known about a system before its first step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Expectation {
+    /// Highest frequency of undamped vibration, rad/s; zero if unknown.
+    pub frequency: f64,
+    /// Whether that vibration is damped.
+    pub damped: bool,
+    /// Step in units of 1/frequency.
+    pub share: f64,
+    /// Largest step, s.
+    pub largest_step: f64,
+}
+
+impl Expectation {
+    /// The step to start with, s.
+    pub fn step(&self) -> f64 {
+        self.step_at(self.frequency, self.damped)
+    }
+
+    fn step_at(&self, frequency: f64, damped: bool) -> f64 {
+        (self.share / frequency).min(self.largest_step) * if damped { 1.0 } else { 0.5 }
+    }
+}
+
+/// What a look leads to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// Go on.
+    Keep,
+    /// Go on with another step.
+    Change,
+    /// Stable steps would cost as much as error control.
+    TooFast,
+}
+
+/// The monitor and its memory.
+#[derive(Clone, Debug)]
+pub struct StabilityMonitor {
+    tuning: Tuning,
+    expected: Expectation,
+    finder: ModeFinder,
+    slopes: Linearization,
+    a: Vec<f64>,
+    /// Steps until the next look.
+    due: u64,
+    /// Highest frequency that the step rests on, rad/s, and whether its vibration is damped.
+    frequency: f64,
+    damped: bool,
+    /// Highest frequency met, rad/s.
+    highest: f64,
+}
+
+impl StabilityMonitor {
+    /// A monitor of a system; `units` are one unit of error of each state.
+    pub fn new<S: System>(system: &S, expected: Expectation, units: &[f64], tuning: Tuning) -> Self {
+        let structure = system.structure();
+        Self {
+            tuning,
+            expected,
+            finder: ModeFinder::new(&structure, system.positions(), units),
+            slopes: Linearization::new(&structure, system.velocities()),
+            a: vec![0.0; system.velocities()],
+            due: 0,
+            frequency: expected.frequency,
+            damped: expected.damped,
+            highest: 0.0,
+        }
+    }
+
+    /// Forgets everything that was measured.
+    pub fn forget(&mut self) {
+        (self.due, self.highest) = (0, 0.0);
+        (self.frequency, self.damped) = (self.expected.frequency, self.expected.damped);
+    }
+
+    /// Highest frequency met, rad/s.
+    pub fn highest_frequency(&self) -> f64 {
+        self.highest
+    }
+
+    /// Step of the leapfrog, s.
+    pub fn step(&self) -> f64 {
+        self.expected.step_at(self.frequency, self.damped)
+    }
+
+    /// One more step was made.
+    pub fn count_step(&mut self) {
+        self.due = self.due.saturating_sub(1);
+    }
+
+    /// Measures, if it is time to, at the state of `main` at time `t` (s).
+    pub fn look<S: System>(&mut self, system: &mut S, main: &Leapfrog, t: f64) -> Verdict {
+        if self.due > 0 {
+            return Verdict::Keep;
+        }
+        self.due = self.tuning.frequency_interval;
+        let before = self.step();
+        self.measure(system, main, t);
+        if self.too_fast() {
+            Verdict::TooFast
+        } else if self.step() == before {
+            Verdict::Keep
+        } else {
+            Verdict::Change
+        }
+    }
+
+    /// Whether the leapfrog could go on from the state that `main` has been set to at time `t` (s).
+    pub fn allows<S: System>(&mut self, system: &mut S, main: &Leapfrog, t: f64) -> bool {
+        self.due = self.tuning.frequency_interval;
+        self.measure(system, main, t);
+        !self.too_fast()
+    }
+
+    fn too_fast(&self) -> bool {
+        self.frequency > self.tuning.highest_frequency * self.expected.frequency
+    }
+
+    fn measure<S: System>(&mut self, system: &mut S, main: &Leapfrog, t: f64) {
+        let (q, v) = Stepper::<S>::state(main).split_at(system.positions());
+        if system.linearize(t, q, v, &mut self.a, &mut self.slopes).is_err() {
+            return;
+        }
+        let Mode { frequency, damping_ratio } = self.finder.find(&self.slopes);
+        self.highest = self.highest.max(frequency);
+        let (known, clear) = (frequency.max(self.expected.frequency), self.tuning.clear_difference);
+        if known > clear * self.frequency || self.frequency > clear * known {
+            self.frequency = known;
+        }
+        // A slow vibration says nothing about the damping of the fast one.
+        let fast = frequency >= 0.5 * self.frequency;
+        self.damped = self.expected.damped && !(fast && damping_ratio < self.tuning.light_damping);
+    }
+
+    /// Appends everything that the next steps depend on.
+    pub fn save(&self, out: &mut Vec<f64>) {
+        out.extend([self.due as f64, self.frequency, self.highest, f64::from(u8::from(self.damped))]);
+    }
+
+    /// Takes back what [`StabilityMonitor::save`] wrote; `None` if it does not fit.
+    pub fn load(&mut self, from: &mut Reader<'_>) -> Option<()> {
+        self.due = from.count()?;
+        self.frequency = from.number().filter(|x| *x >= 0.0)?;
+        self.highest = from.number().filter(|x| *x >= 0.0)?;
+        self.damped = from.flag()?;
+        Some(())
+    }
+}

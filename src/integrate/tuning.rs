@@ -1,0 +1,123 @@
+//! The constants that the default method rests on, with their reasons. docs/results/tuning.md shows what each of them does.
+
+/// A constant of [`Tuning`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Constant {
+    /// Name of the field.
+    pub name: &'static str,
+    /// Its default.
+    pub value: f64,
+    /// Its unit.
+    pub unit: &'static str,
+    /// What it is, and why.
+    pub reason: &'static str,
+}
+
+macro_rules! tuning {
+    ($($(#[doc = $reason:literal])+ $name:ident: $type:ty = $value:literal, $unit:literal;)+) => {
+        /// Constants of the default method.
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct Tuning {
+            $($(#[doc = $reason])+ pub $name: $type,)+
+        }
+
+        impl Default for Tuning {
+            fn default() -> Self {
+                Self { $($name: $value,)+ }
+            }
+        }
+
+        impl Tuning {
+            /// All constants.
+            pub const TABLE: &'static [Constant] = &[$(Constant {
+                name: stringify!($name),
+                value: $value as f64,
+                unit: $unit,
+                reason: concat!($($reason),+),
+            }),+];
+
+            /// Sets a constant by its name. Whether there is one.
+            pub fn set(&mut self, name: &str, value: f64) -> bool {
+                match name {
+                    $(stringify!($name) => self.$name = value as $type,)+
+                    _ => return false,
+                }
+                true
+            }
+
+            /// The values, in the order of [`Tuning::TABLE`].
+            pub fn values(&self) -> Vec<f64> {
+                vec![$(self.$name as f64),+]
+            }
+        }
+    };
+}
+
+tuning! {
+    /// Steps that are judged together, at most. More would lose more work where they are wrong; fewer, more evaluations of
+    /// their energy.
+    longest_stretch: usize = 32, "steps";
+    /// Share of what a preset may miss of its energy that one stretch and the run so far may miss: what is left is for the
+    /// stretches to come.
+    energy_share: f64 = 0.2, "1";
+    /// Less missing energy than this share of the stored one is round-off.
+    energy_rounding: f64 = 1e-12, "1";
+    /// Stretches with more care after a wrong one; twice as many after the next, as long as fewer right ones lie between.
+    first_hold: u64 = 4, "stretches";
+    /// The most of these.
+    longest_hold: u64 = 256, "stretches";
+    /// Each further wrong stretch of error control divides its tolerance by this.
+    stricter: f64 = 10.0, "1";
+    /// How many times it does; then a stretch counts as it is.
+    strictest: u64 = 5, "times";
+    /// Stretches of error control at the start, of 1, 2, 4, ... steps: where bodies are set down is rarely where they rest.
+    start: u64 = 5, "stretches";
+    /// The same after a jump or kink of an input.
+    transient: u64 = 8, "stretches";
+    /// Stretches between two such transients, as inputs from tables have kinks all the time.
+    event_interval: u64 = 256, "stretches";
+    /// Stretches of the leapfrog until it is tried whether error control costs little, as in quiet phases. Twice as many after
+    /// each trial in vain.
+    first_pause: u64 = 256, "stretches";
+    /// The most of these.
+    longest_pause: u64 = 16384, "stretches";
+    /// Failed attempts in a row after which the leapfrog gives way.
+    patience: u64 = 3, "attempts";
+    /// Failed or rejected attempts in a row after which one method with error control gives way to the other.
+    long_patience: u64 = 12, "attempts";
+    /// At most so many changes between them before a step succeeds.
+    most_changes: u64 = 4, "changes";
+    /// Force evaluations of an attempt of Dormand-Prince.
+    explicit_cost: f64 = 6.0, "evaluations";
+    /// Those of an attempt of the Rosenbrock method.
+    implicit_cost: f64 = 5.0, "evaluations";
+    /// Those at its new state, beside the derivatives, whose cost is counted from the model: one with the derivatives, one for the
+    /// integrals.
+    start_cost: f64 = 2.0, "evaluations";
+    /// Evaluations after which the advance of a method with error control is taken.
+    window: f64 = 400.0, "evaluations";
+    /// Windows until the other one is tried; twice as many after each trial in vain.
+    first_trial: f64 = 2.0, "windows";
+    /// The most of these.
+    longest_trial: f64 = 64.0, "windows";
+    /// The other one takes over when it advances this many times as far.
+    clear_lead: f64 = 1.2, "1";
+    /// Steps of the leapfrog between two measurements of the highest frequency: each costs a Jacobian.
+    frequency_interval: u64 = 512, "steps";
+    /// Its step follows a frequency that differs by this factor.
+    clear_difference: f64 = 1.1, "1";
+    /// Below this share of critical damping the fastest vibration counts as undamped, with half the step.
+    light_damping: f64 = 0.01, "1";
+    /// Above this many times the expected frequency error control costs no more.
+    highest_frequency: f64 = 2.0, "1";
+    /// Steps per period of the fastest sine that is switched on, at least.
+    steps_per_period: f64 = 10.0, "steps";
+    /// Share of a gap, or of the depth over which a law sets in, that one step may cross.
+    onset_share: f64 = 0.25, "1";
+    /// Share of the time sqrt(m/k) in which a solid contact turns a body that one step may go on behind its onset.
+    turn_share: f64 = 0.25, "1";
+    /// Roughness heights at which the film between rough surfaces begins to fade; its share is 0.999 there.
+    fading: f64 = 3.0, "heights";
+    /// Films thinner than this share of the clearance are left to error control.
+    thinnest_film: f64 = 1e-4, "1";
+}
