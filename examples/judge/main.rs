@@ -10,7 +10,9 @@ mod random;
 mod run;
 mod scenes;
 mod summary;
+mod tuning;
 
+use cagedyn::integrate::Tuning;
 use clap::Parser;
 
 #[derive(Parser)]
@@ -31,6 +33,9 @@ struct Arguments {
     /// Only these presets.
     #[arg(long)]
     preset: Vec<String>,
+    /// Print what each constant of `auto` does instead.
+    #[arg(long)]
+    tuning: bool,
     /// Print the scene instead of running it.
     #[arg(long)]
     print: bool,
@@ -46,11 +51,15 @@ fn main() {
         return;
     }
     let Arguments { seed, n, duration, means, preset: presets, wall_time, .. } = arguments;
-    let outcomes =
-        run::judge_all(seed..seed + n, &run::Options { duration, means, presets, wall_time }, |outcome| {
-            if let Some(line) = summary::line(outcome) {
-                println!("{line}");
-            }
-        });
+    let options = run::Options { duration, means, presets, wall_time, tuning: Tuning::default() };
+    if arguments.tuning {
+        println!("{}", tuning::table(seed..seed + n, &options));
+        return;
+    }
+    let outcomes = run::judge_all(seed..seed + n, &options, |outcome| {
+        if let Some(line) = summary::line(outcome) {
+            println!("{line}");
+        }
+    });
     println!("{}", summary::table(&outcomes));
 }

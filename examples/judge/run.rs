@@ -1,6 +1,8 @@
 //! One random scene with every preset.
 
 use crate::scenes;
+use cagedyn::integrate::Tuning;
+use cagedyn::sim::{LEVEL, Sample};
 use cagedyn::{Error, Model, Sim, Status};
 use serde_json::{Value, json};
 use std::ops::Range;
@@ -18,22 +20,35 @@ pub struct Options {
     pub presets: Vec<String>,
     /// Limit of the wall time of a run, s.
     pub wall_time: f64,
+    /// Constants of `auto`.
+    pub tuning: Tuning,
 }
 
 /// The presets, and the largest share of energy that may be missing in each.
 pub const PRESETS: [(&str, f64); 3] = [("draft", 1e-2), ("engineering", 1e-3), ("reference", 1e-4)];
 /// Records of a run. The second half counts.
 const RECORDS: u32 = 300;
-/// Batches that the standard error of a mean is found from.
-const BATCHES: usize = 10;
+/// Distance of the starts of the two references, and by how much further starts differ from one to the next, in units of the
+/// state scales.
+const CLOSE: f64 = 1e-9;
+const FURTHER: f64 = 1e-6;
+/// Starts that decide whether means that are apart in one run are apart.
+const STARTS: u32 = 8;
+/// Smaller differences of means are none: as a share of the mean, or of this much of a ratio.
+const NEXT_TO_NOTHING: f64 = 1e-3;
+const SMALL_RATIO: f64 = 0.1;
 /// Channels whose means are compared, where they exist.
 pub const CHANNELS: [&str; 4] = ["cage.y_ratio", "cage.z_ratio", "cage.slip", "inner_ring.drag_torque"];
 
-/// Mean of a channel and its standard error.
+/// How far means are from those of `reference`.
 #[derive(Clone, Copy, Debug)]
-pub struct Mean {
-    pub mean: f64,
-    pub error: f64,
+pub struct Apart {
+    /// Largest difference in units of what is allowed.
+    pub ratio: f64,
+    /// Its index in [`CHANNELS`].
+    pub channel: usize,
+    /// Whether means over several starts differ, too, by more than their scatter explains.
+    pub in_mean: bool,
 }
 
 /// What became of a scene with a preset.
@@ -47,8 +62,7 @@ pub enum Verdict {
         residual: f64,
         trusted: bool,
         evaluations: u64,
-        /// Largest difference of a mean from `reference` in units of what is allowed.
-        apart: Option<(f64, &'static str)>,
+        apart: Option<Apart>,
         report: String,
     },
 }
@@ -95,18 +109,36 @@ pub fn judge_all(numbers: Range<u64>, options: &Options, mut each: impl FnMut(&O
 /// Runs scene `number` with the presets.
 pub fn judge(number: u64, options: &Options) -> Vec<Outcome> {
     let scene = scenes::scene(number, options.duration);
-    let references = options.means.then(|| {
-        [0.0, 1e-9].map(|shift| run(&scene, "reference", shift, options).ok().map(|(_, means)| means))
-    });
+    let run = |preset, shift| run(&scene, preset, shift, options);
+    let mut references = options.means.then(|| [0.0, CLOSE].map(|shift| run("reference", shift)));
+    let means = match &references {
+        Some([Ok((_, a)), Ok((_, b))]) => Some([*a, *b]),
+        _ => None,
+    };
     let asked = |preset: &str| options.presets.is_empty() || options.presets.iter().any(|p| p == preset);
     let list = PRESETS.into_iter().filter(|(preset, _)| asked(preset));
     list.map(|(preset, promise)| {
-        let verdict = match run(&scene, preset, 0.0, options) {
+        let ran = match references.take() {
+            Some([reference, _]) if preset == "reference" => reference,
+            others => {
+                references = others;
+                run(preset, 0.0)
+            }
+        };
+        let verdict = match ran {
             Err(e) if matches!(e.status, Status::BadScene | Status::BadJson) => Verdict::Refused,
             Err(e) => Verdict::Failed(e),
-            Ok((mut verdict, means)) => {
-                if let (Verdict::Ran { apart, .. }, Some([Some(a), Some(b)])) = (&mut verdict, &references) {
-                    *apart = compare(&means, [a, b]);
+            Ok((mut verdict, here)) => {
+                if let (Verdict::Ran { apart, .. }, Some(means)) = (&mut verdict, &means) {
+                    *apart = compare(&here, means);
+                    if let Some(apart) = apart
+                        && apart.ratio > 1.0
+                    {
+                        let of = |preset| {
+                            starts(|shift| run(preset, shift).ok().map(|(_, means)| means), apart.channel)
+                        };
+                        apart.in_mean = differ(of(preset), of("reference"));
+                    }
                 }
                 verdict
             }
@@ -117,23 +149,40 @@ pub fn judge(number: u64, options: &Options) -> Vec<Outcome> {
 }
 
 /// The largest difference from the references in units of three times their own and three standard errors.
-fn compare(means: &[Option<Mean>; 4], [a, b]: [&[Option<Mean>; 4]; 2]) -> Option<(f64, &'static str)> {
-    let ratio = |k: usize| {
-        let (x, a, b) = (means[k]?, a[k]?, b[k]?);
-        let error = (x.error * x.error + 0.5 * (a.error * a.error + b.error * b.error)).sqrt();
-        // Smaller differences are none.
-        let allowed = 3.0 * (a.mean - b.mean).abs() + 3.0 * error + 1e-3 * a.mean.abs().max(0.1);
-        Some(((x.mean - 0.5 * (a.mean + b.mean)).abs() / allowed, CHANNELS[k]))
+fn compare(means: &Means, [a, b]: &[Means; 2]) -> Option<Apart> {
+    let apart = |channel: usize| {
+        let (x, a, b) = (means[channel]?, a[channel]?, b[channel]?);
+        let error = (x.variance + 0.5 * (a.variance + b.variance)).sqrt();
+        let allowed = 3.0 * (a.mean - b.mean).abs() + 3.0 * error + negligible(a.mean);
+        let ratio = (x.mean - 0.5 * (a.mean + b.mean)).abs() / allowed;
+        Some(Apart { ratio, channel, in_mean: false })
     };
-    (0..CHANNELS.len()).filter_map(ratio).max_by(|a, b| a.0.total_cmp(&b.0))
+    (0..CHANNELS.len()).filter_map(apart).max_by(|a, b| a.ratio.total_cmp(&b.ratio))
 }
 
-type Means = [Option<Mean>; 4];
+fn negligible(mean: f64) -> f64 {
+    NEXT_TO_NOTHING * mean.abs().max(SMALL_RATIO)
+}
+
+/// Means of a channel over runs from several starts.
+fn starts(run: impl Fn(f64) -> Option<Means>, channel: usize) -> Option<Sample> {
+    let mean = |k: u32| Some(run(FURTHER * f64::from(k))?[channel]?.mean);
+    Sample::of(&(1..=STARTS).map(mean).collect::<Option<Vec<f64>>>()?)
+}
+
+/// Whether scatter does not explain the difference; so it is where there is nothing to compare.
+fn differ(here: Option<Sample>, there: Option<Sample>) -> bool {
+    let (Some(here), Some(there)) = (here, there) else { return true };
+    let verdict = here.against(&there, LEVEL, CHANNELS.len());
+    verdict.difference.abs() > verdict.band + negligible(there.mean)
+}
+
+type Means = [Option<Sample>; 4];
 
 fn run(scene: &Value, preset: &str, shift: f64, options: &Options) -> Result<(Verdict, Means), Error> {
     let mut scene = scene.clone();
     scene["solver"] = json!({"preset": preset});
-    let mut sim = Sim::new(Arc::new(Model::from_json(&scene.to_string())?))?;
+    let mut sim = Sim::with_tuning(Arc::new(Model::from_json(&scene.to_string())?), options.tuning)?;
     sim.set_wall_time_limit(options.wall_time)?;
     if shift > 0.0 {
         let mut state = sim.state().to_vec();
@@ -160,16 +209,5 @@ fn run(scene: &Value, preset: &str, shift: f64, options: &Options) -> Result<(Ve
         apart: None,
         report: sim.report(),
     };
-    Ok((verdict, columns.map(|values| mean(&values))))
-}
-
-/// Mean of a series and its standard error, from batches.
-fn mean(values: &[f64]) -> Option<Mean> {
-    let size = values.len() / BATCHES;
-    let batches: Vec<f64> =
-        values.chunks_exact(size.max(1)).map(|x| x.iter().sum::<f64>() / x.len() as f64).collect();
-    let n = batches.len() as f64;
-    let mean = batches.iter().sum::<f64>() / n;
-    let variance = batches.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / (n - 1.0) / n;
-    (batches.len() > 1).then_some(Mean { mean, error: variance.sqrt() })
+    Ok((verdict, columns.map(|values| Sample::of_series(&values))))
 }

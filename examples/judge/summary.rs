@@ -1,6 +1,6 @@
 //! What the judged runs amount to.
 
-use super::run::{Outcome, PRESETS, Verdict};
+use super::run::{Apart, CHANNELS, Outcome, PRESETS, Verdict};
 
 /// Whether more is missing than promised, or what is no number.
 fn breaks(residual: f64, promise: f64) -> bool {
@@ -18,9 +18,13 @@ pub fn line(outcome: &Outcome) -> Option<String> {
         Verdict::Ran { residual, report, evaluations, .. } if breaks(*residual, *promise) => {
             format!("residual {residual:.1e}, {evaluations} evaluations: {report}")
         }
-        Verdict::Ran { apart: Some((apart, channel)), report, residual, .. } if *apart > 1.0 => {
+        Verdict::Ran { apart: Some(apart), report, residual, .. } if apart.ratio > 1.0 => {
+            let Apart { ratio, channel, in_mean } = *apart;
+            let starts = if in_mean { "also" } else { "not" };
+            let channel = CHANNELS[channel];
             format!(
-                "mean of {channel} {apart:.1} times too far from reference, residual {residual:.1e}: {report}"
+                "mean of {channel} {ratio:.1} times too far from reference, {starts} over several starts, residual \
+                 {residual:.1e}: {report}"
             )
         }
         _ => return None,
@@ -28,10 +32,15 @@ pub fn line(outcome: &Outcome) -> Option<String> {
     Some(format!("{number} {preset}: {text}"))
 }
 
+/// How far the means of a trusted run are from the reference.
+fn apart(verdict: &Verdict) -> Option<Apart> {
+    if let Verdict::Ran { trusted: true, apart, .. } = verdict { *apart } else { None }
+}
+
 /// Counts by preset.
 pub fn table(outcomes: &[Outcome]) -> String {
-    let mut text = "\n| preset | scenes | refused | failed | not trusted | trusted, balance broken | trusted, means apart | \
-                    largest missing share of the trusted | median evaluations per run |\n|---|---|---|---|---|---|---|---|---|\n"
+    let mut text = "\n| preset | scenes | refused | failed | not trusted | trusted, balance broken | trusted, means of one run apart | of eight starts | \
+                    largest missing share of the trusted | median evaluations per run |\n|---|---|---|---|---|---|---|---|---|---|\n"
         .to_owned();
     for (preset, promise) in PRESETS {
         let list: Vec<&Outcome> = outcomes.iter().filter(|o| o.preset == preset).collect();
@@ -51,7 +60,7 @@ pub fn table(outcomes: &[Outcome]) -> String {
             _ => most,
         });
         text += &format!(
-            "| {preset} | {} | {} | {} | {} | {} | {} | {largest:.1e} | {} |\n",
+            "| {preset} | {} | {} | {} | {} | {} | {} | {} | {largest:.1e} | {} |\n",
             list.len(),
             count(&|v| matches!(v, Verdict::Refused)),
             count(&|v| matches!(v, Verdict::Failed(_))),
@@ -59,9 +68,8 @@ pub fn table(outcomes: &[Outcome]) -> String {
             count(
                 &|v| matches!(v, Verdict::Ran { trusted: true, residual, .. } if breaks(*residual, promise))
             ),
-            count(
-                &|v| matches!(v, Verdict::Ran { trusted: true, apart: Some((apart, _)), .. } if *apart > 1.0)
-            ),
+            count(&|v| matches!(apart(v), Some(apart) if apart.ratio > 1.0)),
+            count(&|v| matches!(apart(v), Some(apart) if apart.in_mean)),
             evaluations.get(evaluations.len() / 2).copied().unwrap_or(0),
         );
     }
