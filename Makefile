@@ -21,7 +21,7 @@ DESTDIR ?=
 VERSION := $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -n 1)
 CARGO ?= cargo
 
-.PHONY: check test tools fmt lint doc shipped quick unit run cases pictures example effects verify hard judge random statistics \
+.PHONY: check test tools fmt lint doc shipped quick unit run cases pictures example effects verify hard judge tuning random statistics \
 	accuracy bench build-times header install clean
 
 # The same flags everywhere, so that nothing is built twice.
@@ -101,6 +101,11 @@ N ?= 200
 
 judge:
 	$(CARGO) run --release --locked --example judge -- --seed $(SEED) --n $(N) $(ARGS)
+
+# Some ten minutes.
+tuning:
+	mkdir -p docs/results
+	$(CARGO) run --release --locked --example judge -- --seed 0 --n 20 --tuning > docs/results/tuning.md
 
 # Twenty times as many random scenes as every test run has; about an hour.
 random:

@@ -53,7 +53,7 @@ fn main() {
     let Arguments { seed, n, duration, means, preset: presets, wall_time, .. } = arguments;
     let options = run::Options { duration, means, presets, wall_time, tuning: Tuning::default() };
     if arguments.tuning {
-        println!("{}", tuning::table(seed..seed + n, &options));
+        print!("{}", tuning::page(seed..seed + n, &options));
         return;
     }
     let outcomes = run::judge_all(seed..seed + n, &options, |outcome| {

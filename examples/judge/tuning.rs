@@ -44,8 +44,24 @@ fn cost(of: &Total, usual: &Total) -> [f64; 2] {
     [all / all_usual, pairs().fold(0.0, |most, (x, y)| most.max(x / y))]
 }
 
-/// A table with a line per constant.
-pub fn table(numbers: Range<u64>, options: &Options) -> String {
+/// The page: a table with a line per constant.
+pub fn page(numbers: Range<u64>, options: &Options) -> String {
+    format!(
+        "# What the constants of the default method do\n\n\
+         `make tuning` prints this page. [model.md](../model.md#auto) has the reason of each constant of `Tuning`. Random \
+         scenes\n{} to {} of `make judge` run at `engineering` for {} ms with half and with twice of it. Evaluations are \
+         those of all runs\ntogether in units of those with the constants as they are, and of the one run that suffers \
+         most. Missing is the largest share of\nenergy that a trusted run misses, of 1e-3 that are promised; bad are runs \
+         that failed or are not trusted. Counts are halved\nrounding down.\n\n{}",
+        numbers.start,
+        numbers.end - 1,
+        1e3 * options.duration,
+        table(numbers.clone(), options)
+    )
+}
+
+/// A line per constant.
+fn table(numbers: Range<u64>, options: &Options) -> String {
     let usual = total(numbers.clone(), options, Tuning::default());
     let mut text = format!(
         "| constant | value | half: evaluations, most | missing | bad | twice: evaluations, most | missing | bad |\n\
