@@ -8,6 +8,7 @@
 # make verify    errors of the integration methods against CVODE: docs/verification.md
 # make hard     hard cases with every method and preset: docs/hard-cases.md
 # make judge     the presets on random scenes that nothing was tuned to, from SEED on, N of them
+# make tuning    what each constant of the default method does: docs/results/tuning.md
 # make random   forty thousand random scenes; about an hour
 # make statistics  long runs of all methods in their statistics: docs/statistics.md
 # make accuracy  what accuracy costs in time, beside other solvers: docs/accuracy.md

@@ -4,6 +4,7 @@
 //! section II.6.
 
 use super::control::{ErrorNorm, Estimate, Law};
+use super::pack::{keep_parts, kept_parts};
 use super::{Quadratures, Reader, Stepper, System, add_weighted};
 
 const C: [f64; 7] = [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0];
@@ -158,12 +159,11 @@ impl<S: System> Stepper<S> for DormandPrince {
     }
 
     fn keep(&self, out: &mut Vec<f64>) {
-        self.dense.iter().for_each(|part| out.extend_from_slice(part));
+        keep_parts(&self.dense, out);
     }
 
     fn recall(&self, kept: &[f64], theta: f64, out: &mut [f64]) {
-        let n = self.state.len();
-        interpolate(std::array::from_fn(|i| &kept[i * n..(i + 1) * n]), theta, out);
+        interpolate(kept_parts(kept), theta, out);
     }
 
     fn control(&self) -> Law {

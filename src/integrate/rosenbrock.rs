@@ -12,6 +12,7 @@
 //! Wanner, Solving Ordinary Differential Equations II, section IV.7 and the program RODAS (method 1).
 
 use super::control::{ErrorNorm, Estimate, Law};
+use super::pack::{keep_parts, kept_parts};
 use super::shifted::Shifted;
 use super::{Linearization, Quadratures, Reader, Stepper, Structure, System, add_weighted};
 
@@ -246,12 +247,11 @@ impl<S: System> Stepper<S> for Rosenbrock {
     }
 
     fn keep(&self, out: &mut Vec<f64>) {
-        self.dense.iter().for_each(|part| out.extend_from_slice(part));
+        keep_parts(&self.dense, out);
     }
 
     fn recall(&self, kept: &[f64], theta: f64, out: &mut [f64]) {
-        let n = self.state.len();
-        interpolate(std::array::from_fn(|i| &kept[i * n..(i + 1) * n]), theta, out);
+        interpolate(kept_parts(kept), theta, out);
     }
 
     fn control(&self) -> Law {
