@@ -202,10 +202,10 @@ fn the_leapfrog_keeps_the_energy_of_impacts_to_second_order() {
         // The ends of two random walks: their sizes scatter by a factor of three or four, which is half an order here.
         let order = |of: fn(&Record) -> f64| (of(&runs[0]) / of(&runs[2])).log(16.0);
         let found = order(Record::drift);
-        assert!((found - 2.0).abs() < 0.5, "{}: order {found}: {runs:?}", case.name);
+        assert!((1.7..2.5).contains(&found), "{}: order {found}: {runs:?}", case.name);
         if case.isolated && case.name != "cage" {
             let found = order(|run| run.angular_momentum);
-            assert!((found - 2.0).abs() < 0.5, "{}: momentum of order {found}: {runs:?}", case.name);
+            assert!((1.7..2.3).contains(&found), "{}: momentum of order {found}: {runs:?}", case.name);
         }
     }
 }
