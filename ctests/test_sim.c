@@ -159,6 +159,23 @@ static void check_steps_and_outputs(const cagedyn_model *m)
     free(all), free(one), free(many);
 }
 
+/* A run that lost its energy says so, and can still be asked and driven. */
+static void check_trust(const cagedyn_model *m)
+{
+    const char *solver = "solver={\"method\": {\"leapfrog\": {\"step\": 1e-5}}}";
+    cagedyn_model *coarse = cagedyn_model_from_json_with(cagedyn_model_scene_json(m), solver);
+    cagedyn_sim *sim = cagedyn_sim_new(coarse);
+    double output = NAN;
+    CHECK(sim != NULL);
+    CHECK(cagedyn_sim_advance_to(sim, 2e-3) == CAGEDYN_OK);
+    CHECK_FAILS(cagedyn_sim_trust(sim), CAGEDYN_ERR_UNTRUSTED, "leapfrog steps of 1.000e-5 s are unstable");
+    CHECK_FAILS(cagedyn_sim_trust(sim), CAGEDYN_ERR_UNTRUSTED, "% of the energy that passed through is missing");
+    CHECK(cagedyn_sim_get_output(sim, 0, &output) == CAGEDYN_OK && isfinite(output));
+    CHECK(cagedyn_sim_step(sim, 1e-4) == CAGEDYN_OK);
+    cagedyn_sim_free(sim);
+    cagedyn_model_free(coarse);
+}
+
 static void check_inputs(const cagedyn_model *m)
 {
     cagedyn_sim *sim = cagedyn_sim_new(m);
@@ -215,6 +232,7 @@ int main(int argc, char **argv)
     check_jacobian(model);
     check_forces(model);
     check_steps_and_outputs(model);
+    check_trust(model);
     check_inputs(model);
     check_save_and_reset(model);
 

@@ -404,7 +404,7 @@ int32_t cagedyn_sim_statistics(const cagedyn_sim *sim,
 // Whether the run since the start of the scene or the last set state kept what its preset promises: CAGEDYN_OK, or
 // CAGEDYN_ERR_UNTRUSTED with the reasons in cagedyn_error_message(). Promised is that no more than 1 % (draft), 0.1 %
 // (engineering) or 0.01 % (reference) of the energy that passed through is missing, and that leapfrog steps that were asked
-// for are stable. Costs a force evaluation.
+// for are stable, and that no thermal factor of a raceway contact was ever at its floor. Costs a force evaluation.
 int32_t cagedyn_sim_trust(cagedyn_sim *sim);
 
 // What the integration does and why, and what went wrong on the way, in one line for people: the method and the reason

@@ -3,7 +3,7 @@
 //! The works of all forces ([`System::quadratures`]) less the gain of stored energy ([`System::energy`]) are zero for an exact
 //! solution. What is missing, as a share of what passed through, is an error of all of the integration.
 
-use super::{Quadratures, Reader, System, Tuning, add_weighted};
+use super::{Quadratures, Reader, System, Tuning, WORKS, add_weighted};
 
 /// Energy that passed through a system, J: all that came in by work, or was stored before and is no longer.
 pub fn throughput(works: impl IntoIterator<Item = f64>, gains: impl IntoIterator<Item = f64>) -> f64 {
@@ -31,13 +31,13 @@ impl Turnover {
     }
 
     fn missing(&self) -> f64 {
-        self.works.iter().sum::<f64>() - self.gains.iter().sum::<f64>()
+        self.works[..WORKS].iter().sum::<f64>() - self.gains.iter().sum::<f64>()
     }
 
     /// What is missing as a share of what passed through; zero where nothing passed.
     fn missing_share(&self) -> f64 {
         let missing = self.missing();
-        let passed = throughput(self.works, self.gains);
+        let passed = throughput(self.works.into_iter().take(WORKS), self.gains);
         if missing == 0.0 { 0.0 } else { (missing / passed).abs() }
     }
 }

@@ -120,8 +120,10 @@ pub enum Interruption {
     OutOfTime,
 }
 
-/// Quantities that are integrated over time beside the state, or their integrals.
-pub type Quadratures = [f64; 12];
+/// Quantities that are integrated over time beside the state, or their integrals: powers or works first, then others.
+pub type Quadratures = [f64; WORKS + 1];
+/// Number of the powers among them.
+pub const WORKS: usize = 11;
 
 /// A semi-implicit step, whose forces F are linear from those at the evaluated velocities v* on: F(v*) - D (v - v*) with the
 /// share of the change of the step that [`implicit_share`] says, and do their work at the mean velocities.

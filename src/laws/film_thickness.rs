@@ -175,6 +175,19 @@ impl<B: Base> FilmThickness<B> {
     }
 }
 
+impl FilmThickness {
+    /// Whether Gupta's factor is at its floor under this mean pressure (Pa): the speed and pressure are far outside of what it was
+    /// fitted to.
+    pub fn is_at_floor(&self, mean_pressure: f64, e: &Entrainment<f64>) -> bool {
+        match &self.thermal {
+            Some(ThermalCorrection::Gupta(load)) => {
+                load.gupta(mean_pressure * self.pressure_factor, e) < GUPTA_FLOOR
+            }
+            Some(ThermalCorrection::GhoshPandey(_)) | None => false,
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -233,5 +246,21 @@ mod tests {
         let h = film.ln_central(1000f64.ln(), 3e8, &stop).exp();
         assert!(h > 0.0 && h < 1e-9, "{h}");
         assert_eq!(stop.direction, 0.0);
+    }
+
+    #[test]
+    fn the_floor_of_guptas_factor_is_told() {
+        let line = ElasticLine::new(2.26e11, 6e-3, 0.02);
+        let load = ThermalLoad::new(0.04, 0.06, 0.13);
+        let film = FilmThickness::new(&line, 0.06, 2e-8, Some(ThermalCorrection::Gupta(load)));
+        for (pressure, u) in [(1e9, 5.0), (1e9, 100.0), (3e9, 100.0), (3e9, 500.0)] {
+            let e = at(u, 0.0);
+            let factor = (film.ln_central(8.0, pressure, &e) - film.ln_isothermal(8.0, &e)).exp();
+            let told = film.is_at_floor(pressure, &e);
+            assert_eq!(told, factor < GUPTA_FLOOR * 1.0001, "{pressure} {u} {factor}");
+        }
+        assert!(film.is_at_floor(3e9, &at(500.0, 0.0)) && !film.is_at_floor(1e9, &at(5.0, 0.0)));
+        let other = FilmThickness { thermal: Some(ThermalCorrection::GhoshPandey(load)), ..film };
+        assert!(!other.is_at_floor(3e9, &at(500.0, 0.0)));
     }
 }

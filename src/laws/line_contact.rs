@@ -98,6 +98,28 @@ impl<B> LineContact<B> {
     }
 }
 
+impl LineContact {
+    /// Whether the thermal factor of its rolling resistance, or without it that of its film, is at its floor in a contact that
+    /// moves like this under this force, with the viscosity e^`thickening` times that of the laws.
+    pub fn is_at_floor(
+        &self,
+        motion: &ContactMotion<f64>,
+        thickening: f64,
+        force: &ContactForce<f64>,
+    ) -> bool {
+        let (q, u) = (force.normal, 0.5 * (motion.u1 + motion.u2));
+        match (&self.rolling_resistance, &self.film) {
+            _ if q <= 0.0 => false,
+            (Some(law), _) => law.is_at_floor(force.rolling_resistance, q, u),
+            (None, Some(film)) => {
+                let pressure = self.elastic.mean_pressure(q, self.elastic.half_width(q));
+                film.is_at_floor(pressure, &Entrainment::new(motion.u1, motion.u2, thickening))
+            }
+            (None, None) => false,
+        }
+    }
+}
+
 impl<B: Base> LineContact<B> {
     /// Forces, with the viscosity e^`thickening` times that of the laws. Of an edge, its share w of the friction follows
     /// the law of edges, mu (1 - w) + mu_edge w; from w = 1 on there is no film.

@@ -12,7 +12,7 @@
 //! The paper applies the law to unloaded contacts too and finds the result too large; [`Extent::Loaded`] leaves
 //! it out there.
 
-use super::film_thickness::{Entrainment, ThermalLoad};
+use super::film_thickness::{ENTRAINMENT_FLOOR, Entrainment, ThermalLoad};
 use super::normal_contact::ElasticLine;
 use crate::scalar::math;
 use crate::scalar::{Base, Of, smoothstep};
@@ -98,6 +98,18 @@ impl<B: Base> RollingResistance<B> {
     }
 }
 
+impl RollingResistance {
+    /// Whether this force (N) under the load `q` (N) at the mean surface speed `u` (m/s) is zero because T_R is at its floor:
+    /// the speed and pressure are far outside of what T_R was fitted to.
+    pub fn is_at_floor(&self, force: f64, q: f64, u: f64) -> bool {
+        let least = match self.extent {
+            Extent::All => 0.0,
+            Extent::Loaded { threshold } => threshold,
+        };
+        force == 0.0 && self.scale > 0.0 && q > least && u.abs() > ENTRAINMENT_FLOOR
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -133,5 +145,20 @@ mod tests {
             loaded.force(100.0, 100f64.ln(), p(100.0), &e),
             law(Extent::All).force(100.0, 100f64.ln(), p(100.0), &e)
         );
+    }
+
+    #[test]
+    fn zero_tells_of_the_floor_only_where_there_is_a_law() {
+        let fast = Entrainment::new(500.0, 500.0, 0.0);
+        let loaded = law(Extent::Loaded { threshold: 50.0 });
+        for law in [law(Extent::All), loaded] {
+            for (p, floored) in [(3e9, true), (1e5, false)] {
+                let force = law.force(1e5, 1e5f64.ln(), p, &fast);
+                assert_eq!(law.is_at_floor(force, 1e5, 500.0), floored);
+            }
+            assert!(!law.none().is_at_floor(0.0, 1e5, 500.0));
+            assert!(!law.is_at_floor(0.0, 1e5, 0.0));
+        }
+        assert!(!loaded.is_at_floor(0.0, 40.0, 500.0));
     }
 }

@@ -19,7 +19,7 @@ use super::workspace::Workspace;
 use super::{ElementKind, Input, Model, RingBody};
 use crate::contact::Wrench;
 use crate::contact::guide::BodyMotion;
-use crate::integrate::{Quadratures, SemiImplicit};
+use crate::integrate::{Quadratures, SemiImplicit, WORKS};
 use crate::laws::guide::GuideForce;
 
 /// Names of the powers, W. Those of loads and of prescribed motions are positive where they drive the bearing; those of
@@ -49,6 +49,9 @@ const POCKET_DAMPING: usize = 7;
 const POCKET_FRICTION: usize = 8;
 const GUIDE_FILM: usize = 9;
 const GUIDE_SOLID: usize = 10;
+/// Behind the powers: 1 while a law between rollers and raceways is at a floor, else 0.
+pub(crate) const AT_FLOOR: usize = POWERS.len();
+const _: () = assert!(POWERS.len() == WORKS);
 
 /// Energy of a state, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -69,8 +72,8 @@ impl Energy {
 }
 
 impl Model {
-    /// Powers at the last evaluated state (`q`, `v`) of `ws`, W, in the order of [`POWERS`]; zeros follow. With a
-    /// semi-implicit step those of its forces, which differ from the evaluated ones.
+    /// Powers at the last evaluated state (`q`, `v`) of `ws`, W, in the order of [`POWERS`], and whether a law is at a floor
+    /// (1 or 0). With a semi-implicit step those of its forces, which differ from the evaluated ones.
     pub fn powers(
         &self,
         q: &[f64],
@@ -101,6 +104,9 @@ impl Model {
                         p[RACEWAY_DAMPING] += c.damping;
                         p[RACEWAY_FRICTION] += c.friction;
                         p[ROLLING_RESISTANCE] += c.rolling;
+                        if self.is_at_floor(batch, i, ws.thickening) {
+                            p[AT_FLOOR] = 1.0;
+                        }
                     }
                 }
                 if let Mate::Inner = site.mate {
@@ -166,6 +172,13 @@ impl Model {
             rolling: f.rolling_resistance[i] * (m.u1[i] + m.u2[i]),
             on_mate: f.rolling_resistance[i] - friction,
         }
+    }
+
+    /// Whether a law of contact `i` with a raceway is at a floor.
+    fn is_at_floor(&self, batch: &Batch, i: usize, thickening: f64) -> bool {
+        let Some(laws) = &self.laws.raceways else { return false };
+        let law = if let Mate::Outer = batch.sites[i].mate { &laws.outer } else { &laws.inner };
+        law.is_at_floor(&batch.motion.map(|x| x[i]), thickening, &batch.force.map(|x| x[i]))
     }
 
     /// Elastic force of a contact in N and its energy in J at the approach `delta` (m).

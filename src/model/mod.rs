@@ -30,6 +30,7 @@ mod workspace;
 
 pub use channels::Channel;
 pub use costs::{PARTS, PartTimes};
+pub(crate) use energy::AT_FLOOR;
 pub use energy::{Energy, POWERS};
 pub use fault::{FAULTS, Fault, FaultCounts};
 pub use forces::{

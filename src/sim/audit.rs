@@ -3,7 +3,7 @@
 use super::{Evaluated, Sim};
 use crate::error::Result;
 use crate::integrate::{Reader, throughput};
-use crate::model::{Energy, POWERS};
+use crate::model::{AT_FLOOR, Energy, POWERS};
 
 /// Where the balance starts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -67,6 +67,14 @@ impl Sim {
         work.copy_from_slice(&self.driver.integrals_at(to)[..POWERS.len()]);
         let Start { time, energy: start } = self.audit;
         Ok(PowerBalance { from: time, to, work, energy: [start, energy] })
+    }
+
+    /// Share of the time since the balance began in which a law was at a floor.
+    pub(super) fn share_at_floor(&self) -> f64 {
+        let to = self.driver.reached();
+        // Some weights of methods are negative.
+        let time = self.driver.integrals_at(to)[AT_FLOOR].abs();
+        if time > 0.0 { time / (to - self.audit.time) } else { 0.0 }
     }
 
     /// Energy of a state at time `t` (s).

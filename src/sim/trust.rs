@@ -23,6 +23,11 @@ pub enum Doubt {
     },
     /// The balance cannot be closed, because forces are undefined at the end.
     NoBalance(String),
+    /// A law was outside of where it holds, at a floor that keeps it defined.
+    Floor {
+        /// Share of the time in which it was so in at least one contact.
+        share: f64,
+    },
     /// The steps of the leapfrog that was asked for are too long for the fastest contact.
     UnstableStep {
         /// The step, s.
@@ -43,6 +48,14 @@ impl fmt::Display for Doubt {
                 )
             }
             Doubt::NoBalance(why) => write!(f, "the power balance cannot be closed: {why}"),
+            Doubt::Floor { share } => {
+                let share = 100.0 * share;
+                write!(
+                    f,
+                    "in {share:.2} % of the time the thermal factor of a raceway contact was at its floor: rolling speed and \
+                     pressure are outside of what it was fitted to"
+                )
+            }
             Doubt::UnstableStep { step, longest } => {
                 write!(
                     f,
@@ -86,6 +99,10 @@ impl Sim {
                 doubts.push(Doubt::MissingEnergy { share: balance.relative_residual(), promised });
             }
             Ok(_) => {}
+        }
+        let share = self.share_at_floor();
+        if share > 0.0 {
+            doubts.push(Doubt::Floor { share });
         }
         doubts
     }

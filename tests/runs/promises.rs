@@ -115,6 +115,31 @@ fn missing_energy_is_told() {
     assert!(run.trust().unwrap_err().message.contains("missing, allowed are 0.1 %"));
 }
 
+/// The thermal factor of heavy oil at high speed is far below zero, where it is no factor any more: of the rolling resistance,
+/// or without it of the film.
+#[test]
+fn laws_at_their_floors_are_told() {
+    let hot = [("lubricant.viscosity.constant", json!(5.0)), ("inner_ring.speed.constant", json!(-1500.0))];
+    let gupta = [
+        ("raceways.rolling_resistance", Value::Null),
+        ("raceways.contact.thermal_correction", json!("gupta")),
+    ];
+    for changes in [&[][..], &gupta] {
+        let changed = |hot: &[(&'static str, Value)]| example_with(&[hot, changes].concat());
+        let mut floored = run(&changed(&hot), json!({}), 2e-3);
+        let doubts = floored.doubts();
+        let Some(Doubt::Floor { share }) = doubts.first() else { panic!("{doubts:?}") };
+        assert!(*share > 0.5 && *share < 1.0 + 1e-9, "{share}");
+        let error = floored.trust().unwrap_err();
+        assert!(error.status == Status::Untrusted && error.message.contains("at its floor"), "{error}");
+        // The watch begins anew with a state that is set, as the power balance does.
+        let state = floored.state().to_vec();
+        floored.set_state(0.0, &state).unwrap();
+        assert_eq!(floored.trust(), Ok(()));
+        assert_eq!(run(&changed(&[]), json!({}), 2e-3).doubts(), []);
+    }
+}
+
 #[test]
 fn a_roller_out_of_its_pocket_is_a_fault() {
     let mut sim = sim(&example_with(&[]), json!({}));
