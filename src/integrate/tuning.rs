@@ -76,7 +76,7 @@ tuning! {
     transient: u64 = 8, "stretches";
     /// Stretches between two such transients, as inputs from tables have kinks all the time.
     event_interval: u64 = 256, "stretches";
-    /// Stretches of the leapfrog until it is tried whether error control costs little, as in quiet phases. Twice as many after
+    /// Stretches of the leapfrog until it is tried whether error control costs little, as where nothing vibrates. Twice as many after
     /// each trial in vain.
     first_pause: u64 = 256, "stretches";
     /// The most of these.

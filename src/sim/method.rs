@@ -132,7 +132,7 @@ pub(super) fn describe(choice: &Choice) -> String {
         }
         Reason::Failures => ": attempts of the method before failed",
         Reason::Balance => ": the leapfrog missed too much of the energy",
-        Reason::Quiet => ": errors are controlled, which costs little while nothing vibrates",
+        Reason::Affordable => ": errors are controlled, which costs little while nothing vibrates",
         Reason::Cost => ": the leapfrog would need steps that cost as much as error control",
     };
     if choice.lead > 0.0 && choice.method != Kind::Leapfrog {

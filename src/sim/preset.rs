@@ -11,7 +11,7 @@ pub(super) struct Numbers {
     pub statistics: bool,
     /// Leapfrog step in units of 1/(highest frequency), with contact damping; without it takes half.
     pub leapfrog_step: f64,
-    /// Tolerance of error control; for rollers in quiet phases, and where the leapfrog will not do.
+    /// Tolerance of error control; for rollers while nothing vibrates, and where the leapfrog will not do.
     pub tolerance: f64,
     /// Evaluations of error control that its accuracy is worth for one of the leapfrog.
     pub affordable: f64,

@@ -43,7 +43,7 @@ fn rollers_are_followed_in_their_statistics_but_for_comparing() {
         let mut sim = sim(json!({"preset": preset}));
         sim.advance_to(10e-3).unwrap();
         let [by_leapfrog, explicit, implicit] = sim.statistics().choice.expect("auto chooses").steps;
-        // The start is quiet.
+        // Nothing vibrates at the start.
         assert_eq!(by_leapfrog > explicit + implicit, leapfrog, "{preset}: {by_leapfrog}, {implicit}");
         assert!(leapfrog || by_leapfrog == 0, "{preset}: {by_leapfrog}");
     }

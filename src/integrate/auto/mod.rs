@@ -2,7 +2,7 @@
 //!
 //! - A system that vibrates most of the time is followed in its statistics: the leapfrog, monitored by [`StabilityMonitor`]. When
 //!   it fails, or would need steps that cost as much as error control, the Rosenbrock method takes over until probes
-//!   say that the leapfrog would do again. It also has the quiet phases, in which it costs little more.
+//!   say that the leapfrog would do again. It also has the phases without vibration, in which it costs little more.
 //! - Any other system, or with a tolerance that was asked for, is followed in its trajectory: Dormand-Prince or the
 //!   Rosenbrock method, whichever advances further per evaluation.
 //!
@@ -98,7 +98,7 @@ pub enum Reason {
     /// The leapfrog missed too much energy.
     Balance,
     /// Nothing vibrates, or it is tried whether that is so: errors are controlled at little cost.
-    Quiet,
+    Affordable,
 }
 
 /// What was chosen, and what it rests on.
@@ -222,7 +222,7 @@ impl Auto {
         (self.event_wait, self.event) = (0, false);
         (self.steps, self.changes) = ([0; 3], 0);
         (self.active, self.reason) = match self.aim.statistics {
-            true => (Kind::Rosenbrock, Reason::Quiet),
+            true => (Kind::Rosenbrock, Reason::Affordable),
             false => (Kind::DormandPrince, Reason::Trajectory),
         };
         self.selection =
@@ -268,7 +268,7 @@ impl Auto {
         let event = std::mem::take(&mut self.event);
         if event || stretch_over && self.wait == 0 {
             self.hold = if event { self.aim.tuning.transient } else { 0 };
-            return self.control_errors(Reason::Quiet, system, t);
+            return self.control_errors(Reason::Affordable, system, t);
         }
         let reason = match self.monitor.look(system, &self.leapfrog, t) {
             _ if self.attempts >= self.aim.tuning.patience => Reason::Failures,
@@ -299,7 +299,7 @@ impl Auto {
         if !self.aim.statistics {
             return None;
         }
-        if self.reason == Reason::Quiet {
+        if self.reason == Reason::Affordable {
             if advanced * self.aim.affordable >= cost * self.monitor.step() {
                 self.pause = self.aim.tuning.first_pause;
                 self.hold = self.aim.tuning.first_hold;

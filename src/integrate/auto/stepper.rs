@@ -175,7 +175,7 @@ impl<S: System> Stepper<S> for Auto {
             Reason::Failures,
             Reason::Cost,
             Reason::Balance,
-            Reason::Quiet,
+            Reason::Affordable,
         ];
         self.active = *KINDS.get(usize::try_from(from.count()?).ok()?)?;
         self.reason = *reasons.get(usize::try_from(from.count()?).ok()?)?;
