@@ -133,8 +133,8 @@ fn errors_through_contacts_are_like_those_of_cvode() {
     }
 }
 
-/// The cage on the dry guide bounces, and its second contact lasts 7 us. Error control that looks at a few places of a
-/// step of free flight misses it, at any tolerance; CVODE does, too.
+/// The cage on the dry guide bounces, and its second contact lasts 7 us. Error control that looks at a few places of a step can
+/// miss it; CVODE does, too.
 #[test]
 fn only_the_length_of_a_step_bounds_what_it_jumps_over() {
     let limited = contacts().into_iter().find(|case| case.name == DRY).expect("a dry guide");
