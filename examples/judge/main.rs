@@ -40,7 +40,7 @@ struct Arguments {
     #[arg(long)]
     print: bool,
     /// Limit of the wall time of a run, s.
-    #[arg(long, default_value_t = 120.0)]
+    #[arg(long, default_value_t = 600.0)]
     wall_time: f64,
 }
 

@@ -271,7 +271,7 @@ fn a_minute_of_simulated_time() {
 fn judge_scenes(numbers: std::ops::Range<u64>, presets: &[&str], means: bool) -> [usize; 2] {
     let presets = presets.iter().map(|preset| (*preset).to_owned()).collect();
     let options =
-        run::Options { duration: 0.03, means, presets, wall_time: 120.0, tuning: Tuning::default() };
+        run::Options { duration: 0.03, means, presets, wall_time: 600.0, tuning: Tuning::default() };
     let outcomes = run::judge_all(numbers, &options, |outcome| {
         if let Some(line) = summary::line(outcome) {
             println!("{line}");
