@@ -53,6 +53,20 @@ fn main() -> Result<()> {
     let machine = machine();
     make_folder(&arguments.out)?;
     let (mut comparisons, mut tables) = (Vec::new(), Vec::new());
+    // The long comparisons come last.
+    let mut growth = None;
+    if asked("size") {
+        let (table, exponent, memory) = size::table(&solvers)?;
+        println!("{}", table.text());
+        growth = Some((exponent, memory));
+        tables.push(table);
+    }
+    if asked("costs") {
+        for table in kernel::tables()? {
+            println!("{}", table.text());
+            tables.push(table);
+        }
+    }
     let names = pointwise::NAMES.iter().map(|name| (*name, true));
     for (name, is_pointwise) in names.chain(statistics::NAMES.iter().map(|name| (*name, false))) {
         if !asked(name) {
@@ -74,19 +88,6 @@ fn main() -> Result<()> {
     let presets = report::presets(&comparisons);
     println!("{}", presets.text());
     tables.push(presets);
-    let mut growth = None;
-    if asked("size") {
-        let (table, exponent, memory) = size::table(&solvers)?;
-        println!("{}", table.text());
-        growth = Some((exponent, memory));
-        tables.push(table);
-    }
-    if asked("costs") {
-        for table in kernel::tables()? {
-            println!("{}", table.text());
-            tables.push(table);
-        }
-    }
     if asked("goals") {
         let table = goals::table(&comparisons, growth)?;
         println!("{}", table.text());

@@ -39,7 +39,8 @@ impl Problem {
         Ok(Self { scales: model.state_scales(), scene, model, start, times, max_step })
     }
 
-    /// The same from the state that the scene reaches after `settling` s.
+    /// The same from the state that the scene reaches after `settling` s, at time zero: not for elements with prescribed motion,
+    /// which are elsewhere then.
     ///
     /// # Errors
     /// Those of the run.
