@@ -47,6 +47,18 @@ fn developed(study: &Study, set: &[(&str, &str)]) -> Sim {
     sim
 }
 
+/// A default of the scene may become what a row sets.
+#[test]
+fn every_row_changes_the_scene() {
+    for study in &STUDIES {
+        let full = sim(study, &[]);
+        for row in study.rows {
+            let changed = sim(study, row.set);
+            assert_ne!(changed.model().scene(), full.model().scene(), "{}: {}", study.name, row.effect);
+        }
+    }
+}
+
 #[test]
 fn effects_that_are_taken_away_leave_no_evaluations_and_no_states() {
     for study in &STUDIES {

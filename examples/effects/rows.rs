@@ -123,7 +123,7 @@ const NU2310: [Row; 20] = [
         &[("cage.pocket", "null")],
         &[("pocket_wall", NOWHERE), ("pocket_edge", NOWHERE), ("traction", RACEWAYS)],
     ),
-    removed("guide squeeze", &[("cage.guide.film.short_bearing.squeeze", "null")], &[]),
+    removed("guide squeeze", &[("cage.guide.film.short_bearing.squeeze", "false")], &[]),
     removed("guide", &[("cage.guide", "null")], &[("guide_film", NOWHERE)]),
     Row {
         effect: "cage",
