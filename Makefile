@@ -15,15 +15,19 @@
 # make bench     time of a force evaluation and of a step
 # make build-times  what building and testing takes: docs/building.md; half an hour
 # make header    writes include/cagedyn.h and schemas/ anew after a change
-# make install   library, header and pkg-config file below $(DESTDIR)$(PREFIX)
+# make build     library and tool, for make install
+# make install   library, header, tool, scenes, schemas, licences and pkg-config file below $(DESTDIR)$(PREFIX); libraries in LIBDIR
+# make uninstall removes them
 
 PREFIX ?= /usr/local
+LIBDIR ?= $(PREFIX)/lib
 DESTDIR ?=
+BUILT := $(or $(CARGO_TARGET_DIR),target)/release
 VERSION := $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -n 1)
 CARGO ?= cargo
 
 .PHONY: check test tools fmt lint doc shipped quick unit run cases pictures example effects verify hard judge tuning random statistics \
-	accuracy bench build-times header install clean
+	accuracy bench build-times header build install uninstall clean
 
 # The same flags everywhere, so that nothing is built twice.
 FLAGS := --locked --workspace --all-features
@@ -82,10 +86,10 @@ pictures:
 
 example:
 	$(CARGO) build --release --locked
-	ln -sf libcagedyn.so target/release/libcagedyn.so.0
+	ln -sf libcagedyn.so $(BUILT)/libcagedyn.so.0
 	mkdir -p out
 	$(CC) -std=c99 -Wall -Wextra -Wpedantic -Iinclude examples/nu2310.c -o out/nu2310 \
-		-Ltarget/release -lcagedyn -Wl,-rpath,$(CURDIR)/target/release
+		-L$(BUILT) -lcagedyn -Wl,-rpath,$(abspath $(BUILT))
 	./out/nu2310 scenes/nu2310.json out/nu2310.csv
 
 effects: tools
@@ -128,17 +132,16 @@ build-times: tools
 header:
 	CAGEDYN_BLESS=1 $(CARGO) test $(FLAGS) --test interfaces --test scene -- committed
 
-install:
+# What install needs; `make` as a user, `sudo make install` builds nothing.
+build:
 	$(CARGO) build --release --locked
-	install -d $(DESTDIR)$(PREFIX)/lib/pkgconfig $(DESTDIR)$(PREFIX)/include $(DESTDIR)$(PREFIX)/bin
-	install -m 644 include/cagedyn.h $(DESTDIR)$(PREFIX)/include/
-	install -m 755 target/release/libcagedyn.so $(DESTDIR)$(PREFIX)/lib/libcagedyn.so.$(VERSION)
-	ln -sf libcagedyn.so.$(VERSION) $(DESTDIR)$(PREFIX)/lib/libcagedyn.so.0
-	ln -sf libcagedyn.so.0 $(DESTDIR)$(PREFIX)/lib/libcagedyn.so
-	install -m 644 target/release/libcagedyn.a $(DESTDIR)$(PREFIX)/lib/
-	install -m 755 target/release/cagedyn $(DESTDIR)$(PREFIX)/bin/
-	sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@VERSION@|$(VERSION)|' tools/cagedyn.pc.in \
-		> $(DESTDIR)$(PREFIX)/lib/pkgconfig/cagedyn.pc
+
+# All files are made in a folder of their own first: what fails leaves nothing half-installed.
+install:
+	PREFIX='$(PREFIX)' LIBDIR='$(LIBDIR)' DESTDIR='$(DESTDIR)' VERSION='$(VERSION)' BUILT='$(BUILT)' tools/install_tree.sh
+
+uninstall:
+	PREFIX='$(PREFIX)' LIBDIR='$(LIBDIR)' DESTDIR='$(DESTDIR)' tools/install_tree.sh --remove
 
 clean:
 	$(CARGO) clean
