@@ -72,9 +72,10 @@ static void check_temperature(const cagedyn_model *m)
     CHECK(cagedyn_sim_step(sim, 1e-3) == CAGEDYN_OK);
     CHECK(evaluations(sim, "viscosity_temperature") == 1.0);
     CHECK(fabs(output(sim, m, "lubricant.viscosity") - 0.01056) < 1e-7);
-    CHECK(cagedyn_sim_set_input(sim, temperature, 20.0) == CAGEDYN_OK);
-    CHECK_FAILS(cagedyn_sim_step(sim, 1e-3), CAGEDYN_ERR_BAD_STATE, "viscosity");
+    CHECK_FAILS(cagedyn_sim_set_input(sim, temperature, 20.0), CAGEDYN_ERR_BAD_VALUE, "degrees Celsius, 293.15 K");
+    CHECK_FAILS(cagedyn_sim_set_input(sim, temperature, 160.0), CAGEDYN_ERR_BAD_VALUE, "the viscosity");
     CHECK(cagedyn_sim_time(sim, &time) == CAGEDYN_OK && time == 1e-3);
+    CHECK(fabs(output(sim, m, "lubricant.viscosity") - 0.01056) < 1e-7);
     CHECK(cagedyn_sim_release_input(sim, temperature) == CAGEDYN_OK);
     CHECK(cagedyn_sim_step(sim, 1e-3) == CAGEDYN_OK);
     cagedyn_sim_free(sim);

@@ -176,6 +176,81 @@ static void check_trust(const cagedyn_model *m)
     cagedyn_model_free(coarse);
 }
 
+/* Extremes and impulses between two times, from every step. */
+static void check_intervals(const cagedyn_model *m)
+{
+    cagedyn_sim *sim = cagedyn_sim_new(m);
+    int64_t length = cagedyn_interval_count(), force = cagedyn_model_find_output(m, "roller[3].pocket_force");
+    double *interval = numbers(length), *sum = numbers(length), value = NAN;
+    CHECK(cagedyn_model_watched_count(m) == 12);
+    CHECK(cagedyn_model_watched_output(m, 3) == force);
+    CHECK_FAILS(cagedyn_model_watched_output(m, 12), CAGEDYN_ERR_BAD_INDEX, "index");
+    CHECK(strcmp(cagedyn_interval_name(2), "min") == 0 && strcmp(cagedyn_interval_name(length), "") == 0);
+    for (int k = 1; k <= 40; k++) {
+        CHECK(cagedyn_sim_begin_interval(sim) == CAGEDYN_OK);
+        CHECK(cagedyn_sim_step(sim, 1e-4) == CAGEDYN_OK);
+        CHECK(cagedyn_sim_get_interval(sim, force, interval, length) == CAGEDYN_OK);
+        CHECK(interval[0] <= interval[1] && interval[2] <= interval[4] && interval[4] <= interval[3]);
+        CHECK(fabs(interval[5] - interval[4] * (interval[1] - interval[0])) <= 1e-15 + 1e-12 * fabs(interval[5]));
+        sum[5] += interval[5];
+        if (k == 1 || interval[3] > sum[3]) sum[3] = interval[3];
+    }
+    CHECK(cagedyn_sim_reset(sim) == CAGEDYN_OK && cagedyn_sim_advance_to(sim, 4e-3) == CAGEDYN_OK);
+    CHECK(cagedyn_sim_get_interval(sim, force, interval, length) == CAGEDYN_OK);
+    CHECK(interval[0] == 0.0 && interval[1] == 4e-3 && interval[3] == sum[3]);
+    CHECK(fabs(interval[5] - sum[5]) < 1e-12);
+    CHECK(cagedyn_sim_get_output(sim, force, &value) == CAGEDYN_OK && value <= interval[3] + 1e-9);
+
+    interval[0] = -1.0;
+    CHECK_FAILS(cagedyn_sim_get_interval(sim, 0, interval, length), CAGEDYN_ERR_BAD_VALUE, "record.extremes");
+    CHECK_FAILS(cagedyn_sim_get_interval(sim, -1, interval, length), CAGEDYN_ERR_BAD_INDEX, "output");
+    CHECK_FAILS(cagedyn_sim_get_interval(sim, force, interval, length - 1), CAGEDYN_ERR_WRONG_SIZE, "out");
+    CHECK_FAILS(cagedyn_sim_get_interval(NULL, force, interval, length), CAGEDYN_ERR_NULL_ARGUMENT, "sim");
+    CHECK_FAILS(cagedyn_sim_begin_interval(NULL), CAGEDYN_ERR_NULL_ARGUMENT, "sim");
+    CHECK(interval[0] == -1.0);
+    cagedyn_sim_free(sim);
+    free(interval), free(sum);
+}
+
+/* A step that cannot be made to its end leaves the last one that could. */
+static void check_failed_advance(const cagedyn_model *m)
+{
+    cagedyn_model *few = cagedyn_model_from_json_with(cagedyn_model_scene_json(m), "solver.max_steps=50");
+    cagedyn_sim *sim = cagedyn_sim_new(few);
+    int64_t n = cagedyn_model_state_count(m);
+    double time = NAN, *before = numbers(n), *after = numbers(n);
+    CHECK(sim != NULL && cagedyn_sim_get_state(sim, before, n) == CAGEDYN_OK);
+    CHECK_FAILS(cagedyn_sim_advance_to(sim, -1.0), CAGEDYN_ERR_BAD_VALUE, "t");
+    CHECK_FAILS(cagedyn_sim_step(sim, NAN), CAGEDYN_ERR_BAD_VALUE, "dt");
+    CHECK(cagedyn_sim_time(sim, &time) == CAGEDYN_OK && time == 0.0);
+    CHECK_FAILS(cagedyn_sim_advance_to(sim, 1.0), CAGEDYN_ERR_TOO_MANY_STEPS, "max_steps");
+    CHECK(cagedyn_sim_time(sim, &time) == CAGEDYN_OK && time > 0.0 && time < 1.0);
+    CHECK(cagedyn_sim_get_state(sim, after, n) == CAGEDYN_OK && memcmp(before, after, (size_t)n * sizeof(double)) != 0);
+    CHECK(cagedyn_sim_step(sim, 1e-6) == CAGEDYN_OK);
+    cagedyn_sim_free(sim);
+    cagedyn_model_free(few);
+    free(before), free(after);
+}
+
+/* Why there is no model is still known when everything that follows from it has been tried. */
+static void check_errors_that_stay(void)
+{
+    cagedyn_model *model = cagedyn_model_from_file("no/such/scene.json");
+    cagedyn_sim *sim = cagedyn_sim_new(model);
+    CHECK(model == NULL && sim == NULL);
+    CHECK(strstr(cagedyn_error_message(), "no/such/scene.json") != NULL);
+    CHECK(cagedyn_error_status() == CAGEDYN_ERR_FILE);
+    cagedyn_sim_free(sim);
+    cagedyn_model_free(model);
+    cagedyn_canceller_free(NULL);
+    CHECK(cagedyn_error_status() == CAGEDYN_ERR_FILE);
+    model = cagedyn_model_from_json("{");
+    CHECK(model == NULL && cagedyn_sim_new_with_preset(model, 7) == NULL);
+    CHECK(cagedyn_error_status() == CAGEDYN_ERR_BAD_JSON);
+    /* Without an error before it, NULL is the error. */
+    CHECK(cagedyn_law_count() > 0 && cagedyn_sim_new(NULL) == NULL);
+}
+
 static void check_inputs(const cagedyn_model *m)
 {
     cagedyn_sim *sim = cagedyn_sim_new(m);
@@ -218,7 +293,7 @@ static void check_save_and_reset(const cagedyn_model *m)
     CHECK(cagedyn_sim_get_state(sim, again, n) == CAGEDYN_OK && memcmp(start, again, bytes) == 0);
 
     saved[1] += 1.0;
-    CHECK_FAILS(cagedyn_sim_restore(other, saved, length), CAGEDYN_ERR_BAD_SNAPSHOT, "another scene");
+    CHECK_FAILS(cagedyn_sim_restore(other, saved, length), CAGEDYN_ERR_BAD_SNAPSHOT, "other physics");
     CHECK(cagedyn_sim_get_state(other, again, n) == CAGEDYN_OK && memcmp(first, again, bytes) == 0);
     cagedyn_sim_free(sim);
     cagedyn_sim_free(other);
@@ -233,6 +308,9 @@ int main(int argc, char **argv)
     check_forces(model);
     check_steps_and_outputs(model);
     check_trust(model);
+    check_intervals(model);
+    check_failed_advance(model);
+    check_errors_that_stay();
     check_inputs(model);
     check_save_and_reset(model);
 

@@ -13,10 +13,11 @@
  * Errors     A function that returns int32_t returns CAGEDYN_OK (0) or a negative CAGEDYN_ERR_ code. A function that
  *            returns int64_t returns a count or an index >= 0, or such a code. A function that returns a handle
  *            returns NULL on failure. After a failure cagedyn_error_status() and cagedyn_error_message() tell more;
- *            both are kept per thread and cleared by the next call. Codes never change their meaning.
+ *            both are kept per thread and cleared by the next call, but for _free and for making a simulation of a model
+ *            that is NULL. Codes never change their meaning.
  *            NULL, wrong lengths, numbers that are not finite and bad JSON are errors, never undefined behaviour.
- *            Outputs are written only on success, and a failed call leaves its object as it was and usable; one that
- *            advances a simulation leaves it at the last step that could be made.
+ *            Outputs are written only on success, and a failed call leaves its object as it was and usable; a step or
+ *            advance that cannot go on leaves the simulation at the last step that could be made.
  *            No panic and no exception crosses this interface.
  *
  * Strings    NUL-terminated UTF-8. Returned strings belong to the library, are never NULL, and live as long as the
@@ -138,6 +139,34 @@ const char *cagedyn_error_message(void);
 // Static text, never NULL.
 const char *cagedyn_status_name(int32_t status);
 
+// Number of outputs that are watched in every step: those that the scene names in record.extremes. Negative status code on
+// failure.
+int64_t cagedyn_model_watched_count(const cagedyn_model *model);
+
+// Output that is at place `index` of those that are watched. Negative status code on failure.
+int64_t cagedyn_model_watched_output(const cagedyn_model *model, int64_t index);
+
+// Number of numbers that cagedyn_sim_get_interval() writes.
+int64_t cagedyn_interval_count(void);
+
+// Name of one of these numbers; "" for others. Static text.
+//
+// - from, to: the interval, s.
+// - min, max: extremes in any step that touches it, in the unit of the output.
+// - mean: over time; integral: over time, in that unit times s; positive_integral: of the values above zero.
+const char *cagedyn_interval_name(int64_t index);
+
+// Begins at the present time the interval of cagedyn_sim_get_interval(). So do setting a state, a reset and restoring.
+int32_t cagedyn_sim_begin_interval(cagedyn_sim *sim);
+
+// Writes what a watched output did since cagedyn_sim_begin_interval(), from every step and not from where the host stopped
+// (length: interval count). Forces are those that acted in the steps, so that their integrals are the impulses that the
+// bodies were given.
+int32_t cagedyn_sim_get_interval(cagedyn_sim *sim,
+                                 int64_t output,
+                                 double *out,
+                                 int64_t length);
+
 // Creates what stops a simulation from other threads, before it runs there. It may outlive the simulation. Returns NULL
 // on failure. Free it with cagedyn_canceller_free().
 cagedyn_canceller *cagedyn_canceller_new(const cagedyn_sim *sim);
@@ -146,7 +175,7 @@ cagedyn_canceller *cagedyn_canceller_new(const cagedyn_sim *sim);
 // CAGEDYN_ERR_CANCELLED after its present step. The request is then spent, and the simulation can go on.
 int32_t cagedyn_canceller_cancel(const cagedyn_canceller *canceller);
 
-// Frees a canceller. NULL is ignored.
+// Frees a canceller. NULL is ignored, and the stored error stays.
 void cagedyn_canceller_free(cagedyn_canceller *canceller);
 
 // Lets a simulation run for `seconds` of wall time from now. Then the running call returns CAGEDYN_ERR_OUT_OF_TIME, and
@@ -166,11 +195,17 @@ cagedyn_model *cagedyn_model_from_json_with(const char *json,
 // Creates a model from a scene file. Returns NULL on failure.
 cagedyn_model *cagedyn_model_from_file(const char *path);
 
-// Frees a model. Simulations made from it stay valid. NULL is ignored.
+// Frees a model. Simulations made from it stay valid. NULL is ignored, and the stored error stays.
 void cagedyn_model_free(cagedyn_model *model);
 
 // JSON text of the scene the model was made from, replacements included. "" on failure. Lives as long as the model.
 const char *cagedyn_model_scene_json(const cagedyn_model *model);
+
+// Number of values of the scene that are legal and unlikely. Negative status code on failure.
+int64_t cagedyn_model_warning_count(const cagedyn_model *model);
+
+// One of these, as one line: JSON path, value, why it is unlikely. "" on failure. Lives as long as the model.
+const char *cagedyn_model_warning(const cagedyn_model *model, int64_t index);
 
 // Number of positions: the first part of the state vector. Negative status code on failure.
 int64_t cagedyn_model_position_count(const cagedyn_model *model);
@@ -269,7 +304,8 @@ int64_t cagedyn_model_find_force_source(const cagedyn_model *model,
                                         const char *name);
 
 // Creates a simulation at the start of the model's scene. It keeps what it needs of the model. Returns NULL on
-// failure. Free it with cagedyn_sim_free().
+// failure; with a model of NULL an error of the call before, such as that which made no model, stays the stored one. Free it
+// with cagedyn_sim_free().
 cagedyn_sim *cagedyn_sim_new(const cagedyn_model *model);
 
 // As cagedyn_sim_new(), with a preset (CAGEDYN_PRESET_...) instead of that of the scene: how accurate the simulation
@@ -277,7 +313,7 @@ cagedyn_sim *cagedyn_sim_new(const cagedyn_model *model);
 cagedyn_sim *cagedyn_sim_new_with_preset(const cagedyn_model *model,
                                          int32_t preset);
 
-// Frees a simulation. NULL is ignored.
+// Frees a simulation. NULL is ignored, and the stored error stays.
 void cagedyn_sim_free(cagedyn_sim *sim);
 
 // Back to the start of the scene; inputs follow the scene again, statistics start at zero.
@@ -327,10 +363,12 @@ int32_t cagedyn_sim_factorize(cagedyn_sim *sim,
 // cagedyn_sim_factorize(). `length` is the length of the state.
 int32_t cagedyn_sim_solve(cagedyn_sim *sim, double *x, int64_t length);
 
-// Advances by `dt` >= 0 seconds. On failure time and state do not change.
-int32_t cagedyn_sim_step(cagedyn_sim *sim, double dt);
+// Advances by `dt` >= 0 seconds. When a refused argument is the failure, nothing changes; otherwise time and state are then
+// those of the last step that could be made, and the simulation can be asked, changed, reset or advanced again.
+int32_t cagedyn_sim_step(cagedyn_sim *sim,
+                         double dt);
 
-// Advances to time `t` (s), not before the present time. On failure time and state do not change.
+// Advances to time `t` (s), not before the present time. A failure is as that of cagedyn_sim_step().
 int32_t cagedyn_sim_advance_to(cagedyn_sim *sim, double t);
 
 // Writes the accelerations at the present state (length: velocity count, that is the states from position count on).
@@ -354,8 +392,11 @@ int32_t cagedyn_sim_body_forces(cagedyn_sim *sim,
 // Writes the present value of an input to `value`.
 int32_t cagedyn_sim_get_input(const cagedyn_sim *sim, int64_t input, double *value);
 
-// Holds an input at `value` from now on, instead of the scene's function of time.
-int32_t cagedyn_sim_set_input(cagedyn_sim *sim, int64_t input, double value);
+// Holds an input at `value` from now on, instead of the scene's function of time. Values have the range that scenes have.
+// The value that the input has already changes nothing.
+int32_t cagedyn_sim_set_input(cagedyn_sim *sim,
+                              int64_t input,
+                              double value);
 
 // Lets an input follow the scene again.
 int32_t cagedyn_sim_release_input(cagedyn_sim *sim, int64_t input);
@@ -371,7 +412,8 @@ int32_t cagedyn_sim_get_output(cagedyn_sim *sim, int64_t output, double *value);
 int64_t cagedyn_sim_save_length(const cagedyn_sim *sim);
 
 // Writes everything the future of the simulation depends on (length: save length). After cagedyn_sim_restore() into
-// a simulation of the same scene, with the same build of the library, it continues with bit-identical results.
+// a simulation of the same physics, solver and preset, with the same build of the library, it continues with bit-identical
+// results; title, comments and what is recorded may differ.
 int32_t cagedyn_sim_save(const cagedyn_sim *sim,
                          double *out,
                          int64_t length);

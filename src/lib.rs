@@ -31,4 +31,4 @@ pub mod sim;
 pub use error::{Error, Result, Status};
 pub use model::Model;
 pub use scene::Scene;
-pub use sim::{CageMotion, Recording, Sim, Spread, WhirlRecord, WhirlSummary};
+pub use sim::{CageMotion, Interval, Recording, Sim, Spread, WhirlRecord, WhirlSummary};

@@ -38,6 +38,18 @@ fn run(entry: &mut dyn FnMut() -> Result<()>) -> Status {
     error.status
 }
 
+/// Frees a handle that came from `Box::into_raw`; NULL is none. Frees nothing but it: the error of an earlier call stays to be
+/// asked for.
+///
+/// # Safety
+/// `handle` is NULL or a live handle; it must not be used afterwards.
+pub unsafe fn free<T>(handle: *mut T) {
+    if !handle.is_null() {
+        // SAFETY: see above. A panic in a destructor has nobody to go to.
+        let _ = catch_unwind(AssertUnwindSafe(|| drop(unsafe { Box::from_raw(handle) })));
+    }
+}
+
 /// [`guard`] for entries that return a status.
 pub fn status(entry: impl FnOnce() -> Result<()>) -> i32 {
     guard(|s| s as i32, || entry().map(|()| 0))

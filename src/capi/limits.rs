@@ -1,6 +1,6 @@
 //! What stops simulations from outside, in C.
 
-use super::guard::{exclusive, guard, shared, status};
+use super::guard::{exclusive, free, guard, shared, status};
 use super::sim::cagedyn_sim;
 use crate::sim::Canceller;
 
@@ -41,22 +41,14 @@ pub unsafe extern "C" fn cagedyn_canceller_cancel(canceller: *const cagedyn_canc
     })
 }
 
-/// Frees a canceller. NULL is ignored.
+/// Frees a canceller. NULL is ignored, and the stored error stays.
 ///
 /// # Safety
 /// `canceller` is NULL or a live handle; it must not be used afterwards.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_canceller_free(canceller: *mut cagedyn_canceller) {
-    guard(
-        |_| (),
-        || {
-            if !canceller.is_null() {
-                // SAFETY: the handle came from Box::into_raw and is given back here.
-                drop(unsafe { Box::from_raw(canceller) });
-            }
-            Ok(())
-        },
-    );
+    // SAFETY: see above.
+    unsafe { free(canceller) }
 }
 
 /// Lets a simulation run for `seconds` of wall time from now. Then the running call returns CAGEDYN_ERR_OUT_OF_TIME, and

@@ -6,6 +6,7 @@
 #![allow(unsafe_code)]
 
 mod guard;
+pub mod interval;
 pub mod limits;
 pub mod model;
 pub mod sim;

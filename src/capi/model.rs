@@ -1,6 +1,6 @@
 //! Models in C: creation and introspection.
 
-use super::guard::{EMPTY, count, exclusive, guard, index, shared, text, to_c_string};
+use super::guard::{EMPTY, count, free, guard, index, shared, text, to_c_string};
 use crate::error::{Error, Result, Status};
 use crate::model::{CONTACT_QUANTITIES, FORCE_SOURCES, Model};
 use crate::scene::Scene;
@@ -19,6 +19,7 @@ pub struct cagedyn_model {
     bodies: Vec<Item>,
     quantities: Vec<Item>,
     sources: Vec<Item>,
+    warnings: Vec<Item>,
 }
 
 /// Texts of a named item.
@@ -48,6 +49,7 @@ impl cagedyn_model {
             bodies: plain(model.body_names()),
             quantities: CONTACT_QUANTITIES.iter().map(|q| Item::new(q.name, q.unit, q.description)).collect(),
             sources: FORCE_SOURCES.iter().map(|s| Item::new(s, "", "")).collect(),
+            warnings: plain(model.scene().warnings()),
             model: Arc::new(model),
         }
     }
@@ -156,22 +158,14 @@ pub unsafe extern "C" fn cagedyn_model_from_file(path: *const c_char) -> *mut ca
     })
 }
 
-/// Frees a model. Simulations made from it stay valid. NULL is ignored.
+/// Frees a model. Simulations made from it stay valid. NULL is ignored, and the stored error stays.
 ///
 /// # Safety
 /// `model` is NULL or a live handle; it must not be used afterwards.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_model_free(model: *mut cagedyn_model) {
-    guard(
-        |_| (),
-        || {
-            if !model.is_null() {
-                // SAFETY: the handle came from Box::into_raw and is given back here.
-                drop(unsafe { Box::from_raw(exclusive("model", model)?) });
-            }
-            Ok(())
-        },
-    );
+    // SAFETY: see above.
+    unsafe { free(model) }
 }
 
 /// JSON text of the scene the model was made from, replacements included. "" on failure. Lives as long as the model.
@@ -182,6 +176,26 @@ pub unsafe extern "C" fn cagedyn_model_free(model: *mut cagedyn_model) {
 pub unsafe extern "C" fn cagedyn_model_scene_json(model: *const cagedyn_model) -> *const c_char {
     // SAFETY: see above.
     guard(|_| EMPTY.as_ptr(), || Ok(unsafe { shared("model", model) }?.scene.as_ptr()))
+}
+
+/// Number of values of the scene that are legal and unlikely. Negative status code on failure.
+///
+/// # Safety
+/// `model` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_warning_count(model: *const cagedyn_model) -> i64 {
+    // SAFETY: see above.
+    unsafe { length(model, |m| &m.warnings) }
+}
+
+/// One of these, as one line: JSON path, value, why it is unlikely. "" on failure. Lives as long as the model.
+///
+/// # Safety
+/// `model` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_warning(model: *const cagedyn_model, index: i64) -> *const c_char {
+    // SAFETY: see above.
+    unsafe { item(model, index, |m| &m.warnings, |item| &item.name) }
 }
 
 /// Number of positions: the first part of the state vector. Negative status code on failure.

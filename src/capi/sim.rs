@@ -1,6 +1,8 @@
 //! Simulations in C.
 
-use super::guard::{check_array, count, exclusive, guard, index, read_array, shared, status, write_array};
+use super::guard::{
+    check_array, count, exclusive, free, guard, index, last_status, read_array, shared, status, write_array,
+};
 use super::model::cagedyn_model;
 use crate::error::{Error, Result, Status};
 use crate::model::Model;
@@ -35,6 +37,10 @@ unsafe fn with(sim: *mut cagedyn_sim, entry: impl FnOnce(&mut cagedyn_sim) -> Re
 /// # Safety
 /// `model` is NULL or a live handle.
 unsafe fn new(model: *const cagedyn_model, make: impl FnOnce(Arc<Model>) -> Result<Sim>) -> *mut cagedyn_sim {
+    if model.is_null() && last_status() != 0 {
+        // Most likely the model could not be made, and why is worth more than that it is missing.
+        return std::ptr::null_mut();
+    }
     guard(
         |_| std::ptr::null_mut(),
         || {
@@ -54,7 +60,8 @@ unsafe fn new(model: *const cagedyn_model, make: impl FnOnce(Arc<Model>) -> Resu
 }
 
 /// Creates a simulation at the start of the model's scene. It keeps what it needs of the model. Returns NULL on
-/// failure. Free it with cagedyn_sim_free().
+/// failure; with a model of NULL an error of the call before, such as that which made no model, stays the stored one. Free it
+/// with cagedyn_sim_free().
 ///
 /// # Safety
 /// `model` is NULL or a live handle.
@@ -86,22 +93,14 @@ pub unsafe extern "C" fn cagedyn_sim_new_with_preset(
     unsafe { new(model, make) }
 }
 
-/// Frees a simulation. NULL is ignored.
+/// Frees a simulation. NULL is ignored, and the stored error stays.
 ///
 /// # Safety
 /// `sim` is NULL or a live handle; it must not be used afterwards.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_sim_free(sim: *mut cagedyn_sim) {
-    guard(
-        |_| (),
-        || {
-            if !sim.is_null() {
-                // SAFETY: the handle came from Box::into_raw and is given back here.
-                drop(unsafe { Box::from_raw(sim) });
-            }
-            Ok(())
-        },
-    );
+    // SAFETY: see above.
+    unsafe { free(sim) }
 }
 
 /// Back to the start of the scene; inputs follow the scene again, statistics start at zero.
@@ -262,7 +261,8 @@ pub unsafe extern "C" fn cagedyn_sim_solve(sim: *mut cagedyn_sim, x: *mut f64, l
     }
 }
 
-/// Advances by `dt` >= 0 seconds. On failure time and state do not change.
+/// Advances by `dt` >= 0 seconds. When a refused argument is the failure, nothing changes; otherwise time and state are then
+/// those of the last step that could be made, and the simulation can be asked, changed, reset or advanced again.
 ///
 /// # Safety
 /// `sim` is NULL or a live handle.
@@ -272,7 +272,7 @@ pub unsafe extern "C" fn cagedyn_sim_step(sim: *mut cagedyn_sim, dt: f64) -> i32
     unsafe { with(sim, |s| s.sim.step(dt)) }
 }
 
-/// Advances to time `t` (s), not before the present time. On failure time and state do not change.
+/// Advances to time `t` (s), not before the present time. A failure is as that of cagedyn_sim_step().
 ///
 /// # Safety
 /// `sim` is NULL or a live handle.
@@ -339,7 +339,8 @@ pub unsafe extern "C" fn cagedyn_sim_get_input(sim: *const cagedyn_sim, input: i
     })
 }
 
-/// Holds an input at `value` from now on, instead of the scene's function of time.
+/// Holds an input at `value` from now on, instead of the scene's function of time. Values have the range that scenes have.
+/// The value that the input has already changes nothing.
 ///
 /// # Safety
 /// `sim` is NULL or a live handle.
@@ -412,7 +413,8 @@ pub unsafe extern "C" fn cagedyn_sim_save_length(sim: *const cagedyn_sim) -> i64
 }
 
 /// Writes everything the future of the simulation depends on (length: save length). After cagedyn_sim_restore() into
-/// a simulation of the same scene, with the same build of the library, it continues with bit-identical results.
+/// a simulation of the same physics, solver and preset, with the same build of the library, it continues with bit-identical
+/// results; title, comments and what is recorded may differ.
 ///
 /// # Safety
 /// `sim` is NULL or a live handle, `out` NULL or an array of `length` numbers.

@@ -5,7 +5,7 @@
 
 use super::control::{ErrorNorm, Estimate, Law};
 use super::pack::{keep_parts, kept_parts};
-use super::{Quadratures, Reader, Stepper, System, add_weighted};
+use super::{Quadratures, Reader, Samples, Stepper, System, add_weighted};
 
 const C: [f64; 7] = [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0];
 const A: [[f64; 6]; 7] = [
@@ -31,6 +31,11 @@ const D: [f64; 7] = [
     69997945.0 / 29380423.0,
 ];
 
+/// Stages at which watched quantities are sampled, at 0.3, 0.8 and 1 of the step; their weights are exact for parabolas, and none
+/// of them is of the step before.
+const SAMPLED: [usize; 3] = [2, 3, 6];
+const SAMPLE_WEIGHTS: [f64; 3] = [2.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0];
+
 /// The method's memory.
 #[derive(Clone, Debug)]
 pub struct DormandPrince {
@@ -44,6 +49,7 @@ pub struct DormandPrince {
     /// Quadratures at the stages, and their integrals.
     quadratures: [Quadratures; 7],
     integrals: Quadratures,
+    samples: Samples,
     /// Polynomials of the last accepted step and of the attempt.
     dense: [Vec<f64>; 5],
     trial_dense: [Vec<f64>; 5],
@@ -63,6 +69,7 @@ impl DormandPrince {
             a: vec![0.0; system.velocities()],
             quadratures: Default::default(),
             integrals: Quadratures::default(),
+            samples: Samples::new(system.watched(), SAMPLED.len()),
             dense: std::array::from_fn(|_| zeros()),
             trial_dense: std::array::from_fn(|_| zeros()),
         }
@@ -119,7 +126,14 @@ impl<S: System> Stepper<S> for DormandPrince {
             let time = (t + C[stage] * h).min(t_last);
             self.quadratures[stage] =
                 Self::rate(system, time, self.positions, &self.trial, &mut self.a, &mut rest[0])?;
+            if let Some(place) = SAMPLED.iter().position(|s| *s == stage)
+                && let Some(row) = self.samples.row(place)
+            {
+                let (q, v) = self.trial.split_at(self.positions);
+                system.watch(q, v, None, row);
+            }
         }
+        self.samples.weigh(&SAMPLE_WEIGHTS);
         self.integrals = Quadratures::default();
         for (x, weight) in self.quadratures.iter().zip(A[6]) {
             add_weighted(&mut self.integrals, h * weight, x);
@@ -148,6 +162,10 @@ impl<S: System> Stepper<S> for DormandPrince {
 
     fn integrals(&self) -> &Quadratures {
         &self.integrals
+    }
+
+    fn samples(&self) -> &Samples {
+        &self.samples
     }
 
     fn state(&self) -> &[f64] {

@@ -10,7 +10,10 @@
 
 use super::auto::Choice;
 use super::control::{Controller, Estimate, RECOVERY_GROWTH};
-use super::{Applied, Interruption, Quadratures, Reader, Stepper, System, Vibration, add_weighted};
+use super::watch::Tally;
+use super::{
+    Applied, Interruption, Quadratures, Reader, Samples, Stepper, System, Total, Vibration, add_weighted,
+};
 
 /// Limits of the step size and the number of steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,6 +30,8 @@ pub struct Limits {
 
 /// Most numbers that a method keeps of a step, per state.
 const MOST_KEPT: usize = 6;
+/// Most places of a step at which a method samples what the host watches.
+const MOST_SAMPLES: usize = 3;
 
 /// Counts of a driver.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -113,6 +118,8 @@ pub struct Driver<S: System> {
     statistics: Statistics,
     /// Integrals of the system's quadratures up to `from`, and over the last step.
     integrals: [Quadratures; 2],
+    /// Of what the host watches.
+    tally: Tally,
     /// Number of steps of the next stretch.
     length: usize,
     /// Steps of the last stretch, of which `made` count; none with a method that is not judged.
@@ -132,6 +139,7 @@ struct Step {
     to: f64,
     /// Integrals up to `from`, and over the step.
     integrals: [Quadratures; 2],
+    samples: Samples,
     /// What the stepper keeps of it.
     kept: Vec<f64>,
 }
@@ -148,6 +156,7 @@ struct Plan {
 impl<S: System> Driver<S> {
     /// A driver at rest; [`Driver::start`] comes next.
     pub fn new(stepper: Box<dyn Stepper<S> + Send>, limits: Limits) -> Self {
+        let watched = stepper.samples().count();
         let mut driver = Self {
             stepper,
             limits,
@@ -159,6 +168,7 @@ impl<S: System> Driver<S> {
             needs_refresh: true,
             statistics: Statistics::default(),
             integrals: Default::default(),
+            tally: Tally::new(watched),
             length: 1,
             stretch: Vec::new(),
             made: 0,
@@ -168,7 +178,11 @@ impl<S: System> Driver<S> {
         let longest = driver.stepper.longest_stretch();
         if longest > 0 {
             let room = MOST_KEPT * driver.stepper.state().len();
-            let step = |_| Step { kept: Vec::with_capacity(room), ..Step::default() };
+            let step = |_| Step {
+                kept: Vec::with_capacity(room),
+                samples: Samples::new(watched, MOST_SAMPLES),
+                ..Step::default()
+            };
             driver.stretch = (0..longest).map(step).collect();
             driver.set_mark();
         }
@@ -177,6 +191,7 @@ impl<S: System> Driver<S> {
 
     /// Starts at time `t` from `state`. Counts go on, and so do integrals if `t` is within the last step.
     pub fn start(&mut self, t: f64, state: &[f64]) {
+        self.tally_to(t);
         self.integrals = [self.integrals_at(t), Quadratures::default()];
         self.stepper.set_state(state);
         (self.from, self.to) = (t, t);
@@ -227,6 +242,7 @@ impl<S: System> Driver<S> {
                     made?;
                 }
             } else {
+                self.tally_to(self.to);
                 self.make_step(system, &mut attempts)?;
             }
         }
@@ -237,6 +253,7 @@ impl<S: System> Driver<S> {
     fn make_stretch(&mut self, system: &mut S, attempts: &mut u64) -> Result<(), Failure<S::Fault>> {
         loop {
             if !std::mem::take(&mut self.unfinished) {
+                self.tally_to(self.to);
                 self.set_mark();
             }
             let length = self.length;
@@ -286,6 +303,7 @@ impl<S: System> Driver<S> {
         (step.from, step.to, step.integrals) = (self.from, self.to, self.integrals);
         step.kept.clear();
         self.stepper.keep(&mut step.kept);
+        step.samples.copy(self.stepper.samples());
         self.made += 1;
     }
 
@@ -338,6 +356,32 @@ impl<S: System> Driver<S> {
         let step = to - from;
         add_weighted(&mut sum, if step > 0.0 { ((t - from) / step).clamp(0.0, 1.0) } else { 1.0 }, &last);
         sum
+    }
+
+    /// Begins the interval of [`Driver::total_at`] at time `t` (s) within the last step or stretch.
+    pub fn begin_interval(&mut self, t: f64) {
+        self.tally_to(t);
+        self.tally.begin(t);
+    }
+
+    /// Start of the interval (s), and the totals from there to time `t` (s) within the last step or stretch of the quantity at
+    /// a place among those that the host watches; `None` of no time. Steps count whole in the extremes.
+    pub fn total_at(&mut self, t: f64, place: usize) -> (f64, Option<Total>) {
+        self.tally_to(t);
+        (self.tally.from, self.tally.total(place))
+    }
+
+    /// Adds the steps up to time `t` (s) to the totals; of what is beyond, nobody has asked yet.
+    fn tally_to(&mut self, t: f64) {
+        if self.tally.is_empty() || self.unfinished {
+            return;
+        }
+        for step in &self.stretch[..self.made] {
+            self.tally.add([step.from, step.to], &step.samples, t);
+        }
+        if self.stretch.is_empty() {
+            self.tally.add([self.from, self.to], self.stepper.samples(), t);
+        }
     }
 
     /// Sets the integrals to zero; comes after [`Driver::start`].

@@ -17,7 +17,7 @@
 
 use super::control::{Estimate, Law};
 use super::damping::{VectorColumns, zero_vectors};
-use super::{Applied, GroupDamping, Quadratures, Reader, SemiImplicit, Stepper, System};
+use super::{Applied, GroupDamping, Quadratures, Reader, Samples, SemiImplicit, Stepper, System};
 use pulp::Arch;
 
 /// The method's memory.
@@ -43,6 +43,7 @@ pub struct Leapfrog {
     by_group: [VectorColumns; 2],
     instructions: Arch,
     integrals: Quadratures,
+    samples: Samples,
 }
 
 impl Leapfrog {
@@ -68,6 +69,7 @@ impl Leapfrog {
             by_group: [zero_vectors(groups), zero_vectors(groups)],
             instructions: Arch::new(),
             integrals: Quadratures::default(),
+            samples: Samples::new(system.watched(), 1),
         }
     }
 }
@@ -173,6 +175,10 @@ impl<S: System> Stepper<S> for Leapfrog {
         }
         let step = SemiImplicit { mean: &self.mean_v, end: v_trial, h };
         self.integrals = system.quadratures(q_trial, &self.predicted, Some(&step)).map(|x| h * x);
+        if let Some(row) = self.samples.row(0) {
+            system.watch(q_trial, &self.predicted, Some(&step), row);
+            self.samples.weigh(&[1.0]);
+        }
         for (q, v) in q_trial.iter_mut().zip(v_trial.iter()) {
             *q += half * v;
         }
@@ -194,6 +200,10 @@ impl<S: System> Stepper<S> for Leapfrog {
     fn applied(&self) -> Option<Applied<'_>> {
         let Self { start, end, applied: predicted, h, .. } = self;
         (*h > 0.0).then_some(Applied { start, end, predicted, h: *h })
+    }
+
+    fn samples(&self) -> &Samples {
+        &self.samples
     }
 
     fn state(&self) -> &[f64] {

@@ -17,6 +17,7 @@ mod selection;
 pub(crate) mod shifted;
 pub mod stability;
 mod tuning;
+mod watch;
 
 pub use damping::{DampingBlock, GroupDamping, implicit_share};
 pub use dormand_prince::DormandPrince;
@@ -27,6 +28,7 @@ pub use pack::Reader;
 pub use radau::Radau;
 pub use rosenbrock::Rosenbrock;
 pub use tuning::{Constant, Tuning};
+pub use watch::{Samples, Total};
 
 use arrowhead::{Arrowhead, HUB, SPOKE};
 use auto::Choice;
@@ -97,6 +99,12 @@ pub trait System {
     fn quadratures(&self, _q: &[f64], _v: &[f64], _step: Option<&SemiImplicit<'_>>) -> Quadratures {
         Quadratures::default()
     }
+    /// Number of quantities that the host watches in every step.
+    fn watched(&self) -> usize {
+        0
+    }
+    /// Their values, as those of [`System::quadratures`].
+    fn watch(&self, _q: &[f64], _v: &[f64], _step: Option<&SemiImplicit<'_>>, _out: &mut [f64]) {}
     /// Kinds of energy stored at the last evaluated state (`q`, `v`), J. Their rate is the sum of the quadratures.
     fn energy(&self, _q: &[f64], _v: &[f64]) -> [f64; 3] {
         [0.0; 3]
@@ -242,6 +250,8 @@ pub trait Stepper<S: System> {
     fn accept(&mut self);
     /// Integrals of [`System::quadratures`] over the last attempt.
     fn integrals(&self) -> &Quadratures;
+    /// What the host watches, in the last attempt.
+    fn samples(&self) -> &Samples;
     /// What the last accepted step was made with, for methods whose forces are those of steps and not of states.
     fn applied(&self) -> Option<Applied<'_>> {
         None

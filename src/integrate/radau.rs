@@ -26,7 +26,7 @@
 
 use super::control::{ErrorNorm, Estimate, Law};
 use super::shifted::Shifted;
-use super::{Linearization, Quadratures, Reader, Stepper, Structure, System, add_weighted};
+use super::{Linearization, Quadratures, Reader, Samples, Stepper, Structure, System, add_weighted};
 use crate::scalar::math;
 use nalgebra::Complex;
 
@@ -84,6 +84,7 @@ pub struct Radau {
     /// Quadratures at the stages, and their integrals.
     quadratures: [Quadratures; 3],
     integrals: Quadratures,
+    samples: Samples,
     /// What one iteration may leave in each state.
     allowed: Vec<f64>,
     real: Shifted<f64>,
@@ -135,6 +136,7 @@ impl Radau {
             a: std::array::from_fn(|_| vec![0.0; nv]),
             quadratures: Default::default(),
             integrals: Quadratures::default(),
+            samples: Samples::new(system.watched(), 3),
             allowed: zeros(),
             real: Shifted::new(spokes),
             pair: Shifted::new(spokes),
@@ -180,13 +182,16 @@ impl Radau {
         let (mut last_size, mut last_ratio) = (0.0, 0.0);
         for iteration in 1..=MAX_ITERATIONS {
             let stages = self.stages.iter().zip(&mut self.a).zip(&mut self.quadratures).zip(TIMES);
-            for (((z, a), quadratures), c) in stages {
+            for (place, (((z, a), quadratures), c)) in stages.enumerate() {
                 for ((trial, y), z) in self.trial.iter_mut().zip(&self.state).zip(z) {
                     *trial = y + z;
                 }
                 let (q, v) = self.trial.split_at(nq);
                 system.accelerations((t + c * h).min(t_last), q, v, a)?;
                 *quadratures = system.quadratures(q, v, None);
+                if let Some(row) = self.samples.row(place) {
+                    system.watch(q, v, None, row);
+                }
             }
             for k in 0..n {
                 let rates = std::array::from_fn(|i| {
@@ -304,6 +309,7 @@ impl<S: System> Stepper<S> for Radau {
             }
         }
         self.trial_step = h;
+        self.samples.weigh(&WEIGHTS);
         self.integrals = Quadratures::default();
         for (x, weight) in self.quadratures.iter().zip(WEIGHTS) {
             add_weighted(&mut self.integrals, h * weight, x);
@@ -334,6 +340,10 @@ impl<S: System> Stepper<S> for Radau {
 
     fn integrals(&self) -> &Quadratures {
         &self.integrals
+    }
+
+    fn samples(&self) -> &Samples {
+        &self.samples
     }
 
     fn state(&self) -> &[f64] {

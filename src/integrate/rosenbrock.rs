@@ -14,7 +14,7 @@
 use super::control::{ErrorNorm, Estimate, Law};
 use super::pack::{keep_parts, kept_parts};
 use super::shifted::Shifted;
-use super::{Linearization, Quadratures, Reader, Stepper, Structure, System, add_weighted};
+use super::{Linearization, Quadratures, Reader, Samples, Stepper, Structure, System, add_weighted};
 
 const GAMMA: f64 = 0.25;
 const A: [[f64; 5]; 6] = [
@@ -78,6 +78,8 @@ pub struct Rosenbrock {
     /// Quadratures there, and their integrals over the attempt.
     start_quadratures: Quadratures,
     integrals: Quadratures,
+    /// At the start, at the end and in the middle.
+    samples: Samples,
     /// u_1 to u_6 over the whole state.
     stages: [Vec<f64>; 6],
     slope: Linearization,
@@ -104,6 +106,7 @@ impl Rosenbrock {
             linearized: false,
             start_quadratures: Quadratures::default(),
             integrals: Quadratures::default(),
+            samples: Samples::new(system.watched(), 3),
             stages: std::array::from_fn(|_| zeros()),
             slope: Linearization::new(&structure, nv),
             system: Shifted::new(structure.spokes.len()),
@@ -128,6 +131,10 @@ impl Rosenbrock {
         let defined = system.accelerations((t + 0.5 * h).min(t_last), q, v, &mut self.a).is_ok();
         let middle = if defined { system.quadratures(q, v, None) } else { Quadratures::default() };
         let weights = if defined { [1.0, 4.0, 1.0] } else { [3.0, 0.0, 3.0] };
+        if let Some(row) = self.samples.row(2).filter(|_| defined) {
+            system.watch(q, v, None, row);
+        }
+        self.samples.weigh(if defined { &[1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0] } else { &[0.5, 0.5] });
         for (x, weight) in [&self.start_quadratures, &middle, end].into_iter().zip(weights) {
             add_weighted(&mut self.integrals, weight * h / 6.0, x);
         }
@@ -168,17 +175,17 @@ impl<S: System> Stepper<S> for Rosenbrock {
         self.linearized = false;
         system.linearize(t, q, v, &mut self.start_a, &mut self.slope)?;
         self.start_quadratures = system.quadratures(q, v, None);
+        if let Some(row) = self.samples.row(0) {
+            system.watch(q, v, None, row);
+        }
         self.linearized = true;
         Ok(())
     }
 
     fn attempt(&mut self, system: &mut S, t: f64, h: f64, t_last: f64) -> Result<Option<Estimate>, S::Fault> {
         let nq = self.positions;
-        let (q, v) = self.state.split_at(nq);
         if !self.linearized {
-            system.linearize(t, q, v, &mut self.start_a, &mut self.slope)?;
-            self.start_quadratures = system.quadratures(q, v, None);
-            self.linearized = true;
+            Stepper::<S>::refresh(self, system, t)?;
         }
         if !self.system.factorize(&self.slope, 1.0 / (GAMMA * h)) {
             return Err(system.not_finite(0));
@@ -198,6 +205,9 @@ impl<S: System> Stepper<S> for Rosenbrock {
             }
             if i == 5 {
                 end_quadratures = system.quadratures(q, v, None);
+                if let Some(row) = self.samples.row(1) {
+                    system.watch(q, v, None, row);
+                }
             }
             let (done, rest) = self.stages.split_at_mut(i);
             let stage = &mut rest[0];
@@ -236,6 +246,10 @@ impl<S: System> Stepper<S> for Rosenbrock {
 
     fn integrals(&self) -> &Quadratures {
         &self.integrals
+    }
+
+    fn samples(&self) -> &Samples {
+        &self.samples
     }
 
     fn state(&self) -> &[f64] {

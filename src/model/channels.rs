@@ -1,18 +1,21 @@
 //! Output channels: the named quantities that a run records.
 
 use super::batch::Mate;
-use super::forces::{CAGE_BODY, FILM_THICKNESS, Forces, GUIDE, INNER, NORMAL_FORCE, OUTER, POCKET};
+use super::forces::{
+    CAGE_BODY, FILM_THICKNESS, FRICTION, Forces, GUIDE, INNER, NORMAL_FORCE, OUTER, POCKET, SLIP_SPEED,
+};
 use super::{ElementKind, GuideReport, Input, InputValues, Model, Workspace};
 use crate::contact::rotate;
 use crate::laws::guide::GuideFilm;
 use crate::scalar::math;
+use std::f64::consts::TAU;
 
 /// A ring slower than this stands still for the slip channels, rad/s.
 const STANDSTILL: f64 = 1e-9;
 
 /// What a channel shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Source {
+pub(super) enum Source {
     CageY,
     CageZ,
     CageYRatio,
@@ -46,11 +49,16 @@ enum Source {
     OuterForce(usize),
     InnerFilm(usize),
     OuterFilm(usize),
+    CageAngle,
+    /// Of a raceway contact: which ring, outer (0) or inner (1), and element.
+    Traction(usize, usize),
+    HertzPressure(usize, usize),
+    SlidingPower(usize, usize),
 }
 
 /// Part of the guide force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum GuidePart {
+pub(super) enum GuidePart {
     Pressure,
     Shear,
     Solid,
@@ -65,7 +73,9 @@ pub struct Channel {
     pub unit: &'static str,
     /// What it is.
     pub description: &'static str,
-    source: Source,
+    pub(super) source: Source,
+    /// Whether records leave it out unless they name it.
+    pub(super) detail: bool,
 }
 
 impl Model {
@@ -88,6 +98,8 @@ impl Model {
         for j in 0..self.elements.count {
             self.add_element_channels(j, &mut list);
         }
+        // Behind all others, so that records without them have the places of channels.
+        list.0.sort_by_key(|channel| channel.detail);
         list.0
     }
 
@@ -98,11 +110,14 @@ impl Model {
         list.add("cage.y", "m", "cage centre to the right", Source::CageY);
         list.add("cage.z", "m", "cage centre upwards", Source::CageZ);
         if self.laws.guide.is_some() {
-            list.add("cage.y_ratio", "1", "cage.y over the radial guide clearance", Source::CageYRatio);
-            list.add("cage.z_ratio", "1", "cage.z over the radial guide clearance", Source::CageZRatio);
+            let text = "cage centre to the right of the guide centre, over the radial guide clearance";
+            list.add("cage.y_ratio", "1", text, Source::CageYRatio);
+            let text = "cage centre above the guide centre, over the radial guide clearance";
+            list.add("cage.z_ratio", "1", text, Source::CageZRatio);
             let text = "distance of the cage centre from the guide centre over the radial guide clearance";
             list.add("cage.eccentricity", "1", text, Source::CageEccentricity);
         }
+        list.add("cage.angle", "rad", "rotation angle of the cage since the start", Source::CageAngle);
         list.add("cage.speed", "rad/s", "rotation speed of the cage", Source::CageSpeed);
         let text = "1 - cage speed over the speed without slip";
         list.add("cage.slip", "1", text, Source::CageSlip);
@@ -166,6 +181,21 @@ impl Model {
                 add("inner_film", "m", "central film thickness on the inner raceway", Source::InnerFilm(j));
                 add("outer_film", "m", "central film thickness on the outer raceway", Source::OuterFilm(j));
             }
+            for (ring, name) in ["outer", "inner"].into_iter().enumerate() {
+                let text = "friction F_T on the roller along the tangent of the contact";
+                list.add_detail(
+                    &format!("{kind}[{j}].{name}_traction"),
+                    "N",
+                    text,
+                    Source::Traction(ring, j),
+                );
+                let text = "largest Hertz pressure in the contact with the raceway";
+                let source = Source::HertzPressure(ring, j);
+                list.add_detail(&format!("{kind}[{j}].{name}_pressure"), "Pa", text, source);
+                let text = "power lost by sliding in the contact with the raceway";
+                let source = Source::SlidingPower(ring, j);
+                list.add_detail(&format!("{kind}[{j}].{name}_sliding_power"), "W", text, source);
+            }
         }
     }
 
@@ -181,7 +211,7 @@ impl Model {
     ) -> f64 {
         let [orbit, spin] = self.kinematic_speeds(inputs);
         let turning = if self.has_rollers() { inputs.of(Input::RingSpeed) } else { orbit };
-        let direction = if turning < 0.0 { -1.0 } else { 1.0 };
+        let direction = self.direction(inputs);
         let cage = |k: usize| self.layout.cage.map_or(0.0, |c| q[c + k]);
         let cage_speed = || self.layout.cage.map_or(0.0, |c| v[c + 2]);
         let clearance = self.guide_clearance().unwrap_or(f64::INFINITY);
@@ -194,8 +224,8 @@ impl Model {
         match channel.source {
             Source::CageY => cage(0),
             Source::CageZ => cage(1),
-            Source::CageYRatio => cage(0) / clearance,
-            Source::CageZRatio => cage(1) / clearance,
+            Source::CageYRatio => forces.guide.offset[0] / clearance,
+            Source::CageZRatio => forces.guide.offset[1] / clearance,
             Source::CageEccentricity => forces.guide.radius() / clearance,
             Source::CageSpeed => cage_speed(),
             Source::CageSlip => slip(cage_speed(), orbit),
@@ -239,7 +269,41 @@ impl Model {
             Source::OuterForce(j) => contact(j, 0)[NORMAL_FORCE],
             Source::InnerFilm(j) => contact(j, 1)[FILM_THICKNESS],
             Source::OuterFilm(j) => contact(j, 0)[FILM_THICKNESS],
+            Source::CageAngle => cage(2),
+            Source::Traction(ring, j) => contact(j, ring)[FRICTION],
+            Source::HertzPressure(ring, j) => {
+                self.hertz_pressure(ring, contact(j, ring)[NORMAL_FORCE]).unwrap_or(0.0)
+            }
+            Source::SlidingPower(ring, j) => {
+                (contact(j, ring)[FRICTION] * contact(j, ring)[SLIP_SPEED]).abs()
+            }
         }
+    }
+
+    /// Largest pressure of Hertz's line contact of a roller with the outer (0) or inner (1) raceway under a load in N, Pa:
+    /// sqrt(Q E'/(2 pi R l)). E' = 2/((1 - nu1^2)/E1 + (1 - nu2^2)/E2), R reduced radius, l length.
+    fn hertz_pressure(&self, ring: usize, load: f64) -> Option<f64> {
+        let scene = &self.scene;
+        let rollers = scene.rollers.as_ref()?;
+        let outer = scene.outer_ring.as_ref()?;
+        let (mate, curvature) = match ring {
+            0 => (&outer.material, -1.0 / outer.raceway_radius),
+            _ => (scene.inner_ring.as_ref()?.material.as_ref()?, 1.0 / self.inner_raceway_radius()?),
+        };
+        let compliance = |name: &String| {
+            let m = scene.materials.get(name)?;
+            Some((1.0 - m.poisson_ratio * m.poisson_ratio) / m.young_modulus)
+        };
+        let modulus = 2.0 / (compliance(&rollers.material)? + compliance(mate)?);
+        let curvature = 1.0 / rollers.radius + curvature;
+        let square = load.max(0.0) * modulus * curvature / (TAU * rollers.effective_length);
+        Some(square.sqrt())
+    }
+
+    /// 1 where the elements go round counter-clockwise at these inputs, else -1.
+    pub(super) fn direction(&self, inputs: &InputValues) -> f64 {
+        let drive = if self.has_rollers() { Input::RingSpeed } else { Input::OrbitSpeed };
+        if inputs.of(drive) < 0.0 { -1.0 } else { 1.0 }
     }
 
     /// Circumferential offset of element `j` in its pocket, m.
@@ -276,14 +340,18 @@ struct ChannelList(Vec<Channel>);
 
 impl ChannelList {
     fn add(&mut self, name: &str, unit: &'static str, description: &'static str, source: Source) {
-        self.0.push(Channel { name: name.to_owned(), unit, description, source });
+        self.0.push(Channel { name: name.to_owned(), unit, description, source, detail: false });
+    }
+
+    fn add_detail(&mut self, name: &str, unit: &'static str, description: &'static str, source: Source) {
+        self.0.push(Channel { name: name.to_owned(), unit, description, source, detail: true });
     }
 }
 
 impl GuideReport {
     /// Distance of the cage centre from the guide centre, m.
     fn radius(&self) -> f64 {
-        math::hypot(self.offset[0], self.offset[1])
+        radius(self.offset)
     }
 
     /// Angular speed of the cage centre about the guide centre, rad/s; zero in the centre.
@@ -294,9 +362,19 @@ impl GuideReport {
     }
 
     /// Components of a vector along and across the line from guide to cage centre; (y, z) itself in the centre.
-    fn along(&self, [fy, fz]: [f64; 2]) -> [f64; 2] {
-        let radius = self.radius();
-        let [dy, dz] = if radius > 0.0 { self.offset.map(|x| x / radius) } else { [1.0, 0.0] };
-        [fy * dy + fz * dz, fz * dy - fy * dz]
+    fn along(&self, force: [f64; 2]) -> [f64; 2] {
+        along(self.offset, force)
     }
+}
+
+/// Length of a vector.
+pub(super) fn radius([y, z]: [f64; 2]) -> f64 {
+    math::hypot(y, z)
+}
+
+/// Components of a vector along and across another one; (y, z) itself where that is zero.
+pub(super) fn along(offset: [f64; 2], [fy, fz]: [f64; 2]) -> [f64; 2] {
+    let radius = radius(offset);
+    let [dy, dz] = if radius > 0.0 { offset.map(|x| x / radius) } else { [1.0, 0.0] };
+    [fy * dy + fz * dz, fz * dy - fy * dz]
 }

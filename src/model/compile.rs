@@ -2,6 +2,7 @@
 
 use super::compile_laws::compile_laws;
 use super::inputs::{Input, InputSignals, InputSource, Oil, Orbit};
+use super::selection::Selection;
 use super::{CageBody, ElementKind, ElementSet, Layout, Model, RingBody, RollerSet};
 use crate::contact::guide::GuideSide;
 use crate::contact::raceway::RacewayGeometry;
@@ -32,7 +33,7 @@ pub(super) fn compile(scene: Scene) -> Result<Model> {
         (None, Some(Viscosity::Constant(value))) => Some(*value),
         _ => None,
     };
-    Ok(Model {
+    let mut model = Model {
         layout: Layout::new(matches!(ring, RingBody::Free { .. }), scene.cage.is_some(), rollers),
         laws: compile_laws(&scene, viscosity, geometry)?,
         elements,
@@ -40,8 +41,11 @@ pub(super) fn compile(scene: Scene) -> Result<Model> {
         ring,
         cage: scene.cage.as_ref().map(cage),
         inputs,
+        selection: Selection::default(),
         scene,
-    })
+    };
+    model.selection = Selection::new(&model.scene.record, &model.channels(), model.elements.count)?;
+    Ok(model)
 }
 
 fn elements(scene: &Scene) -> ElementSet {

@@ -44,6 +44,9 @@ pub type ContactForces = [f64; CONTACT_QUANTITIES.len()];
 
 /// Index of the normal force in [`ContactForces`].
 pub(super) const NORMAL_FORCE: usize = 0;
+/// Indices of friction and slip speed in [`ContactForces`].
+pub(super) const FRICTION: usize = 6;
+pub(super) const SLIP_SPEED: usize = 10;
 /// Index of the film thickness in [`ContactForces`].
 pub(super) const FILM_THICKNESS: usize = 2;
 

@@ -10,6 +10,9 @@ use crate::scene::RingStart;
 
 /// Steps for the equilibrium of the ring; about twenty are usual.
 const MAX_ITERATIONS: usize = 500;
+/// How often the start of a cage in the centre of its ring and that of the ring are found in turn: each time the difference
+/// shrinks by the clearance over the pitch radius.
+const PLACINGS: usize = 4;
 /// Accepted residual force in N, far below any load of interest.
 const NEGLIGIBLE_FORCE: f64 = 1e-9;
 /// Accepted residual force relative to the load.
@@ -19,7 +22,7 @@ impl Model {
     /// State vector at the start of the run.
     ///
     /// # Errors
-    /// [`Status::BadScene`] when no static equilibrium is found.
+    /// [`Status::BadScene`] when no static equilibrium is found, or it leaves no room for the cage.
     pub fn initial_state(&self) -> Result<Vec<f64>> {
         let inputs = self.inputs_at(0.0, &HostInputs::default());
         let layout = &self.layout;
@@ -27,19 +30,20 @@ impl Model {
         let (q, v) = state.split_at_mut(layout.positions());
         let [orbit, spin] = self.kinematic_speeds(&inputs);
         let start = &self.scene.initial;
+        let inner_guide = self.cage.as_ref().is_some_and(|cage| cage.guided_by_inner_ring);
+        let mut cage = match (start.cage, self.ring) {
+            (Some(place), _) => [place.y, place.z],
+            (None, RingBody::Fixed(place)) if inner_guide => place,
+            _ => [0.0; 2],
+        };
         if let Some(c) = layout.cage {
-            q[c] = start.cage.y;
-            q[c + 1] = start.cage.z;
             v[c] = start.cage_velocity.y;
             v[c + 1] = start.cage_velocity.z;
             v[c + 2] = start.cage_speed.unwrap_or(orbit);
         }
+        self.place_cage(cage, q);
         let ElementKind::Rollers(rollers) = &self.elements.kind else { return Ok(state) };
         for j in 0..layout.count {
-            let (sin, cos) = math::sin_cos(self.elements.reference_angles[j]);
-            // The pocket of a cage off centre lies beside its angle.
-            let beside = start.cage.z * cos - start.cage.y * sin;
-            q[layout.roller(j) + 1] = math::asin(beside / rollers.geometry.pitch_radius);
             v[layout.roller(j) + 1] = orbit;
             v[layout.spin(j)] = spin;
         }
@@ -52,8 +56,21 @@ impl Model {
                 inputs.of(Input::LoadZ) + mass * self.gravity[1],
             ];
             let centrifugal = rollers.mass * rollers.geometry.pitch_radius * orbit * orbit;
+            let find = |q: &[f64]| {
+                StillBearing { model: self, geometry: &rollers.geometry, laws, q, centrifugal }
+                    .equilibrium(load)
+            };
+            let mut ring = find(q)?;
+            if inner_guide {
+                // A cage that starts in the centre of the ring moves the rollers along, and they the ring, by next to nothing.
+                for _ in 0..if start.cage.is_none() { PLACINGS } else { 0 } {
+                    cage = ring;
+                    self.place_cage(cage, q);
+                    ring = find(q)?;
+                }
+                self.scene.check_cage_start(cage, ring)?;
+            }
             let still = StillBearing { model: self, geometry: &rollers.geometry, laws, q, centrifugal };
-            let ring = still.equilibrium(load)?;
             let offsets: Vec<f64> =
                 (0..layout.count).map(|j| still.roller(j, ring).0.radial_offset).collect();
             q[i] = ring[0];
@@ -63,6 +80,19 @@ impl Model {
             }
         }
         Ok(state)
+    }
+
+    /// Sets the cage centre (m), and the rollers into the middle of their pockets, which lie beside their angles then.
+    fn place_cage(&self, cage: [f64; 2], q: &mut [f64]) {
+        if let Some(c) = self.layout.cage {
+            q[c..c + 2].copy_from_slice(&cage);
+        }
+        let ElementKind::Rollers(rollers) = &self.elements.kind else { return };
+        for j in 0..self.layout.count {
+            let (sin, cos) = math::sin_cos(self.elements.reference_angles[j]);
+            let beside = cage[1] * cos - cage[0] * sin;
+            q[self.layout.roller(j) + 1] = math::asin(beside / rollers.geometry.pitch_radius);
+        }
     }
 
     /// Angle of roller `j` about the bearing, rad.

@@ -56,6 +56,13 @@ pub struct HostInputs {
     pub anchor: [f64; 2],
 }
 
+impl HostInputs {
+    /// Value that the host has set, if it has.
+    pub fn of(&self, input: Input) -> Option<f64> {
+        self.values[input as usize]
+    }
+}
+
 /// Where the value of an input comes from when the host does not set it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum InputSource {

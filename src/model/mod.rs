@@ -25,7 +25,9 @@ mod places;
 mod pocket_slopes;
 mod raceway_slopes;
 mod scales;
+mod selection;
 mod step_forces;
+mod watch;
 mod workspace;
 
 pub use channels::Channel;
@@ -44,10 +46,11 @@ pub use workspace::Workspace;
 
 use crate::contact::guide::GuideSide;
 use crate::contact::raceway::RacewayGeometry;
-use crate::error::Result;
-use crate::scene::Scene;
+use crate::error::{Error, Result, Status};
+use crate::scene::{FORCE, SPEED, Scene, TEMPERATURE, TORQUE, VISCOSITY};
 use inputs::InputSignals;
 use laws::Laws;
+use selection::Selection;
 
 /// The inner ring.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -112,6 +115,7 @@ pub struct Model {
     cage: Option<CageBody>,
     laws: Laws,
     inputs: InputSignals,
+    selection: Selection,
 }
 
 impl Model {
@@ -135,6 +139,11 @@ impl Model {
     /// The scene this model was made from.
     pub fn scene(&self) -> &Scene {
         &self.scene
+    }
+
+    /// Places among [`Model::channels`] of those that a record of a run has.
+    pub fn recorded(&self) -> &[usize] {
+        &self.selection.recorded
     }
 
     /// Order of the coordinates in the state vector.
@@ -165,6 +174,28 @@ impl Model {
     /// Sets an input at time `t` (s) to `value`, or lets it follow the scene again with `None`.
     pub fn set_input(&self, host: &mut HostInputs, t: f64, input: Input, value: Option<f64>) {
         self.inputs.set(host, t, input, value);
+    }
+
+    /// Whether an input may have this value: those that scenes may give it.
+    ///
+    /// # Errors
+    /// [`crate::Status::BadValue`].
+    pub fn check_input(&self, input: Input, value: f64) -> Result<()> {
+        let allowed = match input {
+            Input::RingSpeed | Input::OrbitSpeed | Input::SpinSpeed => SPEED,
+            Input::LoadY | Input::LoadZ | Input::CageForceY | Input::CageForceZ => FORCE,
+            Input::CageTorque => TORQUE,
+            Input::Temperature => TEMPERATURE,
+        };
+        allowed.check("value", value).map_err(|e| Error::new(Status::BadValue, e.message))?;
+        match self.inputs.oil.filter(|_| input == Input::Temperature).map(|oil| oil.law.viscosity(value)) {
+            Some(viscosity) => VISCOSITY.check("value", viscosity).map_err(|e| {
+                let text =
+                    format!("value: at {value:?} K the viscosity{}", e.message.trim_start_matches("value:"));
+                Error::new(Status::BadValue, text)
+            }),
+            None => Ok(()),
+        }
     }
 
     /// The first jump or kink of an input after `t`, s; infinity if there is none.

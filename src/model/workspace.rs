@@ -126,7 +126,7 @@ impl Workspace {
     }
 
     /// Number of contacts with raceways, the first in their batch.
-    fn on_raceways(&self) -> usize {
+    pub(super) fn on_raceways(&self) -> usize {
         let counts = &self.raceways.counts;
         (counts[OUTER_RACEWAY] + counts[INNER_RACEWAY]) as usize
     }

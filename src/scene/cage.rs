@@ -9,8 +9,10 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct Cage {
     /// Mass, kg.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-07, max = 1000000.0)))]
     pub mass: f64,
     /// Moment of inertia about the centre of mass, kg m^2.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-15, max = 1000000.0)))]
     pub inertia: f64,
     /// Name of the material. Needed by lubricated pockets.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -67,10 +69,13 @@ pub enum Pocket {
 #[serde(deny_unknown_fields)]
 pub struct CylinderPocket {
     /// Radial clearance R_p - R_b between roller and pocket wall, m.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-07, max = 0.01)))]
     pub radial_clearance: f64,
     /// Half angle phi_p of each wall about the circumferential direction, rad.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.001, max = 1.57)))]
     pub half_angle: f64,
     /// Angle before the edge over which wall friction turns into edge friction, rad; 0 lets it jump.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.57)))]
     pub edge_blend: f64,
     /// Friction at the edges of the walls. Absent: frictionless edges.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -86,6 +91,7 @@ pub struct CylinderPocket {
 #[serde(deny_unknown_fields)]
 pub struct PlanePocket {
     /// Circumferential clearance c_p between both walls (diametral), m.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-07, max = 0.01)))]
     pub diametral_clearance: f64,
     /// Contact between element and wall.
     pub contact: SolidContact,
@@ -97,12 +103,15 @@ pub struct PlanePocket {
 #[serde(deny_unknown_fields)]
 pub struct SolidContact {
     /// Stiffness k, N/m.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1.0, max = 1000000000000.0)))]
     pub stiffness: f64,
     /// Damping c, N s/m.
     #[serde(default)]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1000000.0)))]
     pub damping: f64,
     /// Depth delta_d over which the damper sets in, m; 0 lets it jump at touch-down.
     #[serde(default = "default_softening_depth")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 0.001)))]
     pub softening_depth: f64,
     /// Friction. Absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -119,8 +128,10 @@ fn default_softening_depth() -> f64 {
 #[serde(deny_unknown_fields)]
 pub struct Friction {
     /// Friction coefficient.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 2.0)))]
     pub coefficient: f64,
     /// Slip speed of the transition through zero, m/s.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-06, max = 10.0)))]
     pub transition_speed: f64,
 }
 
@@ -133,8 +144,10 @@ pub struct Guide {
     #[serde(default)]
     pub ring: GuideRing,
     /// Radius R_g of the guiding surface of that ring, m.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 10.0)))]
     pub guide_radius: f64,
     /// Guide clearance c_g (diametral), m.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-06, max = 0.01)))]
     pub diametral_clearance: f64,
     /// Roundness of the guided surface of the cage. Absent: round. Needs a film.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -179,6 +192,7 @@ pub enum GuideFilm {
 #[serde(deny_unknown_fields)]
 pub struct ShortBearingFilm {
     /// Width of one of the two lands, m.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-05, max = 10.0)))]
     pub land_width: f64,
     /// Whether the film is squeezed (dh/dt of the moving centre and of the turning roundness).
     #[serde(default = "present")]
@@ -198,11 +212,14 @@ fn present() -> bool {
 #[serde(deny_unknown_fields)]
 pub struct LayerFilm {
     /// Width L of the land, m.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-05, max = 10.0)))]
     pub land_width: f64,
     /// Thickness h_L of the layer, m. More than the diametral clearance floods the guide.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-08, max = 0.1)))]
     pub thickness: f64,
     /// Reduced pressure alpha q from which on the pressure follows its tangent and the viscosity stays constant.
     #[serde(default = "default_pressure_cap")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.1, max = 0.999)))]
     pub pressure_cap: f64,
     /// What the pressure gradient adds to the shear stress.
     #[serde(default)]
@@ -238,6 +255,7 @@ pub struct GuideSolid {
     /// Film thickness h_a at which asperities begin to touch, m. Absent: three times the roughness of `film_share`,
     /// or 0 without a film.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 0.0025)))]
     pub asperity_height: Option<f64>,
 }
 
@@ -247,10 +265,12 @@ pub struct GuideSolid {
 #[serde(deny_unknown_fields)]
 pub struct FilmShare {
     /// Composite roughness sigma, m.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-09, max = 0.001)))]
     pub roughness: f64,
     /// Film ratio below which the film fades out, so that the force stays finite until the surfaces touch; 0 for the
     /// bare share.
     #[serde(default = "default_touching_ratio")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 3.0)))]
     pub touching_ratio: f64,
 }
 
@@ -264,9 +284,12 @@ fn default_touching_ratio() -> f64 {
 #[serde(deny_unknown_fields)]
 pub struct RoundnessHarmonic {
     /// Order n, at least 2.
+    #[cfg_attr(feature = "schema", schemars(range(min = 2, max = 200)))]
     pub order: u32,
     /// Amplitude a_n, m.
+    #[cfg_attr(feature = "schema", schemars(range(min = -0.005, max = 0.005)))]
     pub amplitude: f64,
     /// Phase b_n, rad.
+    #[cfg_attr(feature = "schema", schemars(range(min = -1000.0, max = 1000.0)))]
     pub phase: f64,
 }

@@ -6,7 +6,11 @@ use crate::error::{Error, Result, Status};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Name and version of the case set format.
+/// Names of the formats without version.
+pub(super) const CASES_NAME: &str = "cagedyn.cases/";
+const SCENE_NAME: &str = "cagedyn.scene/";
+
+/// Name and version of the format of case sets.
 pub const CASES_SCHEMA: &str = "cagedyn.cases/1";
 
 /// A series of runs that differ from a base scene in a few values.
@@ -42,7 +46,14 @@ impl CaseSet {
     /// # Errors
     /// [`Status::BadJson`]; [`Status::BadScene`] for a wrong format name or names that cannot name files.
     pub fn from_json(text: &str) -> Result<Self> {
-        let set: Self = typed(&parse(text)?)?;
+        let value = parse(text)?;
+        if let Some(schema) = value.get("schema").and_then(|schema| schema.as_str())
+            && schema.starts_with(SCENE_NAME)
+        {
+            let text = format!("schema: '{schema}' is a scene, not a case set; `cagedyn run` runs it");
+            return Err(Error::new(Status::BadScene, text));
+        }
+        let set: Self = typed(&value)?;
         let bad = |text: String| Err(Error::new(Status::BadScene, text));
         if set.schema != CASES_SCHEMA {
             return bad(format!("schema: '{}' is not '{CASES_SCHEMA}'", set.schema));

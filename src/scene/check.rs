@@ -11,21 +11,46 @@ pub struct Range {
     pub unit: &'static str,
 }
 
+impl Range {
+    /// [`number`] on this range.
+    pub fn check(self, path: &str, value: f64) -> Result<()> {
+        number(path, value, self)
+    }
+}
+
 /// Shorthand for a [`Range`].
 pub const fn range(min: f64, max: f64, unit: &'static str) -> Range {
     Range { min, max, unit }
 }
 
-/// What a value in a usual unit is multiplied with and divided by to get SI.
-const UNIT_SLIPS: [(f64, f64, &str); 7] = [
-    (std::f64::consts::PI, 30.0, "revolutions per minute"),
-    (1.0, 1e3, "milli"),
-    (1.0, 1e6, "micro"),
-    (1.0, 1e9, "nano"),
-    (1e3, 1.0, "kilo"),
-    (1e6, 1.0, "mega"),
-    (1e9, 1.0, "giga"),
+/// Units in which values are often given by mistake: the SI unit, the other one, and what a value in it is multiplied with.
+const UNIT_SLIPS: [(&str, &str, f64); 23] = [
+    ("m", "millimetres", 1e-3),
+    ("m", "micrometres", 1e-6),
+    ("rad/s", "revolutions per minute", std::f64::consts::PI / 30.0),
+    ("rad", "degrees", std::f64::consts::PI / 180.0),
+    ("kg", "grams", 1e-3),
+    ("kg m^2", "kg mm^2", 1e-6),
+    ("kg m^2", "g mm^2", 1e-9),
+    ("s", "milliseconds", 1e-3),
+    ("s", "microseconds", 1e-6),
+    ("m/s", "millimetres per second", 1e-3),
+    ("N", "kilonewtons", 1e3),
+    ("N/m", "N/mm", 1e3),
+    ("N/m", "N/um", 1e6),
+    ("Pa s", "millipascal seconds", 1e-3),
+    ("Pa s", "micropascal seconds", 1e-6),
+    ("Pa", "megapascals", 1e6),
+    ("Pa", "gigapascals", 1e9),
+    ("1/Pa", "1/GPa", 1e-9),
+    ("m^2/s", "mm^2/s", 1e-6),
+    ("kg/m^3", "g/cm^3", 1e3),
+    ("J/(kg K)", "kJ/(kg K)", 1e3),
+    ("1/K", "milli per K", 1e-3),
+    ("W/(m K)", "kW/(m K)", 1e3),
 ];
+/// 0 degrees Celsius, K.
+const CELSIUS: f64 = 273.15;
 
 /// A [`Status::BadScene`] error at a path.
 pub fn bad(path: &str, text: impl std::fmt::Display) -> Error {
@@ -39,10 +64,22 @@ pub fn number(path: &str, value: f64, allowed: Range) -> Result<()> {
         return Ok(());
     }
     let unit_text = if unit.is_empty() { String::new() } else { format!(" {unit}") };
-    let slip = unit_slip(value, allowed).map_or(String::new(), |(si, name)| {
-        format!("; values are in SI units: was it meant in '{name}' units, {si:e}{unit_text}?")
+    let limits = format!("{} to {}{unit_text}", shown(min), shown(max));
+    Err(bad(path, format!("{value:?}{unit_text} is not within {limits}{}", slip_hint(value, allowed))))
+}
+
+/// "; values are in SI units: was it meant in millimetres, 3e-3 m?", or nothing where no other unit is likely.
+pub fn slip_hint(value: f64, allowed: Range) -> String {
+    let hint = unit_slip(value, allowed).map(|(si, name)| {
+        format!("; values are in SI units: was it meant in {name}, {} {}?", shown(si), allowed.unit)
     });
-    Err(bad(path, format!("{value:?}{unit_text} is not within {min:e} to {max:e}{unit_text}{slip}")))
+    hint.unwrap_or_default()
+}
+
+/// A number for people: six digits, and an exponent where that is shorter.
+pub fn shown(x: f64) -> String {
+    let rounded = format!("{x:.5e}").parse().unwrap_or(x);
+    if x == 0.0 || (1e-2..1e6).contains(&x.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }
 }
 
 /// The unit in which a refused value would be the most usual one, and its SI value.
@@ -51,12 +88,15 @@ fn unit_slip(value: f64, allowed: Range) -> Option<(f64, &'static str)> {
     // The middle of the range by order of magnitude; a range that reaches zero has its usual values below its end.
     let usual = if min > 0.0 { (min * max).sqrt() } else { 1e-2 * max };
     let distance = |si: f64| math::ln(si.abs() / usual).abs();
+    // A time that is just too long was meant as it is.
+    let far = value.abs() >= 10.0 * (1.0 - 1e-9) * max.abs() || value.abs() <= 0.1 * min.abs();
+    let celsius = (unit == "K" && value < min).then_some((value + CELSIUS, "degrees Celsius"));
     UNIT_SLIPS
         .iter()
-        .filter(|(_, _, name)| {
-            value != 0.0 && !unit.is_empty() && (unit == "rad/s") == name.starts_with("rev")
-        })
-        .map(|&(multiply, divide, name)| (value * multiply / divide, name))
+        .filter(|(si_unit, ..)| *si_unit == unit && value != 0.0)
+        .filter(|_| far || unit != "s")
+        .map(|&(_, name, factor)| (value * factor, name))
+        .chain(celsius)
         .filter(|(si, _)| (min..=max).contains(si))
         .min_by(|a, b| distance(a.0).total_cmp(&distance(b.0)))
 }

@@ -46,8 +46,10 @@ pub struct ContactLaws {
 #[serde(deny_unknown_fields)]
 pub struct ContactDamping {
     /// Ratio of damping to stiffness tau_c, s.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-12, max = 0.001)))]
     pub relaxation_time: f64,
     /// Approach at which half of the damping is active, m.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-12, max = 0.0001)))]
     pub softening_depth: f64,
 }
 
@@ -95,14 +97,19 @@ pub enum SelfHeating {
 #[serde(deny_unknown_fields)]
 pub struct BoundaryFriction {
     /// Boundary friction coefficient mu_bd.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 2.0)))]
     pub coefficient: f64,
     /// Slip speed v_s of the transition through zero, m/s.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-06, max = 10.0)))]
     pub transition_speed: f64,
     /// Composite roughness sigma, m.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-10, max = 0.0001)))]
     pub roughness: f64,
     /// Largest film ratio of boundary lubrication L_bd.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 100.0)))]
     pub lambda_boundary: f64,
     /// Smallest film ratio of full-film lubrication L_hd.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1e3)))]
     pub lambda_full: f64,
 }
 
@@ -125,6 +132,7 @@ pub enum Extent {
     /// Loaded contacts: fades in between the threshold and twice the threshold.
     Loaded {
         /// Contact load below which there is no rolling resistance, N.
+        #[cfg_attr(feature = "schema", schemars(range(min = 1e-6, max = 1e9)))]
         threshold: f64,
     },
 }

@@ -9,14 +9,19 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct Rollers {
     /// Number of rollers.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1, max = 1000)))]
     pub count: u32,
     /// Roller radius R_b, m.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0001, max = 5.0)))]
     pub radius: f64,
     /// Effective contact length l (without chamfers), m.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-05, max = 100.0)))]
     pub effective_length: f64,
     /// Mass of one roller, kg.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-07, max = 1000000.0)))]
     pub mass: f64,
     /// Moment of inertia of one roller about its axis, kg m^2.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 30000000.0)))]
     pub inertia: f64,
     /// Name of the material.
     pub material: String,
@@ -28,10 +33,13 @@ pub struct Rollers {
 #[serde(deny_unknown_fields)]
 pub struct KinematicElements {
     /// Number of elements.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1, max = 1000)))]
     pub count: u32,
     /// Radius of one element, m.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0001, max = 5.0)))]
     pub radius: f64,
     /// Radius of the circle of their centres, m.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0001, max = 5.0)))]
     pub pitch_radius: f64,
     /// Orbit and spin.
     pub motion: ElementMotion,
@@ -40,6 +48,7 @@ pub struct KinematicElements {
     pub material: Option<String>,
     /// Effective contact length l, m. Needed by lubricated pockets.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-05, max = 5.0)))]
     pub effective_length: Option<f64>,
 }
 
@@ -51,6 +60,7 @@ pub enum ElementMotion {
     /// Rolling without slip between the inner ring, which turns with its speed, and the outer ring at rest.
     Rolling {
         /// Contact angle, rad; 0 for a radial bearing.
+        #[cfg_attr(feature = "schema", schemars(range(min = -1.5, max = 1.5)))]
         contact_angle: f64,
     },
     /// Given speeds.

@@ -13,18 +13,23 @@ pub struct Lubricant {
     /// Pressure-viscosity coefficient alpha, 1/Pa. Needed by contact films, traction, rolling resistance and lubricant
     /// layers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-10, max = 1e-6)))]
     pub pressure_viscosity: Option<f64>,
     /// Temperature-viscosity coefficient beta, 1/K. Needed by thermal corrections, self-heating, rolling resistance.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-4, max = 1.0)))]
     pub temperature_viscosity: Option<f64>,
     /// Thermal conductivity k', W/(m K). Needed by thermal corrections, self-heating, rolling resistance.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-3, max = 10.0)))]
     pub conductivity: Option<f64>,
     /// Characteristic (Eyring) stress tau0, Pa. Needed by traction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e4, max = 1e9)))]
     pub eyring_stress: Option<f64>,
     /// Shear modulus G_l, Pa. Needed by traction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e6, max = 1e12)))]
     pub shear_modulus: Option<f64>,
 }
 
@@ -49,6 +54,7 @@ pub struct WaltherViscosity {
     /// Second point, at a higher temperature.
     pub hot: ViscosityPoint,
     /// Density rho, kg/m^3: eta0 = nu rho.
+    #[cfg_attr(feature = "schema", schemars(range(min = 100.0, max = 20000.0)))]
     pub density: f64,
     /// Temperature of the lubricant.
     pub temperature: Temperature,
@@ -60,8 +66,10 @@ pub struct WaltherViscosity {
 #[serde(deny_unknown_fields)]
 pub struct ViscosityPoint {
     /// Temperature, K.
+    #[cfg_attr(feature = "schema", schemars(range(min = 150.0, max = 1000.0)))]
     pub temperature: f64,
     /// Kinematic viscosity, m^2/s.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.4e-6, max = 1.0)))]
     pub kinematic_viscosity: f64,
 }
 

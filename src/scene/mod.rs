@@ -10,6 +10,7 @@ mod contact_laws;
 mod elements;
 mod json;
 mod lubricant;
+mod plausible;
 mod rings;
 mod run;
 mod signal;
@@ -32,9 +33,11 @@ pub use lubricant::{Lubricant, Temperature, Viscosity, ViscosityPoint, WaltherVi
 pub use rings::{FreeRing, InnerRing, Load, OuterRing, RingMotion};
 pub use run::{Auto, ErrorControl, Initial, Leapfrog, Method, Preset, Record, RingStart, Solver};
 pub use signal::{Signal, SignalIntegral, interpolate, slope};
-pub(crate) use validate::VISCOSITY;
+pub(crate) use validate::{FORCE, SPEED, TEMPERATURE, VISCOSITY};
+pub(crate) use validate_cage::TORQUE;
 
-use crate::error::Result;
+use crate::error::{Error, Result, Status};
+use cases::CASES_NAME;
 use json::{parse, typed};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -107,8 +110,10 @@ pub struct PlaneVector {
 #[serde(deny_unknown_fields)]
 pub struct Material {
     /// Young's modulus, Pa.
+    #[cfg_attr(feature = "schema", schemars(range(min = 10000000.0, max = 10000000000000.0)))]
     pub young_modulus: f64,
     /// Poisson's ratio.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 0.499)))]
     pub poisson_ratio: f64,
     /// Thermal constants; needed where self-heating is simulated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -121,10 +126,13 @@ pub struct Material {
 #[serde(deny_unknown_fields)]
 pub struct ThermalMaterial {
     /// Thermal conductivity, W/(m K).
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.01, max = 10000.0)))]
     pub conductivity: f64,
     /// Density, kg/m^3.
+    #[cfg_attr(feature = "schema", schemars(range(min = 10.0, max = 30000.0)))]
     pub density: f64,
     /// Specific heat capacity, J/(kg K).
+    #[cfg_attr(feature = "schema", schemars(range(min = 10.0, max = 10000.0)))]
     pub specific_heat: f64,
 }
 
@@ -164,6 +172,12 @@ impl Scene {
     /// # Errors
     /// As [`Scene::from_json`].
     pub fn from_value(value: &serde_json::Value) -> Result<Self> {
+        if let Some(schema) = value.get("schema").and_then(|schema| schema.as_str())
+            && schema.starts_with(CASES_NAME)
+        {
+            let text = format!("schema: '{schema}' is a case set, not a scene; `cagedyn cases` runs it");
+            return Err(Error::new(Status::BadScene, text));
+        }
         let scene: Self = typed(value)?;
         scene.validate()?;
         Ok(scene)

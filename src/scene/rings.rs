@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct OuterRing {
     /// Raceway radius R_o, m.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0001, max = 5.0)))]
     pub raceway_radius: f64,
     /// Name of the material.
     pub material: String,
@@ -27,6 +28,7 @@ pub struct InnerRing {
     /// Radial internal clearance G_r (the diametral play), m; negative for preload. The raceway radius is
     /// R_i = R_o - 2 R_b - G_r/2. Needed by rollers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = -0.0002, max = 0.002)))]
     pub radial_clearance: Option<f64>,
     /// Name of the material. Needed by rollers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -56,9 +58,11 @@ impl Default for RingMotion {
 #[serde(deny_unknown_fields)]
 pub struct FreeRing {
     /// Mass of the ring and what moves with it, kg.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-07, max = 1000000.0)))]
     pub mass: f64,
     /// Linear damping of the ring support, N s/m. Absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1000000000.0)))]
     pub support_damping: Option<f64>,
     /// External load on the ring, N. Absent: none, unless the host sets one.
     #[serde(default, skip_serializing_if = "Option::is_none")]

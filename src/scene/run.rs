@@ -13,15 +13,18 @@ pub struct Initial {
     pub inner_ring: RingStart,
     /// Angle of the first rolling element, rad.
     #[serde(default)]
+    #[cfg_attr(feature = "schema", schemars(range(min = -1000.0, max = 1000.0)))]
     pub first_roller_angle: f64,
-    /// Centre of the cage, m.
-    #[serde(default)]
-    pub cage: PlaneVector,
+    /// Centre of the cage, m, seen from the centre of the outer ring. Absent: the centre of the ring that guides it, where
+    /// that ring starts.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cage: Option<PlaneVector>,
     /// Velocity of the cage centre, m/s.
     #[serde(default)]
     pub cage_velocity: PlaneVector,
     /// Rotation speed of the cage, rad/s. Absent: the orbit speed of the rolling elements.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = -100000.0, max = 100000.0)))]
     pub cage_speed: Option<f64>,
 }
 
@@ -79,10 +82,13 @@ pub struct Solver {
     /// Largest step of any method, s. Absent: for methods with error control 0.1 ms; without rollers at most half the time
     /// of a contact at the highest contact frequency.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-18, max = 0.01)))]
     pub max_step: Option<f64>,
     /// Smallest step size, s; a run that needs less fails.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-18, max = 1e-06)))]
     pub min_step: f64,
     /// Largest number of attempted steps in one advance.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
     pub max_steps: u64,
 }
 
@@ -120,6 +126,7 @@ pub struct Auto {
     /// Local error in units of the model's reference clearance (see docs/model.md), for accurate trajectories. Absent:
     /// by the preset, which may follow rollers in their statistics only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-13, max = 0.1)))]
     pub tolerance: Option<f64>,
 }
 
@@ -130,6 +137,7 @@ pub struct Auto {
 pub struct Leapfrog {
     /// Step size, s. Absent: by the preset, in units of the highest contact frequency of the model.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-18, max = 0.001)))]
     pub step: Option<f64>,
 }
 
@@ -140,16 +148,39 @@ pub struct Leapfrog {
 pub struct ErrorControl {
     /// Local error in units of the model's reference clearance (see docs/model.md). Absent: by the preset.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-13, max = 0.1)))]
     pub tolerance: Option<f64>,
 }
 
-/// Length of the run and times of the records.
+impl Record {
+    /// All channels every `interval` s up to `duration` s.
+    pub fn of(duration: f64, interval: f64) -> Self {
+        Self { duration, interval, channels: None, extremes: None, window: None }
+    }
+}
+
+/// Length of the run and records of it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Record {
     /// Simulated time, s.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-09, max = 100000.0)))]
     pub duration: f64,
     /// Time between records, s. It does not influence the steps.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-10, max = 100000.0)))]
     pub interval: f64,
+    /// Channels of a record, by name; `*` stands for any text, `?` for one character. Absent: all.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub channels: Option<Vec<String>>,
+    /// Channels that are followed in every step: a record has their smallest and largest value, their mean and their integral
+    /// since the record before. Forces, moments, gaps of the guide and distances from its centre, by name as in `channels`.
+    /// Absent: all pocket forces.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub extremes: Option<Vec<String>>,
+    /// Length of the window at the end of the run that results are averaged over, s. Absent: 0.1 s, or a third of a shorter
+    /// run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-10, max = 100000.0)))]
+    pub window: Option<f64>,
 }

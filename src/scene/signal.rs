@@ -4,7 +4,7 @@ use crate::scalar::math;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
-/// A value over time (t in s, value in the unit of the field that uses it).
+/// A value over time (t in s, value in the unit of the field that uses it). A plain number is a constant.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
@@ -18,6 +18,7 @@ pub enum Signal {
         /// Value from the jump on.
         after: f64,
         /// Time of the jump, s.
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1e6)))]
         time: f64,
     },
     /// Changes linearly between two instants and is constant outside.
@@ -27,8 +28,10 @@ pub enum Signal {
         /// Value from `end` on.
         to: f64,
         /// Start of the change, s.
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1e6)))]
         start: f64,
         /// End of the change, s.
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1e6)))]
         end: f64,
     },
     /// mean + amplitude * sin(2 pi frequency t + phase).
@@ -38,8 +41,10 @@ pub enum Signal {
         /// Amplitude.
         amplitude: f64,
         /// Frequency, Hz.
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1e6)))]
         frequency: f64,
         /// Phase at t = 0, rad.
+        #[cfg_attr(feature = "schema", schemars(range(min = -1e3, max = 1e3)))]
         phase: f64,
     },
     /// Linear between points, constant before the first and after the last.

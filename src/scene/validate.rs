@@ -16,16 +16,16 @@ const ROLLER_CLEARANCE: Range = range(-2e-4, 2e-3, "m");
 pub(super) const POSITION: Range = range(-1e-2, 1e-2, "m");
 pub(super) const MASS: Range = range(1e-7, 1e6, "kg");
 pub(super) const INERTIA: Range = range(1e-15, 1e6, "kg m^2");
-pub(super) const SPEED: Range = range(-1e5, 1e5, "rad/s");
+pub(crate) const SPEED: Range = range(-1e5, 1e5, "rad/s");
 pub(crate) const VISCOSITY: Range = range(1e-5, 1e3, "Pa s");
-pub(super) const FORCE: Range = range(-1e9, 1e9, "N");
+pub(crate) const FORCE: Range = range(-1e9, 1e9, "N");
 const GRAVITY: Range = range(-1e4, 1e4, "m/s^2");
 const SUPPORT_DAMPING: Range = range(0.0, 1e9, "N s/m");
 pub(super) const ANGLE: Range = range(-1e3, 1e3, "rad");
 const TIME: Range = range(0.0, 1e6, "s");
 pub(super) const COEFFICIENT: Range = range(0.0, 2.0, "");
 pub(super) const TRANSITION_SPEED: Range = range(1e-6, 10.0, "m/s");
-const TEMPERATURE: Range = range(150.0, 1000.0, "K");
+pub(crate) const TEMPERATURE: Range = range(150.0, 1000.0, "K");
 const MAX_ELEMENTS: u32 = 1000;
 const MAX_POINTS: usize = 1_000_000;
 const MAX_RECORDS: f64 = 1e8;
@@ -98,15 +98,19 @@ impl Scene {
 
     fn validate_rollers(&self, r: &Rollers) -> Result<()> {
         count("rollers.count", r.count)?;
+        // Geometry first: a radius in millimetres would be blamed on the inertia otherwise.
+        if let Some(outer) = &self.outer_ring {
+            number("outer_ring.raceway_radius", outer.raceway_radius, RADIUS)?;
+            number("rollers.radius", r.radius, range(RADIUS.min, 0.5 * outer.raceway_radius, "m"))?;
+        }
         number("rollers.radius", r.radius, RADIUS)?;
-        number("rollers.effective_length", r.effective_length, WIDTH)?;
+        number("rollers.effective_length", r.effective_length, range(WIDTH.min, 50.0 * r.radius, "m"))?;
         number("rollers.mass", r.mass, MASS)?;
         let ring = r.mass * r.radius * r.radius;
         number("rollers.inertia", r.inertia, range(0.2 * ring, 1.1 * ring, "kg m^2"))?;
         self.material_exists("rollers.material", &r.material)?;
         let missing = |path: &str| bad(path, "missing; 'rollers' need it");
         let outer = self.outer_ring.as_ref().ok_or_else(|| missing("outer_ring"))?;
-        number("outer_ring.raceway_radius", outer.raceway_radius, RADIUS)?;
         self.material_exists("outer_ring.material", &outer.material)?;
         let inner = self.inner_ring.as_ref().ok_or_else(|| missing("inner_ring"))?;
         let clearance = inner.radial_clearance.ok_or_else(|| missing("inner_ring.radial_clearance"))?;
@@ -226,7 +230,7 @@ impl Scene {
         if self.cage.is_none() {
             let start = &self.initial;
             for (field, given) in [
-                ("cage", start.cage != PlaneVector::default()),
+                ("cage", start.cage.is_some()),
                 ("cage_velocity", start.cage_velocity != PlaneVector::default()),
                 ("cage_speed", start.cage_speed.is_some()),
             ] {
@@ -262,6 +266,11 @@ impl Scene {
         }
         number("record.duration", self.record.duration, range(1e-9, 1e5, "s"))?;
         number("record.interval", self.record.interval, range(1e-10, self.record.duration, "s"))?;
+        optional(
+            "record.window",
+            self.record.window,
+            range(self.record.interval, self.record.duration, "s"),
+        )?;
         let records = self.record.duration / self.record.interval;
         if records > MAX_RECORDS {
             let text =

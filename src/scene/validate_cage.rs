@@ -9,7 +9,7 @@ use std::f64::consts::FRAC_PI_2;
 const POCKET_CLEARANCE: Range = range(1e-7, 1e-2, "m");
 const GUIDE_CLEARANCE: Range = range(1e-6, 1e-2, "m");
 const VELOCITY: Range = range(-100.0, 100.0, "m/s");
-const TORQUE: Range = range(-1e9, 1e9, "N m");
+pub(crate) const TORQUE: Range = range(-1e9, 1e9, "N m");
 const MAX_HARMONICS: usize = 64;
 const MAX_ORDER: u32 = 200;
 
@@ -31,7 +31,9 @@ impl Scene {
             signal("cage.load.force_z", &load.force_z, FORCE)?;
             signal("cage.load.torque", &load.torque, TORQUE)?;
         }
-        vector("initial.cage", &self.initial.cage, POSITION)?;
+        if let Some(start) = &self.initial.cage {
+            vector("initial.cage", start, POSITION)?;
+        }
         vector("initial.cage_velocity", &self.initial.cage_velocity, VELOCITY)?;
         optional("initial.cage_speed", self.initial.cage_speed, SPEED)?;
         match &cage.pocket {
@@ -45,7 +47,64 @@ impl Scene {
                 self.neighbours_apart(&format!("{path}.diametral_clearance"), half_width, "pockets")?;
             }
         }
-        if let Some(pocket) = &cage.pocket
+        if let Some(guide) = &cage.guide {
+            self.validate_guide(guide)?;
+        }
+        // Where a free ring starts is not known before its equilibrium is found.
+        match self.known_guide_centre() {
+            Some(centre) => self.check_cage_start(self.initial.cage.map_or(centre, |c| [c.y, c.z]), centre),
+            None => Ok(()),
+        }
+    }
+
+    /// Where the ring that guides the cage starts, m; `None` for a ring that starts in equilibrium.
+    fn known_guide_centre(&self) -> Option<[f64; 2]> {
+        let guide = self.cage.as_ref().and_then(|cage| cage.guide.as_ref());
+        let inner = guide.is_some_and(|guide| guide.ring == GuideRing::InnerRing);
+        match self.inner_ring.as_ref().filter(|_| inner).map(|ring| &ring.motion) {
+            Some(RingMotion::Fixed(position)) => Some([position.y, position.z]),
+            Some(RingMotion::Free(_)) if self.initial.inner_ring == RingStart::Equilibrium => None,
+            _ => Some([0.0; 2]),
+        }
+    }
+
+    /// Whether the cage may start at `cage` (m), with the ring that guides it at `guide_centre`.
+    ///
+    /// # Errors
+    /// [`crate::Status::BadScene`].
+    pub(crate) fn check_cage_start(&self, cage: [f64; 2], guide_centre: [f64; 2]) -> Result<()> {
+        let Some(body) = &self.cage else { return Ok(()) };
+        if let Some(guide) = &body.guide {
+            let clearance = guide.diametral_clearance / 2.0;
+            let roundness: f64 = guide.roundness.iter().map(|a| a.amplitude.abs()).sum();
+            let start = math::hypot(cage[0] - guide_centre[0], cage[1] - guide_centre[1]);
+            // A solid contact may start pressed, but not through the ring.
+            let room = if guide.solid.is_some() { 2.0 * clearance } else { clearance - roundness };
+            if start >= room {
+                let text = format!(
+                    "the centre {start:e} m from that of the guide ({:e}, {:e}) leaves no room in the radial guide \
+                     clearance of {clearance:?} m",
+                    guide_centre[0], guide_centre[1]
+                );
+                return Err(bad("initial.cage", text));
+            }
+        }
+        let start = math::hypot(cage[0], cage[1]);
+        if let Some(Pocket::LubricatedCylinder(pocket)) = &body.pocket {
+            // Elements start beside each other in their pockets; radially, the edges must not reach into them.
+            let element = self.element_radius();
+            let radius = element + pocket.radial_clearance;
+            let edge = radius * math::sin(pocket.half_angle);
+            let discriminant = edge * edge - (radius * radius - element * element);
+            if discriminant > 0.0 && start > edge - discriminant.sqrt() {
+                let text = format!(
+                    "the centre {start:?} m off pushes pocket edges into rollers; at most {:e} m",
+                    edge - discriminant.sqrt()
+                );
+                return Err(bad("initial.cage", text));
+            }
+        }
+        if let Some(pocket) = &body.pocket
             && self.kinematic_elements.is_some()
         {
             // Prescribed elements do not start beside each other in displaced pockets: the cage may press on them, but
@@ -54,7 +113,6 @@ impl Scene {
                 Pocket::LubricatedCylinder(pocket) => pocket.radial_clearance,
                 Pocket::SolidPlane(pocket) => pocket.diametral_clearance / 2.0,
             };
-            let start = math::hypot(self.initial.cage.y, self.initial.cage.z);
             if start > 2.0 * clearance {
                 let text = format!(
                     "the centre {start:?} m off presses elements through pockets of {clearance:?} m clearance; at most \
@@ -63,7 +121,7 @@ impl Scene {
                 return Err(bad("initial.cage", text));
             }
         }
-        cage.guide.as_ref().map_or(Ok(()), |guide| self.validate_guide(guide))
+        Ok(())
     }
 
     fn validate_cylinder_pocket(&self, pocket: &CylinderPocket) -> Result<()> {
@@ -75,26 +133,24 @@ impl Scene {
             friction(&at("edge_friction"), law)?;
         }
         contact(&at("contact"), &pocket.contact)?;
-        let element = self.element_radius();
-        let radius = element + pocket.radial_clearance;
-        // Elements start beside each other in their pockets; radially, the edges must not reach into them.
-        let edge = radius * math::sin(pocket.half_angle);
-        let discriminant = edge * edge - (radius * radius - element * element);
-        let start = math::hypot(self.initial.cage.y, self.initial.cage.z);
-        if discriminant > 0.0 && start > edge - discriminant.sqrt() {
-            let text = format!(
-                "the centre {start:?} m off pushes pocket edges into rollers; at most {:e} m",
-                edge - discriminant.sqrt()
-            );
-            return Err(bad("initial.cage", text));
-        }
+        let radius = self.element_radius() + pocket.radial_clearance;
         self.neighbours_apart(&at("radial_clearance"), radius, "pockets")
     }
 
     fn validate_guide(&self, guide: &Guide) -> Result<()> {
         let at = |field: &str| format!("cage.guide.{field}");
         let pitch = self.pitch_radius();
-        number(&at("guide_radius"), guide.guide_radius, range(0.4 * pitch, 1.8 * pitch, "m"))?;
+        if guide.ring == GuideRing::InnerRing && self.inner_ring.is_none() {
+            return Err(bad("inner_ring", "missing; cage.guide.ring needs it"));
+        }
+        // A shoulder of the ring: beside the elements, not beyond its raceway.
+        let (near, beyond) = (0.1 * self.element_radius(), 1.25 * self.element_radius());
+        let shoulder = match guide.ring {
+            GuideRing::OuterRing => range(pitch - near, pitch + beyond, "m"),
+            GuideRing::InnerRing => range(pitch - beyond, pitch + near, "m"),
+        };
+        number(&at("guide_radius"), guide.guide_radius, shoulder)?;
+        let land = range(WIDTH.min, guide.guide_radius, "m");
         number(&at("diametral_clearance"), guide.diametral_clearance, GUIDE_CLEARANCE)?;
         if guide.diametral_clearance > 0.1 * guide.guide_radius {
             let text = format!(
@@ -103,17 +159,14 @@ impl Scene {
             );
             return Err(bad(&at("diametral_clearance"), text));
         }
-        if guide.ring == GuideRing::InnerRing && self.inner_ring.is_none() {
-            return Err(bad("inner_ring", "missing; cage.guide.ring needs it"));
-        }
         match &guide.film {
             None => {}
             Some(GuideFilm::ShortBearing(film)) => {
-                number(&at("film.short_bearing.land_width"), film.land_width, WIDTH)?;
+                number(&at("film.short_bearing.land_width"), film.land_width, land)?;
             }
             Some(GuideFilm::LubricantLayer(film)) => {
                 let at = |field: &str| at(&format!("film.lubricant_layer.{field}"));
-                number(&at("land_width"), film.land_width, WIDTH)?;
+                number(&at("land_width"), film.land_width, land)?;
                 number(&at("thickness"), film.thickness, range(1e-8, 0.1, "m"))?;
                 number(&at("pressure_cap"), film.pressure_cap, range(0.1, 0.999, ""))?;
             }
@@ -146,7 +199,7 @@ impl Scene {
         self.validate_gap(guide)
     }
 
-    /// Roundness and start must leave a gap.
+    /// Roundness must leave a gap.
     fn validate_gap(&self, guide: &Guide) -> Result<()> {
         let path = "cage.guide.roundness";
         if guide.roundness.len() > MAX_HARMONICS {
@@ -172,19 +225,6 @@ impl Scene {
                 "the amplitudes add up to {roundness:?} m and close the radial clearance {clearance:?} m"
             );
             return Err(bad(path, text));
-        }
-        let ring = match (guide.ring, self.inner_ring.as_ref().map(|r| &r.motion)) {
-            (GuideRing::InnerRing, Some(RingMotion::Fixed(position))) => *position,
-            _ => PlaneVector::default(),
-        };
-        let start = math::hypot(self.initial.cage.y - ring.y, self.initial.cage.z - ring.z);
-        // A solid contact may start pressed, but not through the ring.
-        let room = if guide.solid.is_some() { 2.0 * clearance } else { clearance - roundness };
-        if start >= room {
-            let text = format!(
-                "the centre {start:?} m off leaves no room in the radial guide clearance of {clearance:?} m"
-            );
-            return Err(bad("initial.cage", text));
         }
         Ok(())
     }

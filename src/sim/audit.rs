@@ -5,6 +5,10 @@ use crate::error::Result;
 use crate::integrate::{Reader, throughput};
 use crate::model::{AT_FLOOR, Energy, POWERS};
 
+/// Round-off of the stored energy, relative; and an energy that is none, J: less than a nanonewton does over a picometre.
+const ROUNDING: f64 = 1e-14;
+const NOTHING: f64 = 1e-21;
+
 /// Where the balance starts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Start {
@@ -43,10 +47,12 @@ impl PowerBalance {
         throughput(self.work, self.gain())
     }
 
-    /// The residual as a share of the throughput; zero where nothing passed.
+    /// The residual as a share of the throughput; zero where nothing passed but round-off of what is stored.
     pub fn relative_residual(&self) -> f64 {
+        let stored = self.energy.iter().map(|e| e.kinetic.abs() + e.elastic.abs() + e.potential.abs());
         let throughput = self.throughput();
-        if throughput > 0.0 { self.residual() / throughput } else { 0.0 }
+        let nothing = ROUNDING * stored.fold(0.0, f64::max) + NOTHING;
+        if throughput > nothing { self.residual() / throughput } else { 0.0 }
     }
 }
 

@@ -320,6 +320,14 @@ impl System for Bearing {
         self.model.powers(q, v, step, &self.workspace)
     }
 
+    fn watched(&self) -> usize {
+        self.model.watched().len()
+    }
+
+    fn watch(&self, q: &[f64], v: &[f64], step: Option<&SemiImplicit<'_>>, out: &mut [f64]) {
+        self.model.watch(q, v, step, &self.workspace, out);
+    }
+
     fn energy(&self, q: &[f64], v: &[f64]) -> [f64; 3] {
         let Energy { kinetic, elastic, potential } = self.model.energy(q, v, &self.workspace);
         [kinetic, elastic, potential]

@@ -2,6 +2,7 @@
 
 mod audit;
 mod bearing;
+mod interval;
 mod jacobian;
 mod limits;
 mod method;
@@ -15,12 +16,13 @@ mod trust;
 mod whirl;
 
 pub use audit::PowerBalance;
+pub use interval::Interval;
 pub use limits::Canceller;
 pub use recording::{Recording, Spread};
 pub use sample::{LEVEL, Sample, Verdict, student};
 pub use statistics::{RunStatistics, STATISTICS};
 pub use trust::Doubt;
-pub use whirl::{CageMotion, WhirlRecord, WhirlSummary};
+pub use whirl::{CageMotion, SMALLEST_WHIRL_RADIUS, WhirlRecord, WhirlSummary};
 
 use crate::error::{Error, Result, Status};
 use crate::integrate::{Driver, Failure, Interruption, Tuning};
@@ -33,6 +35,9 @@ use std::sync::Arc;
 
 /// Largest simulated time, s: beyond it a step of a nanosecond is lost in round-off.
 const MAX_TIME: f64 = 1e6;
+
+/// Largest magnitude of a state that is set: an angle after the longest run at the highest speed, and more.
+const LARGEST_STATE: f64 = 1e12;
 
 /// What was evaluated last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -160,6 +165,7 @@ impl Sim {
         self.state.copy_from_slice(state);
         self.driver.forget();
         self.restart();
+        self.begin_interval();
         self.start_audit();
         Ok(())
     }
@@ -259,6 +265,7 @@ impl Sim {
         self.state.copy_from_slice(&state);
         self.driver.reset();
         self.restart();
+        self.begin_interval();
         self.forces()?;
         self.start_audit();
         Ok(())
@@ -273,17 +280,18 @@ impl Sim {
         Ok(self.model().inputs_at(self.time, self.bearing.host()).of(input))
     }
 
-    /// Holds input `index` at `value` from now on, instead of the scene's function of time.
+    /// Holds input `index` at `value` from now on, instead of the scene's function of time. The value that it has already
+    /// changes nothing.
     ///
     /// # Errors
-    /// [`Status::BadIndex`]; [`Status::BadValue`] if the value is not finite.
+    /// [`Status::BadIndex`]; [`Status::BadValue`] if the value is not finite or out of the range that scenes have.
     pub fn set_input(&mut self, index: usize, value: f64) -> Result<()> {
         let input = self.check_input(index)?;
-        if !value.is_finite() {
-            return Err(Error::new(Status::BadValue, format!("value: {value} is not a finite number")));
+        self.model().check_input(input, value)?;
+        if self.bearing.host().of(input) != Some(value) {
+            self.bearing.set_input(self.time, input, Some(value));
+            self.restart();
         }
-        self.bearing.set_input(self.time, input, Some(value));
-        self.restart();
         Ok(())
     }
 
@@ -293,8 +301,10 @@ impl Sim {
     /// [`Status::BadIndex`].
     pub fn release_input(&mut self, index: usize) -> Result<()> {
         let input = self.check_input(index)?;
-        self.bearing.set_input(self.time, input, None);
-        self.restart();
+        if self.bearing.host().of(input).is_some() {
+            self.bearing.set_input(self.time, input, None);
+            self.restart();
+        }
         Ok(())
     }
 
@@ -439,12 +449,16 @@ impl Sim {
         if state.len() != self.state.len() {
             return Err(wrong_size("state", state.len(), self.state.len()));
         }
-        match state.iter().position(|x| !x.is_finite()) {
+        match state.iter().position(|x| x.is_nan() || x.abs() > LARGEST_STATE) {
             None => Ok(()),
             Some(i) => {
-                let name = &self.model().state_infos()[i].name;
-                let text = format!("state[{i}] ({name}): {} is not a finite number", state[i]);
-                Err(Error::new(Status::BadValue, text))
+                let info = &self.model().state_infos()[i];
+                let text = if state[i].is_finite() {
+                    format!("{:e} {} is not within {:e} of zero", state[i], info.unit, LARGEST_STATE)
+                } else {
+                    format!("{} is not a finite number", state[i])
+                };
+                Err(Error::new(Status::BadValue, format!("state[{i}] ({}): {text}", info.name)))
             }
         }
     }

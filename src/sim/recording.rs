@@ -1,6 +1,6 @@
 //! Outputs recorded on a fixed time grid, and their statistics.
 
-use super::{Sample, Sim};
+use super::{Interval, Sample, Sim};
 use crate::error::{Error, Result, Status};
 use serde::Serialize;
 
@@ -12,8 +12,11 @@ const MAX_RECORDS: f64 = 1e8;
 pub struct Recording {
     /// Times, s.
     pub times: Vec<f64>,
-    /// One column per output channel, in the order of [`Sim::channels`].
+    /// One column per recorded channel, in the order of [`crate::Model::recorded`].
     pub columns: Vec<Vec<f64>>,
+    /// One column per watched channel, in the order of [`Sim::watched`]: what it did since the record before. The first
+    /// record has intervals of no time.
+    pub intervals: Vec<Vec<Interval>>,
 }
 
 /// Mean and spread of a channel over a window of time.
@@ -39,7 +42,7 @@ pub struct Spread {
 
 impl Recording {
     /// Advances `sim` and records its outputs at its present time and every `interval` seconds after, up to `until` (s).
-    /// `keep_going` is called after every record and ends the run by returning false.
+    /// `keep_going` is called after every record, which is the last one of the recording, and ends the run by returning false.
     ///
     /// # Errors
     /// [`Status::BadValue`] for an interval that is not positive or gives too many records, and as
@@ -49,7 +52,7 @@ impl Recording {
         sim: &mut Sim,
         until: f64,
         interval: f64,
-        mut keep_going: impl FnMut(&Sim) -> bool,
+        mut keep_going: impl FnMut(&Sim, &Self) -> bool,
     ) -> Result<()> {
         let start = sim.time();
         let records = (until - start) / interval;
@@ -59,18 +62,25 @@ impl Recording {
             );
             return Err(Error::new(Status::BadValue, text));
         }
-        self.columns.resize(sim.channels().len(), Vec::new());
-        let mut row = vec![0.0; self.columns.len()];
+        let model = sim.model().clone();
+        self.columns.resize(model.recorded().len(), Vec::new());
+        self.intervals.resize(model.watched().len(), Vec::new());
+        let mut row = vec![0.0; sim.channels().len()];
+        sim.begin_interval();
         // Records at multiples of the interval, without adding up its round-off.
         let last = (records * (1.0 + 1e-12)).floor() as u64;
         for i in 0..=last {
             sim.advance_to((start + i as f64 * interval).min(until))?;
             sim.outputs(&mut row)?;
             self.times.push(sim.time());
-            for (column, value) in self.columns.iter_mut().zip(&row) {
-                column.push(*value);
+            for (column, place) in self.columns.iter_mut().zip(model.recorded()) {
+                column.push(row[*place]);
             }
-            if !keep_going(sim) {
+            for (place, column) in self.intervals.iter_mut().enumerate() {
+                column.push(sim.interval_of(place)?);
+            }
+            sim.begin_interval();
+            if !keep_going(sim, self) {
                 break;
             }
         }
@@ -80,6 +90,13 @@ impl Recording {
     /// Index of the first record at or after time `t` in s.
     pub fn index_at(&self, t: f64) -> usize {
         self.times.partition_point(|&x| x < t)
+    }
+
+    /// What the watched channel at `place` did from the first record at or after time `from` (s) on; `None` when no time has
+    /// passed.
+    pub fn interval(&self, place: usize, from: f64) -> Option<Interval> {
+        let (first, rest) = self.intervals.get(place)?.get(self.index_at(from) + 1..)?.split_first()?;
+        Some(rest.iter().fold(*first, |sum, next| sum.joined(next)))
     }
 
     /// Statistics of column `column` from time `from` (s) on; `None` when it holds no record.

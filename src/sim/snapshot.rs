@@ -5,17 +5,23 @@ use super::{Evaluated, Sim};
 use crate::error::{Error, Result, Status};
 use crate::integrate::{Reader, Tuning};
 use crate::model::{FaultCounts, HostInputs, LawCounts, Model};
-use crate::scene::Solver;
+use crate::scene::{Record, Scene, Solver};
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// First number of a snapshot; changes when its content changes.
-const FORMAT: f64 = 11.0;
+const FORMAT: f64 = 12.0;
+
+/// Numbers of the checksum, and in front of the content: format, fingerprint, checksum.
+const CHECKSUM: usize = 2;
+const HEAD: usize = 3 + CHECKSUM;
 
 impl Sim {
-    /// Everything the future of this simulation depends on, for the same model in the same build of the library.
+    /// Everything the future of this simulation depends on, for a model of the same physics in the same build of the library:
+    /// title, comments and what is recorded may differ.
     pub fn save(&self) -> Vec<f64> {
         let mut out = vec![FORMAT];
         out.extend(self.fingerprint);
+        out.extend([0.0; 2]);
         out.extend([self.time, self.bearing.evaluations() as f64, self.bearing.jacobians() as f64]);
         out.extend(self.bearing.law_counts().iter().map(|n| *n as f64));
         out.extend(self.bearing.fault_counts().iter().chain(self.bearing.rejections()).map(|n| *n as f64));
@@ -27,6 +33,8 @@ impl Sim {
         out.extend_from_slice(&self.state);
         self.audit.save(&mut out);
         self.driver.save(&mut out);
+        let checksum = checksum(&out[HEAD..]);
+        out[HEAD - checksum.len()..HEAD].copy_from_slice(&checksum);
         out
     }
 
@@ -48,20 +56,24 @@ impl Sim {
         if let Some(i) = snapshot.iter().position(|x| !x.is_finite()) {
             return Err(bad(&format!("item {i} is {}, not a finite number", snapshot[i])));
         }
-        let head = 1 + self.fingerprint.len();
+        let head = HEAD - CHECKSUM;
         if snapshot[..head] != before[..head] {
-            return Err(bad("made from another scene or by another version of the library"));
+            return Err(bad("made from a scene of other physics, or by another build of the library"));
         }
-        if self.load(snapshot).is_none() {
-            // What was just saved fits, so this brings the old simulation back.
-            let _ = self.load(&before);
+        if snapshot[head..HEAD] != checksum(&snapshot[HEAD..]) {
             return Err(bad("damaged"));
         }
-        Ok(())
+        let loaded = self.load(snapshot);
+        if loaded.is_none() {
+            // What was just saved fits, so this brings the old simulation back.
+            let _ = self.load(&before);
+        }
+        self.begin_interval();
+        loaded.ok_or_else(|| bad("damaged"))
     }
 
     fn load(&mut self, snapshot: &[f64]) -> Option<()> {
-        let mut from = Reader::new(snapshot.get(1 + self.fingerprint.len()..)?);
+        let mut from = Reader::new(snapshot.get(HEAD..)?);
         let time = from.number().filter(|t| *t >= 0.0)?;
         let counts = [from.count()?, from.count()?];
         let mut law_counts = LawCounts::default();
@@ -108,13 +120,24 @@ impl Sim {
     }
 }
 
-/// Scene, preset, tuning and library version, hashed into two numbers that fit exactly into f64.
+/// Physics of the scene, solver, preset, tuning and build of the library, hashed into two numbers that fit exactly into f64.
 pub(super) fn fingerprint(model: &Model, solver: &Solver, tuning: &Tuning) -> [f64; 2] {
     let mut hasher = DefaultHasher::new();
-    env!("CARGO_PKG_VERSION").hash(&mut hasher);
-    model.scene().to_json().hash(&mut hasher);
+    env!("CAGEDYN_BUILD").hash(&mut hasher);
+    let physics = Scene { title: None, record: Record::of(1.0, 1.0), ..model.scene().clone() };
+    physics.to_json().hash(&mut hasher);
     solver.preset.hash(&mut hasher);
     tuning.values().iter().for_each(|value| value.to_bits().hash(&mut hasher));
-    let bits = hasher.finish();
+    halves(hasher.finish())
+}
+
+fn checksum(content: &[f64]) -> [f64; CHECKSUM] {
+    let mut hasher = DefaultHasher::new();
+    content.iter().for_each(|x| x.to_bits().hash(&mut hasher));
+    halves(hasher.finish())
+}
+
+/// A hash as two numbers without loss.
+fn halves(bits: u64) -> [f64; 2] {
     [(bits >> 32) as f64, (bits & 0xffff_ffff) as f64]
 }

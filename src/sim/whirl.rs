@@ -9,6 +9,9 @@
 //! 3. *Stable*: the 95th percentile of the distance from the mean position is at most 25 % of the clearance.
 //! 4. *Irregular*: anything else.
 //!
+//! Near the guide centre the whirl speed is noise: records closer to it than 0.1 % of the clearance are left out of its
+//! statistics and of the settling time.
+//!
 //! Without a clearance, the largest distance of the centre from the guide centre in the window stands in for it.
 
 use super::Spread;
@@ -20,6 +23,8 @@ use std::f64::consts::{PI, TAU};
 const MIN_RECORDS: usize = 3;
 /// Largest distance of a resting centre from its mean position, in units of the clearance.
 const RESTING_REACH: f64 = 0.01;
+/// Distance from the guide centre below which the whirl speed says nothing, in units of the clearance.
+pub const SMALLEST_WHIRL_RADIUS: f64 = 1e-3;
 /// Smallest mean radius of a whirl, in units of the clearance.
 const WHIRL_RADIUS: f64 = 0.05;
 /// Smallest number of net turns of a whirl in the window.
@@ -63,6 +68,10 @@ pub enum CageMotion {
 }
 
 impl CageMotion {
+    /// All classes.
+    pub const ALL: [Self; 5] =
+        [Self::Resting, Self::Stable, Self::ForwardWhirl, Self::BackwardWhirl, Self::Irregular];
+
     /// Name in words.
     pub fn name(self) -> &'static str {
         match self {
@@ -83,8 +92,8 @@ impl CageMotion {
 /// Whirl of the cage over a window of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WhirlSummary {
-    /// Whirl speed in the window, rad/s.
-    pub speed: Spread,
+    /// Whirl speed in the window, rad/s; `None` if the centre was always too close to that of the guide to have one.
+    pub speed: Option<Spread>,
     /// Mean whirl radius in the window, m.
     pub radius: f64,
     /// Time of the first record from which on the whirl speed stays within 15 % of its mean in the window, s. `None`
@@ -107,11 +116,12 @@ impl WhirlSummary {
         if window.times.len() < MIN_RECORDS || !finite {
             return None;
         }
-        let speed = Spread::of(window.whirl_speed)?;
+        let speeds: Vec<f64> = window.known_speeds().map(|(_, speed)| speed).collect();
+        let speed = Spread::of(&speeds);
         let radius = mean(window.whirl_radius);
-        let turns = window.turns(&speed);
-        let motion = window.motion(&speed, radius, turns);
-        let settling_time = settling_time(record.part(0, count)?, first, speed.mean);
+        let turns = window.turns(speed.as_ref());
+        let motion = window.motion(speed.as_ref(), radius, turns);
+        let settling_time = speed.and_then(|speed| settling_time(&record.part(0, count)?, first, speed.mean));
         Some(Self { speed, radius, settling_time, turns, motion })
     }
 }
@@ -135,15 +145,27 @@ impl<'a> WhirlRecord<'a> {
         })
     }
 
+    /// Distance that shares are of, m.
+    fn reference(&self) -> f64 {
+        self.clearance.unwrap_or_else(|| self.places().map(|(y, z)| math::hypot(y, z)).fold(0.0, f64::max))
+    }
+
+    /// Records far enough from the guide centre to have a whirl speed, with that.
+    fn known_speeds(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let smallest = SMALLEST_WHIRL_RADIUS * self.reference();
+        let all = self.whirl_radius.iter().zip(self.whirl_speed).enumerate();
+        all.filter(move |(_, (radius, _))| **radius >= smallest).map(|(i, (_, speed))| (i, *speed))
+    }
+
     fn places(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         self.centre[0].iter().copied().zip(self.centre[1].iter().copied())
     }
 
     /// Net turns: the angle between successive records added up, or mean speed times time where most of a half turn
     /// and more may lie between two records.
-    fn turns(&self, speed: &Spread) -> f64 {
+    fn turns(&self, speed: Option<&Spread>) -> f64 {
         let interval = self.times.windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max);
-        if speed.p05.abs().max(speed.p95.abs()) * interval > PI {
+        if let Some(speed) = speed.filter(|speed| speed.p05.abs().max(speed.p95.abs()) * interval > PI) {
             let [first, .., last] = self.times else { return 0.0 };
             return speed.mean * (last - first) / TAU;
         }
@@ -152,19 +174,20 @@ impl<'a> WhirlRecord<'a> {
         angles.sum::<f64>() / TAU
     }
 
-    fn motion(&self, speed: &Spread, radius: f64, turns: f64) -> CageMotion {
-        let largest = self.places().map(|(y, z)| math::hypot(y, z)).fold(0.0, f64::max);
-        let reference = self.clearance.unwrap_or(largest);
+    fn motion(&self, speed: Option<&Spread>, radius: f64, turns: f64) -> CageMotion {
+        let reference = self.reference();
         let centre = self.centre.map(mean);
         let distances: Vec<f64> =
             self.places().map(|(y, z)| math::hypot(y - centre[0], z - centre[1])).collect();
         let Some(distance) = Spread::of(&distances) else { return CageMotion::Irregular };
-        let one_sense = speed.p05 * speed.p95 > 0.0;
+        let sense = speed.filter(|speed| speed.p05 * speed.p95 > 0.0).map(|speed| speed.mean);
         if distance.max <= RESTING_REACH * reference {
             CageMotion::Resting
-        } else if one_sense && turns.abs() >= WHIRL_TURNS && radius >= WHIRL_RADIUS * reference {
+        } else if let Some(speed) =
+            sense.filter(|_| turns.abs() >= WHIRL_TURNS && radius >= WHIRL_RADIUS * reference)
+        {
             let cage = if mean(self.cage_speed) < 0.0 { -1.0 } else { 1.0 };
-            if cage * speed.mean > 0.0 { CageMotion::ForwardWhirl } else { CageMotion::BackwardWhirl }
+            if cage * speed > 0.0 { CageMotion::ForwardWhirl } else { CageMotion::BackwardWhirl }
         } else if distance.p95 <= STABLE_REACH * reference {
             CageMotion::Stable
         } else {
@@ -174,10 +197,10 @@ impl<'a> WhirlRecord<'a> {
 }
 
 /// See [`WhirlSummary::settling_time`]; `window` is the first record of the window.
-fn settling_time(record: WhirlRecord<'_>, window: usize, mean: f64) -> Option<f64> {
-    let inside = |speed: &f64| (speed - mean).abs() <= SETTLED_BAND * mean.abs();
-    let last_outside = record.whirl_speed.iter().rposition(|speed| !inside(speed));
-    let first = last_outside.map_or(0, |i| i + 1);
+fn settling_time(record: &WhirlRecord<'_>, window: usize, mean: f64) -> Option<f64> {
+    let inside = |speed: f64| (speed - mean).abs() <= SETTLED_BAND * mean.abs();
+    let last_outside = record.known_speeds().filter(|(_, speed)| !inside(*speed)).last();
+    let first = last_outside.map_or(0, |(i, _)| i + 1);
     if first > window { None } else { record.times.get(first).copied() }
 }
 
@@ -238,7 +261,7 @@ mod tests {
             let s = Orbit::new(cage, INTERVAL, circle(0.6, whirl)).summary();
             assert_eq!(s.motion, expected, "cage {cage}, whirl {whirl}");
             assert!(s.motion.is_whirl());
-            assert!((s.speed.mean / whirl - 1.0).abs() < 1e-6, "{s:?}");
+            assert!((s.speed.unwrap().mean / whirl - 1.0).abs() < 1e-6, "{s:?}");
             assert!((s.radius - 0.6 * CLEARANCE).abs() < 1e-9, "{s:?}");
             // 500 records have 499 intervals between them.
             assert!((s.turns / (whirl * 499.0 * INTERVAL / TAU) - 1.0).abs() < 1e-9, "{s:?}");

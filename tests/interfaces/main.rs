@@ -10,3 +10,4 @@ mod c_cvode;
 mod cli;
 mod docs;
 mod header;
+mod install;

@@ -97,7 +97,7 @@ fn run(scene: &Value) -> Result<bool, TestCaseError> {
     check_finite("initial state", &names, sim.state())?;
     let mut recording = Recording::default();
     let record = &model.scene().record;
-    let result = recording.run(&mut sim, record.duration, record.interval, |_| true);
+    let result = recording.run(&mut sim, record.duration, record.interval, |_, _| true);
     if let Err(e) = &result {
         check_error(e, &[Status::StepTooSmall, Status::TooManySteps, Status::BadState])?;
         prop_assert!(e.message.starts_with("at t = "), "{e}");

@@ -23,7 +23,9 @@ impl Run {
         let record = model.scene().record.clone();
         let mut sim = Sim::new(model).unwrap();
         let mut recording = Recording::default();
-        recording.run(&mut sim, record.duration, record.interval, |_| true).unwrap_or_else(|e| panic!("{e}"));
+        recording
+            .run(&mut sim, record.duration, record.interval, |_, _| true)
+            .unwrap_or_else(|e| panic!("{e}"));
         let names = sim.channels().iter().map(|c| c.name.clone()).collect();
         Self { recording, names }
     }

@@ -97,7 +97,7 @@ fn recorded_data_stay_when_the_wall_time_is_used_up() {
     let mut sim = sim(&example_with(&[]));
     sim.set_wall_time_limit(0.1).unwrap();
     let mut recording = Recording::default();
-    let e = recording.run(&mut sim, 1e3, 1e-4, |_| true).unwrap_err();
+    let e = recording.run(&mut sim, 1e3, 1e-4, |_, _| true).unwrap_err();
     assert_eq!(e.status, Status::OutOfTime);
     let last = *recording.times.last().unwrap();
     assert!(last > 0.0 && last <= sim.time() && sim.time() < last + 1e-4);

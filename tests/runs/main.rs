@@ -3,6 +3,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod extremes;
 mod grease_guide;
 mod limits;
 mod nu2310;

@@ -25,7 +25,7 @@ fn run(scene: Scene, duration: f64, window: f64) -> Outcome {
     let interval = scene.record.interval;
     let mut sim = Sim::new(Arc::new(Model::new(scene).unwrap())).unwrap();
     let mut recording = Recording::default();
-    recording.run(&mut sim, duration, interval, |_| true).unwrap();
+    recording.run(&mut sim, duration, interval, |_, _| true).unwrap();
     let from = duration - window + 1e-9;
     let column = |name: &str| sim.channels().iter().position(|c| c.name == name).unwrap();
     let slips = sim.channels().iter().enumerate().filter(|(_, c)| c.name.ends_with("].slip"));

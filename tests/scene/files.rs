@@ -202,6 +202,11 @@ fn every_field_of_the_schemas_is_described() {
     }
 }
 
+/// Whether every object may have a property of this name, for people and editors.
+fn is_remark(key: &str) -> bool {
+    key == "comment" || key == "$schema"
+}
+
 /// Paths of the properties below `schema` that have no description.
 fn collect_undescribed(schema: &Value, path: &str, bare: &mut Vec<String>) {
     let Value::Object(map) = schema else {
@@ -216,7 +221,7 @@ fn collect_undescribed(schema: &Value, path: &str, bare: &mut Vec<String>) {
             // The property of a variant repeats the name of the variant, whose description stands above.
             let variant = map.contains_key("description")
                 && map.get("required").is_some()
-                && inner.as_object().is_some_and(|p| p.len() == 1);
+                && inner.as_object().is_some_and(|p| p.keys().filter(|key| !is_remark(key)).count() == 1);
             for (name, property) in inner.as_object().into_iter().flatten() {
                 if property.get("description").is_none() && !variant {
                     bare.push(format!("{path}/{name}"));
@@ -331,12 +336,11 @@ fn what_the_schema_refuses_the_library_refuses() {
     ];
     let grease = parse(GREASE);
     let layer = "cage.guide.film.lubricant_layer";
-    let more: [(&str, &str, Value); 16] = [
+    let more: [(&str, &str, Value); 15] = [
         ("unknown field in the elements", "kinematic_elements.mass", json!(1e-3)),
         ("unknown motion", "kinematic_elements.motion", json!({"sliding": {}})),
         ("two motions", "kinematic_elements.motion.prescribed", json!({})),
         ("word for a motion", "kinematic_elements.motion", json!("rolling")),
-        ("bare viscosity", "lubricant.viscosity", json!(0.06)),
         ("two viscosities", "lubricant.viscosity.constant", json!(0.06)),
         ("list for a point", "lubricant.viscosity.walther.hot", json!([373.15, 12e-6])),
         ("bare temperature", "lubricant.viscosity.walther.temperature", json!(313.15)),
@@ -347,7 +351,7 @@ fn what_the_schema_refuses_the_library_refuses() {
         ("unknown pressure shear", "cage.guide.film.lubricant_layer.pressure_shear", json!("none")),
         ("layer without fields", layer, json!({})),
         ("list for an unbalance", "cage.mass_eccentricity", json!([1e-5, 0.0])),
-        ("bare force on the cage", "cage.load", json!({"force_y": 1.0})),
+        ("truth value for a force on the cage", "cage.load", json!({"force_y": true})),
     ];
     let documents = rows.into_iter().map(|(name, path, value)| (name, path, example_with(&[(path, value)])));
     let more = more.into_iter().map(|(name, path, value)| (name, path, with(&grease, &[(path, value)])));
@@ -358,4 +362,112 @@ fn what_the_schema_refuses_the_library_refuses() {
             Err(e) => assert_eq!(e.status, Status::BadJson, "{name}: {e}"),
         }
     }
+}
+
+/// Editors learn ranges from the schema: beyond each of them a scene is refused.
+#[test]
+fn ranges_of_the_schema_are_those_of_the_library() {
+    let schema: Value = serde_json::from_str(Scene::JSON_SCHEMA).expect("JSON");
+    let mut counts = [0, 0];
+    for scene in files().0 {
+        let scene: Value = serde_json::from_str(&read(&scene)).expect("JSON");
+        let mut found = Vec::new();
+        numbers_with_ranges(&schema, &schema, &scene, "", &mut found);
+        for (path, [min, max]) in found {
+            counts[0] += 1;
+            for beyond in
+                [min.map(|x: f64| x - 1e-3 * x.abs().max(1e-12)), max.map(|x: f64| x + 1e-3 * x.abs())]
+            {
+                let Some(x) = beyond else { continue };
+                let x = if x.fract() == 0.0 && x.abs() > 10.0 { json!(x as i64) } else { json!(x) };
+                let e = Scene::from_value(&with(&scene, &[(&path, x.clone())]))
+                    .expect_err(&format!("{path} = {x}"));
+                assert!(matches!(e.status, Status::BadScene | Status::BadJson), "{path} = {x}: {e}");
+                counts[1] += 1;
+            }
+        }
+    }
+    assert!(counts[0] > 100 && counts[1] > 200, "{counts:?}");
+}
+
+/// Paths of the numbers of a scene that the schema gives limits to.
+fn numbers_with_ranges(
+    schema: &Value,
+    node: &Value,
+    value: &Value,
+    path: &str,
+    found: &mut Vec<(String, [Option<f64>; 2])>,
+) {
+    let node = match node["$ref"].as_str() {
+        Some(name) => schema.pointer(name.trim_start_matches('#')).expect("a definition"),
+        None => node,
+    };
+    let at = |key: &str| if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") };
+    match value {
+        Value::Number(_) => {
+            let limits = [node["minimum"].as_f64(), node["maximum"].as_f64()];
+            if limits != [None, None] {
+                found.push((path.to_owned(), limits));
+            }
+        }
+        Value::Object(map) => {
+            for (key, inside) in map {
+                let choices =
+                    ["oneOf", "anyOf"].into_iter().filter_map(|many| node[many].as_array()).flatten();
+                for choice in choices.chain([node]) {
+                    let choice = match choice["$ref"].as_str() {
+                        Some(name) => schema.pointer(name.trim_start_matches('#')).expect("a definition"),
+                        None => choice,
+                    };
+                    let next = [&choice["properties"][key], &choice["additionalProperties"]];
+                    if let Some(next) = next.into_iter().find(|next| next.is_object()) {
+                        numbers_with_ranges(schema, next, inside, &at(key), found);
+                    } else if let Some(inner) = choice["oneOf"].as_array() {
+                        for inner in inner.iter().filter(|inner| inner["properties"][key].is_object()) {
+                            numbers_with_ranges(schema, &inner["properties"][key], inside, &at(key), found);
+                        }
+                    }
+                }
+            }
+        }
+        _ => {}
+    }
+}
+
+#[test]
+fn remarks_and_plain_numbers_are_allowed_everywhere() {
+    let plain = [
+        ("comment", json!(["two", "lines"])),
+        ("$schema", json!("schemas/scene.schema.json")),
+        ("rollers.comment", json!("of the catalogue")),
+        ("inner_ring.speed", json!({"constant": -314.1592653589793, "comment": "3000 rpm"})),
+        ("inner_ring.motion.free.load.z", json!(-4900.0)),
+        ("materials.comment", json!("usual steels")),
+    ];
+    let scene = Scene::from_value(&example_with(&plain)).unwrap_or_else(|e| panic!("{e}"));
+    let same = Scene::from_value(&example_with(&[("inner_ring.speed", json!(-314.1592653589793))])).unwrap();
+    assert_eq!(scene, same);
+    let text = example_with(&plain).to_string();
+    let set = [("inner_ring.motion.free.load.z.constant", "-980")];
+    let changed = Scene::from_json_with(&text, set).unwrap_or_else(|e| panic!("{e}"));
+    assert_ne!(changed, scene);
+    for (path, value) in [("rollers.coment", json!("x")), ("rollers.count", json!({"comment": 12}))] {
+        assert!(Scene::from_value(&example_with(&[(path, value)])).is_err());
+    }
+}
+
+#[test]
+fn files_of_the_other_kind_are_told_apart() {
+    let (scenes, sets) = files();
+    let e = Scene::from_json(&read(&sets[0])).unwrap_err();
+    assert!(e.message.contains("a case set") && e.message.contains("cagedyn cases"), "{e}");
+    let e = CaseSet::from_json(&read(&scenes[0])).unwrap_err();
+    assert!(e.message.contains("is a scene") && e.message.contains("cagedyn run"), "{e}");
+}
+
+#[test]
+fn texts_that_are_too_long_are_refused_unread() {
+    let e = Scene::from_json(&format!("[{}0]", "0,".repeat(9 << 20))).unwrap_err();
+    assert_eq!(e.status, Status::BadJson);
+    assert!(e.message.contains("bytes of text, at most"), "{e}");
 }

@@ -4,50 +4,56 @@ mod rollers;
 mod series;
 mod whirl;
 
-use crate::run::{self, Run, in_file};
+use crate::run::{self, Request, Run, in_file};
+use crate::starts::Starts;
 use crate::summary::Summary;
-use crate::table::{self, Align};
+use crate::table::{self, Align, rounded};
 use crate::terminal::{self, INTERRUPTED};
 use crate::{CasesArgs, output};
 use cagedyn::model::{HostInputs, Input};
 use cagedyn::scene::{Case, CaseSet};
-use cagedyn::{Result, Scene};
+use cagedyn::{CageMotion, Result, Scene};
 use rollers::ROLLERS;
+use serde_json::Value;
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use whirl::WHIRL;
 
+/// The unit of a channel.
+type Unit<'a> = dyn Fn(&str) -> &'static str + 'a;
+
 /// What is compared: a printed table, a file and a picture.
 struct Comparison {
-    /// Columns of the printed table: heading, narrowest width.
+    /// Columns of the printed table behind the name of the case: heading, narrowest width.
     columns: &'static [(&'static str, usize)],
-    /// Row of the printed table.
-    row: fn(&Done<'_>) -> Vec<String>,
-    /// All rows of the file, with its head.
-    csv_rows: fn(&[Done<'_>]) -> Vec<Vec<String>>,
+    /// Their cells.
+    cells: fn(&Summary) -> Vec<String>,
+    /// Columns of the file, given the unit of a channel.
+    csv_columns: fn(&Unit<'_>) -> Vec<String>,
+    /// Their cells.
+    csv_cells: fn(&Summary) -> Vec<String>,
     /// File name of the picture.
     picture_name: &'static str,
     /// The picture with a title, if there is something to show.
     picture: fn(&str, &[Done<'_>]) -> Option<Result<String>>,
 }
 
-/// A finished case.
+/// A case that was run, or could not be.
 struct Done<'a> {
     case: &'a Case,
     /// Inner ring speed at the end, 1/min, without sign.
     speed: f64,
-    summary: Summary,
+    /// Results; none of a case that did not start.
+    summary: Option<Summary>,
+    /// Why the case did not come to its end.
+    error: Option<String>,
 }
 
 impl Done<'_> {
-    /// Why the case ended early; nothing for a complete one.
-    fn state(&self) -> &'static str {
-        match (&self.summary.error, self.summary.interrupted) {
-            (Some(_), _) => "failed",
-            (None, true) => "interrupted",
-            (None, false) => "",
-        }
+    /// Results of a complete case: what a case that failed has reached says nothing beside the others.
+    fn results(&self) -> Option<&Summary> {
+        self.summary.as_ref().filter(|_| self.error.is_none())
     }
 }
 
@@ -60,33 +66,41 @@ pub fn command(args: &CasesArgs) -> Result<ExitCode> {
     let base = args.file.parent().unwrap_or(Path::new("")).join(&set.scene);
     let scenes = set.scenes(&run::read(&base)?).map_err(|e| in_file(&args.file, e))?;
     terminal::listen_for_interrupt()?;
-    run::make_folder(&args.out)?;
+    output::make_folder(&args.out)?;
+    output::clear(&args.out)?;
     // Without rollers that move freely, what matters is the whirl of the cage.
     let whirl = scenes.iter().all(|scene| scene.kinematic_elements.is_some());
     let comparison = if whirl { WHIRL } else { ROLLERS };
     let widths = widths(comparison.columns, &set);
-    let head: Vec<String> = comparison.columns.iter().map(|(name, _)| (*name).to_owned()).collect();
-    print_row(&head, &widths)?;
-    let mut done = Vec::new();
-    let (mut failed, mut untrusted) = (false, false);
+    let headings = comparison.columns.iter().map(|(name, _)| (*name).to_owned());
+    print_row("case", headings.chain([WALL_TIME.0.to_owned(), String::new()]), &widths)?;
+    let mut done: Vec<Done<'_>> = Vec::new();
+    let (mut failed, mut untrusted, mut files) = (false, false, Vec::new());
     for (case, scene) in set.cases.iter().zip(scenes) {
-        match run_case(args, &base, case, scene) {
-            Ok((finished, failure, trust)) => {
-                print_row(&(comparison.row)(&finished), &widths)?;
-                done.push(finished);
-                failed |= failure.inspect(|e| report(args, case, e)).is_some();
-                untrusted |= trust.inspect_err(|e| report(args, case, e)).is_err();
-            }
-            Err(e) => {
-                report(args, case, &e);
-                failed = true;
-            }
+        let (finished, failure, trust) = run_case(args, &base, case, scene);
+        if let Some(failure) = &failure {
+            report(args, case, failure);
+            failed = true;
         }
+        untrusted |= trust.inspect_err(|e| report(args, case, e)).is_err();
+        let empty = || vec!["-".to_owned(); comparison.columns.len()];
+        let cells = finished.results().map_or_else(empty, comparison.cells);
+        let wall = finished.summary.as_ref().map_or("-".to_owned(), |s| format!("{:.2}", s.wall_time_s));
+        let state = match (&failure, &finished.error) {
+            (Some(_), _) => "failed".to_owned(),
+            (None, Some(error)) => error.clone(),
+            (None, None) => {
+                finished.results().and_then(|s| s.starts.as_ref()).map_or(String::new(), Starts::in_words)
+            }
+        };
+        print_row(&case.name, cells.into_iter().chain([wall, state]), &widths)?;
+        done.push(finished);
+        // What is done is not lost when the rest is.
+        files = write_comparison(args, &set, &comparison, &done)?;
         if terminal::stop_requested() {
             break;
         }
     }
-    let files = write_comparison(args, &set, &comparison, &done)?;
     terminal::print(&format!("\nfiles: {}: {}\n", args.out.display(), files.join(", ")))?;
     Ok(match (terminal::stop_requested(), failed) {
         (true, _) => ExitCode::from(INTERRUPTED),
@@ -102,16 +116,30 @@ fn run_case<'a>(
     base: &Path,
     case: &'a Case,
     mut scene: Scene,
-) -> Result<(Done<'a>, Option<cagedyn::Error>, Result<()>)> {
-    args.instead.apply(&mut scene);
-    let run = run::simulate(scene, &case.name, &case.name, args.instead.max_wall_time)?;
+) -> (Done<'a>, Option<cagedyn::Error>, Result<()>) {
     let folder: PathBuf = args.out.join(&case.name);
-    run::make_folder(&folder)?;
+    if !case.set.keys().any(|path| path == "title") {
+        // The title of the base scene tells of other values.
+        scene.title = None;
+    }
     let set = case.set.iter().map(|(path, value)| format!("{path}={value}")).collect();
-    let mut summary = Summary::new(&run, base, Some(&case.name), set);
-    output::write(&run, &mut summary, &folder)?;
-    let trust = run.trust();
-    Ok((Done { case, speed: speed_at_end(&run), summary }, run.failure, trust))
+    let performed = args.instead.apply(&mut scene).and_then(|()| {
+        let request = Request { scene, file: base, case: Some(&case.name), set, folder: &folder };
+        run::perform(request, &args.instead)
+    });
+    match performed {
+        Ok((run, summary)) => {
+            let interrupted = run.interrupted.then(|| "interrupted".to_owned());
+            let error = run.failure.as_ref().map(|e| e.message.clone()).or(interrupted);
+            let done = Done { case, speed: speed_at_end(&run), summary: Some(summary), error };
+            let trust = run.trust();
+            (done, run.failure, trust)
+        }
+        Err(e) => {
+            let done = Done { case, speed: f64::NAN, summary: None, error: Some(e.message.clone()) };
+            (done, Some(e), Ok(()))
+        }
+    }
 }
 
 fn speed_at_end(run: &Run) -> f64 {
@@ -123,16 +151,20 @@ fn report(args: &CasesArgs, case: &Case, e: &cagedyn::Error) {
     terminal::complain(&in_file(&args.file, named));
 }
 
+/// Last column of the printed table.
+const WALL_TIME: (&str, usize) = ("wall time [s]", 13);
+
 fn widths(columns: &[(&str, usize)], set: &CaseSet) -> Vec<usize> {
-    let mut widths: Vec<usize> = columns.iter().map(|(_, width)| *width).collect();
-    widths[0] = set.cases.iter().map(|c| c.name.chars().count()).fold(widths[0], usize::max);
-    widths
+    let longest = set.cases.iter().map(|c| c.name.chars().count()).fold(4, usize::max);
+    let columns = columns.iter().chain([&WALL_TIME, &("", 0)]);
+    std::iter::once(longest).chain(columns.map(|(_, width)| *width)).collect()
 }
 
-fn print_row(row: &[String], widths: &[usize]) -> Result<()> {
+fn print_row(name: &str, cells: impl Iterator<Item = String>, widths: &[usize]) -> Result<()> {
     let mut align = vec![Align::Right; widths.len()];
     align[0] = Align::Left;
-    terminal::print(&(table::line(row, widths, &align) + "\n"))
+    let row: Vec<String> = std::iter::once(name.to_owned()).chain(cells).collect();
+    terminal::print(&(table::line(&row, widths, &align) + "\n"))
 }
 
 /// Writes `cases.csv` and the picture of the comparison.
@@ -142,12 +174,59 @@ fn write_comparison(
     comparison: &Comparison,
     done: &[Done<'_>],
 ) -> Result<Vec<&'static str>> {
-    let mut files = vec!["cases.csv"];
-    output::write_csv(&args.out.join("cases.csv"), (comparison.csv_rows)(done))?;
+    let mut files = vec![output::CASES];
+    output::write_csv(&args.out.join(output::CASES), csv_rows(set, comparison, done))?;
     let title = set.title.clone().unwrap_or_else(|| run::stem(&args.file));
     if let Some(picture) = (comparison.picture)(&title, done) {
         output::write_text(&args.out.join(comparison.picture_name), &picture?)?;
         files.push(comparison.picture_name);
     }
     Ok(files)
+}
+
+/// The table: name, speed, what the cases set, results, and why there are none.
+fn csv_rows(set: &CaseSet, comparison: &Comparison, done: &[Done<'_>]) -> Vec<Vec<String>> {
+    let mut varied: Vec<&str> = Vec::new();
+    for path in set.cases.iter().flat_map(|case| case.set.keys()).filter(|path| *path != "title") {
+        if !varied.contains(&path.as_str()) {
+            varied.push(path);
+        }
+    }
+    let unit = |name: &str| {
+        let units = done.iter().filter_map(|d| d.summary.as_ref()?.of(name)).map(|s| s.unit);
+        units.into_iter().next().unwrap_or("1")
+    };
+    let columns = (comparison.csv_columns)(&unit);
+    let mut head = vec!["case".to_owned(), "inner ring speed [1/min]".to_owned()];
+    head.extend(varied.iter().map(|path| (*path).to_owned()));
+    head.extend(columns.iter().cloned());
+    let several = done.iter().any(|d| d.results().is_some_and(|s| s.starts.is_some()));
+    let kinds = if several { &CageMotion::ALL[..] } else { &[] };
+    head.extend(kinds.iter().map(|motion| format!("share of starts: {} [1]", motion.name())));
+    head.extend(["simulated time [s]", "wall time [s]", "complete", "error"].map(str::to_owned));
+    let rows = done.iter().map(|d| {
+        let speed = if d.speed.is_finite() { rounded(d.speed).to_string() } else { String::new() };
+        let mut row = vec![d.case.name.clone(), speed];
+        row.extend(varied.iter().map(|path| d.case.set.get(*path).map_or(String::new(), plain_text)));
+        row.extend(d.results().map_or_else(|| vec![String::new(); columns.len()], comparison.csv_cells));
+        let starts = d.results().and_then(|s| s.starts.as_ref());
+        row.extend(kinds.iter().map(|motion| cell(starts.map(|starts| starts.share(*motion)))));
+        let of = |text: fn(&Summary) -> String| d.summary.as_ref().map_or(String::new(), text);
+        row.push(of(|s| format!("{:?}", s.simulated_time_s)));
+        row.push(of(|s| format!("{:.3}", s.wall_time_s)));
+        row.push(d.error.is_none().to_string());
+        row.push(d.error.clone().unwrap_or_default());
+        row
+    });
+    std::iter::once(head).chain(rows).collect()
+}
+
+/// A JSON value as a cell of a table.
+fn plain_text(value: &Value) -> String {
+    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
+}
+
+/// A number in the file; empty where there is none.
+fn cell(x: Option<f64>) -> String {
+    x.map_or(String::new(), output::plain)
 }

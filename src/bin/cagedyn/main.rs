@@ -2,6 +2,7 @@
 
 mod cases;
 mod effects;
+mod facts;
 mod info;
 mod intervals;
 mod output;
@@ -10,6 +11,8 @@ mod report;
 mod run;
 mod schema;
 mod spectrum;
+mod starts;
+mod stream;
 mod summary;
 mod table;
 mod terminal;
@@ -78,13 +81,32 @@ pub struct Instead {
     /// End every run after this wall time in s, as a failure with the results so far.
     #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = parse_time)]
     pub max_wall_time: Option<f64>,
+    /// Run from so many slightly different starts, and tell which kinds of motion of the cage there are. The files are those of
+    /// the scene's own start.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..))]
+    pub starts: u16,
+    /// How far apart these starts are: distance of the cage centre from that of the scene, m.
+    #[arg(long, value_name = "M", default_value_t = 1e-9, value_parser = parse_shift)]
+    pub start_shift: f64,
+    /// Write the time series also where it takes more than 2 GB.
+    #[arg(long)]
+    pub large_table: bool,
 }
 
 impl Instead {
+    /// Simulated time in s that stands in for that of a scene.
+    pub fn until(&self) -> Option<f64> {
+        self.until
+    }
+
     /// Changes a scene.
-    pub fn apply(&self, scene: &mut Scene) {
+    ///
+    /// # Errors
+    /// [`cagedyn::Status::BadScene`] when the scene's other values do not fit.
+    pub fn apply(&self, scene: &mut Scene) -> Result<()> {
         scene.record.duration = self.until.unwrap_or(scene.record.duration);
         scene.solver.preset = self.preset.unwrap_or(scene.solver.preset);
+        scene.validate()
     }
 }
 
@@ -170,6 +192,14 @@ fn preset_names() -> String {
 
 fn preset_help() -> String {
     format!("How accurate, instead of the scene's solver.preset: {}", preset_names())
+}
+
+/// A distance in m, above zero and not beyond any clearance.
+fn parse_shift(text: &str) -> std::result::Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(shift) if shift > 0.0 && shift <= 1e-3 => Ok(shift),
+        _ => Err("must be a number of metres above zero, at most 1e-3".to_owned()),
+    }
 }
 
 /// A time in s, positive and finite.

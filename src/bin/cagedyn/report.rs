@@ -30,7 +30,7 @@ impl Rows {
 /// Title, table of means and deviations, and what was done.
 pub fn text(run: &Run, summary: &Summary, folder: &Path) -> String {
     let w = &summary.window;
-    let mut text = format!("{}\n", summary.title);
+    let mut text = format!("{}\n{}\n", summary.title, run.facts);
     text.push_str(&format!(
         "mean ± standard deviation (standard error of the mean; ? if still changing) from {} s to {} s ({} records)\n",
         rounded(w.from_s),
@@ -39,6 +39,10 @@ pub fn text(run: &Run, summary: &Summary, folder: &Path) -> String {
     ));
     if let Some(whirl) = &summary.whirl {
         text.push_str(&format!("cage motion in this time: {}\n", motion(whirl)));
+    }
+    if let Some(starts) = &summary.starts {
+        let shift = number(starts.shift_m);
+        text.push_str(&format!("from {} starts {shift} m apart: {}\n", starts.count, starts.in_words()));
     }
     text.push('\n');
     for line in table::lines(&results(summary).0, &[Align::Left, Align::Right]) {
@@ -78,9 +82,9 @@ fn results(summary: &Summary) -> Rows {
     rows.spread("cage speed", of("cage.speed"), 1.0, "rad/s", &frequency);
     rows.spread("cage slip", of("cage.slip"), 100.0, "%", "");
     let band = |w: &Whirl| {
-        format!("5 % to 95 %: {} to {}", number(w.p05_speed_rad_per_s), number(w.p95_speed_rad_per_s))
+        Some(format!("5 % to 95 %: {} to {}", number(w.p05_speed_rad_per_s?), number(w.p95_speed_rad_per_s?)))
     };
-    let band = summary.whirl.as_ref().map(band).unwrap_or_default();
+    let band = summary.whirl.as_ref().and_then(band).unwrap_or_default();
     rows.spread("whirl speed", of("cage.whirl_speed"), 1.0, "rad/s", &band);
     rows.spread("whirl radius", of("cage.whirl_radius"), 1e6, "um", "");
     rows.spread("film share", of("guide.film_share"), 100.0, "%", "of the guide force");
@@ -95,9 +99,16 @@ fn results(summary: &Summary) -> Rows {
         rows.add("largest roller slip", number(100.0 * slip.value), "", "%", &place);
     }
     if let Some(forces) = &summary.pocket_forces {
-        let remark = "mean over time, all rollers together";
+        let remark = "mean over time, all elements together";
         rows.add("pocket force, driving", number(forces.driving_n), "", "N", remark);
         rows.add("pocket force, braking", number(forces.braking_n), "", "N", remark);
+        rows.add(
+            "pocket force, largest",
+            number(forces.largest_n),
+            "",
+            "N",
+            "of one element, from every step",
+        );
     }
     rows.spread("drag torque", of("inner_ring.drag_torque"), 1.0, "N m", "on the inner ring");
     rows.spread("inner ring y", of("inner_ring.y"), 1e6, "um", "");

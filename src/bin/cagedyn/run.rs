@@ -1,12 +1,15 @@
 //! The command `run`, and the simulation of one scene that `cases` shares with it.
 
+use crate::facts;
+use crate::starts::try_starts;
+use crate::stream::{self, Stream};
 use crate::summary::Summary;
 use crate::terminal::{self, INTERRUPTED, Progress};
-use crate::{RunArgs, output, report};
+use crate::{Instead, RunArgs, output, report};
 use cagedyn::model::{Channel, PartTimes};
 use cagedyn::scene::GuideRing;
 use cagedyn::sim::{PowerBalance, RunStatistics};
-use cagedyn::{Error, Model, Recording, Result, Scene, Sim, Status};
+use cagedyn::{Error, Interval, Model, Recording, Result, Scene, Sim, Status};
 use std::fs;
 use std::path::Path;
 use std::process::ExitCode;
@@ -22,6 +25,9 @@ const LARGEST_WINDOW_SHARE: f64 = 1.0 / 3.0;
 const SAMPLES: f64 = 16.0;
 const REPEATS: u32 = 200;
 
+/// Tables above this size are made only when it is asked for, bytes.
+const LARGEST_TABLE: f64 = 2e9;
+
 /// Exit code of runs that ended but are not to be trusted.
 pub const UNTRUSTED: u8 = 3;
 
@@ -29,6 +35,8 @@ pub const UNTRUSTED: u8 = 3;
 pub struct Run {
     /// Title for tables and pictures.
     pub title: String,
+    /// Speed, load and clearances of the model.
+    pub facts: String,
     /// The compiled scene.
     pub model: Arc<Model>,
     /// What was recorded.
@@ -71,9 +79,30 @@ impl Run {
         Some(self.recording.columns.get(index)?.as_slice())
     }
 
-    /// Start of the averaging window, s: the last 0.1 s, or the last third of a shorter run.
+    /// What a watched channel did between records, one interval per record, if the scene watches it.
+    pub fn intervals(&self, name: &str) -> Option<&[Interval]> {
+        Some(self.recording.intervals.get(self.watched(name)?)?.as_slice())
+    }
+
+    /// What a watched channel did from time `from` (s) on.
+    pub fn interval_from(&self, name: &str, from: f64) -> Option<Interval> {
+        self.recording.interval(self.watched(name)?, from)
+    }
+
+    fn watched(&self, name: &str) -> Option<usize> {
+        let all = self.model.channels();
+        self.model.watched().iter().position(|i| all[*i].name == name)
+    }
+
+    /// Line below the title of a picture of something.
+    pub fn subtitle(&self, what: &str) -> String {
+        format!("{what}; {}", self.facts)
+    }
+
+    /// Start of the averaging window, s: that of the scene, the last 0.1 s, or the last third of a shorter run.
     pub fn window_start(&self) -> f64 {
-        self.last(WINDOW.min(LARGEST_WINDOW_SHARE * self.end()))
+        let usual = WINDOW.min(LARGEST_WINDOW_SHARE * self.end());
+        self.last(self.model.scene().record.window.map_or(usual, |window| window.min(self.end())))
     }
 
     /// Start of the last `length` seconds, at least zero. A little earlier, so that round-off loses no record.
@@ -109,21 +138,37 @@ impl Run {
     }
 }
 
+/// What to simulate, and what to call it.
+pub struct Request<'a> {
+    /// Scene.
+    pub scene: Scene,
+    /// File that it came from.
+    pub file: &'a Path,
+    /// Name of the case, in a case set.
+    pub case: Option<&'a str>,
+    /// Values that replaced those of the file, as `path=value`.
+    pub set: Vec<String>,
+    /// Folder for the results.
+    pub folder: &'a Path,
+}
+
 /// Runs a scene, writes the results and prints the summary.
 ///
 /// # Errors
 /// A scene or folder that cannot be used. A failure during the run is printed here, after the results so far.
 pub fn command(args: &RunArgs) -> Result<ExitCode> {
     let text = read(&args.scene)?;
-    let mut scene = Scene::from_json_with(&text, args.sets.pairs()).map_err(|e| in_file(&args.scene, e))?;
-    args.instead.apply(&mut scene);
+    // The time belongs to the values that are replaced: it must fit with all of them, not before them.
+    let until = args.instead.until().map(|until| format!("{until:?}"));
+    let sets = args.sets.pairs().chain(until.as_deref().map(|until| ("record.duration", until)));
+    let mut scene = Scene::from_json_with(&text, sets).map_err(|e| in_file(&args.scene, e))?;
+    args.instead.apply(&mut scene)?;
     terminal::listen_for_interrupt()?;
-    make_folder(&args.out)?;
-    let run = simulate(scene, &stem(&args.scene), "run", args.instead.max_wall_time)
-        .map_err(|e| in_file(&args.scene, e))?;
     let set = args.sets.pairs().map(|(path, value)| format!("{path}={value}")).collect();
-    let mut summary = Summary::new(&run, &args.scene, None, set);
-    output::write(&run, &mut summary, &args.out)?;
+    let request = Request { scene, file: &args.scene, case: None, set, folder: &args.out };
+    let performed = perform(request, &args.instead);
+    let (run, summary) =
+        performed.map_err(|e| if e.status == Status::File { e } else { in_file(&args.scene, e) })?;
     terminal::print(&report::text(&run, &summary, &args.out))?;
     if let Some(failure) = &run.failure {
         terminal::complain(failure);
@@ -136,34 +181,53 @@ pub fn command(args: &RunArgs) -> Result<ExitCode> {
     Ok(if run.interrupted { ExitCode::from(INTERRUPTED) } else { ExitCode::SUCCESS })
 }
 
-/// Simulates a scene until its end or for `max_wall_time` s. Only what prevents the start is an error.
+/// Simulates a scene until its end and writes the results into its folder: records as they come, the rest behind them. Only
+/// what prevents the start, and files that cannot be written, are errors.
 ///
 /// # Errors
-/// As [`Model::new`], [`Sim::new`] and [`Sim::set_wall_time_limit`].
-pub fn simulate(scene: Scene, fallback_title: &str, label: &str, max_wall_time: Option<f64>) -> Result<Run> {
+/// As [`Model::new`], [`Sim::new`] and [`Sim::set_wall_time_limit`]; [`Status::File`]; [`Status::BadScene`] for a table that is
+/// too large.
+pub fn perform(request: Request<'_>, instead: &Instead) -> Result<(Run, Summary)> {
+    let Request { scene, file, case, set, folder } = request;
     let (duration, interval) = (scene.record.duration, scene.record.interval);
-    let title = scene.title.clone().unwrap_or_else(|| fallback_title.to_owned());
+    let own = scene.title.clone();
+    let title = match case {
+        Some(case) => facts::title(own.as_deref(), case, &[]),
+        None => facts::title(own.as_deref(), &stem(file), &set),
+    };
     let model = Arc::new(Model::new(scene)?);
     let mut sim = Sim::new(model.clone())?;
-    sim.set_wall_time_limit(max_wall_time.unwrap_or(f64::INFINITY))?;
+    announce(&model, case.is_none(), instead)?;
+    for warning in model.scene().warnings() {
+        terminal::warn(&warning);
+    }
+    sim.set_wall_time_limit(instead.max_wall_time.unwrap_or(f64::INFINITY))?;
+    output::begin(folder, &title, file, case, &set)?;
+    let mut stream = Stream::new(folder, sim.channels(), model.recorded(), model.watched())?;
     terminal::stop_with(sim.canceller());
-    let progress = Progress::new(label, duration);
+    let progress = Progress::new(case.unwrap_or("run"), duration);
     let mut recording = Recording::default();
     let started = Instant::now();
     let mut samples: Vec<(f64, Vec<f64>)> = Vec::new();
-    let ended = recording.run(&mut sim, duration, interval, |sim| {
+    let mut unwritten = None;
+    let ended = recording.run(&mut sim, duration, interval, |sim, recording| {
         progress.at(sim.time());
         if sim.time() >= duration * samples.len() as f64 / SAMPLES {
             samples.push((sim.time(), sim.state().to_vec()));
         }
-        !terminal::stop_requested()
+        unwritten = stream.add(recording).err();
+        unwritten.is_none() && !terminal::stop_requested()
     });
+    unwritten.map_or(Ok(()), Err)?;
+    stream.finish()?;
     let cancelled = matches!(&ended, Err(e) if e.status == Status::Cancelled);
     let wall = started.elapsed().as_secs_f64();
     let parts = sim.time_parts(&samples, REPEATS).unwrap_or_default();
-    Ok(Run {
+    let all = sim.channels();
+    let run = Run {
         title,
-        channels: sim.channels().to_vec(),
+        facts: facts::facts(&model, sim.time()),
+        channels: model.recorded().iter().map(|i| all[*i].clone()).collect(),
         parts,
         statistics: sim.statistics(),
         doubts: sim.doubts().iter().map(ToString::to_string).collect(),
@@ -175,7 +239,33 @@ pub fn simulate(scene: Scene, fallback_title: &str, label: &str, max_wall_time: 
         failure: ended.err().filter(|e| e.status != Status::Cancelled),
         model,
         recording,
-    })
+    };
+    let mut summary = Summary::new(&run, file, case, set);
+    if instead.starts > 1 && summary.complete {
+        let count = usize::from(instead.starts);
+        summary.starts = Some(try_starts(&run.model, count, instead.start_shift, run.window_start())?);
+    }
+    output::write(&run, &mut summary, folder)?;
+    Ok((run, summary))
+}
+
+/// Says how large the table of a run will be, and refuses one that nobody can have meant.
+fn announce(model: &Model, aloud: bool, instead: &Instead) -> Result<()> {
+    let record = &model.scene().record;
+    let columns = 1 + stream::columns(model.recorded().len(), model.watched().len());
+    let records = (record.duration / record.interval * (1.0 + 1e-12)).floor() + 1.0;
+    let bytes = records * columns as f64 * stream::NUMBER_LENGTH;
+    let text =
+        format!("a table of {records} records in {columns} columns, up to {:.0} MB", (1e-6 * bytes).ceil());
+    if bytes > LARGEST_TABLE && !instead.large_table {
+        let text =
+            format!("record.interval: {:?} s makes {text}; --large-table if that is meant", record.interval);
+        return Err(Error::new(Status::BadScene, text));
+    }
+    if aloud {
+        terminal::print(&format!("writing {text}\n"))?;
+    }
+    Ok(())
 }
 
 /// The text of a file.
@@ -184,14 +274,6 @@ pub fn simulate(scene: Scene, fallback_title: &str, label: &str, max_wall_time: 
 /// [`Status::File`].
 pub fn read(path: &Path) -> Result<String> {
     fs::read_to_string(path).map_err(|e| Error::new(Status::File, format!("{}: {e}", path.display())))
-}
-
-/// Makes a folder and those above it.
-///
-/// # Errors
-/// [`Status::File`].
-pub fn make_folder(path: &Path) -> Result<()> {
-    fs::create_dir_all(path).map_err(|e| Error::new(Status::File, format!("{}: {e}", path.display())))
 }
 
 /// The failure with the name of the file that caused it in front.

@@ -18,6 +18,9 @@ pub struct Spectrum {
     pub frequencies: Vec<f64>,
     /// Amplitudes in the unit of the samples: a sine shows its amplitude.
     pub amplitudes: Vec<f64>,
+    /// Two sines closer than this are one peak, Hz: half the width of the main lobe of the window. What is slower is no
+    /// oscillation in the time that was seen.
+    pub resolution: f64,
 }
 
 /// Spectrum of samples taken every `interval` seconds, with a Hann window and without their mean. `None` for too few
@@ -43,14 +46,29 @@ pub fn amplitude_spectrum(samples: &[f64], interval: f64) -> Option<Spectrum> {
     Some(Spectrum {
         frequencies: (0..values.len()).map(|k| k as f64 * step).collect(),
         amplitudes: values.iter().map(|x| 2.0 * x.norm() / gain).collect(),
+        resolution: 2.0 / (n as f64 * interval),
     })
 }
 
 impl Spectrum {
-    /// Frequency and amplitude of the highest local maximum. A drift of the samples rises towards zero frequency
-    /// without a maximum there and is not taken for a peak.
+    /// What a picture can show: the largest amplitude in each of at most `most` equal ranges of frequency. None is narrower
+    /// than the time that was seen can tell apart, or the side lobes of the window would look like lines.
+    pub fn lines(&self, most: usize) -> impl Iterator<Item = (f64, f64)> + '_ {
+        let pitch = self.frequencies.get(1).map_or(1.0, |f| f - self.frequencies[0]);
+        let told_apart = (0.5 * self.resolution / pitch).ceil() as usize;
+        let together = self.amplitudes.len().div_ceil(most).max(told_apart).max(1);
+        let ranges = self.frequencies.chunks(together).zip(self.amplitudes.chunks(together));
+        ranges.filter_map(|(f, a)| {
+            let largest = f.iter().zip(a).max_by(|x, y| x.1.total_cmp(y.1))?;
+            Some((*largest.0, *largest.1))
+        })
+    }
+
+    /// Frequency and amplitude of the highest local maximum above the resolution: what is below is a drift.
     pub fn peak(&self) -> Option<(f64, f64)> {
-        let inner = self.amplitudes.windows(3).enumerate().filter(|(_, a)| a[1] > a[0] && a[1] >= a[2]);
+        let inner = self.amplitudes.windows(3).enumerate();
+        let inner =
+            inner.filter(|(i, a)| a[1] > a[0] && a[1] >= a[2] && self.frequencies[i + 1] > self.resolution);
         let (i, a) = inner.max_by(|(_, a), (_, b)| a[1].total_cmp(&b[1]))?;
         Some((self.frequencies[i + 1], a[1]))
     }
@@ -93,6 +111,27 @@ mod tests {
         assert!(spectrum.amplitudes[0] < 1e-12);
         assert_eq!(spectrum.frequencies.len(), spectrum.amplitudes.len());
         assert!((spectrum.frequencies.last().unwrap() - 0.5 / INTERVAL).abs() < 1e-9);
+    }
+
+    /// The mean is taken off, a slow swing is not: it is all below the resolution but for the feet of the window.
+    #[test]
+    fn slower_than_the_resolution_is_no_peak() {
+        let drift: Vec<f64> = (0..N).map(|i| (0.7 * TAU * f64::from(i as i32) / N as f64).sin()).collect();
+        let both: Vec<f64> =
+            (0..N).map(|i| drift[i] + 0.05 * (TAU * 40.0 * i as f64 / N as f64).sin()).collect();
+        let spectrum = amplitude_spectrum(&both, INTERVAL).unwrap();
+        assert_eq!(spectrum.resolution, 2.0 / (N as f64 * INTERVAL));
+        let (frequency, amplitude) = spectrum.peak().unwrap();
+        assert!(
+            (frequency - 200.0).abs() < 1.0 && (amplitude - 0.05).abs() < 2e-3,
+            "{frequency} {amplitude}"
+        );
+        // Between lines nothing is drawn that the padding made: one maximum, falling on both sides of it.
+        let one: Vec<f64> = (0..N).map(|i| (TAU * 40.3 * i as f64 / N as f64).sin()).collect();
+        let shown: Vec<f64> =
+            amplitude_spectrum(&one, INTERVAL).unwrap().lines(1000).map(|(_, a)| a).collect();
+        let maxima = shown.windows(3).filter(|a| a[1] > a[0] && a[1] > a[2]).count();
+        assert_eq!(maxima, 1);
     }
 
     #[test]

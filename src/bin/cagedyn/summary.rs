@@ -1,10 +1,11 @@
 //! Results of a run in numbers, as written to `summary.json`.
 
 use crate::run::Run;
+use crate::starts::Starts;
 use cagedyn::model::{Channel, FAULTS, LAWS, PARTS, POWERS};
 use cagedyn::scene::Method;
 use cagedyn::sim::PowerBalance;
-use cagedyn::{CageMotion, Recording, Spread, WhirlRecord, WhirlSummary};
+use cagedyn::{CageMotion, Interval, Recording, Spread, WhirlRecord, WhirlSummary};
 use serde::{Serialize, Serializer};
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -24,7 +25,12 @@ pub struct Summary {
     pub set: Vec<String>,
     /// Version of the library.
     pub version: &'static str,
-    /// Whether Ctrl-C ended the run.
+    /// Values of the scene that are legal and unlikely.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<String>,
+    /// Whether the run came to its end.
+    pub complete: bool,
+    /// Whether Ctrl-C or another signal ended it.
     pub interrupted: bool,
     /// Why the run failed.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -55,12 +61,18 @@ pub struct Summary {
     /// Motion of the cage centre about the guide centre in the window.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub whirl: Option<Whirl>,
+    /// Motions from other starts, where they were asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub starts: Option<Starts>,
     /// Largest slip of any roller in the window.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_roller_slip: Option<RollerSlip>,
     /// Forces between rollers and pockets in the window.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pocket_forces: Option<PocketForces>,
+    /// Extremes, means and integrals of the watched channels over the window, from every step.
+    #[serde(serialize_with = "as_map", skip_serializing_if = "Vec::is_empty")]
+    pub extremes: Vec<(String, Extremes)>,
     /// Statistics over the window by channel.
     #[serde(serialize_with = "as_map")]
     pub statistics: Vec<(String, Statistics)>,
@@ -155,12 +167,13 @@ pub struct Window {
 pub struct Whirl {
     /// Class of the motion.
     pub motion: CageMotion,
-    /// Mean whirl speed, rad/s; positive counter-clockwise.
-    pub mean_speed_rad_per_s: f64,
+    /// Mean whirl speed, rad/s; positive counter-clockwise. None where the centre stays within 0.1 % of the clearance of that
+    /// of the guide; records so close to it count in none of these three.
+    pub mean_speed_rad_per_s: Option<f64>,
     /// Its fifth percentile, rad/s.
-    pub p05_speed_rad_per_s: f64,
+    pub p05_speed_rad_per_s: Option<f64>,
     /// Its 95th percentile, rad/s.
-    pub p95_speed_rad_per_s: f64,
+    pub p95_speed_rad_per_s: Option<f64>,
     /// Mean distance of the cage centre from the guide centre, m.
     pub mean_radius_m: f64,
     /// Net turns about the guide centre, positive counter-clockwise.
@@ -180,15 +193,30 @@ pub struct RollerSlip {
     pub time_s: f64,
 }
 
-/// Circumferential forces of all rollers on the cage together, as means over time.
+/// Circumferential forces of all elements on the cage, from every step and not from records.
 #[derive(Serialize)]
 pub struct PocketForces {
-    /// Sum of those that drive the cage, N.
+    /// Sum of those that drive the cage, mean over time, N.
     pub driving_n: f64,
-    /// Sum of those that brake the cage, N; positive.
+    /// Sum of those that brake the cage, mean over time, N; positive.
     pub braking_n: f64,
     /// Largest single force on the cage, driving or braking, N.
     pub largest_n: f64,
+}
+
+/// Extremes, mean and integral of one watched channel.
+#[derive(Serialize)]
+pub struct Extremes {
+    /// Unit; "1" for ratios.
+    pub unit: &'static str,
+    /// Smallest value in any step.
+    pub min: f64,
+    /// Largest value in any step.
+    pub max: f64,
+    /// Mean over time.
+    pub mean: f64,
+    /// Integral over time, in `unit` times s.
+    pub integral: f64,
 }
 
 /// Statistics of one channel.
@@ -205,7 +233,9 @@ impl Summary {
     /// Results of a run; `scene` is the file it came from.
     pub fn new(run: &Run, scene: &Path, case: Option<&str>, set: Vec<String>) -> Self {
         let from = run.window_start();
-        let statistics = key_statistics(&run.channels, &run.recording, from);
+        let whirl = whirl(run, from);
+        let speed = whirl.as_ref().and_then(|whirl| whirl.speed);
+        let statistics = key_statistics(&run.channels, &run.recording, from, speed);
         let mean = |name: &str| statistics.iter().find(|(n, _)| n == name).map(|(_, s)| s.spread.mean);
         let layout = run.model.layout();
         Self {
@@ -214,6 +244,8 @@ impl Summary {
             case: case.map(str::to_owned),
             set,
             version: env!("CARGO_PKG_VERSION"),
+            warnings: run.model.scene().warnings(),
+            complete: !run.interrupted && run.failure.is_none(),
             interrupted: run.interrupted,
             error: run.failure.as_ref().map(|e| e.message.clone()),
             trusted: run.doubts.is_empty(),
@@ -226,9 +258,11 @@ impl Summary {
             power_balance: run.balance.as_ref().map(balance),
             window: window(&run.recording, from),
             cage_frequency_hz: mean("cage.speed").map(|speed| speed.abs() / TAU),
-            whirl: whirl(run, from),
+            whirl: whirl.map(Whirl::new),
+            starts: None,
             max_roller_slip: max_roller_slip(run, from),
             pocket_forces: pocket_forces(run, from),
+            extremes: extremes(run, from),
             statistics,
             files: Vec::new(),
         }
@@ -240,15 +274,27 @@ impl Summary {
     }
 }
 
+/// Channel whose statistics leave out what is near the centre of the guide.
+const WHIRL_SPEED: &str = "cage.whirl_speed";
+
 /// Statistics of every channel of cage, guide and rings, and of the slip of every roller; not of the other channels
 /// that every element has.
-fn key_statistics(channels: &[Channel], recording: &Recording, from: f64) -> Vec<(String, Statistics)> {
+fn key_statistics(
+    channels: &[Channel],
+    recording: &Recording,
+    from: f64,
+    whirl_speed: Option<Spread>,
+) -> Vec<(String, Statistics)> {
     let of_element = |name: &str| name.starts_with("roller[") || name.starts_with("element[");
     let key = |name: &str| !of_element(name) || name.ends_with("].slip");
     let columns = channels.iter().enumerate().filter(|(_, c)| key(&c.name));
     columns
         .filter_map(|(i, c)| {
-            Some((c.name.clone(), Statistics { unit: c.unit, spread: recording.spread(i, from)? }))
+            let spread = match c.name.as_str() {
+                WHIRL_SPEED => whirl_speed?,
+                _ => recording.spread(i, from)?,
+            };
+            Some((c.name.clone(), Statistics { unit: c.unit, spread }))
         })
         .collect()
 }
@@ -303,7 +349,7 @@ fn integration(run: &Run) -> Integration {
     }
 }
 
-fn whirl(run: &Run, from: f64) -> Option<Whirl> {
+fn whirl(run: &Run, from: f64) -> Option<WhirlSummary> {
     let [y, z] = run.cage_centre()?;
     let record = WhirlRecord {
         times: &run.recording.times,
@@ -313,16 +359,21 @@ fn whirl(run: &Run, from: f64) -> Option<Whirl> {
         cage_speed: run.column("cage.speed")?,
         clearance: run.model.guide_clearance(),
     };
-    let w = WhirlSummary::of(&record, from)?;
-    Some(Whirl {
-        motion: w.motion,
-        mean_speed_rad_per_s: w.speed.mean,
-        p05_speed_rad_per_s: w.speed.p05,
-        p95_speed_rad_per_s: w.speed.p95,
-        mean_radius_m: w.radius,
-        turns: w.turns,
-        settling_time_s: w.settling_time,
-    })
+    WhirlSummary::of(&record, from)
+}
+
+impl Whirl {
+    fn new(w: WhirlSummary) -> Self {
+        Self {
+            motion: w.motion,
+            mean_speed_rad_per_s: w.speed.map(|speed| speed.mean),
+            p05_speed_rad_per_s: w.speed.map(|speed| speed.p05),
+            p95_speed_rad_per_s: w.speed.map(|speed| speed.p95),
+            mean_radius_m: w.radius,
+            turns: w.turns,
+            settling_time_s: w.settling_time,
+        }
+    }
 }
 
 fn window(recording: &Recording, from: f64) -> Window {
@@ -351,14 +402,25 @@ fn max_roller_slip(run: &Run, from: f64) -> Option<RollerSlip> {
 }
 
 fn pocket_forces(run: &Run, from: f64) -> Option<PocketForces> {
-    let columns = roller_columns(run, "pocket_force", from);
-    let records = columns.first()?.len().max(1) as f64;
-    let all = || columns.iter().flat_map(|c| c.iter().copied());
+    let kind = run.model.element_kind();
+    let of_element = |j: usize| run.interval_from(&format!("{kind}[{j}].pocket_force"), from);
+    let all: Vec<Interval> = (0..run.model.element_count()).map(of_element).collect::<Option<_>>()?;
+    let time = all.first().map(|x| x.to - x.from)?;
     Some(PocketForces {
-        driving_n: all().map(|f| f.max(0.0)).sum::<f64>() / records,
-        braking_n: all().map(|f| (-f).max(0.0)).sum::<f64>() / records,
-        largest_n: all().map(f64::abs).fold(0.0, f64::max),
+        driving_n: all.iter().map(|x| x.positive).sum::<f64>() / time,
+        braking_n: all.iter().map(|x| x.positive - x.integral).sum::<f64>() / time,
+        largest_n: all.iter().map(|x| x.max.max(-x.min)).fold(0.0, f64::max),
     })
+}
+
+fn extremes(run: &Run, from: f64) -> Vec<(String, Extremes)> {
+    let all = run.model.channels();
+    let watched = run.model.watched().iter().map(|i| &all[*i]);
+    let found = watched.enumerate().filter_map(|(place, channel)| {
+        let Interval { min, max, mean, integral, .. } = run.recording.interval(place, from)?;
+        Some((channel.name.clone(), Extremes { unit: channel.unit, min, max, mean, integral }))
+    });
+    found.collect()
 }
 
 /// Writes the pairs as a map that keeps their order.

@@ -1,4 +1,4 @@
-//! Standard output and error, the progress bar and Ctrl-C.
+//! Standard output and error, the progress bar and the signals that end a run.
 
 use cagedyn::sim::Canceller;
 use cagedyn::{Error, Result, Status};
@@ -7,7 +7,7 @@ use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::sync::{Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
-/// Exit code of a run that Ctrl-C ended, as shells use it for an interrupt signal.
+/// Exit code of a run that Ctrl-C or another request to end it ended, as shells use it for an interrupt signal.
 pub const INTERRUPTED: u8 = 130;
 
 /// Ticks of the progress bar per second of simulated time; fine enough for the shortest useful run.
@@ -32,7 +32,7 @@ pub fn stop_requested() -> bool {
     STOP.get().is_some()
 }
 
-/// From now on the first Ctrl-C asks the run to end and keep its results; the second ends the program at once.
+/// From now on the first Ctrl-C, SIGTERM or SIGHUP asks the run to end and keep its results; the second ends the program at once.
 ///
 /// # Errors
 /// [`Status::Internal`] when the system refuses the handler.
@@ -62,6 +62,12 @@ pub fn print(text: &str) -> Result<()> {
         }
         _ => Ok(()),
     }
+}
+
+/// Prints a warning as one line on standard error.
+pub fn warn(text: &str) {
+    // Nothing is left to tell if standard error itself is closed.
+    let _ = writeln!(io::stderr(), "cagedyn: warning: {text}");
 }
 
 /// Prints an error as one line on standard error.

@@ -1,7 +1,7 @@
 //! The chosen method at work: attempts, accounts, judgement, memory.
 
 use super::super::control::{Estimate, Law};
-use super::super::{Applied, Quadratures, Reader, Stepper, System};
+use super::super::{Applied, Quadratures, Reader, Samples, Stepper, System};
 use super::{Auto, Choice, EXPLICIT, IMPLICIT, KINDS, Kind, Reason};
 
 impl<S: System> Stepper<S> for Auto {
@@ -118,6 +118,10 @@ impl<S: System> Stepper<S> for Auto {
 
     fn integrals(&self) -> &Quadratures {
         active!(self, ref S, integrals())
+    }
+
+    fn samples(&self) -> &Samples {
+        active!(self, ref S, samples())
     }
 
     fn applied(&self) -> Option<Applied<'_>> {

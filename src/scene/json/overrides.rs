@@ -1,5 +1,6 @@
 //! Replacing single values of a scene by their path.
 
+use super::typed::CONSTANT;
 use crate::error::{Error, Result, Status};
 use serde_json::Value;
 
@@ -41,6 +42,8 @@ pub fn set_path(scene: &mut Value, path: &str, new: Value) -> Result<()> {
                     .and_then(|i| list.get_mut(i))
                     .ok_or_else(|| unknown(format!("'{walked}' has no item '{key}' (it has {length})")))?
             }
+            // A number alone is a constant.
+            Value::Number(_) if last && key == CONSTANT => place,
             _ => return Err(unknown(format!("'{walked}' is a plain value and has no '{key}'"))),
         };
         if !walked.is_empty() {
@@ -62,6 +65,8 @@ mod tests {
         let mut v = json!({"a": {"b": [1, {"c": 2}]}, "n": 3});
         set_path(&mut v, "a.b.1.c", parse_override("5e-3")).unwrap();
         set_path(&mut v, "a.new", parse_override("text")).unwrap();
+        set_path(&mut v, "n.constant", parse_override("4")).unwrap();
+        assert_eq!(v["n"], json!(4));
         set_path(&mut v, "n", parse_override("null")).unwrap();
         assert_eq!(v, json!({"a": {"b": [1, {"c": 5e-3}], "new": "text"}}));
         for path in ["x.y", "a.b.7", "a.b.one", "a.b.0.z", "a.b.1.c.d"] {

@@ -9,11 +9,17 @@ use std::fmt;
 /// The longest path that a message shows; texts that nest deeper than scenes do are refused anyway.
 const LONGEST_PATH: usize = 16;
 
+/// Longest text, bytes: many times the largest table of a signal that a person would give, and read within a third of a gigabyte.
+const LONGEST_TEXT: usize = 16 << 20;
+
 /// Reads JSON text.
 ///
 /// # Errors
 /// [`crate::Status::BadJson`] for syntax, doubled keys and numbers beyond the range, with path, line and column.
 pub fn parse(text: &str) -> Result<Value> {
+    if text.len() > LONGEST_TEXT {
+        return Err(complaint(&[], format!("{} bytes of text, at most {LONGEST_TEXT}", text.len())));
+    }
     let mut path = Vec::new();
     let mut reader = serde_json::Deserializer::from_str(text);
     let value = Tree(&mut path).deserialize(&mut reader);

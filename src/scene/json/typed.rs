@@ -150,10 +150,17 @@ impl<'de> de::Deserializer<'de> for Reader<'de> {
         variants: &'static [&'static str],
         visitor: V,
     ) -> Read<V::Value> {
-        let one = |map: &'de Map<String, Value>| map.iter().next().filter(|_| map.len() == 1);
+        let one = |map: &'de Map<String, Value>| {
+            let mut keys = map.iter().filter(|(key, _)| !is_remark(key));
+            keys.next().filter(|_| keys.next().is_none())
+        };
         let choice = match self.0 {
             Value::String(word) => Some(Choice { word, content: None }),
             Value::Object(map) => one(map).map(|(word, value)| Choice { word, content: Some(value) }),
+            // A number alone is a constant.
+            Value::Number(_) if variants.contains(&CONSTANT) => {
+                Some(Choice { word: CONSTANT, content: Some(self.0) })
+            }
             _ => None,
         };
         let choice = choice.ok_or_else(|| no_choice(variants, self.0))?;
@@ -164,6 +171,14 @@ impl<'de> de::Deserializer<'de> for Reader<'de> {
         i8 i16 i32 i64 i128 u8 u16 u128 f32 char str bytes byte_buf unit unit_struct newtype_struct tuple tuple_struct
         identifier ignored_any
     }
+}
+
+/// The alternative that a plain number stands for.
+pub(super) const CONSTANT: &str = "constant";
+
+/// Whether a key of an object is a remark for people and editors, which every object may have.
+fn is_remark(key: &str) -> bool {
+    key == "comment" || key == "$schema"
 }
 
 /// What is wrong with a value that is no word and no object with one key.
@@ -182,7 +197,7 @@ impl<'de> MapAccess<'de> for Fields<'de> {
     type Error = Complaint;
 
     fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Read<Option<K::Value>> {
-        self.value = self.rest.next();
+        self.value = self.rest.find(|(key, _)| !is_remark(key));
         let Some((key, _)) = self.value else { return Ok(None) };
         let name: StrDeserializer<'de, Complaint> = key.as_str().into_deserializer();
         seed.deserialize(name).map(Some).map_err(|e| e.below(key))

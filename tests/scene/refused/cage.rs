@@ -25,7 +25,7 @@ pub fn rows() -> Vec<Row> {
             "unbalance too large",
             &[("cage.mass_eccentricity", json!({"y": 0.0, "z": 0.03}))],
             "cage.mass_eccentricity.z",
-            &["0.03 m", "2.25e-2 m"],
+            &["0.03 m", "0.0225 m"],
         ),
         grease().scene(
             "unbalance in mm",
@@ -100,9 +100,9 @@ pub fn rows() -> Vec<Row> {
             &["expected an object"],
         ),
         grease().json(
-            "bare number for a force",
+            "truth value for a force",
             load,
-            json!({"force_y": 10.0}),
+            json!({"force_y": true}),
             "cage.load.force_y",
             &["expected one of `constant`"],
         ),

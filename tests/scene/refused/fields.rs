@@ -64,9 +64,9 @@ pub fn rows() -> Vec<Row> {
             &["unknown variant `cosine`", "`constant`"],
         ),
         json_row(
-            "bare number for a signal",
+            "list for a signal",
             "inner_ring.speed",
-            json!(-314.0),
+            json!([-314.0]),
             "inner_ring.speed",
             &["expected one of `constant`"],
         ),

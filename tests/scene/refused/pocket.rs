@@ -96,7 +96,7 @@ fn plane() -> Vec<Row> {
             "pocket without stiffness",
             "cage.pocket.solid_plane.contact.stiffness",
             json!(0),
-            &["0.0 N/m", "1e0 to 1e12 N/m"],
+            &["0.0 N/m", "1 to 1e12 N/m"],
         ),
         grease().value(
             "pocket stiffness beyond any",
@@ -108,7 +108,7 @@ fn plane() -> Vec<Row> {
             "negative pocket damping",
             "cage.pocket.solid_plane.contact.damping",
             json!(-44.4),
-            &["-44.4 N s/m", "0e0 to 1e6"],
+            &["-44.4 N s/m", "0 to 1e6"],
         ),
         grease().value(
             "pocket softening depth in um",
@@ -126,7 +126,7 @@ fn plane() -> Vec<Row> {
             "negative pocket friction",
             "cage.pocket.solid_plane.contact.friction.coefficient",
             json!(-0.1),
-            &["-0.1", "0e0 to 2e0"],
+            &["-0.1", "0 to 2"],
         ),
         grease().value(
             "pocket friction in percent",
@@ -138,7 +138,7 @@ fn plane() -> Vec<Row> {
             "pocket friction without transition",
             "cage.pocket.solid_plane.contact.friction.transition_speed",
             json!(0),
-            &["0.0 m/s", "1e-6 to 1e1"],
+            &["0.0 m/s", "1e-6 to 10"],
         ),
         grease().missing(
             "pocket friction coefficient missing",

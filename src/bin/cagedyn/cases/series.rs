@@ -15,7 +15,7 @@ type Group<'a> = (Vec<(&'a str, &'a Value)>, Vec<&'a Done<'a>>);
 /// The complete cases that have a point, grouped by all that sets them apart but speed.
 pub fn series<'a, P>(done: &'a [Done<'a>], point: impl Fn(&Done<'_>) -> Option<P>) -> Vec<Series<P>> {
     let mut groups: Vec<Group<'a>> = Vec::new();
-    for d in done.iter().filter(|d| d.state().is_empty() && point(d).is_some()) {
+    for d in done.iter().filter(|d| point(d).is_some()) {
         let key = series_values(d.case);
         match groups.iter_mut().find(|(other, _)| *other == key) {
             Some((_, members)) => members.push(d),

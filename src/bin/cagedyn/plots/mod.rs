@@ -36,6 +36,10 @@ fn look(k: usize) -> (Marker, Paint) {
     (SHAPES[k % SHAPES.len()], SERIES[k % SERIES.len()])
 }
 
+/// File names of the pictures of a run.
+pub const PICTURES: [&str; 5] =
+    ["cage_orbit.svg", "cage_position.svg", "roller_history.svg", "whirl_history.svg", "cage_spectrum.svg"];
+
 /// File names and contents of the pictures of a run.
 ///
 /// # Errors
@@ -46,11 +50,11 @@ pub fn pictures(run: &Run, summary: &Summary) -> Result<Vec<(&'static str, Strin
         return Ok(Vec::new());
     }
     let drawn = [
-        ("cage_orbit.svg", orbit::cage_orbit(run, summary)),
-        ("cage_position.svg", position::cage_position(run, summary)),
-        ("roller_history.svg", roller::roller_history(run)),
-        ("whirl_history.svg", whirl_history::whirl_history(run, summary)),
-        ("cage_spectrum.svg", spectrum::cage_spectrum(run, summary)),
+        orbit::cage_orbit(run, summary),
+        position::cage_position(run, summary),
+        roller::roller_history(run),
+        whirl_history::whirl_history(run, summary),
+        spectrum::cage_spectrum(run, summary),
     ];
-    drawn.into_iter().filter_map(|(name, svg)| Some(svg?.map(|svg| (name, svg)))).collect()
+    PICTURES.into_iter().zip(drawn).filter_map(|(name, svg)| Some(svg?.map(|svg| (name, svg)))).collect()
 }

@@ -16,16 +16,18 @@ pub fn cage_orbit(run: &Run, summary: &Summary) -> Option<Result<String>> {
     let mean = (summary.of("cage.y_ratio")?.spread.mean, summary.of("cage.z_ratio")?.spread.mean);
     let points: Vec<(f64, f64)> = y.iter().copied().zip(z.iter().copied()).collect();
     let from = run.recording.index_at(run.window_start());
-    Some(draw(&run.title, &points, from, mean))
+    Some(draw(run, &points, from, mean))
 }
 
-fn draw(title: &str, points: &[(f64, f64)], from: usize, mean: (f64, f64)) -> Result<String> {
+fn draw(run: &Run, points: &[(f64, f64)], from: usize, mean: (f64, f64)) -> Result<String> {
     // A cage with lobes can move beyond the mean clearance.
     let reach = points.iter().fold(1.1, |r: f64, p| r.max(1.05 * p.0.abs()).max(1.05 * p.1.abs()));
-    let x_axis = Axis::new("cage centre y / radial guide clearance [1]", -reach, reach, 5);
-    let y_axis = Axis::new("cage centre z / radial guide clearance [1]", -reach, reach, 5);
+    let x_axis =
+        Axis::new("cage centre y from that of the guide / radial guide clearance [1]", -reach, reach, 5);
+    let y_axis =
+        Axis::new("cage centre z from that of the guide / radial guide clearance [1]", -reach, reach, 5);
     let place = Place { x: 100.0, y: 122.0, w: SIDE, h: SIDE };
-    style::picture((690.0, 750.0), title, "Orbit of the cage centre", |canvas| {
+    style::picture((690.0, 750.0), &run.title, &run.subtitle("Orbit of the cage centre"), |canvas| {
         let mean_text = format!("mean ({:.3}, {:.3})", mean.0, mean.1);
         let first = [
             (Symbol::Line(BLUE), "averaging window".to_owned()),

@@ -1,7 +1,7 @@
 //! A diagram with grid and axes at an exact place of a picture.
 
 use super::axis::Axis;
-use super::style::{Canvas, Drawn, GRID, INK, MUTED, SHADE, TEXT, line, px, text};
+use super::style::{Canvas, Drawn, GRID, INK, MUTED, Paint, SHADE, TEXT, line, px, text};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 
@@ -78,9 +78,20 @@ fn mesh(chart: &mut ChartContext<'_, SVGBackend<'_>, Coordinates>, x: &Axis, y: 
 }
 
 impl<'b> Panel<'_, '_, 'b> {
-    /// Draws a curve.
+    /// Draws a curve, with gaps where it is not finite.
     pub fn curve(&mut self, points: impl IntoIterator<Item = (f64, f64)>, style: ShapeStyle) -> Drawn {
-        self.chart.draw_series(LineSeries::new(points, style))?;
+        let points: Vec<_> = points.into_iter().collect();
+        for part in points.split(|(x, y)| !x.is_finite() || !y.is_finite()).filter(|part| !part.is_empty()) {
+            self.chart.draw_series(LineSeries::new(part.iter().copied(), style))?;
+        }
+        Ok(())
+    }
+
+    /// Fills the room between a lower and an upper value from time to time: (from, to, lower, upper).
+    pub fn envelope(&mut self, parts: impl Iterator<Item = (f64, f64, f64, f64)>, color: Paint) -> Drawn {
+        let boxes =
+            parts.map(|(from, to, low, high)| Rectangle::new([(from, low), (to, high)], color.filled()));
+        self.chart.draw_series(boxes)?;
         Ok(())
     }
 

@@ -20,7 +20,7 @@ fn draw(run: &Run, summary: &Summary, y: &[f64], z: &[f64]) -> Result<String> {
     let y_axis = Axis::covering("cage centre [mm]", y.iter().chain(z).copied(), 6);
     let place = Place { x: 100.0, y: 100.0, w: 770.0, h: 330.0 };
     let window = [(summary.window.from_s, summary.window.to_s)];
-    style::picture((900.0, 500.0), &run.title, "Position of the cage centre", |canvas| {
+    style::picture((900.0, 500.0), &run.title, &run.subtitle("Position of the cage centre"), |canvas| {
         let entries = [
             (Symbol::Line(BLUE), "y, to the right".to_owned()),
             (Symbol::Line(ORANGE), "z, upwards".to_owned()),

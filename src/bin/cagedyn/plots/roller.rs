@@ -1,6 +1,6 @@
 //! Slip, place in the pocket and forces of one roller at the end of a run (compare Fig. 10).
 
-use super::strips::{self, Strip, Texts};
+use super::strips::{self, ENVELOPE, Strip, Texts};
 use super::style::{BLUE, GREEN, MUTED, ORANGE, PURPLE, Symbol};
 use crate::intervals::positive_intervals;
 use crate::run::Run;
@@ -19,12 +19,19 @@ pub fn roller_history(run: &Run) -> Option<Result<String>> {
     };
     let bounds = run.model.pocket_clearance().map_or(Vec::new(), |c| vec![-1e3 * c, 1e3 * c]);
     let strip = |name, color, values: Option<Vec<f64>>, bounds: &[f64]| {
-        values.map(|values| Strip { name, curves: vec![(color, values)], bounds: bounds.to_vec() })
+        values.map(|values| Strip {
+            curves: vec![(color, values)],
+            bounds: bounds.to_vec(),
+            ..Strip::new(name)
+        })
     };
     let strips = [
         strip("slip ratio [1]", BLUE, values("slip", 1.0), &[]),
         strip("pocket position [mm]", GREEN, values("pocket_position", 1e3), &bounds),
-        strip("pocket force [N]", PURPLE, values("pocket_force", 1.0), &[]),
+        strip("pocket force [N]", PURPLE, values("pocket_force", 1.0), &[]).map(|strip| Strip {
+            envelope: run.intervals("roller[0].pocket_force").and_then(|x| x.get(from..)),
+            ..strip
+        }),
         strip("inner race force [N]", ORANGE, values("inner_force", 1.0), &[]),
     ];
     let strips: Vec<Strip> = strips.into_iter().flatten().collect();
@@ -33,6 +40,9 @@ pub fn roller_history(run: &Run) -> Option<Result<String>> {
     if strips.iter().any(|s| !s.bounds.is_empty()) {
         entries.push((Symbol::Dashed(MUTED), "pocket clearance".to_owned()));
     }
-    let subtitle = "Roller 0: slip, place in its pocket and forces";
+    if strips.iter().any(|s| s.envelope.is_some()) {
+        entries.push((Symbol::Line(ENVELOPE), "extremes in every step".to_owned()));
+    }
+    let subtitle = &run.subtitle("Roller 0: slip, place in its pocket and forces");
     Some(strips::history(&Texts { title: &run.title, subtitle, entries }, times, &strips, &loaded))
 }

@@ -43,15 +43,14 @@ pub fn cage_spectrum(run: &Run, summary: &Summary) -> Option<Result<String>> {
     spectrum.frequencies.truncate(shown);
     spectrum.amplitudes.truncate(shown);
     let first = run.recording.times.get(from).copied()?;
-    let subtitle =
-        format!("Amplitude spectrum of cage.z from {} s to {} s", rounded(first), rounded(run.end()));
-    Some(draw(&run.title, &subtitle, &spectrum, &orders(run, summary)))
+    let what = format!("Amplitude spectrum of cage.z from {} s to {} s", rounded(first), rounded(run.end()));
+    Some(draw(&run.title, &run.subtitle(&what), &spectrum, &orders(run, summary)))
 }
 
 /// Frequency of the whirl, if there is one, Hz.
 fn whirl_frequency(summary: &Summary) -> Option<f64> {
     let whirl = summary.whirl.as_ref().filter(|w| w.motion.is_whirl())?;
-    Some(whirl.mean_speed_rad_per_s.abs() / TAU)
+    Some(whirl.mean_speed_rad_per_s?.abs() / TAU)
 }
 
 /// Frequencies to mark, with their names: those of the cage, of the pockets passing by and of the whirl.
@@ -77,7 +76,8 @@ fn draw(title: &str, subtitle: &str, spectrum: &Spectrum, orders: &[(f64, String
     let y_axis = Axis::powers_of_ten("amplitude of cage.z [mm]", (largest - DECADES).round(), largest + room);
     let place = Place { x: 100.0, y: 100.0, w: 770.0, h: 370.0 };
     style::picture((900.0, 540.0), title, subtitle, |canvas| {
-        let mut entries = vec![(Symbol::Line(BLUE), "amplitude, Hann window".to_owned())];
+        let window = format!("Hann window, resolution {} Hz", number(spectrum.resolution));
+        let mut entries = vec![(Symbol::Line(BLUE), window)];
         if let Some((frequency, amplitude)) = peak {
             let label = format!("peak {} mm at {} Hz", number(amplitude), number(frequency));
             entries.push((Symbol::Marker(Marker::Ring, RED), label));
@@ -101,7 +101,7 @@ fn draw(title: &str, subtitle: &str, spectrum: &Spectrum, orders: &[(f64, String
                 let style = text(TEXT - 1.0, INK, HPos::Left, VPos::Top);
                 panel.canvas().draw(&Text::new(label, (x + px(5.0), y - px(2.0)), style))?;
             }
-            let points = envelope(spectrum).map(|(f, a)| (f, a.max(1e-300).log10().max(y_axis.min)));
+            let points = spectrum.lines(COLUMNS).map(|(f, a)| (f, a.max(1e-300).log10().max(y_axis.min)));
             panel.curve(points, line(BLUE, THIN + 0.2))?;
             match peak {
                 Some((f, a)) if a > 0.0 => {
@@ -110,16 +110,5 @@ fn draw(title: &str, subtitle: &str, spectrum: &Spectrum, orders: &[(f64, String
                 _ => Ok(()),
             }
         })
-    })
-}
-
-/// The largest amplitude in each of a limited number of equal frequency ranges: what a picture can resolve. The
-/// spectrum of a long run has so many lines that its minima would only blacken the picture.
-fn envelope(spectrum: &Spectrum) -> impl Iterator<Item = (f64, f64)> {
-    let lines = spectrum.amplitudes.len().div_ceil(COLUMNS).max(1);
-    let ranges = spectrum.frequencies.chunks(lines).zip(spectrum.amplitudes.chunks(lines));
-    ranges.filter_map(|(f, a)| {
-        let largest = f.iter().zip(a).max_by(|x, y| x.1.total_cmp(y.1))?;
-        Some((*largest.0, *largest.1))
     })
 }

@@ -2,8 +2,8 @@
 
 use super::axis::Axis;
 use super::panel::{Place, panel};
-use super::style::{self, CURVE, MUTED, Paint, Symbol, line};
-use cagedyn::Result;
+use super::style::{self, CURVE, FAINT, MUTED, Paint, Symbol, line};
+use cagedyn::{Interval, Result};
 
 /// Height of a diagram and gap between two, px.
 const HEIGHT: f64 = 165.0;
@@ -12,13 +12,25 @@ const GAP: f64 = 16.0;
 const TOP: f64 = 100.0;
 
 /// One diagram.
-pub struct Strip {
+pub struct Strip<'a> {
     /// Name of the quantity with unit.
     pub name: &'static str,
     /// Values over time and their colours; later curves cover earlier ones.
     pub curves: Vec<(Paint, Vec<f64>)>,
     /// Dashed lines at these values.
     pub bounds: Vec<f64>,
+    /// Extremes between the times, drawn behind the curves.
+    pub envelope: Option<&'a [Interval]>,
+}
+
+/// Colour of extremes.
+pub const ENVELOPE: Paint = FAINT;
+
+impl Strip<'_> {
+    /// A diagram without contents.
+    pub fn new(name: &'static str) -> Self {
+        Self { name, curves: Vec::new(), bounds: Vec::new(), envelope: None }
+    }
 }
 
 /// Texts of the picture.
@@ -35,7 +47,12 @@ pub struct Texts<'a> {
 ///
 /// # Errors
 /// [`cagedyn::Status::File`] when it cannot be drawn.
-pub fn history(texts: &Texts<'_>, times: &[f64], strips: &[Strip], shaded: &[(f64, f64)]) -> Result<String> {
+pub fn history(
+    texts: &Texts<'_>,
+    times: &[f64],
+    strips: &[Strip<'_>],
+    shaded: &[(f64, f64)],
+) -> Result<String> {
     let (start, end) = (times.first().copied().unwrap_or(0.0), times.last().copied().unwrap_or(1.0));
     let x_axis = Axis::new("time [s]", start, end, 10);
     let height = TOP + strips.len() as f64 * (HEIGHT + GAP) + 46.0;
@@ -43,12 +60,17 @@ pub fn history(texts: &Texts<'_>, times: &[f64], strips: &[Strip], shaded: &[(f6
         style::legend_row(canvas, 78.0, &texts.entries)?;
         for (k, strip) in strips.iter().enumerate() {
             let values = strip.curves.iter().flat_map(|(_, values)| values.iter().copied());
-            let y_axis = Axis::covering(strip.name, values.chain(strip.bounds.iter().copied()), 5);
+            let extremes = strip.envelope.unwrap_or_default().iter().flat_map(|x| [x.min, x.max]);
+            let shown = values.chain(strip.bounds.iter().copied()).chain(extremes);
+            let y_axis = Axis::covering(strip.name, shown, 5);
             let place = Place { x: 100.0, y: TOP + k as f64 * (HEIGHT + GAP), w: 770.0, h: HEIGHT };
             let last = k + 1 == strips.len();
             panel(canvas, place, (&x_axis, &y_axis), last, shaded, |panel| {
                 for &bound in &strip.bounds {
                     panel.dashed([(start, bound), (end, bound)], line(MUTED, 0.9))?;
+                }
+                if let Some(envelope) = strip.envelope {
+                    panel.envelope(envelope.iter().map(|x| (x.from, x.to, x.min, x.max)), ENVELOPE)?;
                 }
                 for (color, values) in &strip.curves {
                     let points = times.iter().copied().zip(values.iter().copied());

@@ -99,7 +99,8 @@ pub fn picture(
         let room = size.0 - 2.0 * LEFT;
         let fitting = 18.0 * (room / text_width(title, 19.0)).min(1.0);
         canvas.draw(&Text::new(title.to_owned(), (px(LEFT), px(16.0)), bold(fitting)))?;
-        let style = text(TEXT, MUTED, HPos::Left, VPos::Top);
+        let fitting = TEXT * (room / text_width(subtitle, TEXT)).min(1.0);
+        let style = text(fitting, MUTED, HPos::Left, VPos::Top);
         canvas.draw(&Text::new(subtitle.to_owned(), (px(LEFT), px(42.0)), style))?;
         draw(&canvas)?;
         canvas.present()

@@ -4,6 +4,7 @@ use super::strips::{self, Strip, Texts};
 use super::style::{BLUE, GREEN, MUTED, ORANGE, PURPLE, Paint, RED, Symbol, TEAL};
 use crate::run::Run;
 use crate::summary::Summary;
+use cagedyn::sim::SMALLEST_WHIRL_RADIUS;
 use cagedyn::{Result, Spread};
 
 /// Share of the records whose extreme values do not stretch a diagram: right after the start, while the centre is
@@ -29,22 +30,28 @@ pub fn whirl_history(run: &Run, summary: &Summary) -> Option<Result<String>> {
         // A part that never acts would only cover the others.
         column(name, 1.0).filter(|values| values.iter().any(|x| *x != 0.0))
     };
-    let strip = |name, curves: Vec<(Paint, Vec<f64>)>| Strip { name, curves, bounds: Vec::new() };
+    let strip = |name, curves: Vec<(Paint, Vec<f64>)>| Strip { curves, ..Strip::new(name) };
     let clearance = run.model.guide_clearance();
     let mut entries = vec![(Symbol::Patch, "averaging window".to_owned())];
+    let radius = column("cage.whirl_radius", 1e6)?;
+    let largest = radius.iter().copied().fold(0.0, f64::max);
+    let smallest = SMALLEST_WHIRL_RADIUS * clearance.map_or(largest, |c| 1e6 * c);
+    let speed = column("cage.whirl_speed", 1.0)?;
+    // So close to the centre of the guide it is noise.
+    let known = speed.iter().zip(&radius).map(|(x, r)| if *r >= smallest { *x } else { f64::NAN }).collect();
     let mut strips = vec![
-        strip("whirl speed [rad/s]", vec![(PURPLE, clipped(column("cage.whirl_speed", 1.0)?))]),
+        strip("whirl speed [rad/s]", vec![(PURPLE, clipped(known))]),
         Strip {
-            name: "whirl radius [\u{b5}m]",
-            curves: vec![(GREEN, column("cage.whirl_radius", 1e6)?)],
+            curves: vec![(GREEN, radius)],
             bounds: clearance.map(|c| 1e6 * c).into_iter().collect(),
+            ..Strip::new("whirl radius [\u{b5}m]")
         },
     ];
     if clearance.is_some() {
         entries.push((Symbol::Dashed(MUTED), "guide clearance".to_owned()));
     }
     if let Some(share) = column("guide.film_share", 1.0) {
-        strips.push(Strip { name: "film share [1]", curves: vec![(TEAL, share)], bounds: vec![0.0] });
+        strips.push(Strip { bounds: vec![0.0], ..strip("film share [1]", vec![(TEAL, share)]) });
     }
     let parts: Vec<_> = PARTS.into_iter().filter_map(|(c, name, p)| Some((p, name, present(c)?))).collect();
     if !parts.is_empty() {
@@ -53,18 +60,21 @@ pub fn whirl_history(run: &Run, summary: &Summary) -> Option<Result<String>> {
         strips.push(strip("guide force [N]", curves));
     }
     if let Some(force) = column("pocket.force_phi", 1.0) {
-        strips.push(strip("pocket force [N]", vec![(MUTED, force)]));
+        strips.push(Strip {
+            envelope: run.intervals("pocket.force_phi"),
+            ..strip("pocket force [N]", vec![(MUTED, force)])
+        });
     }
     let window = [(summary.window.from_s, summary.window.to_s)];
-    let subtitle =
+    let what =
         "Whirl of the cage; forces across the line from guide to cage centre, positive counter-clockwise";
-    let texts = Texts { title: &run.title, subtitle, entries };
+    let texts = Texts { title: &run.title, subtitle: &run.subtitle(what), entries };
     Some(strips::history(&texts, &run.recording.times, &strips, &window))
 }
 
 /// The values, those far outside of the range of all but a few of them cut to the edge of that range.
 fn clipped(mut values: Vec<f64>) -> Vec<f64> {
-    let mut sorted = values.clone();
+    let mut sorted: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();
     sorted.sort_by(f64::total_cmp);
     let cut = (CLIPPED * sorted.len() as f64) as usize;
     let Some(inner) = sorted.get(cut..sorted.len() - cut).and_then(Spread::of) else { return values };

@@ -1,0 +1,173 @@
+//! The same scene from slightly different starts: which kinds of motion there are, and how often. Where a cage has more than
+//! one, a single start says nothing about the bearing.
+
+use crate::terminal;
+use cagedyn::scene::GuideRing;
+use cagedyn::{CageMotion, Error, Model, Result, Sim, Status, WhirlRecord, WhirlSummary};
+use serde::Serialize;
+use std::f64::consts::TAU;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Part of a turn between the directions of one start and the next: no two coincide, and all of them spread evenly.
+const GOLDEN_SECTION: f64 = 0.618_033_988_749_895;
+
+/// Motions from all starts.
+#[derive(Clone, Debug, Serialize)]
+pub struct Starts {
+    /// Number of starts: the scene's own, and others around it.
+    pub count: usize,
+    /// How far from it the cage centre of the others is, m.
+    pub shift_m: f64,
+    /// Kinds of motion, the most frequent first.
+    pub motions: Vec<Kind>,
+    /// Starts from which the run failed.
+    pub failed: usize,
+}
+
+/// One kind of motion.
+#[derive(Clone, Debug, Serialize)]
+pub struct Kind {
+    /// Class of the motion.
+    pub motion: CageMotion,
+    /// Number of starts that lead to it.
+    pub count: usize,
+    /// The same as a share of all.
+    pub share: f64,
+    /// Smallest and largest of their mean whirl speeds, rad/s, if they have any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mean_speed_rad_per_s: Option<[f64; 2]>,
+}
+
+impl Starts {
+    /// "backward whirl 11 of 12 (-1960 to -1950 rad/s), resting 1 of 12".
+    pub fn in_words(&self) -> String {
+        let speeds = |kind: &Kind| match kind.mean_speed_rad_per_s.filter(|_| kind.motion.is_whirl()) {
+            Some([low, high]) => format!(" ({low:.0} to {high:.0} rad/s)"),
+            None => String::new(),
+        };
+        let of =
+            |kind: &Kind| format!("{} {} of {}{}", kind.motion.name(), kind.count, self.count, speeds(kind));
+        let mut list: Vec<String> = self.motions.iter().map(of).collect();
+        if self.failed > 0 {
+            list.push(format!("failed {} of {}", self.failed, self.count));
+        }
+        list.join(", ")
+    }
+
+    /// Share of starts that lead to a motion.
+    pub fn share(&self, motion: CageMotion) -> f64 {
+        self.motions.iter().find(|kind| kind.motion == motion).map_or(0.0, |kind| kind.share)
+    }
+}
+
+/// Runs a model from `count` starts on all cores. The first is the scene's own, in the others the cage centre is `shift` m
+/// away from it, in directions that spread evenly. `from` is the start of the averaging window, s.
+///
+/// # Errors
+/// [`Status::BadScene`] without a cage.
+pub fn try_starts(model: &Arc<Model>, count: usize, shift: f64, from: f64) -> Result<Starts> {
+    if model.scene().cage.is_none() {
+        return Err(Error::new(
+            Status::BadScene,
+            "--starts: there is no cage whose motion could differ".to_owned(),
+        ));
+    }
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut found = Vec::new();
+        loop {
+            let k = next.fetch_add(1, Ordering::Relaxed);
+            if k >= count || terminal::stop_requested() {
+                return found;
+            }
+            found.push((k, motion_from(model, k, shift, from)));
+        }
+    };
+    let cores = std::thread::available_parallelism().map_or(1, usize::from).min(count);
+    let mut all: Vec<_> = std::thread::scope(|scope| {
+        let threads: Vec<_> = (0..cores).map(|_| scope.spawn(work)).collect();
+        threads.into_iter().flat_map(|thread| thread.join().unwrap_or_default()).collect()
+    });
+    // In the order of the starts, whichever thread ran them.
+    all.sort_by_key(|(k, _)| *k);
+    let mut motions: Vec<Kind> = Vec::new();
+    let mut failed = 0;
+    for (_, found) in &all {
+        let Ok(Some(whirl)) = found else {
+            failed += 1;
+            continue;
+        };
+        let speed = whirl.speed.map(|speed| speed.mean);
+        let share = 1.0 / all.len() as f64;
+        match motions.iter_mut().find(|kind| kind.motion == whirl.motion) {
+            Some(kind) => {
+                kind.count += 1;
+                kind.share = kind.count as f64 * share;
+                kind.mean_speed_rad_per_s = match (kind.mean_speed_rad_per_s, speed) {
+                    (Some([low, high]), Some(speed)) => Some([low.min(speed), high.max(speed)]),
+                    (known, speed) => known.or(speed.map(|speed| [speed; 2])),
+                };
+            }
+            None => motions.push(Kind {
+                motion: whirl.motion,
+                count: 1,
+                share,
+                mean_speed_rad_per_s: speed.map(|speed| [speed; 2]),
+            }),
+        }
+    }
+    motions.sort_by_key(|kind| std::cmp::Reverse(kind.count));
+    Ok(Starts { count: all.len(), shift_m: shift, motions, failed })
+}
+
+/// Motion from start `k` in the window from time `from` (s) on; `None` if the window holds too few records.
+fn motion_from(model: &Arc<Model>, k: usize, shift: f64, from: f64) -> Result<Option<WhirlSummary>> {
+    let mut sim = Sim::new(model.clone())?;
+    if k > 0 {
+        let mut state = sim.state().to_vec();
+        let angle = TAU * GOLDEN_SECTION * k as f64;
+        if let Some(cage) = model.layout().cage {
+            state[cage] += shift * angle.cos();
+            state[cage + 1] += shift * angle.sin();
+        }
+        sim.set_state(0.0, &state)?;
+    }
+    let moving = model.scene().cage.as_ref().and_then(|cage| cage.guide.as_ref());
+    let moving = moving.is_some_and(|guide| guide.ring == GuideRing::InnerRing);
+    let names = ["cage.whirl_speed", "cage.whirl_radius", "cage.y", "cage.z", "cage.speed"];
+    let place = |name: &str| sim.channels().iter().position(|channel| channel.name == name);
+    let places = names.map(place);
+    let ring = ["inner_ring.y", "inner_ring.z"].map(|name| place(name).filter(|_| moving));
+    let record = &model.scene().record;
+    let last = (record.duration / record.interval * (1.0 + 1e-12)).floor() as u64;
+    let (mut times, mut columns, mut row) =
+        (Vec::new(), <[Vec<f64>; 5]>::default(), vec![0.0; sim.channels().len()]);
+    for i in 0..=last {
+        let t = (i as f64 * record.interval).min(record.duration);
+        sim.advance_to(t)?;
+        sim.outputs(&mut row)?;
+        times.push(t);
+        for (column, place) in columns.iter_mut().zip(places) {
+            column.push(place.map_or(0.0, |place| row[place]));
+        }
+        for (k, place) in ring.iter().enumerate() {
+            if let (Some(place), Some(centre)) = (place, columns[2 + k].last_mut()) {
+                *centre -= row[*place];
+            }
+        }
+        if terminal::stop_requested() {
+            break;
+        }
+    }
+    let [whirl_speed, whirl_radius, y, z, cage_speed] = &columns;
+    let record = WhirlRecord {
+        times: &times,
+        whirl_speed,
+        whirl_radius,
+        centre: [y, z],
+        cage_speed,
+        clearance: model.guide_clearance(),
+    };
+    Ok(WhirlSummary::of(&record, from))
+}

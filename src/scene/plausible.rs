@@ -1,0 +1,88 @@
+//! What a scene may say and rarely means.
+
+use super::check::{range, shown, slip_hint};
+use super::{RingMotion, Scene, Viscosity};
+use crate::scalar::math;
+use std::f64::consts::TAU;
+
+/// Speed times pitch diameter above which only special bearings run, m/min: three million mm/min.
+const FASTEST: f64 = 3e3;
+/// Load over count, length and diameter of the rollers, Pa: that of the static load rating of roller bearings, about.
+const HEAVIEST: f64 = 40e6;
+/// Viscosity above which oil hardly flows, Pa s.
+const THICKEST: f64 = 10.0;
+/// Radial internal clearance above which a bearing rattles, relative to the pitch radius.
+const LOOSEST: f64 = 4e-3;
+
+impl Scene {
+    /// Values that are legal and unlikely, one line for each: JSON path, value, why, and the unit that may have been meant.
+    pub fn warnings(&self) -> Vec<String> {
+        let mut list = Vec::new();
+        let diameter = 2.0 * self.pitch_radius();
+        if let Some(ring) = &self.inner_ring {
+            let fastest = FASTEST / 60.0 * TAU / diameter;
+            let speed = ring.speed.largest();
+            if speed > fastest {
+                let hint = slip_hint(speed, range(0.0, fastest, "rad/s"));
+                list.push(format!(
+                    "inner_ring.speed: {} rad/s is more than {} rad/s, which only special bearings of this size reach{hint}",
+                    shown(speed),
+                    shown(fastest)
+                ));
+            }
+        }
+        if let (Some(rollers), Some(RingMotion::Free(ring))) =
+            (&self.rollers, self.inner_ring.as_ref().map(|ring| &ring.motion))
+        {
+            let load = ring.load.as_ref().map_or(0.0, |load| math::hypot(load.y.largest(), load.z.largest()));
+            let rating =
+                HEAVIEST * f64::from(rollers.count) * rollers.effective_length * 2.0 * rollers.radius;
+            if load > rating {
+                let hint = slip_hint(load, range(0.0, rating, "N"));
+                list.push(format!(
+                    "inner_ring.motion.free.load: {} N is beyond what such a bearing carries at rest, about {} N{hint}",
+                    shown(load),
+                    shown(rating)
+                ));
+            }
+        }
+        let clearance = self.inner_ring.as_ref().and_then(|ring| ring.radial_clearance).unwrap_or(0.0);
+        if clearance > LOOSEST * self.pitch_radius() {
+            list.push(format!(
+                "inner_ring.radial_clearance: {} m is unusually large for this size; it is the radial, not the axial one",
+                shown(clearance)
+            ));
+        }
+        if let Some(Viscosity::Constant(viscosity)) = self.lubricant.as_ref().map(|l| &l.viscosity)
+            && *viscosity > THICKEST
+        {
+            let hint = slip_hint(*viscosity, range(1e-3, THICKEST, "Pa s"));
+            list.push(format!("lubricant.viscosity: {} Pa s is thicker than honey{hint}", shown(*viscosity)));
+        }
+        list
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn unlikely_values_are_named_with_the_unit_that_was_meant() {
+        let text = include_str!("../../scenes/nu2310.json");
+        let warnings = |set: &[(&str, &str)]| {
+            Scene::from_json_with(text, set.iter().copied()).unwrap_or_else(|e| panic!("{e}")).warnings()
+        };
+        assert_eq!(warnings(&[]), [""; 0]);
+        for (path, value, unit) in [
+            ("inner_ring.speed.constant", "3e4", "revolutions per minute"),
+            ("inner_ring.motion.free.load.z.constant", "-1e6", "beyond what such a bearing carries"),
+            ("lubricant.viscosity.constant", "40", "millipascal seconds"),
+        ] {
+            let list = warnings(&[(path, value)]);
+            let start = path.trim_end_matches(".constant").trim_end_matches(".z");
+            assert!(list.len() == 1 && list[0].starts_with(start) && list[0].contains(unit), "{list:?}");
+        }
+        assert_eq!(warnings(&[("inner_ring.radial_clearance", "3e-4")]).len(), 1);
+    }
+}
