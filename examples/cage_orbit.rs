@@ -12,7 +12,7 @@ fn main() -> cagedyn::Result<()> {
     let mut sim = Sim::new(model)?;
 
     let mut recording = Recording::default();
-    recording.run(&mut sim, record.duration, record.interval, |_| true)?;
+    recording.run(&mut sim, record.duration, record.interval, |_, _| true)?;
 
     for (i, channel) in sim.channels().iter().enumerate().filter(|(_, c)| c.name.starts_with("cage.")) {
         if let Some(s) = recording.spread(i, 2.0 / 3.0 * record.duration) {
