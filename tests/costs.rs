@@ -1,6 +1,8 @@
 //! What a scene does not ask for costs nothing: no evaluations, no states, no instructions. Instructions are counted
 //! with Valgrind where it is installed (`CAGEDYN_REQUIRE_VALGRIND=1` makes a missing Valgrind a failure).
 
+#[path = "../examples/effects/bar.rs"]
+mod bar;
 mod common;
 #[path = "../examples/effects/count.rs"]
 mod count;
@@ -194,4 +196,15 @@ fn effects_of_the_roller_bearing_cost_only_where_they_are() {
 #[test]
 fn effects_of_the_greased_guide_cost_only_where_they_are() {
     rows_cost_no_more(1);
+}
+
+/// An effect that costs twenty times the evaluation does not look like one that costs nearly as much.
+#[test]
+fn bars_of_costs_tell_large_from_huge() {
+    use bar::Bar;
+    assert_eq!(Bar::new(18.1), Bar { length: 1.0, broken: true });
+    let whole = Bar::new(1.0);
+    assert!(!whole.broken && whole.length < 1.0);
+    assert_eq!(Bar::new(0.5).length, 0.5 * whole.length);
+    assert_eq!(Bar::new(-0.1).length, 0.0);
 }

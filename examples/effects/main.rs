@@ -2,6 +2,7 @@
 //!
 //! Prints tables and writes `out/effects/*.csv`; with `--docs` also the tables of `docs/effects.md` and its picture.
 
+mod bar;
 mod count;
 mod measure;
 mod picture;

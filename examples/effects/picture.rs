@@ -1,5 +1,6 @@
 //! The picture of the study: cost of every effect beside the change of every result.
 
+use crate::bar::Bar;
 use crate::report::Report;
 use crate::rows::Kind;
 use crate::style::{
@@ -21,6 +22,8 @@ const COLUMNS: f64 = 626.0;
 const COLUMN: f64 = 102.0;
 /// Size of numbers and headings of columns, px.
 const SMALL: f64 = 11.5;
+/// Distance of the mark of a broken bar from its end, px.
+const BREAK: f64 = 24.0;
 /// Colours of changes from just beyond scatter on to ten times of it.
 const SHADES: [(f64, Paint); 4] = [
     (10.0, Paint(0x7f, 0xa9, 0xd6)),
@@ -109,9 +112,17 @@ fn row(canvas: &Canvas<'_>, report: &Report, i: usize, y: f64) -> Drawn {
     if let Some(share) = report.instruction_share(i) {
         let added = report.study.rows[i - 1].kind == Kind::Added;
         let cost = if added { share - 1.0 } else { 1.0 - share };
-        let width = cost.clamp(0.0, 1.0) * (right - left);
+        let bar = Bar::new(cost);
+        let width = bar.length * (right - left);
         let corners = [(px(left), px(y - 6.0)), (px(left + width), px(y + 6.0))];
         canvas.draw(&Rectangle::new(corners, if added { ORANGE } else { BLUE }.filled()))?;
+        if bar.broken {
+            // What is cut out of a bar that would be many times as long.
+            for x in [BREAK - 5.0, BREAK + 5.0].map(|x| left + width - x) {
+                let ends = vec![(px(x - 4.0), px(y + 8.0)), (px(x + 4.0), px(y - 8.0))];
+                canvas.draw(&PathElement::new(ends, line(PAPER, 4.0)))?;
+            }
+        }
         let number = format!("{:.1} %", 100.0 * cost);
         label_at(canvas, (left + width + 6.0, y), &number, (SMALL, INK, HPos::Left))?;
     }

@@ -20,6 +20,7 @@
 //! narrow enough that this costs less than 1e-3 of the force, and usually 1e-9.
 
 use super::journal::{FilmForce, Harmonic, JournalMotion, NoFilm};
+use super::layer_gap::change;
 use crate::scalar::Real;
 use crate::scalar::math;
 use std::f64::consts::{PI, TAU};
@@ -162,10 +163,11 @@ impl ShortBearing {
         let rate = |gamma: f64| self.profile_node(&plain, &plain_e, gamma).rate;
         let mut sum = [T::constant(0.0); 3];
         let mut thinnest = T::constant(f64::INFINITY);
+        let mut thinnest_at = 0.0;
         let mut visit = |gamma: f64| {
             let node = self.profile_node(m, e, gamma);
             if node.film.value() < thinnest.value() || node.film.value().is_nan() {
-                thinnest = node.film;
+                (thinnest, thinnest_at) = (node.film, gamma);
             }
             node
         };
@@ -194,6 +196,12 @@ impl ShortBearing {
                 sum[1] += weight * node.direction[1];
                 sum[2] -= weight * node.slope;
             }
+        }
+        // Between the places that were looked at it may be thinner still.
+        let slope = |gamma: f64| self.profile_node(&plain, &plain_e, gamma).slope;
+        let around = [thinnest_at - 0.5 * width, thinnest_at + 0.5 * width];
+        if slope(around[0]) < 0.0 && slope(around[1]) > 0.0 {
+            thinnest = self.profile_node(m, e, change(slope, around[0], around[1])).film;
         }
         let defined = thinnest.value() > 0.0 && sum[0].value().is_finite() && sum[1].value().is_finite();
         if !defined {
@@ -453,6 +461,33 @@ mod tests {
                     assert!(error < 1e-4 * scale, "{k} {i}: {} {difference}", exact[k].eps[i]);
                 }
             }
+        }
+    }
+
+    #[test]
+    fn the_smallest_film_of_a_profile_is_found() {
+        let mut b = bearing();
+        b.roundness = vec![
+            Harmonic { order: 3, amplitude: 0.2 * b.clearance, phase: 0.3 },
+            Harmonic { order: 7, amplitude: 0.1 * b.clearance, phase: 1.1 },
+        ];
+        for k in 0..20 {
+            let angle = 0.3 * f64::from(k);
+            let e = 0.5 * b.clearance;
+            let mut m = motion([e * angle.cos(), e * angle.sin()], [0.01, -0.02], 100.0);
+            m.profile_angle = 0.7 * f64::from(k);
+            let film = |theta: f64| {
+                let lobes = b
+                    .roundness
+                    .iter()
+                    .map(|a| a.amplitude * (f64::from(a.order) * (theta - m.profile_angle) + a.phase).cos());
+                b.clearance - m.position[0] * theta.cos() - m.position[1] * theta.sin() - lobes.sum::<f64>()
+            };
+            let scan =
+                (0..200_000).map(|i| film(TAU * f64::from(i) / 200_000.0)).fold(f64::INFINITY, f64::min);
+            let found = b.force(&m).unwrap().minimum_film;
+            // A scan so dense misses less than a thousandth of a nanometre.
+            assert!((found - scan).abs() < 1e-12, "{k}: {found} {scan}");
         }
     }
 

@@ -32,7 +32,11 @@ pub const CONTACT_QUANTITIES: [Quantity; 12] = [
     quantity("temperature_rise", "K", "temperature rise of the traction film"),
     quantity("friction_coefficient", "1", "traction coefficient mu"),
     quantity("friction", "N", "friction F_T on the roller along t"),
-    quantity("rolling_resistance", "N", "rolling resistance F_EHLr on each surface along t"),
+    quantity(
+        "rolling_resistance",
+        "N",
+        "rolling resistance F_EHLr on each surface along t, against the rolling speed u",
+    ),
     quantity("film_pressure_roller", "N", "film pressure force F_px through the roller centre along t"),
     quantity("film_pressure_mate", "N", "film pressure force F_px through the centre of the mate along t"),
     quantity("slip_speed", "m/s", "u1 - u2: surface speed of the roller less that of the mate"),

@@ -5,21 +5,21 @@ use std::path::Path;
 use std::process::{Command, Output};
 use std::time::{Duration, Instant};
 
-fn cagedyn() -> Command {
+pub fn cagedyn() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_cagedyn"));
     command.current_dir(env!("CARGO_MANIFEST_DIR"));
     command
 }
 
-fn run(arguments: &[&str]) -> Output {
+pub fn run(arguments: &[&str]) -> Output {
     cagedyn().args(arguments).output().expect("the program starts")
 }
 
-fn text(bytes: &[u8]) -> String {
+pub fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 
-fn json(path: &Path) -> serde_json::Value {
+pub fn json(path: &Path) -> serde_json::Value {
     let content = std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
     serde_json::from_str(&content).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
 }

@@ -8,6 +8,7 @@ mod common;
 mod c_abi;
 mod c_cvode;
 mod cli;
+mod cli_files;
 mod docs;
 mod header;
 mod install;

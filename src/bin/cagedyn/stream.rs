@@ -102,8 +102,11 @@ impl Stream {
     fn flush(&mut self) -> Result<()> {
         let written = self.file.write_all(self.rows.as_bytes()).and_then(|()| self.file.flush());
         if let Err(e) = written {
-            // A row cut within a number would still be read.
-            self.file.set_len(self.written).ok();
+            // A row cut within a number would still be read: what there is ends with the last whole one.
+            let length = self.file.metadata().map_or(0, |data| data.len()).saturating_sub(self.written);
+            let rows = self.rows.as_bytes().get(..length as usize).unwrap_or_default();
+            let whole = rows.iter().rposition(|byte| *byte == b'\n').map_or(0, |last| last + 1);
+            self.file.set_len(self.written + whole as u64).ok();
             return Err(file_error(&self.folder.join(UNFINISHED), e));
         }
         self.written += self.rows.len() as u64;
