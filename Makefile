@@ -1,7 +1,7 @@
 # make check     formatting, lints and quick tests, for every change: about two minutes
 # make test      everything that CI runs: formatting, lints, all tests
 # make run       the NU2310 example, results in out/
-# make cases     the twelve NU2310 cases, the grease guide over speed and its variants, results in out/cases/
+# make cases     the twelve NU2310 cases, the grease guide over speed, its variants and without grease, results in out/cases/
 # make example   the C example, compiled and run, table in out/
 # make pictures  the pictures of the README
 # make effects   cost of every effect and what it changes: docs/effects.md
@@ -75,6 +75,7 @@ cases:
 	$(CARGO) run --release --locked -- cases scenes/nu2310_fig9.cases.json --out out/cases/nu2310
 	$(CARGO) run --release --locked -- cases scenes/grease_guide_speed.cases.json --out out/cases/grease_speed
 	$(CARGO) run --release --locked -- cases scenes/grease_guide_effects.cases.json --out out/cases/grease_effects
+	$(CARGO) run --release --locked -- cases scenes/grease_guide_dry.cases.json --starts 24 --out out/cases/grease_dry
 
 pictures:
 	$(CARGO) run --release --locked -- run scenes/nu2310.json --out out

@@ -198,6 +198,47 @@ fn effects_of_the_greased_guide_cost_only_where_they_are() {
     rows_cost_no_more(1);
 }
 
+/// Instructions of a run that may go into following all pocket forces in every step.
+const WATCHING: f64 = 0.03;
+
+/// Runs in Valgrind: a developed run of the roller bearing, with what the scene follows or with nothing.
+#[test]
+#[ignore = "started by the test that counts instructions"]
+fn steps_to_count() {
+    let watching = std::env::var_os("CAGEDYN_TEST_WATCHING").is_some();
+    let mut sim = sim(&STUDIES[0], if watching { &[] } else { &[("record.extremes", "[]")] });
+    sim.advance_to(DEVELOPED).unwrap();
+    evaluate_states_in_steps(&mut sim);
+}
+
+/// Its name tells callgrind where to count.
+#[inline(never)]
+fn evaluate_states_in_steps(sim: &mut Sim) {
+    for k in 1..=20 {
+        sim.begin_interval();
+        sim.advance_to(DEVELOPED + 0.5e-3 * f64::from(k)).unwrap();
+        for place in 0..sim.watched().len() {
+            let index = sim.watched()[place];
+            std::hint::black_box(sim.interval(index).unwrap());
+        }
+    }
+}
+
+#[test]
+fn following_pocket_forces_in_every_step_costs_little() {
+    if Counter::new(0).is_none() {
+        return;
+    }
+    let count = |variables: &[(&str, &str)]| {
+        let test = std::env::current_exe().unwrap();
+        let arguments = ["--exact", "steps_to_count", "--ignored"];
+        instructions(&test, &arguments, variables).unwrap_or_else(|e| panic!("{e}")) as f64
+    };
+    let more = count(&[("CAGEDYN_TEST_WATCHING", "1")]) / count(&[]) - 1.0;
+    println!("following all pocket forces takes {:.2} % of the instructions of a run", 100.0 * more);
+    assert!((0.0..WATCHING).contains(&more), "{more}");
+}
+
 /// An effect that costs twenty times the evaluation does not look like one that costs nearly as much.
 #[test]
 fn bars_of_costs_tell_large_from_huge() {

@@ -227,7 +227,9 @@ fn several_starts_tell_which_motions_there_are() {
     let output = run(&[&scene[..], &["--starts", "5", "--start-shift", "1e-8"]].concat());
     assert!(output.status.success(), "{}", text(&output.stderr));
     assert!(
-        text(&output.stdout).contains("from 5 starts 1.000e-8 m apart: backward whirl 5 of 5"),
+        text(&output.stdout).contains(
+            "from 5 starts 1.000e-8 m and up to 1.000 % of the cage speed apart: backward whirl 5 of 5"
+        ),
         "{}",
         text(&output.stdout)
     );

@@ -88,6 +88,9 @@ pub struct Instead {
     /// How far apart these starts are: distance of the cage centre from that of the scene, m.
     #[arg(long, value_name = "M", default_value_t = 1e-9, value_parser = parse_shift)]
     pub start_shift: f64,
+    /// The same for the speed of the cage: largest change as a share of it.
+    #[arg(long, value_name = "SHARE", default_value_t = 0.01, value_parser = parse_share)]
+    pub start_spin: f64,
     /// Write the time series also where it takes more than 2 GB.
     #[arg(long)]
     pub large_table: bool,
@@ -192,6 +195,14 @@ fn preset_names() -> String {
 
 fn preset_help() -> String {
     format!("How accurate, instead of the scene's solver.preset: {}", preset_names())
+}
+
+/// A share.
+fn parse_share(text: &str) -> std::result::Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(share) if (0.0..=1.0).contains(&share) => Ok(share),
+        _ => Err("must be a share from 0 to 1".to_owned()),
+    }
 }
 
 /// A distance in m, above zero and not beyond any clearance.

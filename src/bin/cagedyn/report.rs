@@ -41,8 +41,9 @@ pub fn text(run: &Run, summary: &Summary, folder: &Path) -> String {
         text.push_str(&format!("cage motion in this time: {}\n", motion(whirl)));
     }
     if let Some(starts) = &summary.starts {
-        let shift = number(starts.shift_m);
-        text.push_str(&format!("from {} starts {shift} m apart: {}\n", starts.count, starts.in_words()));
+        let (shift, spin) = (number(starts.apart.shift_m), number(100.0 * starts.apart.spin_share));
+        let apart = format!("{shift} m and up to {spin} % of the cage speed apart");
+        text.push_str(&format!("from {} starts {apart}: {}\n", starts.count, starts.in_words()));
     }
     text.push('\n');
     for line in table::lines(&results(summary).0, &[Align::Left, Align::Right]) {

@@ -1,7 +1,7 @@
 //! The command `run`, and the simulation of one scene that `cases` shares with it.
 
 use crate::facts;
-use crate::starts::try_starts;
+use crate::starts::{Apart, try_starts};
 use crate::stream::{self, Stream};
 use crate::summary::Summary;
 use crate::terminal::{self, INTERRUPTED, Progress};
@@ -243,7 +243,8 @@ pub fn perform(request: Request<'_>, instead: &Instead) -> Result<(Run, Summary)
     let mut summary = Summary::new(&run, file, case, set);
     if instead.starts > 1 && summary.complete {
         let count = usize::from(instead.starts);
-        summary.starts = Some(try_starts(&run.model, count, instead.start_shift, run.window_start())?);
+        let apart = Apart { shift_m: instead.start_shift, spin_share: instead.start_spin };
+        summary.starts = Some(try_starts(&run.model, count, apart, run.window_start())?);
     }
     output::write(&run, &mut summary, folder)?;
     Ok((run, summary))

@@ -5,11 +5,11 @@ use crate::terminal;
 use cagedyn::scene::GuideRing;
 use cagedyn::{CageMotion, Error, Model, Result, Sim, Status, WhirlRecord, WhirlSummary};
 use serde::Serialize;
-use std::f64::consts::TAU;
+use std::f64::consts::{SQRT_2, TAU};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Part of a turn between the directions of one start and the next: no two coincide, and all of them spread evenly.
+/// Part of a turn between the directions of one start and the next.
 const GOLDEN_SECTION: f64 = 0.618_033_988_749_895;
 
 /// Motions from all starts.
@@ -17,12 +17,22 @@ const GOLDEN_SECTION: f64 = 0.618_033_988_749_895;
 pub struct Starts {
     /// Number of starts: the scene's own, and others around it.
     pub count: usize,
-    /// How far from it the cage centre of the others is, m.
-    pub shift_m: f64,
+    /// How far from it the cage centre of the others is, m, and by which share at most their cage speed differs.
+    #[serde(flatten)]
+    pub apart: Apart,
     /// Kinds of motion, the most frequent first.
     pub motions: Vec<Kind>,
     /// Starts from which the run failed.
     pub failed: usize,
+}
+
+/// How far the other starts are from that of the scene.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Apart {
+    /// Distance of the cage centre, m, in directions that spread evenly.
+    pub shift_m: f64,
+    /// Largest change of the cage speed as a share of it; the changes spread evenly.
+    pub spin_share: f64,
 }
 
 /// One kind of motion.
@@ -61,12 +71,11 @@ impl Starts {
     }
 }
 
-/// Runs a model from `count` starts on all cores. The first is the scene's own, in the others the cage centre is `shift` m
-/// away from it, in directions that spread evenly. `from` is the start of the averaging window, s.
+/// Runs a model from `count` starts on all cores. The first is the scene's own. `from` is the start of the averaging window, s.
 ///
 /// # Errors
 /// [`Status::BadScene`] without a cage.
-pub fn try_starts(model: &Arc<Model>, count: usize, shift: f64, from: f64) -> Result<Starts> {
+pub fn try_starts(model: &Arc<Model>, count: usize, apart: Apart, from: f64) -> Result<Starts> {
     if model.scene().cage.is_none() {
         return Err(Error::new(
             Status::BadScene,
@@ -81,7 +90,7 @@ pub fn try_starts(model: &Arc<Model>, count: usize, shift: f64, from: f64) -> Re
             if k >= count || terminal::stop_requested() {
                 return found;
             }
-            found.push((k, motion_from(model, k, shift, from)));
+            found.push((k, motion_from(model, k, apart, from)));
         }
     };
     let cores = std::thread::available_parallelism().map_or(1, usize::from).min(count);
@@ -118,18 +127,20 @@ pub fn try_starts(model: &Arc<Model>, count: usize, shift: f64, from: f64) -> Re
         }
     }
     motions.sort_by_key(|kind| std::cmp::Reverse(kind.count));
-    Ok(Starts { count: all.len(), shift_m: shift, motions, failed })
+    Ok(Starts { count: all.len(), apart, motions, failed })
 }
 
 /// Motion from start `k` in the window from time `from` (s) on; `None` if the window holds too few records.
-fn motion_from(model: &Arc<Model>, k: usize, shift: f64, from: f64) -> Result<Option<WhirlSummary>> {
+fn motion_from(model: &Arc<Model>, k: usize, apart: Apart, from: f64) -> Result<Option<WhirlSummary>> {
     let mut sim = Sim::new(model.clone())?;
     if k > 0 {
         let mut state = sim.state().to_vec();
-        let angle = TAU * GOLDEN_SECTION * k as f64;
+        // The fractions of two irrational numbers spread over a square without pattern.
+        let [angle, spin] = [GOLDEN_SECTION, SQRT_2].map(|part| (part * k as f64).fract());
         if let Some(cage) = model.layout().cage {
-            state[cage] += shift * angle.cos();
-            state[cage + 1] += shift * angle.sin();
+            state[cage] += apart.shift_m * (TAU * angle).cos();
+            state[cage + 1] += apart.shift_m * (TAU * angle).sin();
+            state[model.layout().positions() + cage + 2] *= 1.0 + apart.spin_share * (2.0 * spin - 1.0);
         }
         sim.set_state(0.0, &state)?;
     }
