@@ -59,6 +59,30 @@ pub fn rows() -> Vec<Row> {
             &["20.0 1/Pa", "1e-10 to 1e-6"],
         ),
         value_row("roller radius in mm", "rollers.radius", json!(7.5), &["7.5 m", "milli", "7.5e-3"]),
+        value_row(
+            "roller radius of metres",
+            "rollers.radius",
+            json!(4.5),
+            &["4.5 m", "millimetres, 4.5e-3 m"],
+        ),
+        value_row(
+            "land of metres",
+            "cage.guide.film.short_bearing.land_width",
+            json!(3.0),
+            &["3.0 m", "millimetres, 3e-3 m"],
+        ),
+        value_row(
+            "guide inside of the raceway",
+            "cage.guide.guide_radius",
+            json!(0.052),
+            &["0.052 m", "to 0.04"],
+        ),
+        value_row(
+            "wall in degrees",
+            "cage.pocket.lubricated_cylinder.half_angle",
+            json!(34.0),
+            &["degrees, 0.593412 rad"],
+        ),
         value_row("raceway radius in mm", "outer_ring.raceway_radius", json!(47.5), &["47.5 m", "milli"]),
         value_row("roller length in mm", "rollers.effective_length", json!(20.4), &["20.4 m", "milli"]),
         value_row(
