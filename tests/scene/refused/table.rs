@@ -204,6 +204,12 @@ pub fn complaint(row: &Row) -> Option<String> {
     if !row.path.is_empty() && !rest.is_some_and(|rest| rest.starts_with([':', '.'])) {
         wrong.push(format!("does not start with the path {}", row.path));
     }
+    // Words of the language that this is written in tell a user nothing.
+    for word in ["f64", "u32", "u64", "unit variant", "newtype", "map with a single key", "struct", "enum"] {
+        if message.contains(word) {
+            wrong.push(format!("says '{word}'"));
+        }
+    }
     for part in row.says.iter().filter(|part| !message.contains(**part)) {
         wrong.push(format!("does not say '{part}'"));
     }
