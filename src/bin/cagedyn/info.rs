@@ -1,7 +1,8 @@
 //! The command `info`.
 
 use crate::effects::effects;
-use crate::run::{in_file, read, stem};
+use crate::facts;
+use crate::run::{in_file, read, stem, table_size};
 use crate::table::{self, Align, number};
 use crate::{InfoArgs, terminal};
 use cagedyn::model::{HostInputs, Input};
@@ -18,8 +19,13 @@ use std::sync::Arc;
 pub fn command(args: &InfoArgs) -> Result<ExitCode> {
     let scene = Scene::from_json_with(&read(&args.scene)?, args.sets.pairs());
     let model = scene.and_then(Model::new).map_err(|e| in_file(&args.scene, e))?;
-    let title = model.scene().title.clone().unwrap_or_else(|| stem(&args.scene));
-    let mut text = title + "\n";
+    let set: Vec<String> = args.sets.pairs().map(|(path, value)| format!("{path}={value}")).collect();
+    let title = facts::title(model.scene().title.as_deref(), &stem(&args.scene), &set);
+    let mut text = format!("{title}\n{}\n", facts::facts(&model, 0.0));
+    let warnings = model.scene().warnings();
+    if !warnings.is_empty() {
+        section(&mut text, "Unlikely values", warnings.into_iter().map(|text| vec![text]).collect());
+    }
     section(&mut text, "Bodies and states", bodies(&model));
     let (present, absent): (Vec<_>, Vec<_>) =
         effects(model.scene()).into_iter().partition(|e| e.adds.is_some());
@@ -30,6 +36,7 @@ pub fn command(args: &InfoArgs) -> Result<ExitCode> {
     section(&mut text, "Absent effects", absent.into_iter().map(|e| vec![e.path]).collect());
     section(&mut text, "Inputs", inputs(&model));
     section(&mut text, "Output channels", channels(&model));
+    section(&mut text, "Records", records(&model));
     section(&mut text, "Geometry and kinematics", geometry(&model));
     section(&mut text, "Integration", integration(Arc::new(model)));
     terminal::print(&text)?;
@@ -116,6 +123,24 @@ fn channels(model: &Model) -> Vec<Vec<String>> {
         Some(vec![name, format!("[{}]", channel.unit), channel.description.to_owned()])
     });
     rows.collect()
+}
+
+fn records(model: &Model) -> Vec<Vec<String>> {
+    let (record, all) = (&model.scene().record, model.channels());
+    let watched: Vec<&str> = model.watched().iter().map(|i| all[*i].name.as_str()).collect();
+    let watched = match watched[..] {
+        [] => "none".to_owned(),
+        [first, .., last] if watched.len() > 3 => {
+            format!("{} channels from {first} to {last}", watched.len())
+        }
+        _ => watched.join(", "),
+    };
+    vec![
+        row("recorded", format!("{} of {} channels", model.recorded().len(), all.len())),
+        row("followed in every step", watched),
+        row("size", table_size(model).1),
+        row("interval", format!("{} s up to {} s", number(record.interval), number(record.duration))),
+    ]
 }
 
 fn geometry(model: &Model) -> Vec<Vec<String>> {

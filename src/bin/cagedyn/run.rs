@@ -250,14 +250,20 @@ pub fn perform(request: Request<'_>, instead: &Instead) -> Result<(Run, Summary)
     Ok((run, summary))
 }
 
-/// Says how large the table of a run will be, and refuses one that nobody can have meant.
-fn announce(model: &Model, aloud: bool, instead: &Instead) -> Result<()> {
+/// Size of the table of a run in bytes, a little more than it takes, and in words.
+pub fn table_size(model: &Model) -> (f64, String) {
     let record = &model.scene().record;
     let columns = 1 + stream::columns(model.recorded().len(), model.watched().len());
     let records = (record.duration / record.interval * (1.0 + 1e-12)).floor() + 1.0;
     let bytes = records * columns as f64 * stream::NUMBER_LENGTH;
-    let text =
-        format!("a table of {records} records in {columns} columns, up to {:.0} MB", (1e-6 * bytes).ceil());
+    let megabytes = (1e-6 * bytes).ceil();
+    (bytes, format!("a table of {records} records in {columns} columns, up to {megabytes} MB"))
+}
+
+/// Says how large the table of a run will be, and refuses one that nobody can have meant.
+fn announce(model: &Model, aloud: bool, instead: &Instead) -> Result<()> {
+    let record = &model.scene().record;
+    let (bytes, text) = table_size(model);
     if bytes > LARGEST_TABLE && !instead.large_table {
         let text =
             format!("record.interval: {:?} s makes {text}; --large-table if that is meant", record.interval);
