@@ -138,11 +138,17 @@ build:
 	$(CARGO) build --release --locked
 
 # All files are made in a folder of their own first: what fails leaves nothing half-installed.
+install uninstall: export PREFIX := $(PREFIX)
+install uninstall: export LIBDIR := $(LIBDIR)
+install uninstall: export DESTDIR := $(DESTDIR)
+install uninstall: export VERSION := $(VERSION)
+install uninstall: export BUILT := $(BUILT)
+
 install:
-	PREFIX='$(PREFIX)' LIBDIR='$(LIBDIR)' DESTDIR='$(DESTDIR)' VERSION='$(VERSION)' BUILT='$(BUILT)' tools/install_tree.sh
+	tools/install_tree.sh
 
 uninstall:
-	PREFIX='$(PREFIX)' LIBDIR='$(LIBDIR)' DESTDIR='$(DESTDIR)' tools/install_tree.sh --remove
+	tools/install_tree.sh --remove
 
 clean:
 	$(CARGO) clean

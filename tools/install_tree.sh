@@ -5,6 +5,12 @@
 #   PREFIX=/usr/local LIBDIR=/usr/local/lib DESTDIR= VERSION=0.1.0 BUILT=target/release tools/install_tree.sh
 set -euo pipefail
 
+for folder in "$PREFIX" "$LIBDIR"; do
+    case $folder in
+        /*) ;;
+        *) echo "PREFIX and LIBDIR must begin with a slash: $folder" >&2; exit 1 ;;
+    esac
+done
 share=$PREFIX/share/cagedyn
 list=$DESTDIR$share/installed
 
@@ -36,15 +42,15 @@ mkdir -p "$tree$LIBDIR/pkgconfig"
 sed -e "s|@PREFIX@|$PREFIX|" -e "s|@LIBDIR@|$LIBDIR|" -e "s|@VERSION@|$VERSION|" tools/cagedyn.pc.in \
     > "$tree$LIBDIR/pkgconfig/cagedyn.pc"
 chmod 644 "$tree$LIBDIR/pkgconfig/cagedyn.pc"
-files=$(cd "$tree" && find . ! -type d | sed 's|^\.||' | sort)
-echo "$files" > "$tree/list"
+mapfile -t files < <(cd "$tree" && find . ! -type d | sed 's|^\.||' | sort)
+printf '%s\n' "${files[@]}" > "$tree/list"
 put 644 "$tree/list" "$share/installed"
 
 # What could not all be copied is taken away again.
 copied=()
 undo() { for file in "${copied[@]}"; do rm -f "$DESTDIR$file"; done; }
 trap 'undo; rm -rf "$tree"' ERR
-for file in $files "$share/installed"; do
+for file in "${files[@]}" "$share/installed"; do
     mkdir -p "$(dirname "$DESTDIR$file")"
     copied+=("$file")
     cp -P --preserve=mode --remove-destination "$tree$file" "$DESTDIR$file"

@@ -64,7 +64,7 @@ pub fn number(path: &str, value: f64, allowed: Range) -> Result<()> {
         return Ok(());
     }
     let unit_text = if unit.is_empty() { String::new() } else { format!(" {unit}") };
-    let limits = format!("{} to {}{unit_text}", shown(min), shown(max));
+    let limits = format!("{} to {}{unit_text}", shown(inward(min, 1.0)), shown(inward(max, -1.0)));
     Err(bad(path, format!("{value:?}{unit_text} is not within {limits}{}", slip_hint(value, allowed))))
 }
 
@@ -74,6 +74,19 @@ pub fn slip_hint(value: f64, allowed: Range) -> String {
         format!("; values are in SI units: was it meant in {name}, {} {}?", shown(si), allowed.unit)
     });
     hint.unwrap_or_default()
+}
+
+/// A limit with six digits that is still allowed; what is allowed lies in the direction `side` (1 or -1).
+fn inward(limit: f64, side: f64) -> f64 {
+    let digits = |x: f64| format!("{x:.5e}").parse().unwrap_or(x);
+    let rounded: f64 = digits(limit);
+    if (rounded - limit) * side >= 0.0 {
+        return rounded;
+    }
+    // One more or less in the last of the six digits.
+    let text = format!("{rounded:e}");
+    let exponent = text.split_once('e').and_then(|(_, exponent)| exponent.parse().ok()).unwrap_or(0);
+    digits(rounded + side * 10f64.powi(exponent - 5))
 }
 
 /// A number for people: six digits, and an exponent where that is shorter.
@@ -88,13 +101,10 @@ fn unit_slip(value: f64, allowed: Range) -> Option<(f64, &'static str)> {
     // The middle of the range by order of magnitude; a range that reaches zero has its usual values below its end.
     let usual = if min > 0.0 { (min * max).sqrt() } else { 1e-2 * max };
     let distance = |si: f64| math::ln(si.abs() / usual).abs();
-    // A time that is just too long was meant as it is.
-    let far = value.abs() >= 10.0 * (1.0 - 1e-9) * max.abs() || value.abs() <= 0.1 * min.abs();
     let celsius = (unit == "K" && value < min).then_some((value + CELSIUS, "degrees Celsius"));
     UNIT_SLIPS
         .iter()
         .filter(|(si_unit, ..)| *si_unit == unit && value != 0.0)
-        .filter(|_| far || unit != "s")
         .map(|&(_, name, factor)| (value * factor, name))
         .chain(celsius)
         .filter(|(si, _)| (min..=max).contains(si))
@@ -109,4 +119,18 @@ pub fn optional(path: &str, value: Option<f64>, allowed: Range) -> Result<()> {
 /// The value that a law needs, or an error that says which law needs it.
 pub fn needed<T: Copy>(path: &str, value: Option<T>, by: &str) -> Result<T> {
     value.ok_or_else(|| bad(path, format!("missing; {by} needs it")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limits_that_are_told_are_allowed() {
+        let limit = 1.569_796_326_794_896_6;
+        assert_eq!((inward(limit, -1.0), inward(limit, 1.0)), (1.56979, 1.5698));
+        assert_eq!((inward(-limit, -1.0), inward(-limit, 1.0)), (-1.5698, -1.56979));
+        assert_eq!((inward(1e5, -1.0), inward(0.3, -1.0), inward(0.0, 1.0)), (1e5, 0.3, 0.0));
+        assert_eq!([1e-4, 0.02375, 1e12, 5.0, 3e-7].map(shown), ["1e-4", "0.02375", "1e12", "5", "3e-7"]);
+    }
 }

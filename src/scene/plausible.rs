@@ -5,12 +5,16 @@ use super::{RingMotion, Scene, Viscosity};
 use crate::scalar::math;
 use std::f64::consts::TAU;
 
-/// Speed times pitch diameter above which only special bearings run, m/min: three million mm/min.
-const FASTEST: f64 = 3e3;
+/// Speed times pitch diameter above which only special bearings run, m/min: a million mm/min.
+const FASTEST: f64 = 1e3;
 /// Load over count, length and diameter of the rollers, Pa: that of the static load rating of roller bearings, about.
 const HEAVIEST: f64 = 40e6;
 /// Viscosity above which oil hardly flows, Pa s.
-const THICKEST: f64 = 10.0;
+const THICKEST: f64 = 2.0;
+/// Largest acceleration of gravity that is meant on earth, m/s^2.
+const HEAVY: f64 = 20.0;
+/// Largest angle that is meant in rad.
+const TURN: f64 = TAU + 1e-6;
 /// Radial internal clearance above which a bearing rattles, relative to the pitch radius.
 const LOOSEST: f64 = 4e-3;
 
@@ -59,6 +63,25 @@ impl Scene {
             let hint = slip_hint(*viscosity, range(1e-3, THICKEST, "Pa s"));
             list.push(format!("lubricant.viscosity: {} Pa s is thicker than honey{hint}", shown(*viscosity)));
         }
+        if let Some(gravity) = self.gravity.filter(|g| math::hypot(g.y, g.z) > HEAVY) {
+            let size = math::hypot(gravity.y, gravity.z);
+            list.push(format!("gravity: {} m/s^2 is more than twice that of the earth", shown(size)));
+        }
+        let harmonics =
+            self.cage.iter().filter_map(|cage| cage.guide.as_ref()).flat_map(|guide| &guide.roundness);
+        let phases = harmonics.enumerate().map(|(i, a)| (format!("cage.guide.roundness.{i}.phase"), a.phase));
+        let angles =
+            phases.chain([("initial.first_roller_angle".to_owned(), self.initial.first_roller_angle)]);
+        for (path, angle) in angles.filter(|(_, angle)| angle.abs() > TURN) {
+            let hint = slip_hint(angle, range(-TURN, TURN, "rad"));
+            list.push(format!("{path}: {} rad is more than a turn{hint}", shown(angle)));
+        }
+        let ring = self.inner_ring.as_ref().map_or(f64::INFINITY, |ring| ring.speed.largest());
+        if let Some(speed) = self.initial.cage_speed.filter(|speed| speed.abs() > 1.5 * ring && *speed != 0.0)
+        {
+            let hint = slip_hint(speed, range(-1.5 * ring, 1.5 * ring, "rad/s"));
+            list.push(format!("initial.cage_speed: {} rad/s is more than the ring has{hint}", shown(speed)));
+        }
         list
     }
 }
@@ -75,7 +98,10 @@ mod tests {
         };
         assert_eq!(warnings(&[]), [""; 0]);
         for (path, value, unit) in [
-            ("inner_ring.speed.constant", "3e4", "revolutions per minute"),
+            ("inner_ring.speed.constant", "-3000", "revolutions per minute, 314.159 rad/s"),
+            ("gravity.z", "-9810", "twice that of the earth"),
+            ("initial.first_roller_angle", "90", "degrees, 1.5708 rad"),
+            ("initial.cage_speed", "-1360", "revolutions per minute"),
             ("inner_ring.motion.free.load.z.constant", "-1e6", "beyond what such a bearing carries"),
             ("lubricant.viscosity.constant", "40", "millipascal seconds"),
         ] {

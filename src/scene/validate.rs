@@ -3,7 +3,7 @@
 //! The ranges are wide for engineering and narrow for unit slips. What a law needs from other parts of the scene is
 //! checked where the law is built, in the model.
 
-use super::check::{Range, bad, number, optional, range};
+use super::check::{Range, bad, number, optional, range, shown, slip_hint};
 use super::*;
 use crate::scalar::math;
 use std::f64::consts::PI;
@@ -107,6 +107,7 @@ impl Scene {
         number("rollers.effective_length", r.effective_length, range(WIDTH.min, 50.0 * r.radius, "m"))?;
         number("rollers.mass", r.mass, MASS)?;
         let ring = r.mass * r.radius * r.radius;
+        fitting_mass("rollers.mass", r.mass, r.inertia, [0.2 * ring, 1.1 * ring])?;
         number("rollers.inertia", r.inertia, range(0.2 * ring, 1.1 * ring, "kg m^2"))?;
         self.material_exists("rollers.material", &r.material)?;
         let missing = |path: &str| bad(path, "missing; 'rollers' need it");
@@ -147,8 +148,10 @@ impl Scene {
         number("kinematic_elements.pitch_radius", elements.pitch_radius, RADIUS)?;
         if elements.radius >= elements.pitch_radius {
             let text = format!(
-                "{:?} m is not smaller than the pitch radius {:?} m; the element would cover the bearing centre",
-                elements.radius, elements.pitch_radius
+                "{:?} m is not smaller than the pitch radius {:?} m; the element would cover the bearing centre{}",
+                elements.radius,
+                elements.pitch_radius,
+                slip_hint(elements.radius, range(RADIUS.min, 0.5 * elements.pitch_radius, "m"))
             );
             return Err(bad("kinematic_elements.radius", text));
         }
@@ -265,7 +268,13 @@ impl Scene {
             return Err(bad("solver.max_steps", "0 is not allowed; at least 1"));
         }
         number("record.duration", self.record.duration, range(1e-9, 1e5, "s"))?;
-        number("record.interval", self.record.interval, range(1e-10, self.record.duration, "s"))?;
+        let Record { duration, interval, .. } = self.record;
+        if interval > duration {
+            let text =
+                format!("{interval:?} s is longer than the run, {} s (record.duration)", shown(duration));
+            return Err(bad("record.interval", text));
+        }
+        number("record.interval", interval, range(1e-10, duration, "s"))?;
         optional(
             "record.window",
             self.record.window,
@@ -288,6 +297,19 @@ impl Scene {
         let known = if known.is_empty() { "there are none".to_owned() } else { known.join(", ") };
         Err(bad(path, format!("'{name}' is not one of the materials ({known})")))
     }
+}
+
+/// A mass in grams makes an inertia in kg m^2 look far too small.
+pub(super) fn fitting_mass(path: &str, mass: f64, inertia: f64, allowed: [f64; 2]) -> Result<()> {
+    let [min, max] = allowed.map(|inertia| 1e-3 * inertia);
+    if inertia >= 1e3 * min || inertia < min || inertia > max {
+        return Ok(());
+    }
+    let text = format!(
+        "{mass:?} kg is far too much for the inertia; was it meant in grams, {} kg?",
+        shown(1e-3 * mass)
+    );
+    Err(bad(path, text))
 }
 
 impl Material {

@@ -1,6 +1,6 @@
 //! Checks of the cage: its masses, its pockets and its guide.
 
-use super::check::{Range, bad, number, optional, range};
+use super::check::{Range, bad, number, optional, range, shown};
 use super::validate::*;
 use super::*;
 use crate::scalar::math;
@@ -18,6 +18,7 @@ impl Scene {
         number("cage.mass", cage.mass, MASS)?;
         number("cage.inertia", cage.inertia, INERTIA)?;
         let ring = cage.mass * self.pitch_radius().powi(2);
+        fitting_mass("cage.mass", cage.mass, cage.inertia, [0.05 * ring, 5.0 * ring])?;
         number("cage.inertia", cage.inertia, range(0.05 * ring, 5.0 * ring, "kg m^2"))?;
         if let Some(material) = &cage.material {
             self.material_exists("cage.material", material)?;
@@ -82,9 +83,11 @@ impl Scene {
             let room = if guide.solid.is_some() { 2.0 * clearance } else { clearance - roundness };
             if start >= room {
                 let text = format!(
-                    "the centre {start:e} m from that of the guide ({:e}, {:e}) leaves no room in the radial guide \
+                    "the centre {} m from that of the guide ({:.3e}, {:.3e}) leaves no room in the radial guide \
                      clearance of {clearance:?} m",
-                    guide_centre[0], guide_centre[1]
+                    shown(start),
+                    guide_centre[0],
+                    guide_centre[1]
                 );
                 return Err(bad("initial.cage", text));
             }

@@ -423,7 +423,7 @@ impl Sim {
             text += &format!("; the last one at t = {t:?} s: {}", self.model().describe(fault));
         }
         if let Some((body, count)) = self.bearing.most_rejections() {
-            text += &format!("; {count} of {} rejected steps for {body}", self.driver.statistics().rejected);
+            text += &format!("; most rejected steps, {count}, for {body}");
         }
         if let Some(field) = self.model().energy_giving_film() {
             text += &format!("; the film of the guide can give energy to the cage ({field})");

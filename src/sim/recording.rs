@@ -41,7 +41,7 @@ pub struct Spread {
 }
 
 impl Recording {
-    /// Advances `sim` and records its outputs at its present time and every `interval` seconds after, up to `until` (s).
+    /// Advances `sim` and records its outputs at its present time, every `interval` seconds after, and at `until` (s).
     /// `keep_going` is called after every record, which is the last one of the recording, and ends the run by returning false.
     ///
     /// # Errors
@@ -69,7 +69,9 @@ impl Recording {
         sim.begin_interval();
         // Records at multiples of the interval, without adding up its round-off.
         let last = (records * (1.0 + 1e-12)).floor() as u64;
-        for i in 0..=last {
+        // And at the end, where that is between two of them.
+        let rest = u64::from(until - (start + last as f64 * interval) > 1e-9 * interval);
+        for i in 0..=last + rest {
             sim.advance_to((start + i as f64 * interval).min(until))?;
             sim.outputs(&mut row)?;
             self.times.push(sim.time());

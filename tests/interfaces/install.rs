@@ -62,6 +62,27 @@ fn installing_puts_everything_in_place_and_removing_takes_it_away() {
     assert_eq!(files(root.path()), [""; 0]);
 }
 
+/// Folders may have any name; relative ones would end up anywhere.
+#[test]
+fn folders_with_spaces_and_quotes_are_as_good_as_others() {
+    let [root, built] = [(); 2].map(|()| tempfile::tempdir().expect("a directory"));
+    for name in ["libcagedyn.so", "libcagedyn.a", "cagedyn"] {
+        std::fs::write(built.path().join(name), name).expect("a file");
+    }
+    let odd = root.path().join("it's a place");
+    assert!(make("install", &odd, built.path()).status.success());
+    assert!(odd.join("opt/bearing/bin/cagedyn").is_file());
+    assert!(make("uninstall", &odd, built.path()).status.success());
+    let output = Command::new("make")
+        .current_dir(repository("."))
+        .args(["install", "PREFIX=relative"])
+        .arg(format!("BUILT={}", built.path().display()))
+        .output()
+        .expect("make runs");
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert!(!output.status.success() && message.contains("must begin with a slash"), "{message}");
+}
+
 #[test]
 fn what_is_missing_or_does_not_fit_leaves_nothing() {
     let [root, built] = [(); 2].map(|()| tempfile::tempdir().expect("a directory"));

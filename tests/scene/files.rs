@@ -456,6 +456,18 @@ fn remarks_and_plain_numbers_are_allowed_everywhere() {
     }
 }
 
+/// As other languages write them.
+#[test]
+fn whole_numbers_with_a_point_and_a_byte_order_mark_are_read() {
+    let text = example_with(&[("rollers.count", json!(12.0))]).to_string();
+    assert!(text.contains("12.0"));
+    let scene = Scene::from_json(&format!("\u{feff}{text}")).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(scene, Scene::from_value(&example_with(&[])).unwrap());
+    for x in [json!(12.5), json!(-1.0), json!(1e300)] {
+        assert!(Scene::from_value(&example_with(&[("rollers.count", x)])).is_err());
+    }
+}
+
 #[test]
 fn files_of_the_other_kind_are_told_apart() {
     let (scenes, sets) = files();

@@ -6,6 +6,7 @@ mod whirl;
 
 use crate::run::{self, Request, Run, in_file};
 use crate::starts::Starts;
+use crate::stream::UNFINISHED;
 use crate::summary::Summary;
 use crate::table::{self, Align, rounded};
 use crate::terminal::{self, INTERRUPTED};
@@ -20,8 +21,8 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use whirl::WHIRL;
 
-/// The unit of a channel.
-type Unit<'a> = dyn Fn(&str) -> &'static str + 'a;
+/// Name and unit of a channel.
+type Known = (&'static str, &'static str);
 
 /// What is compared: a printed table, a file and a picture.
 struct Comparison {
@@ -29,10 +30,12 @@ struct Comparison {
     columns: &'static [(&'static str, usize)],
     /// Their cells.
     cells: fn(&Summary) -> Vec<String>,
-    /// Columns of the file, given the unit of a channel.
-    csv_columns: fn(&Unit<'_>) -> Vec<String>,
+    /// Channels whose means are in the file, where a case has them.
+    channels: &'static [&'static str],
+    /// Columns of the file, given these channels with their units.
+    csv_columns: fn(&[Known]) -> Vec<String>,
     /// Their cells.
-    csv_cells: fn(&Summary) -> Vec<String>,
+    csv_cells: fn(&Summary, &[Known]) -> Vec<String>,
     /// File name of the picture.
     picture_name: &'static str,
     /// The picture with a title, if there is something to show.
@@ -66,8 +69,7 @@ pub fn command(args: &CasesArgs) -> Result<ExitCode> {
     let base = args.file.parent().unwrap_or(Path::new("")).join(&set.scene);
     let scenes = set.scenes(&run::read(&base)?).map_err(|e| in_file(&args.file, e))?;
     terminal::listen_for_interrupt()?;
-    output::make_folder(&args.out)?;
-    output::clear(&args.out)?;
+    let taken = output::take(&args.out)?;
     // Without rollers that move freely, what matters is the whirl of the cage.
     let whirl = scenes.iter().all(|scene| scene.kinematic_elements.is_some());
     let comparison = if whirl { WHIRL } else { ROLLERS };
@@ -101,6 +103,8 @@ pub fn command(args: &CasesArgs) -> Result<ExitCode> {
             break;
         }
     }
+    drop(taken);
+    std::fs::remove_file(args.out.join(UNFINISHED)).ok();
     terminal::print(&format!("\nfiles: {}: {}\n", args.out.display(), files.join(", ")))?;
     Ok(match (terminal::stop_requested(), failed) {
         (true, _) => ExitCode::from(INTERRUPTED),
@@ -192,11 +196,10 @@ fn csv_rows(set: &CaseSet, comparison: &Comparison, done: &[Done<'_>]) -> Vec<Ve
             varied.push(path);
         }
     }
-    let unit = |name: &str| {
-        let units = done.iter().filter_map(|d| d.summary.as_ref()?.of(name)).map(|s| s.unit);
-        units.into_iter().next().unwrap_or("1")
-    };
-    let columns = (comparison.csv_columns)(&unit);
+    let unit = |name: &str| done.iter().find_map(|d| Some(d.summary.as_ref()?.of(name)?.unit));
+    let known: Vec<Known> =
+        comparison.channels.iter().filter_map(|name| Some((*name, unit(name)?))).collect();
+    let columns = (comparison.csv_columns)(&known);
     let mut head = vec!["case".to_owned(), "inner ring speed [1/min]".to_owned()];
     head.extend(varied.iter().map(|path| (*path).to_owned()));
     head.extend(columns.iter().cloned());
@@ -208,7 +211,8 @@ fn csv_rows(set: &CaseSet, comparison: &Comparison, done: &[Done<'_>]) -> Vec<Ve
         let speed = if d.speed.is_finite() { rounded(d.speed).to_string() } else { String::new() };
         let mut row = vec![d.case.name.clone(), speed];
         row.extend(varied.iter().map(|path| d.case.set.get(*path).map_or(String::new(), plain_text)));
-        row.extend(d.results().map_or_else(|| vec![String::new(); columns.len()], comparison.csv_cells));
+        let empty = || vec![String::new(); columns.len()];
+        row.extend(d.results().map_or_else(empty, |s| (comparison.csv_cells)(s, &known)));
         let starts = d.results().and_then(|s| s.starts.as_ref());
         row.extend(kinds.iter().map(|motion| cell(starts.map(|starts| starts.share(*motion)))));
         let of = |text: fn(&Summary) -> String| d.summary.as_ref().map_or(String::new(), text);

@@ -2,24 +2,37 @@
 
 use crate::table::number;
 use cagedyn::Model;
-use cagedyn::model::{HostInputs, Input};
+use cagedyn::scene::{ElementMotion, RingMotion, Signal};
 use std::f64::consts::TAU;
 
 /// Longest list of changes, characters.
 const LONGEST: usize = 90;
 
-/// "1000 1/min, load 4900 N, radial clearance 40 um, diametral guide clearance 400 um" at time `t` in s.
-pub fn facts(model: &Model, t: f64) -> String {
-    let inputs = model.inputs_at(t, &HostInputs::default());
-    let has = |input| model.input_list().any(|other| other == input);
+/// "1000 1/min, load 4900 N, radial clearance 40 um, diametral guide clearance 400 um"; of what changes its range.
+pub fn facts(model: &Model) -> String {
     let mut list = Vec::new();
-    let speed = if has(Input::RingSpeed) { Input::RingSpeed } else { Input::OrbitSpeed };
-    let what = if has(Input::RingSpeed) { "" } else { "elements at " };
-    list.push(format!("{what}{} 1/min", number(inputs.of(speed).abs() * 60.0 / TAU)));
-    if has(Input::LoadY) {
-        list.push(format!("load {} N", number(inputs.of(Input::LoadY).hypot(inputs.of(Input::LoadZ)))));
-    }
     let scene = model.scene();
+    let rpm = |speed: f64| number(speed * 60.0 / TAU);
+    let range = |signal: &Signal| {
+        let (low, high) = signal.bounds();
+        if low == high { rpm(low.abs()) } else { format!("{} to {}", rpm(low), rpm(high)) }
+    };
+    match (&scene.inner_ring, scene.kinematic_elements.as_ref().map(|elements| &elements.motion)) {
+        (Some(ring), _) => list.push(format!("{} 1/min", range(&ring.speed))),
+        (None, Some(ElementMotion::Prescribed { orbit_speed, .. })) => {
+            list.push(format!("elements at {} 1/min", range(orbit_speed)));
+        }
+        _ => {}
+    }
+    let load = match scene.inner_ring.as_ref().map(|ring| &ring.motion) {
+        Some(RingMotion::Free(free)) => free.load.as_ref(),
+        _ => None,
+    };
+    if let Some(load) = load {
+        let constant = [&load.y, &load.z].iter().all(|signal| signal.bounds().0 == signal.bounds().1);
+        let largest = number(load.y.largest().hypot(load.z.largest()));
+        list.push(format!("load {}{largest} N", if constant { "" } else { "up to " }));
+    }
     let ring = scene.inner_ring.as_ref().filter(|_| model.has_rollers());
     let clearances = [
         ("radial clearance", ring.and_then(|ring| ring.radial_clearance)),

@@ -21,7 +21,7 @@ pub fn command(args: &InfoArgs) -> Result<ExitCode> {
     let model = scene.and_then(Model::new).map_err(|e| in_file(&args.scene, e))?;
     let set: Vec<String> = args.sets.pairs().map(|(path, value)| format!("{path}={value}")).collect();
     let title = facts::title(model.scene().title.as_deref(), &stem(&args.scene), &set);
-    let mut text = format!("{title}\n{}\n", facts::facts(&model, 0.0));
+    let mut text = format!("{title}\n{}\n", facts::facts(&model));
     let warnings = model.scene().warnings();
     if !warnings.is_empty() {
         section(&mut text, "Unlikely values", warnings.into_iter().map(|text| vec![text]).collect());

@@ -86,10 +86,10 @@ pub struct Instead {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..))]
     pub starts: u16,
     /// How far apart these starts are: distance of the cage centre from that of the scene, m.
-    #[arg(long, value_name = "M", default_value_t = 1e-9, value_parser = parse_shift)]
+    #[arg(long, value_name = "M", default_value_t = 1e-9, value_parser = parse_shift, requires = "starts")]
     pub start_shift: f64,
     /// The same for the speed of the cage: largest change as a share of it.
-    #[arg(long, value_name = "SHARE", default_value_t = 0.01, value_parser = parse_share)]
+    #[arg(long, value_name = "SHARE", default_value_t = 0.01, value_parser = parse_share, requires = "starts")]
     pub start_spin: f64,
     /// Write the time series also where it takes more than 2 GB.
     #[arg(long)]

@@ -8,7 +8,7 @@ use crate::summary::Summary;
 use cagedyn::{Error, Result, Status};
 use serde::Serialize;
 use serde_json::Value;
-use std::fs;
+use std::fs::{self, File, TryLockError};
 use std::path::Path;
 
 /// Name of the summary.
@@ -32,7 +32,7 @@ struct Beginning<'a> {
     files: [&'static str; 2],
 }
 
-/// Makes a folder for a run, without files of an earlier one, and notes in it that a run has begun.
+/// Notes in a folder that a run has begun.
 ///
 /// # Errors
 /// [`Status::File`].
@@ -46,16 +46,38 @@ pub fn begin(folder: &Path, title: &str, scene: &Path, case: Option<&str>, set: 
         complete: false,
         files: [UNFINISHED, SUMMARY],
     };
-    make_folder(folder)?;
-    clear(folder)?;
     write_json(&folder.join(SUMMARY), &beginning)
 }
 
-/// Removes what earlier runs and case sets have left in a folder: files of their names, and folders of cases.
+/// Makes a folder, takes it for this program alone, and removes from it what earlier runs and case sets have left. It is given
+/// back with the file.
 ///
 /// # Errors
-/// [`Status::File`].
-pub fn clear(folder: &Path) -> Result<()> {
+/// [`Status::File`], also for a folder that another run writes to and for files of these names that are somebody else's.
+pub fn take(folder: &Path) -> Result<File> {
+    fs::create_dir_all(folder).map_err(|e| file_error(folder, e))?;
+    let path = folder.join(UNFINISHED);
+    let file = File::options().create(true).append(true).open(&path).map_err(|e| file_error(&path, e))?;
+    if let Err(TryLockError::WouldBlock) = file.try_lock() {
+        return Err(file_error(folder, "another run is writing to this folder"));
+    }
+    let cleared = clear(folder).and_then(|()| file.set_len(0).map_err(|e| file_error(&path, e)));
+    if cleared.is_err() {
+        fs::remove_file(&path).ok();
+    }
+    cleared.map(|()| file)
+}
+
+/// Removes what earlier runs and case sets have left in a folder: files of their names, and folders of cases.
+fn clear(folder: &Path) -> Result<()> {
+    for (name, begins) in
+        [(SUMMARY, "{\n  \"title\":"), (SERIES, "time [s]"), (CASES, "case,inner ring speed [1/min]")]
+    {
+        let path = folder.join(name);
+        if fs::read(&path).is_ok_and(|bytes| !bytes.starts_with(begins.as_bytes())) {
+            return Err(file_error(&path, "is not of this program; choose another folder or remove it"));
+        }
+    }
     remove_files(folder)?;
     for entry in fs::read_dir(folder).map_err(|e| file_error(folder, e))?.flatten() {
         let inside = entry.path();
@@ -63,6 +85,7 @@ pub fn clear(folder: &Path) -> Result<()> {
         let summary = summary.and_then(|text| serde_json::from_str::<Value>(&text).ok());
         if summary.is_some_and(|summary| summary.get("case").is_some()) {
             remove_files(&inside)?;
+            fs::remove_file(inside.join(UNFINISHED)).ok();
             // Somebody may have put files of their own there.
             fs::remove_dir(&inside).ok();
         }
@@ -71,7 +94,7 @@ pub fn clear(folder: &Path) -> Result<()> {
 }
 
 fn remove_files(folder: &Path) -> Result<()> {
-    let names = [SUMMARY, SERIES, UNFINISHED, CASES].into_iter().chain(plots::PICTURES).chain(COMPARISONS);
+    let names = [SUMMARY, SERIES, CASES].into_iter().chain(plots::PICTURES).chain(COMPARISONS);
     for path in names.map(|name| folder.join(name)) {
         if path.is_file() {
             fs::remove_file(&path).map_err(|e| file_error(&path, e))?;
@@ -80,26 +103,19 @@ fn remove_files(folder: &Path) -> Result<()> {
     Ok(())
 }
 
-/// Writes pictures and summary of a run into `folder` and notes the names of all files in the summary.
+/// Writes summary and pictures of a run into `folder` and notes the names of all files in the summary. The summary comes first:
+/// it is there even if no picture can be.
 ///
 /// # Errors
 /// [`Status::File`] for a file that cannot be written.
 pub fn write(run: &Run, summary: &mut Summary, folder: &Path) -> Result<()> {
-    summary.files.push(SERIES.to_owned());
+    summary.files.push(SUMMARY.to_owned());
+    write_json(&folder.join(SUMMARY), summary)?;
     for (name, svg) in plots::pictures(run, summary)? {
         write_text(&folder.join(name), &svg)?;
         summary.files.push(name.to_owned());
     }
-    summary.files.push(SUMMARY.to_owned());
     write_json(&folder.join(SUMMARY), summary)
-}
-
-/// Makes a folder and those above it.
-///
-/// # Errors
-/// [`Status::File`].
-pub fn make_folder(path: &Path) -> Result<()> {
-    fs::create_dir_all(path).map_err(|e| file_error(path, e))
 }
 
 /// Writes a text file, which has its name only when it is complete.

@@ -4,6 +4,7 @@ use crate::facts;
 use crate::starts::{Apart, try_starts};
 use crate::stream::{self, Stream};
 use crate::summary::Summary;
+use crate::table::number;
 use crate::terminal::{self, INTERRUPTED, Progress};
 use crate::{Instead, RunArgs, output, report};
 use cagedyn::model::{Channel, PartTimes};
@@ -57,6 +58,8 @@ pub struct Run {
     pub time: f64,
     /// Wall time of the simulation, s.
     pub wall: f64,
+    /// Whether the table was written to its end.
+    pub written: bool,
     /// Whether Ctrl-C ended it.
     pub interrupted: bool,
     /// The failure that ended it.
@@ -101,7 +104,8 @@ impl Run {
 
     /// Start of the averaging window, s: that of the scene, the last 0.1 s, or the last third of a shorter run.
     pub fn window_start(&self) -> f64 {
-        let usual = WINDOW.min(LARGEST_WINDOW_SHARE * self.end());
+        // At least two records: what is followed in every step is known from one to the next.
+        let usual = WINDOW.min(LARGEST_WINDOW_SHARE * self.end()).max(self.interval());
         self.last(self.model.scene().record.window.map_or(usual, |window| window.min(self.end())))
     }
 
@@ -199,11 +203,12 @@ pub fn perform(request: Request<'_>, instead: &Instead) -> Result<(Run, Summary)
     let mut sim = Sim::new(model.clone())?;
     announce(&model, case.is_none(), instead)?;
     for warning in model.scene().warnings() {
-        terminal::warn(&warning);
+        terminal::warn(&case.map_or(warning.clone(), |case| format!("case {case}: {warning}")));
     }
     sim.set_wall_time_limit(instead.max_wall_time.unwrap_or(f64::INFINITY))?;
+    let taken = output::take(folder)?;
     output::begin(folder, &title, file, case, &set)?;
-    let mut stream = Stream::new(folder, sim.channels(), model.recorded(), model.watched())?;
+    let mut stream = Stream::new(folder, taken, sim.channels(), model.recorded(), model.watched())?;
     terminal::stop_with(sim.canceller());
     let progress = Progress::new(case.unwrap_or("run"), duration);
     let mut recording = Recording::default();
@@ -218,15 +223,19 @@ pub fn perform(request: Request<'_>, instead: &Instead) -> Result<(Run, Summary)
         unwritten = stream.add(recording).err();
         unwritten.is_none() && !terminal::stop_requested()
     });
-    unwritten.map_or(Ok(()), Err)?;
-    stream.finish()?;
+    // What was computed is not lost with the table.
+    let written = unwritten.map_or_else(|| stream.finish(), Err);
     let cancelled = matches!(&ended, Err(e) if e.status == Status::Cancelled);
     let wall = started.elapsed().as_secs_f64();
     let parts = sim.time_parts(&samples, REPEATS).unwrap_or_default();
     let all = sim.channels();
-    let run = Run {
+    let interrupted = cancelled || terminal::stop_requested() && sim.time() < duration - interval;
+    let whole = !interrupted && ended.is_ok();
+    let ending =
+        if whole { String::new() } else { format!("; incomplete, ended at {} s", number(sim.time())) };
+    let mut run = Run {
         title,
-        facts: facts::facts(&model, sim.time()),
+        facts: facts::facts(&model) + &ending,
         channels: model.recorded().iter().map(|i| all[*i].clone()).collect(),
         parts,
         statistics: sim.statistics(),
@@ -234,9 +243,10 @@ pub fn perform(request: Request<'_>, instead: &Instead) -> Result<(Run, Summary)
         report: sim.report(),
         time: sim.time(),
         wall,
-        interrupted: cancelled || terminal::stop_requested() && sim.time() < duration - interval,
+        written: written.is_ok(),
+        interrupted,
         balance: sim.power_balance().ok(),
-        failure: ended.err().filter(|e| e.status != Status::Cancelled),
+        failure: ended.err().filter(|e| e.status != Status::Cancelled).or(written.err()),
         model,
         recording,
     };
@@ -244,9 +254,15 @@ pub fn perform(request: Request<'_>, instead: &Instead) -> Result<(Run, Summary)
     if instead.starts > 1 && summary.complete {
         let count = usize::from(instead.starts);
         let apart = Apart { shift_m: instead.start_shift, spin_share: instead.start_spin };
-        summary.starts = Some(try_starts(&run.model, count, apart, run.window_start())?);
+        let starts = try_starts(&run.model, count, apart, run.window_start())?;
+        if starts.count < starts.asked {
+            (run.interrupted, summary.interrupted, summary.complete) = (true, true, false);
+        }
+        summary.starts = Some(starts);
     }
-    output::write(&run, &mut summary, folder)?;
+    if let Err(e) = output::write(&run, &mut summary, folder) {
+        run.failure = run.failure.or(Some(e));
+    }
     Ok((run, summary))
 }
 

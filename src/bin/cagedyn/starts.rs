@@ -15,15 +15,19 @@ const GOLDEN_SECTION: f64 = 0.618_033_988_749_895;
 /// Motions from all starts.
 #[derive(Clone, Debug, Serialize)]
 pub struct Starts {
-    /// Number of starts: the scene's own, and others around it.
+    /// Number of starts that were asked for: the scene's own, and others around it.
+    pub asked: usize,
+    /// Number of those that were run.
     pub count: usize,
     /// How far from it the cage centre of the others is, m, and by which share at most their cage speed differs.
     #[serde(flatten)]
     pub apart: Apart,
     /// Kinds of motion, the most frequent first.
     pub motions: Vec<Kind>,
-    /// Starts from which the run failed.
+    /// Starts from which the run failed, and why the first of them did.
     pub failed: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub failure: Option<String>,
 }
 
 /// How far the other starts are from that of the scene.
@@ -60,9 +64,15 @@ impl Starts {
             |kind: &Kind| format!("{} {} of {}{}", kind.motion.name(), kind.count, self.count, speeds(kind));
         let mut list: Vec<String> = self.motions.iter().map(of).collect();
         if self.failed > 0 {
-            list.push(format!("failed {} of {}", self.failed, self.count));
+            let why = self.failure.as_deref().unwrap_or("too few records");
+            list.push(format!("failed {} of {} ({why})", self.failed, self.count));
         }
-        list.join(", ")
+        let text = list.join(", ");
+        if self.count < self.asked {
+            format!("{text}; interrupted, {} starts were asked for", self.asked)
+        } else {
+            text
+        }
     }
 
     /// Share of starts that lead to a motion.
@@ -81,6 +91,17 @@ pub fn try_starts(model: &Arc<Model>, count: usize, apart: Apart, from: f64) -> 
             Status::BadScene,
             "--starts: there is no cage whose motion could differ".to_owned(),
         ));
+    }
+    let mut first = Sim::new(model.clone())?;
+    let radius = first.channels().iter().position(|channel| channel.name == "cage.whirl_radius");
+    let radius = radius.map_or(Ok(0.0), |place| first.output(place))?;
+    if let Some(clearance) = model.guide_clearance().filter(|clearance| radius + apart.shift_m >= *clearance)
+    {
+        let text = format!(
+            "--start-shift: {:?} m leaves no room in the guide clearance of {clearance:?} m",
+            apart.shift_m
+        );
+        return Err(Error::new(Status::BadScene, text));
     }
     let next = AtomicUsize::new(0);
     let work = || {
@@ -101,10 +122,11 @@ pub fn try_starts(model: &Arc<Model>, count: usize, apart: Apart, from: f64) -> 
     // In the order of the starts, whichever thread ran them.
     all.sort_by_key(|(k, _)| *k);
     let mut motions: Vec<Kind> = Vec::new();
-    let mut failed = 0;
+    let (mut failed, mut failure) = (0, None);
     for (_, found) in &all {
         let Ok(Some(whirl)) = found else {
             failed += 1;
+            failure = failure.or_else(|| found.as_ref().err().map(|e| e.message.clone()));
             continue;
         };
         let speed = whirl.speed.map(|speed| speed.mean);
@@ -127,7 +149,7 @@ pub fn try_starts(model: &Arc<Model>, count: usize, apart: Apart, from: f64) -> 
         }
     }
     motions.sort_by_key(|kind| std::cmp::Reverse(kind.count));
-    Ok(Starts { count: all.len(), apart, motions, failed })
+    Ok(Starts { asked: count, count: all.len(), apart, motions, failed, failure })
 }
 
 /// Motion from start `k` in the window from time `from` (s) on; `None` if the window holds too few records.

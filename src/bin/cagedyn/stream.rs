@@ -53,13 +53,17 @@ pub struct Stream {
 }
 
 impl Stream {
-    /// Starts a table in a folder; `channels` are those of a simulation, by place.
+    /// Starts a table in `file`, which lies in `folder`; `channels` are those of a simulation, by place.
     ///
     /// # Errors
     /// [`cagedyn::Status::File`].
-    pub fn new(folder: &Path, channels: &[Channel], recorded: &[usize], watched: &[usize]) -> Result<Self> {
-        let path = folder.join(UNFINISHED);
-        let file = File::create(&path).map_err(|e| file_error(&path, e))?;
+    pub fn new(
+        folder: &Path,
+        file: File,
+        channels: &[Channel],
+        recorded: &[usize],
+        watched: &[usize],
+    ) -> Result<Self> {
         let mut rows = "time [s]".to_owned();
         for channel in recorded.iter().map(|i| &channels[*i]) {
             rows += &format!(",{} [{}]", channel.name, channel.unit);

@@ -2,6 +2,7 @@
 
 use crate::run::Run;
 use crate::starts::Starts;
+use crate::stream::{SERIES, UNFINISHED};
 use cagedyn::model::{Channel, FAULTS, LAWS, PARTS, POWERS};
 use cagedyn::scene::Method;
 use cagedyn::sim::PowerBalance;
@@ -264,7 +265,7 @@ impl Summary {
             pocket_forces: pocket_forces(run, from),
             extremes: extremes(run, from),
             statistics,
-            files: Vec::new(),
+            files: vec![if run.written { SERIES } else { UNFINISHED }.to_owned()],
         }
     }
 

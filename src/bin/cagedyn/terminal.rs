@@ -4,6 +4,8 @@ use cagedyn::sim::Canceller;
 use cagedyn::{Error, Result, Status};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::{self, ErrorKind, IsTerminal, Write};
+#[cfg(unix)]
+use std::sync::{Arc, atomic::AtomicBool};
 use std::sync::{Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
@@ -47,6 +49,10 @@ pub fn listen_for_interrupt() -> Result<()> {
             canceller.cancel();
         }
     };
+    // A file that may not grow is an error of its own; the signal for it would end the program in the middle of a row.
+    #[cfg(unix)]
+    signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::new(AtomicBool::new(false)))
+        .map_err(|e| Error::new(Status::Internal, format!("signal handler: {e}")))?;
     ctrlc::set_handler(handler).map_err(|e| Error::new(Status::Internal, format!("Ctrl-C handler: {e}")))
 }
 

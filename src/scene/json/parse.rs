@@ -21,6 +21,8 @@ pub fn parse(text: &str) -> Result<Value> {
         return Err(complaint(&[], format!("{} bytes of text, at most {LONGEST_TEXT}", text.len())));
     }
     let mut path = Vec::new();
+    // Some editors begin a file with this mark.
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut reader = serde_json::Deserializer::from_str(text);
     let value = Tree(&mut path).deserialize(&mut reader);
     value.and_then(|value| reader.end().map(|()| value)).map_err(|e| {

@@ -39,10 +39,10 @@ fn allow_more(node: &mut serde_json::Value) {
         Value::Array(items) => items.iter_mut().for_each(allow_more),
         Value::Object(map) => {
             map.values_mut().for_each(allow_more);
-            if map.get("additionalProperties") == Some(&Value::Bool(false)) {
+            if map.get("additionalProperties").is_some() {
                 let properties = map.entry("properties").or_insert_with(|| json!({}));
                 properties["comment"] = json!({"description": "Text for people, ignored."});
-                properties["$schema"] = json!({"description": "For editors, ignored.", "type": "string"});
+                properties["$schema"] = json!({"description": "For editors, ignored."});
             }
             if let Some(Value::Array(choices)) = map.get_mut("oneOf") {
                 let constant = |choice: &Value| choice.pointer("/properties/constant").is_some();

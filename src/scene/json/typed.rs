@@ -26,6 +26,9 @@ pub fn typed<T: DeserializeOwned>(value: &Value) -> Result<T> {
     })
 }
 
+/// Whole numbers up to this are doubles without loss.
+const LARGEST_WHOLE: f64 = 9_007_199_254_740_992.0;
+
 /// What is wrong, and the keys that lead there, the last one first.
 #[derive(Debug)]
 struct Complaint {
@@ -84,7 +87,9 @@ impl<'de> Reader<'de> {
     }
 
     fn whole<V: Visitor<'de>>(self, visitor: V) -> Read<V::Value> {
-        match self.0.as_u64() {
+        // Many languages write whole numbers as 12.0.
+        let whole = |x: f64| ((0.0..=LARGEST_WHOLE).contains(&x) && x.fract() == 0.0).then_some(x as u64);
+        match self.0.as_u64().or_else(|| self.0.as_f64().and_then(whole)) {
             Some(number) => visitor.visit_u64(number),
             None => Err(Complaint::expected("a whole number from 0 on", self.0)),
         }

@@ -15,7 +15,7 @@ pub fn rows() -> Vec<Row> {
         text("last brace missing", example.trim_end().strip_suffix('}').unwrap(), &["EOF"]),
         text("trailing garbage", &format!("{example} x"), &["trailing characters", "line"]),
         text("two scenes", &format!("{example}{example}"), &["trailing characters"]),
-        text("byte order mark", &format!("\u{feff}{example}"), &["line 1 column 1"]),
+        text("two byte order marks", &format!("\u{feff}\u{feff}{example}"), &["line 1 column 1"]),
         text("NUL in the text", &example.replacen('{', "{\0", 1), &["line 1"]),
         text("number for a scene", "12", &["expected an object, found 12"]),
         text("null for a scene", "null", &["expected an object, found null"]),

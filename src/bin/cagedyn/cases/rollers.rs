@@ -1,7 +1,7 @@
 //! Comparison of cases with rollers: where the cage is, and how much the rollers slip.
 
 use super::series::series;
-use super::{Comparison, Done, Unit, cell};
+use super::{Comparison, Done, Known, cell};
 use crate::plots::{self, Point};
 use crate::summary::Summary;
 use cagedyn::Result;
@@ -18,6 +18,7 @@ pub const ROLLERS: Comparison = Comparison {
         ("max pocket force [N]", 20),
     ],
     cells,
+    channels: &CHANNELS,
     csv_columns,
     csv_cells,
     picture_name: "cage_positions.svg",
@@ -51,12 +52,10 @@ fn cells(s: &Summary) -> Vec<String> {
     ]
 }
 
-fn csv_columns(unit: &Unit<'_>) -> Vec<String> {
+fn csv_columns(known: &[Known]) -> Vec<String> {
     let parts = ["mean", "deviation", "standard error"];
-    let mut columns: Vec<String> = CHANNELS
-        .iter()
-        .flat_map(|name| parts.map(|part| format!("{name} {part} [{}]", unit(name))))
-        .collect();
+    let of = |(name, unit): &Known| parts.map(|part| format!("{name} {part} [{unit}]"));
+    let mut columns: Vec<String> = known.iter().flat_map(of).collect();
     columns.extend(
         [
             "max roller slip [1]",
@@ -69,9 +68,9 @@ fn csv_columns(unit: &Unit<'_>) -> Vec<String> {
     columns
 }
 
-fn csv_cells(s: &Summary) -> Vec<String> {
+fn csv_cells(s: &Summary, known: &[Known]) -> Vec<String> {
     let mut row = Vec::new();
-    for name in CHANNELS {
+    for (name, _) in known {
         let spread = s.of(name).map(|s| &s.spread);
         row.push(cell(spread.map(|s| s.mean)));
         row.push(cell(spread.map(|s| s.deviation)));

@@ -1,7 +1,7 @@
 //! Comparison of cases whose elements have a prescribed motion: whether and how the cage whirls.
 
 use super::series::series;
-use super::{Comparison, Done, Unit, cell};
+use super::{Comparison, Done, Known, cell};
 use crate::plots::{self, WhirlPoint};
 use crate::summary::{Summary, Whirl};
 use crate::table::rounded;
@@ -18,6 +18,7 @@ pub const WHIRL: Comparison = Comparison {
         ("settled [s]", 11),
     ],
     cells,
+    channels: &CHANNELS,
     csv_columns,
     csv_cells,
     picture_name: "whirl_speed.svg",
@@ -55,7 +56,7 @@ fn settled(whirl: &Whirl) -> Option<f64> {
     whirl.settling_time_s.filter(|_| whirl.motion.is_whirl()).map(rounded)
 }
 
-fn csv_columns(unit: &Unit<'_>) -> Vec<String> {
+fn csv_columns(known: &[Known]) -> Vec<String> {
     let mut columns: Vec<String> = [
         "whirl speed mean [rad/s]",
         "whirl speed 5 % [rad/s]",
@@ -68,11 +69,11 @@ fn csv_columns(unit: &Unit<'_>) -> Vec<String> {
     ]
     .map(str::to_owned)
     .to_vec();
-    columns.extend(CHANNELS.iter().map(|name| format!("{name} mean [{}]", unit(name))));
+    columns.extend(known.iter().map(|(name, unit)| format!("{name} mean [{unit}]")));
     columns
 }
 
-fn csv_cells(s: &Summary) -> Vec<String> {
+fn csv_cells(s: &Summary, known: &[Known]) -> Vec<String> {
     let whirl = s.whirl.as_ref();
     let mut row = vec![
         cell(whirl.and_then(|w| w.mean_speed_rad_per_s)),
@@ -84,7 +85,7 @@ fn csv_cells(s: &Summary) -> Vec<String> {
         cell(whirl.and_then(settled)),
         cell(s.pocket_forces.as_ref().map(|forces| forces.largest_n)),
     ];
-    row.extend(CHANNELS.iter().map(|name| cell(s.of(name).map(|s| s.spread.mean))));
+    row.extend(known.iter().map(|(name, _)| cell(s.of(name).map(|s| s.spread.mean))));
     row
 }
 
