@@ -1,7 +1,7 @@
 //! The command `run`, and the simulation of one scene that `cases` shares with it.
 
 use crate::facts;
-use crate::starts::{Apart, try_starts};
+use crate::starts::{self, Apart};
 use crate::stream::{self, Stream};
 use crate::summary::Summary;
 use crate::table::number;
@@ -205,7 +205,12 @@ pub fn perform(request: Request<'_>, instead: &Instead) -> Result<(Run, Summary)
     for warning in model.scene().warnings() {
         terminal::warn(&case.map_or(warning.clone(), |case| format!("case {case}: {warning}")));
     }
-    sim.set_wall_time_limit(instead.max_wall_time.unwrap_or(f64::INFINITY))?;
+    let limit = instead.max_wall_time.unwrap_or(f64::INFINITY);
+    let apart = Apart { shift_m: instead.start_shift, spin_share: instead.start_spin };
+    if instead.starts > 1 {
+        starts::check(&mut sim, apart)?;
+    }
+    sim.set_wall_time_limit(limit)?;
     let taken = output::take(folder)?;
     output::begin(folder, &title, file, case, &set)?;
     let mut stream = Stream::new(folder, taken, sim.channels(), model.recorded(), model.watched())?;
@@ -253,8 +258,7 @@ pub fn perform(request: Request<'_>, instead: &Instead) -> Result<(Run, Summary)
     let mut summary = Summary::new(&run, file, case, set);
     if instead.starts > 1 && summary.complete {
         let count = usize::from(instead.starts);
-        let apart = Apart { shift_m: instead.start_shift, spin_share: instead.start_spin };
-        let starts = try_starts(&run.model, count, apart, run.window_start())?;
+        let starts = starts::try_starts(&run.model, count, apart, run.window_start(), limit);
         if starts.count < starts.asked {
             (run.interrupted, summary.interrupted, summary.complete) = (true, true, false);
         }

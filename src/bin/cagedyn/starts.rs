@@ -81,28 +81,30 @@ impl Starts {
     }
 }
 
-/// Runs a model from `count` starts on all cores. The first is the scene's own. `from` is the start of the averaging window, s.
+/// Whether other starts of this simulation can be so far apart.
 ///
 /// # Errors
-/// [`Status::BadScene`] without a cage.
-pub fn try_starts(model: &Arc<Model>, count: usize, apart: Apart, from: f64) -> Result<Starts> {
+/// [`Status::BadScene`] without a cage, or without room for it.
+pub fn check(sim: &mut Sim, apart: Apart) -> Result<()> {
+    let refused = |text: String| Err(Error::new(Status::BadScene, text));
+    let model = sim.model().clone();
     if model.scene().cage.is_none() {
-        return Err(Error::new(
-            Status::BadScene,
-            "--starts: there is no cage whose motion could differ".to_owned(),
-        ));
+        return refused("--starts: there is no cage whose motion could differ".to_owned());
     }
-    let mut first = Sim::new(model.clone())?;
-    let radius = first.channels().iter().position(|channel| channel.name == "cage.whirl_radius");
-    let radius = radius.map_or(Ok(0.0), |place| first.output(place))?;
-    if let Some(clearance) = model.guide_clearance().filter(|clearance| radius + apart.shift_m >= *clearance)
-    {
-        let text = format!(
+    let radius = sim.channels().iter().position(|channel| channel.name == "cage.whirl_radius");
+    let radius = radius.map_or(Ok(0.0), |place| sim.output(place))?;
+    match model.guide_clearance().filter(|clearance| radius + apart.shift_m >= *clearance) {
+        Some(clearance) => refused(format!(
             "--start-shift: {:?} m leaves no room in the guide clearance of {clearance:?} m",
             apart.shift_m
-        );
-        return Err(Error::new(Status::BadScene, text));
+        )),
+        None => Ok(()),
     }
+}
+
+/// Runs a model from `count` starts on all cores. The first is the scene's own. `from` is the start of the averaging window, s;
+/// `limit` the wall time of each run, s.
+pub fn try_starts(model: &Arc<Model>, count: usize, apart: Apart, from: f64, limit: f64) -> Starts {
     let next = AtomicUsize::new(0);
     let work = || {
         let mut found = Vec::new();
@@ -111,7 +113,7 @@ pub fn try_starts(model: &Arc<Model>, count: usize, apart: Apart, from: f64) -> 
             if k >= count || terminal::stop_requested() {
                 return found;
             }
-            found.push((k, motion_from(model, k, apart, from)));
+            found.push((k, motion_from(model, k, apart, from, limit)));
         }
     };
     let cores = std::thread::available_parallelism().map_or(1, usize::from).min(count);
@@ -149,12 +151,19 @@ pub fn try_starts(model: &Arc<Model>, count: usize, apart: Apart, from: f64) -> 
         }
     }
     motions.sort_by_key(|kind| std::cmp::Reverse(kind.count));
-    Ok(Starts { asked: count, count: all.len(), apart, motions, failed, failure })
+    Starts { asked: count, count: all.len(), apart, motions, failed, failure }
 }
 
 /// Motion from start `k` in the window from time `from` (s) on; `None` if the window holds too few records.
-fn motion_from(model: &Arc<Model>, k: usize, apart: Apart, from: f64) -> Result<Option<WhirlSummary>> {
+fn motion_from(
+    model: &Arc<Model>,
+    k: usize,
+    apart: Apart,
+    from: f64,
+    limit: f64,
+) -> Result<Option<WhirlSummary>> {
     let mut sim = Sim::new(model.clone())?;
+    sim.set_wall_time_limit(limit)?;
     if k > 0 {
         let mut state = sim.state().to_vec();
         // The fractions of two irrational numbers spread over a square without pattern.
