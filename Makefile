@@ -73,14 +73,14 @@ run:
 
 cases:
 	$(CARGO) run --release --locked -- cases scenes/nu2310_fig9.cases.json --out out/cases/nu2310
-	$(CARGO) run --release --locked -- cases scenes/grease_guide_speed.cases.json --out out/cases/grease_speed
-	$(CARGO) run --release --locked -- cases scenes/grease_guide_effects.cases.json --out out/cases/grease_effects
+	$(CARGO) run --release --locked -- cases scenes/grease_guide_speed.cases.json --starts 24 --out out/cases/grease_speed
+	$(CARGO) run --release --locked -- cases scenes/grease_guide_effects.cases.json --starts 24 --out out/cases/grease_effects
 	$(CARGO) run --release --locked -- cases scenes/grease_guide_dry.cases.json --starts 24 --out out/cases/grease_dry
 
 pictures:
 	$(CARGO) run --release --locked -- run scenes/nu2310.json --out out
 	$(CARGO) run --release --locked -- run scenes/grease_guide.json --out out/grease
-	$(CARGO) run --release --locked -- cases scenes/grease_guide_speed.cases.json --out out/cases/grease_speed
+	$(CARGO) run --release --locked -- cases scenes/grease_guide_speed.cases.json --starts 24 --out out/cases/grease_speed
 	mkdir -p docs/images
 	cp out/cage_orbit.svg out/roller_history.svg out/grease/whirl_history.svg docs/images/
 	cp out/cases/grease_speed/whirl_speed.svg docs/images/
