@@ -5,6 +5,7 @@ mod effects;
 mod facts;
 mod info;
 mod intervals;
+mod motion;
 mod output;
 mod plots;
 mod report;

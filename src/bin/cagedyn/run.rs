@@ -8,7 +8,6 @@ use crate::table::number;
 use crate::terminal::{self, INTERRUPTED, Progress};
 use crate::{Instead, RunArgs, output, report};
 use cagedyn::model::{Channel, PartTimes};
-use cagedyn::scene::GuideRing;
 use cagedyn::sim::{PowerBalance, RunStatistics};
 use cagedyn::{Error, Interval, Model, Recording, Result, Scene, Sim, Status};
 use std::fs;
@@ -128,18 +127,6 @@ impl Run {
     pub fn roller_count(&self) -> usize {
         self.model.layout().count
     }
-
-    /// Cage centre (y, z) relative to the guide centre over time, m, if there is a cage.
-    pub fn cage_centre(&self) -> Option<[Vec<f64>; 2]> {
-        let guide = self.model.scene().cage.as_ref()?.guide.as_ref();
-        let moving = guide.is_some_and(|g| g.ring == GuideRing::InnerRing);
-        let relative = |cage: &str, ring: &str| {
-            let cage = self.column(cage)?;
-            let ring = self.column(ring).filter(|_| moving);
-            Some(cage.iter().enumerate().map(|(i, x)| x - ring.map_or(0.0, |r| r[i])).collect())
-        };
-        Some([relative("cage.y", "inner_ring.y")?, relative("cage.z", "inner_ring.z")?])
-    }
 }
 
 /// What to simulate, and what to call it.
@@ -258,7 +245,7 @@ pub fn perform(request: Request<'_>, instead: &Instead) -> Result<(Run, Summary)
     let mut summary = Summary::new(&run, file, case, set);
     if instead.starts > 1 && summary.complete {
         let count = usize::from(instead.starts);
-        let starts = starts::try_starts(&run.model, count, apart, run.window_start(), limit);
+        let starts = starts::try_starts(&run.model, count, apart, run.window_start(), limit)?;
         if starts.count < starts.asked {
             (run.interrupted, summary.interrupted, summary.complete) = (true, true, false);
         }

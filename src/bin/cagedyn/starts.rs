@@ -1,9 +1,10 @@
 //! The same scene from slightly different starts: which kinds of motion there are, and how often. Where a cage has more than
 //! one, a single start says nothing about the bearing.
 
+use crate::motion::{CHANNELS, whirl};
 use crate::terminal;
-use cagedyn::scene::GuideRing;
-use cagedyn::{CageMotion, Error, Model, Result, Sim, Status, WhirlRecord, WhirlSummary};
+use cagedyn::scene::Record;
+use cagedyn::{CageMotion, Error, Model, Recording, Result, Scene, Sim, Status, WhirlSummary};
 use serde::Serialize;
 use std::f64::consts::{SQRT_2, TAU};
 use std::sync::Arc;
@@ -104,7 +105,17 @@ pub fn check(sim: &mut Sim, apart: Apart) -> Result<()> {
 
 /// Runs a model from `count` starts on all cores. The first is the scene's own. `from` is the start of the averaging window, s;
 /// `limit` the wall time of each run, s.
-pub fn try_starts(model: &Arc<Model>, count: usize, apart: Apart, from: f64, limit: f64) -> Starts {
+///
+/// # Errors
+/// As [`Model::new`].
+pub fn try_starts(model: &Model, count: usize, apart: Apart, from: f64, limit: f64) -> Result<Starts> {
+    // The same bearing, of which only the motion of the cage is recorded.
+    let known = model.channels();
+    let channels = CHANNELS.iter().filter(|name| known.iter().any(|channel| channel.name == **name));
+    let channels = Some(channels.map(|name| (*name).to_owned()).collect());
+    let scene = model.scene().clone();
+    let record = Record { channels, extremes: Some(Vec::new()), ..scene.record.clone() };
+    let model = &Arc::new(Model::new(Scene { record, ..scene })?);
     let next = AtomicUsize::new(0);
     let work = || {
         let mut found = Vec::new();
@@ -113,7 +124,12 @@ pub fn try_starts(model: &Arc<Model>, count: usize, apart: Apart, from: f64, lim
             if k >= count || terminal::stop_requested() {
                 return found;
             }
-            found.push((k, motion_from(model, k, apart, from, limit)));
+            let motion = motion_from(model, k, apart, from, limit);
+            // What was cut short is no motion.
+            if terminal::stop_requested() {
+                return found;
+            }
+            found.push((k, motion));
         }
     };
     let cores = std::thread::available_parallelism().map_or(1, usize::from).min(count);
@@ -123,35 +139,32 @@ pub fn try_starts(model: &Arc<Model>, count: usize, apart: Apart, from: f64, lim
     });
     // In the order of the starts, whichever thread ran them.
     all.sort_by_key(|(k, _)| *k);
-    let mut motions: Vec<Kind> = Vec::new();
-    let (mut failed, mut failure) = (0, None);
-    for (_, found) in &all {
-        let Ok(Some(whirl)) = found else {
-            failed += 1;
-            failure = failure.or_else(|| found.as_ref().err().map(|e| e.message.clone()));
-            continue;
+    let failures = all.iter().filter(|(_, found)| !matches!(found, Ok(Some(_))));
+    let failure = all.iter().find_map(|(_, found)| Some(found.as_ref().err()?.message.clone()));
+    let failed = failures.count();
+    let whirls: Vec<&WhirlSummary> =
+        all.iter().filter_map(|(_, found)| found.as_ref().ok()?.as_ref()).collect();
+    let motions = kinds(&whirls, all.len());
+    Ok(Starts { asked: count, count: all.len(), apart, motions, failed, failure })
+}
+
+/// The kinds among the motions from `count` starts, the most frequent first.
+fn kinds(whirls: &[&WhirlSummary], count: usize) -> Vec<Kind> {
+    let of = |motion: CageMotion| {
+        let same: Vec<_> = whirls.iter().filter(|whirl| whirl.motion == motion).collect();
+        let speeds = || same.iter().filter_map(|whirl| Some(whirl.speed?.mean));
+        let range = [speeds().reduce(f64::min), speeds().reduce(f64::max)];
+        let kind = Kind {
+            motion,
+            count: same.len(),
+            share: same.len() as f64 / count as f64,
+            mean_speed_rad_per_s: range[0].zip(range[1]).map(|(low, high)| [low, high]),
         };
-        let speed = whirl.speed.map(|speed| speed.mean);
-        let share = 1.0 / all.len() as f64;
-        match motions.iter_mut().find(|kind| kind.motion == whirl.motion) {
-            Some(kind) => {
-                kind.count += 1;
-                kind.share = kind.count as f64 * share;
-                kind.mean_speed_rad_per_s = match (kind.mean_speed_rad_per_s, speed) {
-                    (Some([low, high]), Some(speed)) => Some([low.min(speed), high.max(speed)]),
-                    (known, speed) => known.or(speed.map(|speed| [speed; 2])),
-                };
-            }
-            None => motions.push(Kind {
-                motion: whirl.motion,
-                count: 1,
-                share,
-                mean_speed_rad_per_s: speed.map(|speed| [speed; 2]),
-            }),
-        }
-    }
-    motions.sort_by_key(|kind| std::cmp::Reverse(kind.count));
-    Starts { asked: count, count: all.len(), apart, motions, failed, failure }
+        (kind.count > 0).then_some(kind)
+    };
+    let mut kinds: Vec<Kind> = CageMotion::ALL.into_iter().filter_map(of).collect();
+    kinds.sort_by_key(|kind| std::cmp::Reverse(kind.count));
+    kinds
 }
 
 /// Motion from start `k` in the window from time `from` (s) on; `None` if the window holds too few records.
@@ -175,41 +188,8 @@ fn motion_from(
         }
         sim.set_state(0.0, &state)?;
     }
-    let moving = model.scene().cage.as_ref().and_then(|cage| cage.guide.as_ref());
-    let moving = moving.is_some_and(|guide| guide.ring == GuideRing::InnerRing);
-    let names = ["cage.whirl_speed", "cage.whirl_radius", "cage.y", "cage.z", "cage.speed"];
-    let place = |name: &str| sim.channels().iter().position(|channel| channel.name == name);
-    let places = names.map(place);
-    let ring = ["inner_ring.y", "inner_ring.z"].map(|name| place(name).filter(|_| moving));
-    let record = &model.scene().record;
-    let last = (record.duration / record.interval * (1.0 + 1e-12)).floor() as u64;
-    let (mut times, mut columns, mut row) =
-        (Vec::new(), <[Vec<f64>; 5]>::default(), vec![0.0; sim.channels().len()]);
-    for i in 0..=last {
-        let t = (i as f64 * record.interval).min(record.duration);
-        sim.advance_to(t)?;
-        sim.outputs(&mut row)?;
-        times.push(t);
-        for (column, place) in columns.iter_mut().zip(places) {
-            column.push(place.map_or(0.0, |place| row[place]));
-        }
-        for (k, place) in ring.iter().enumerate() {
-            if let (Some(place), Some(centre)) = (place, columns[2 + k].last_mut()) {
-                *centre -= row[*place];
-            }
-        }
-        if terminal::stop_requested() {
-            break;
-        }
-    }
-    let [whirl_speed, whirl_radius, y, z, cage_speed] = &columns;
-    let record = WhirlRecord {
-        times: &times,
-        whirl_speed,
-        whirl_radius,
-        centre: [y, z],
-        cage_speed,
-        clearance: model.guide_clearance(),
-    };
-    Ok(WhirlSummary::of(&record, from))
+    let Record { duration, interval, .. } = model.scene().record;
+    let mut recording = Recording::default();
+    recording.run(&mut sim, duration, interval, |_, _| !terminal::stop_requested())?;
+    Ok(whirl(model, &recording, from))
 }

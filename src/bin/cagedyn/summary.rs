@@ -1,12 +1,13 @@
 //! Results of a run in numbers, as written to `summary.json`.
 
+use crate::motion::whirl;
 use crate::run::Run;
 use crate::starts::Starts;
 use crate::stream::{SERIES, UNFINISHED};
 use cagedyn::model::{Channel, FAULTS, LAWS, PARTS, POWERS};
 use cagedyn::scene::Method;
 use cagedyn::sim::PowerBalance;
-use cagedyn::{CageMotion, Interval, Recording, Spread, WhirlRecord, WhirlSummary};
+use cagedyn::{CageMotion, Interval, Recording, Spread, WhirlSummary};
 use serde::{Serialize, Serializer};
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -234,7 +235,7 @@ impl Summary {
     /// Results of a run; `scene` is the file it came from.
     pub fn new(run: &Run, scene: &Path, case: Option<&str>, set: Vec<String>) -> Self {
         let from = run.window_start();
-        let whirl = whirl(run, from);
+        let whirl = whirl(&run.model, &run.recording, from);
         let speed = whirl.as_ref().and_then(|whirl| whirl.speed);
         let statistics = key_statistics(&run.channels, &run.recording, from, speed);
         let mean = |name: &str| statistics.iter().find(|(n, _)| n == name).map(|(_, s)| s.spread.mean);
@@ -348,19 +349,6 @@ fn integration(run: &Run) -> Integration {
         time_shares: time_shares(run),
         law_evaluations: LAWS.into_iter().zip(run.statistics.laws).filter(|(_, n)| *n > 0).collect(),
     }
-}
-
-fn whirl(run: &Run, from: f64) -> Option<WhirlSummary> {
-    let [y, z] = run.cage_centre()?;
-    let record = WhirlRecord {
-        times: &run.recording.times,
-        whirl_speed: run.column("cage.whirl_speed")?,
-        whirl_radius: run.column("cage.whirl_radius")?,
-        centre: [&y, &z],
-        cage_speed: run.column("cage.speed")?,
-        clearance: run.model.guide_clearance(),
-    };
-    WhirlSummary::of(&record, from)
 }
 
 impl Whirl {
