@@ -8,6 +8,7 @@ use super::{ElementKind, GuideReport, Input, InputValues, Model, Workspace};
 use crate::contact::rotate;
 use crate::laws::guide::GuideFilm;
 use crate::scalar::math;
+use crate::scene::Pocket;
 use std::f64::consts::TAU;
 
 /// A ring slower than this stands still for the slip channels, rad/s.
@@ -50,7 +51,7 @@ pub(super) enum Source {
     InnerFilm(usize),
     OuterFilm(usize),
     CageAngle,
-    /// Of a raceway contact: which ring, outer (0) or inner (1), and element.
+    /// Of a contact: its place among those of the element, and element.
     Traction(usize, usize),
     HertzPressure(usize, usize),
     SlidingPower(usize, usize),
@@ -181,21 +182,20 @@ impl Model {
                 add("inner_film", "m", "central film thickness on the inner raceway", Source::InnerFilm(j));
                 add("outer_film", "m", "central film thickness on the outer raceway", Source::OuterFilm(j));
             }
-            for (ring, name) in ["outer", "inner"].into_iter().enumerate() {
-                let text = "friction F_T on the roller along the tangent of the contact";
-                list.add_detail(
-                    &format!("{kind}[{j}].{name}_traction"),
-                    "N",
-                    text,
-                    Source::Traction(ring, j),
-                );
-                let text = "largest Hertz pressure in the contact with the raceway";
-                let source = Source::HertzPressure(ring, j);
+        }
+        let raceways = self.laws.raceways.iter().flat_map(|_| ["outer", "inner"]);
+        let pockets = self.laws.pocket.iter().flat_map(|_| ["pocket_front", "pocket_back"]);
+        for (place, name) in raceways.chain(pockets).enumerate() {
+            let text = "friction F_T on the element along the tangent of the contact";
+            list.add_detail(&format!("{kind}[{j}].{name}_traction"), "N", text, Source::Traction(place, j));
+            if self.curvature(place).is_some() {
+                let text = "largest Hertz pressure in the contact; at the edge of a pocket as on its wall";
+                let source = Source::HertzPressure(place, j);
                 list.add_detail(&format!("{kind}[{j}].{name}_pressure"), "Pa", text, source);
-                let text = "power lost by sliding in the contact with the raceway";
-                let source = Source::SlidingPower(ring, j);
-                list.add_detail(&format!("{kind}[{j}].{name}_sliding_power"), "W", text, source);
             }
+            let text = "power lost by sliding in the contact";
+            let source = Source::SlidingPower(place, j);
+            list.add_detail(&format!("{kind}[{j}].{name}_sliding_power"), "W", text, source);
         }
     }
 
@@ -280,24 +280,37 @@ impl Model {
         }
     }
 
-    /// Largest pressure of Hertz's line contact of a roller with the outer (0) or inner (1) raceway under a load in N, Pa:
-    /// sqrt(Q E'/(2 pi R l)). E' = 2/((1 - nu1^2)/E1 + (1 - nu2^2)/E2), R reduced radius, l length.
-    fn hertz_pressure(&self, ring: usize, load: f64) -> Option<f64> {
+    /// Largest pressure of Hertz's line contact of an element under a load in N, by the place of the contact among those of
+    /// the element, Pa: sqrt(Q E'/(2 pi R l)). E' = 2/((1 - nu1^2)/E1 + (1 - nu2^2)/E2), 1/R curvature, l length.
+    fn hertz_pressure(&self, place: usize, load: f64) -> Option<f64> {
+        let (modulus, curvature, length) = self.curvature(place)?;
+        Some((load.max(0.0) * modulus * curvature / (TAU * length)).sqrt())
+    }
+
+    /// E' (Pa), 1/R (1/m) and l (m) of that contact, where it is one of two cylinders.
+    fn curvature(&self, place: usize) -> Option<(f64, f64, f64)> {
         let scene = &self.scene;
-        let rollers = scene.rollers.as_ref()?;
-        let outer = scene.outer_ring.as_ref()?;
-        let (mate, curvature) = match ring {
-            0 => (&outer.material, -1.0 / outer.raceway_radius),
-            _ => (scene.inner_ring.as_ref()?.material.as_ref()?, 1.0 / self.inner_raceway_radius()?),
+        let cage = || {
+            let cage = scene.cage.as_ref()?;
+            let Some(Pocket::LubricatedCylinder(pocket)) = &cage.pocket else { return None };
+            Some((cage.material.as_ref()?, -1.0 / (scene.element_radius() + pocket.radial_clearance)))
+        };
+        let (mate, curvature) = match place + if self.laws.raceways.is_some() { 0 } else { 2 } {
+            0 => scene.outer_ring.as_ref().map(|ring| (&ring.material, -1.0 / ring.raceway_radius))?,
+            1 => (scene.inner_ring.as_ref()?.material.as_ref()?, 1.0 / self.inner_raceway_radius()?),
+            _ => cage()?,
+        };
+        let (own, length) = match (&scene.rollers, &scene.kinematic_elements) {
+            (Some(rollers), _) => (&rollers.material, rollers.effective_length),
+            (_, Some(elements)) => (elements.material.as_ref()?, elements.effective_length?),
+            _ => return None,
         };
         let compliance = |name: &String| {
             let m = scene.materials.get(name)?;
             Some((1.0 - m.poisson_ratio * m.poisson_ratio) / m.young_modulus)
         };
-        let modulus = 2.0 / (compliance(&rollers.material)? + compliance(mate)?);
-        let curvature = 1.0 / rollers.radius + curvature;
-        let square = load.max(0.0) * modulus * curvature / (TAU * rollers.effective_length);
-        Some(square.sqrt())
+        let modulus = 2.0 / (compliance(own)? + compliance(mate)?);
+        Some((modulus, 1.0 / scene.element_radius() + curvature, length))
     }
 
     /// 1 where the elements go round counter-clockwise at these inputs, else -1.

@@ -386,3 +386,20 @@ fn the_spectrum_tells_its_resolution() {
     let svg = read(&dir.path().join("cage_spectrum.svg"));
     assert!(svg.contains("Hann window, resolution") && svg.contains("Hz"));
 }
+
+#[test]
+fn the_limit_on_the_wall_time_covers_everything() {
+    let dir = tempfile::tempdir().expect("a directory");
+    let out = dir.path().to_string_lossy().into_owned();
+    let start = Instant::now();
+    let scene = ["run", "scenes/nu2310.json", "--until", "500", "--large-table", "--out", &out];
+    let output = run(&[&scene[..], &["--max-wall-time", "0.5", "--starts", "3"]].concat());
+    assert!(start.elapsed() < Duration::from_secs(60));
+    assert_eq!(output.status.code(), Some(1));
+    assert!(text(&output.stderr).contains("wall time"), "{}", text(&output.stderr));
+    let summary = json(&dir.path().join("summary.json"));
+    assert_eq!(summary["complete"], false);
+    assert!(summary["error"].as_str().is_some_and(|error| error.contains("wall time")));
+    assert!(rows(&dir.path().join("timeseries.csv")).len() > 10);
+    assert!(!dir.path().join("cage_orbit.svg").exists());
+}

@@ -243,3 +243,31 @@ fn contacts_show_traction_pressure_and_sliding_power() {
     }
     assert!(loaded > 4, "{loaded}");
 }
+
+#[test]
+fn pockets_show_them_too() {
+    let set = [("solver.method", json!({"dormand_prince": {"tolerance": 1e-6}}))];
+    let mut sim = sim(&set);
+    let names = sim.model().contact_names();
+    let scene = sim.model().scene().clone();
+    let (rollers, mut touched) = (scene.rollers.as_ref().unwrap(), 0);
+    for k in 1..=40 {
+        sim.advance_to(2.5e-4 * f64::from(k)).unwrap();
+        let contacts = sim.forces().unwrap().contacts.clone();
+        for (i, name) in names.iter().enumerate().filter(|(_, name)| name.contains("pocket")) {
+            let [pressure, power, traction] = ["pressure", "sliding_power", "traction"].map(|what| {
+                let i = channel(&sim, &format!("{name}_{what}"));
+                sim.output(i).unwrap()
+            });
+            let (load, friction, slip) = (contacts[i][0], contacts[i][6], contacts[i][10]);
+            assert_eq!((traction, power), (friction, (friction * slip).abs()), "{name}");
+            // Steel in brass, conformal.
+            let compliance = (1.0 - 0.09) / 206e9 + (1.0 - 0.34 * 0.34) / 103e9;
+            let curvature = 1.0 / rollers.radius - 1.0 / (rollers.radius + 0.15e-3);
+            let hertz = (load * curvature / (PI * compliance * rollers.effective_length)).sqrt();
+            assert!((pressure - hertz).abs() <= 1e-9 * hertz, "{name}: {pressure} {hertz}");
+            touched += usize::from(load > 0.0);
+        }
+    }
+    assert!(touched > 5, "{touched}");
+}

@@ -79,7 +79,7 @@ pub struct Instead {
     until: Option<f64>,
     #[arg(long, value_parser = parse_preset, value_name = "PRESET", help = preset_help())]
     preset: Option<Preset>,
-    /// End every run after this wall time in s, as a failure with the results so far.
+    /// End every run after this wall time in s, as a failure with the results so far; no pictures are drawn after it.
     #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = parse_time)]
     pub max_wall_time: Option<f64>,
     /// Run from so many slightly different starts, and tell which kinds of motion of the cage there are. The files are those of

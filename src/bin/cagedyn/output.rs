@@ -104,13 +104,16 @@ fn remove_files(folder: &Path) -> Result<()> {
 }
 
 /// Writes summary and pictures of a run into `folder` and notes the names of all files in the summary. The summary comes first:
-/// it is there even if no picture can be.
+/// it is there even if no picture can be. Pictures are left out unless `draw`.
 ///
 /// # Errors
 /// [`Status::File`] for a file that cannot be written.
-pub fn write(run: &Run, summary: &mut Summary, folder: &Path) -> Result<()> {
+pub fn write(run: &Run, summary: &mut Summary, folder: &Path, draw: bool) -> Result<()> {
     summary.files.push(SUMMARY.to_owned());
     write_json(&folder.join(SUMMARY), summary)?;
+    if !draw {
+        return Ok(());
+    }
     for (name, svg) in plots::pictures(run, summary)? {
         write_text(&folder.join(name), &svg)?;
         summary.files.push(name.to_owned());

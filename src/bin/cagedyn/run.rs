@@ -251,7 +251,9 @@ pub fn perform(request: Request<'_>, instead: &Instead) -> Result<(Run, Summary)
         }
         summary.starts = Some(starts);
     }
-    if let Err(e) = output::write(&run, &mut summary, folder) {
+    // The limit on the wall time is one on everything.
+    let draw = started.elapsed().as_secs_f64() < limit;
+    if let Err(e) = output::write(&run, &mut summary, folder, draw) {
         run.failure = run.failure.or(Some(e));
     }
     Ok((run, summary))
