@@ -1,6 +1,6 @@
 //! What a scene may say and rarely means.
 
-use super::check::{range, shown, slip_hint};
+use super::check::{Range, range, shown, slip_hint};
 use super::{RingMotion, Scene, Viscosity};
 use crate::scalar::math;
 use std::f64::consts::TAU;
@@ -27,12 +27,11 @@ impl Scene {
             let fastest = FASTEST / 60.0 * TAU / diameter;
             let speed = ring.speed.largest();
             if speed > fastest {
-                let hint = slip_hint(speed, range(0.0, fastest, "rad/s"));
-                list.push(format!(
-                    "inner_ring.speed: {} rad/s is more than {} rad/s, which only special bearings of this size reach{hint}",
-                    shown(speed),
+                let why = format!(
+                    "more than {} rad/s, which only special bearings of this size reach",
                     shown(fastest)
-                ));
+                );
+                list.push(unlikely("inner_ring.speed", speed, range(0.0, fastest, "rad/s"), &why));
             }
         }
         if let (Some(rollers), Some(RingMotion::Free(ring))) =
@@ -42,12 +41,8 @@ impl Scene {
             let rating =
                 HEAVIEST * f64::from(rollers.count) * rollers.effective_length * 2.0 * rollers.radius;
             if load > rating {
-                let hint = slip_hint(load, range(0.0, rating, "N"));
-                list.push(format!(
-                    "inner_ring.motion.free.load: {} N is beyond what such a bearing carries at rest, about {} N{hint}",
-                    shown(load),
-                    shown(rating)
-                ));
+                let why = format!("beyond what such a bearing carries at rest, about {} N", shown(rating));
+                list.push(unlikely("inner_ring.motion.free.load", load, range(0.0, rating, "N"), &why));
             }
         }
         let clearance = self.inner_ring.as_ref().and_then(|ring| ring.radial_clearance).unwrap_or(0.0);
@@ -60,8 +55,8 @@ impl Scene {
         if let Some(Viscosity::Constant(viscosity)) = self.lubricant.as_ref().map(|l| &l.viscosity)
             && *viscosity > THICKEST
         {
-            let hint = slip_hint(*viscosity, range(1e-3, THICKEST, "Pa s"));
-            list.push(format!("lubricant.viscosity: {} Pa s is thicker than honey{hint}", shown(*viscosity)));
+            let usual = range(1e-3, THICKEST, "Pa s");
+            list.push(unlikely("lubricant.viscosity", *viscosity, usual, "thicker than honey"));
         }
         if let Some(gravity) = self.gravity.filter(|g| math::hypot(g.y, g.z) > HEAVY) {
             let size = math::hypot(gravity.y, gravity.z);
@@ -73,17 +68,21 @@ impl Scene {
         let angles =
             phases.chain([("initial.first_roller_angle".to_owned(), self.initial.first_roller_angle)]);
         for (path, angle) in angles.filter(|(_, angle)| angle.abs() > TURN) {
-            let hint = slip_hint(angle, range(-TURN, TURN, "rad"));
-            list.push(format!("{path}: {} rad is more than a turn{hint}", shown(angle)));
+            list.push(unlikely(&path, angle, range(-TURN, TURN, "rad"), "more than a turn"));
         }
         let ring = self.inner_ring.as_ref().map_or(f64::INFINITY, |ring| ring.speed.largest());
         if let Some(speed) = self.initial.cage_speed.filter(|speed| speed.abs() > 1.5 * ring && *speed != 0.0)
         {
-            let hint = slip_hint(speed, range(-1.5 * ring, 1.5 * ring, "rad/s"));
-            list.push(format!("initial.cage_speed: {} rad/s is more than the ring has{hint}", shown(speed)));
+            let usual = range(-1.5 * ring, 1.5 * ring, "rad/s");
+            list.push(unlikely("initial.cage_speed", speed, usual, "more than the ring has"));
         }
         list
     }
+}
+
+/// The line for a value outside `usual`, in the unit of that range.
+fn unlikely(path: &str, value: f64, usual: Range, why: &str) -> String {
+    format!("{path}: {} {} is {why}{}", shown(value), usual.unit, slip_hint(value, usual))
 }
 
 #[cfg(test)]

@@ -152,13 +152,6 @@ pub struct ErrorControl {
     pub tolerance: Option<f64>,
 }
 
-impl Record {
-    /// All channels every `interval` s up to `duration` s.
-    pub fn of(duration: f64, interval: f64) -> Self {
-        Self { duration, interval, channels: None, extremes: None, window: None }
-    }
-}
-
 /// Length of the run and records of it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -170,7 +163,8 @@ pub struct Record {
     /// Time between records, s. It does not influence the steps.
     #[cfg_attr(feature = "schema", schemars(range(min = 1e-10, max = 100000.0)))]
     pub interval: f64,
-    /// Channels of a record, by name; `*` stands for any text, `?` for one character. Absent: all.
+    /// Channels of a record, by name; `*` stands for any text, `?` for one character. Absent: all but
+    /// those of the stress and losses in contacts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub channels: Option<Vec<String>>,
     /// Channels that are followed in every step: a record has their smallest and largest value, their mean and their integral
@@ -183,4 +177,11 @@ pub struct Record {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 1e-10, max = 100000.0)))]
     pub window: Option<f64>,
+}
+
+impl Record {
+    /// All channels every `interval` s up to `duration` s.
+    pub fn of(duration: f64, interval: f64) -> Self {
+        Self { duration, interval, channels: None, extremes: None, window: None }
+    }
 }
