@@ -1,0 +1,141 @@
+#!/usr/bin/env python3
+"""Compares two builds of the shared library number by number.
+
+    compare_builds.py before.so after.so scene.json...
+
+For every scene it runs 2 ms with each method, and asks both libraries for everything that they know: states, outputs,
+contact and body forces, works, counts, and at states around the run rates and exact derivatives. It prints what is not equal
+to the last bit, and the largest difference as a share of the largest number of its kind.
+"""
+
+import ctypes as c
+import json
+import pathlib
+import random
+import struct
+import sys
+
+METHODS = ["auto", {"leapfrog": {}}, {"dormand_prince": {"tolerance": 1e-5}}, {"rosenbrock": {"tolerance": 1e-5}}]
+STATES = 40
+SCALE = 1e-3
+
+
+class Library:
+    def __init__(self, path):
+        self.c = c.CDLL(str(path))
+        for name in ("model_from_json", "sim_new", "error_message", "sim_report", "model_warning"):
+            getattr(self.c, "cagedyn_" + name).restype = c.c_void_p
+        for name in ("model_state_count", "model_output_count", "model_contact_count", "model_body_count",
+                     "model_contact_quantity_count", "model_force_source_count", "model_velocity_count",
+                     "statistic_count", "law_count", "balance_count"):
+            getattr(self.c, "cagedyn_" + name).restype = c.c_int64
+
+    def count(self, name, *args):
+        return getattr(self.c, "cagedyn_" + name)(*args)
+
+    def names(self, name, n, *args):
+        function = getattr(self.c, "cagedyn_" + name)
+        function.restype = c.c_char_p
+        return [function(*args, c.c_int64(i)) for i in range(n)]
+
+    def numbers(self, name, sim, n):
+        out = (c.c_double * n)()
+        status = getattr(self.c, "cagedyn_" + name)(sim, out, c.c_int64(n))
+        return [float(status), *out]
+
+    def message(self):
+        return c.string_at(self.c.cagedyn_error_message())
+
+
+def states_around(start, rng):
+    """The state itself, and others with every number changed by up to a thousandth, and by 1 um or 1e-4 of any."""
+    for i in range(STATES):
+        spread = 0.0 if i == 0 else SCALE * 10 ** rng.uniform(-3, 0)
+        yield [x * (1 + spread * rng.uniform(-1, 1)) + spread * 2e-4 * rng.uniform(-1, 1) for x in start]
+
+
+def everything(lib, scene, states):
+    """Lists of numbers by what they are. `states`: those to differentiate at, filled when empty."""
+    model = c.c_void_p(lib.c.cagedyn_model_from_json(json.dumps(scene).encode()))
+    if not model:
+        return {"error": lib.message()}
+    n = lib.count("model_state_count", model)
+    outputs = lib.count("model_output_count", model)
+    contacts = lib.count("model_contact_count", model) * lib.count("model_contact_quantity_count", model)
+    bodies = lib.count("model_body_count", model) * lib.count("model_force_source_count", model) * 3
+    found = {
+        "names": lib.names("model_state_name", n, model)
+        + lib.names("model_output_name", outputs, model)
+        + lib.names("model_output_description", outputs, model)
+        + lib.names("model_contact_name", lib.count("model_contact_count", model), model)
+        + lib.names("model_body_name", lib.count("model_body_count", model), model)
+    }
+    sim = c.c_void_p(lib.c.cagedyn_sim_new(model))
+    if not sim:
+        return {**found, "error": lib.message()}
+    put = lambda kind, values: found.setdefault(kind, []).extend(values)
+    for step in range(1, 11):
+        put("status", [lib.c.cagedyn_sim_advance_to(sim, c.c_double(2e-4 * step))])
+        put("state", lib.numbers("sim_get_state", sim, n))
+        put("outputs", lib.numbers("sim_get_outputs", sim, outputs))
+        put("contacts", lib.numbers("sim_contact_forces", sim, contacts))
+        put("bodies", lib.numbers("sim_body_forces", sim, bodies))
+        put("works", lib.numbers("sim_power_balance", sim, lib.count("balance_count")))
+    put("counts", lib.numbers("sim_statistics", sim, lib.count("statistic_count")))
+    put("counts", lib.numbers("sim_law_evaluations", sim, lib.count("law_count")))
+    found["report"] = [c.string_at(lib.c.cagedyn_sim_report(sim))]
+    if not states:
+        state = lib.numbers("sim_get_state", sim, n)[1:]
+        states.extend(states_around(state, random.Random(1)))
+    rate, jacobian = (c.c_double * n)(), (c.c_double * (n * n))()
+    for k, state in enumerate(states):
+        x = (c.c_double * n)(*state)
+        t = c.c_double(2e-3 + 1e-5 * k)
+        status = lib.c.cagedyn_sim_derivative(sim, t, x, rate, c.c_int64(n))
+        put("rates", [float(status), *rate])
+        if k % 4 == 0:
+            status = lib.c.cagedyn_sim_jacobian(sim, t, x, c.c_int64(n), jacobian, c.c_int64(n * n))
+            put("jacobian", [float(status), *jacobian])
+    lib.c.cagedyn_sim_free(sim)
+    lib.c.cagedyn_model_free(model)
+    return found
+
+
+def bits(x):
+    return struct.pack("d", x)
+
+
+def difference(before, after):
+    """None if equal to the bit, else the largest difference relative to the largest number."""
+    if before == after or len(before) == len(after) and all(a == b or bits(a) == bits(b) for a, b in zip(before, after)):
+        return None
+    if len(before) != len(after) or not all(isinstance(x, float) for x in before):
+        return float("inf")
+    size = max((abs(x) for x in before if x == x), default=1.0) or 1.0
+    gaps = [abs(a - b) / size for a, b in zip(before, after) if a != b and not (a != a and b != b)]
+    return max(gaps, default=0.0)
+
+
+def main():
+    before, after = Library(sys.argv[1]), Library(sys.argv[2])
+    unequal = total = compared = 0
+    for path in sys.argv[3:]:
+        scene = json.loads(pathlib.Path(path).read_text())
+        for method in METHODS:
+            scene["solver"] = {"method": method}
+            states = []
+            a, b = everything(before, scene, states), everything(after, scene, states)
+            total += 1
+            apart = {kind: difference(a.get(kind, []), b.get(kind, [])) for kind in sorted({*a, *b})}
+            compared += sum(len(x) for x in a.values())
+            apart = {kind: gap for kind, gap in apart.items() if gap is not None}
+            if apart:
+                unequal += 1
+                text = ", ".join(f"{kind} {gap:.1e}" for kind, gap in apart.items())
+                print(f"{pathlib.Path(path).name} {method}: {text}", flush=True)
+    print(f"{total} runs, {compared} numbers and texts compared; {unequal} runs differ")
+    return 1 if unequal else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
