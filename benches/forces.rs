@@ -49,7 +49,7 @@ fn benches(c: &mut Criterion) {
         let inputs = model.inputs_at(DEVELOPED, &HostInputs::default());
         if model.accelerations(&inputs, q, v, &mut workspace, &mut a).is_ok() {
             c.bench_function(&format!("{scene}/{name}/power balance"), |b| {
-                b.iter(|| model.powers(black_box(q), v, None, &workspace));
+                b.iter(|| model.powers(black_box(v), None, &workspace));
             });
         }
         c.bench_function(&format!("{scene}/{name}/1 ms"), |b| {

@@ -52,7 +52,7 @@ fn measured(sim: &Sim) -> Option<[f64; 2]> {
             ws.set_differentiating(true);
             model.accelerations(&inputs, black_box(q), v, &mut ws, &mut a).ok()?;
             ws.set_differentiating(false);
-            model.linearize(q, v, &mut ws, &rates, &mut out);
+            model.linearize(&mut ws, &rates, &mut out);
         }
         let both = started.elapsed().as_secs_f64() / f64::from(REPEATS);
         times[0].push(1e9 * forces);

@@ -18,15 +18,18 @@
 
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
+mod bodies;
 pub mod capi;
-pub mod contact;
 mod error;
 pub mod integrate;
 pub mod laws;
 pub mod model;
+pub mod pairs;
+mod registry;
 pub mod scalar;
 pub mod scene;
 pub mod sim;
+pub mod space;
 
 pub use error::{Error, Result, Status};
 pub use model::Model;

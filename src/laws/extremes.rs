@@ -1,6 +1,7 @@
 //! A million random and extreme arguments: results are finite, correctly signed, and monotone where physics says so.
 
 use super::contact_pair::ContactMotion;
+use super::fluid::Fluid;
 use super::journal::JournalMotion;
 use super::line_contact::LineContact;
 use super::line_contact::tests::raceway;
@@ -50,16 +51,16 @@ impl Random {
 
 fn check_line_contact(law: &LineContact, random: &mut Random, n: u32) {
     for _ in 0..n {
-        let (motion, thickening) = (random.motion(), 60.0 * random.unit() - 30.0);
+        let (motion, ln_viscosity) = (random.motion(), 60.0 * random.unit() - 30.0);
         let edge_share = if random.unit() < 0.7 { 0.0 } else { 1.2 * random.unit() };
-        let f = law.force(&motion, thickening, edge_share);
+        let f = law.force(&motion, ln_viscosity, edge_share);
         let mut all_finite = true;
         let mut apart = true;
         f.map(|x| {
             all_finite &= x.is_finite();
             apart &= *x == 0.0;
         });
-        assert!(all_finite, "{motion:?} {thickening}: {f:?}");
+        assert!(all_finite, "{motion:?} {ln_viscosity}: {f:?}");
         assert!(motion.delta > 0.0 || apart, "{motion:?}: {f:?}");
         let sizes = [f.normal, f.film, f.film_ratio, f.temperature_rise, f.friction_coefficient];
         assert!(sizes.iter().all(|x| *x >= 0.0), "{motion:?}: {f:?}");
@@ -68,7 +69,7 @@ fn check_line_contact(law: &LineContact, random: &mut Random, n: u32) {
         // At rest a deeper contact carries more, on a thinner film.
         let resting = ContactMotion { delta_dot: 0.0, ..motion };
         let deeper = ContactMotion { delta: motion.delta * (1.0 + random.unit()), ..resting };
-        let [f, g] = [resting, deeper].map(|motion| law.force(&motion, thickening, 0.0));
+        let [f, g] = [resting, deeper].map(|motion| law.force(&motion, ln_viscosity, 0.0));
         if motion.delta > 1e-300 {
             assert!(g.normal >= f.normal * (1.0 - 1e-14), "{resting:?} {f:?} {g:?}");
             assert!(g.film <= f.film * (1.0 + 1e-12), "{resting:?} {f:?} {g:?}");
@@ -147,7 +148,11 @@ fn guide_films() {
         // Without rotation a film takes energy from every motion.
         let sliding = JournalMotion { journal_speed: 0.0, bush_speed: 0.0, ..moving };
         for (motion, turns) in [(moving, true), (sliding, false)] {
-            let forces = if i % 2 == 0 { bearing.force(&motion) } else { layer.force(&motion) };
+            let forces = if i % 2 == 0 {
+                bearing.force(&motion, Fluid::SAME)
+            } else {
+                layer.force(&motion, Fluid::SAME)
+            };
             let f = forces.unwrap_or_else(|e| panic!("{motion:?}: {e:?}"));
             let [y, z] = f.force();
             assert!(y.is_finite() && z.is_finite() && f.moment.is_finite(), "{motion:?}: {f:?}");

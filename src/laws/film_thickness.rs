@@ -71,17 +71,17 @@ pub struct Entrainment<T> {
     /// ln |u1 - u2|.
     pub ln_slip: T,
     /// ln of eta0 over the eta0 that the law was made with.
-    pub thickening: T,
+    pub ln_viscosity: T,
 }
 
 impl<T: Numeric> Entrainment<T> {
     /// From the surface speeds `u1`, `u2` relative to the contact, m/s, and ln of the relative viscosity.
     #[inline(always)]
-    pub fn new(u1: T, u2: T, thickening: T) -> Self {
+    pub fn new(u1: T, u2: T, ln_viscosity: T) -> Self {
         let u = (u1 + u2) * 0.5;
         let speed = (u * u + ENTRAINMENT_FLOOR * ENTRAINMENT_FLOOR).sqrt();
         let slip = (u1 - u2).abs() + SLIP_FLOOR;
-        Self { speed, direction: u / speed, slip, ln_speed: speed.ln(), ln_slip: slip.ln(), thickening }
+        Self { speed, direction: u / speed, slip, ln_speed: speed.ln(), ln_slip: slip.ln(), ln_viscosity }
     }
 
     /// `s^p` of the slide-to-roll ratio s.
@@ -100,7 +100,7 @@ impl ThermalLoad {
     /// ln(L_T).
     #[inline(always)]
     pub fn ln_parameter<T: Numeric>(&self, e: &Entrainment<T>) -> T {
-        e.ln_speed * 2.0 + e.thickening + self.ln_factor
+        e.ln_speed * 2.0 + e.ln_viscosity + self.ln_factor
     }
 
     /// Gupta's factor T_R; `pressure` is P_max/E'. Not limited: it is negative far outside the fitted range.
@@ -155,7 +155,7 @@ impl<B: Base> FilmThickness<B> {
     /// ln of the isothermal central film thickness in m at ln(Q), Q in N.
     #[inline(always)]
     pub fn ln_isothermal<T: Of<B>>(&self, ln_q: T, e: &Entrainment<T>) -> T {
-        ln_q * -0.166 + (e.ln_speed + e.thickening) * 0.692 + self.ln_scale
+        ln_q * -0.166 + (e.ln_speed + e.ln_viscosity) * 0.692 + self.ln_scale
     }
 
     /// ln(h_c), h_c in m, at ln(Q), Q in N; `mean_pressure` is P_mean in Pa.

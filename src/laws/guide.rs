@@ -17,6 +17,7 @@
 //! product goes to infinity as the gap closes and is gone when it has closed. With it the force is continuous.
 
 use super::contact_pair::ContactMotion;
+use super::fluid::Fluid;
 use super::journal::{FilmForce, JournalMotion, NoFilm};
 use super::lubricant_layer::{LubricantLayer, PressureShear};
 use super::short_bearing::ShortBearing;
@@ -98,10 +99,10 @@ impl GuideFilm {
     /// # Errors
     /// [`NoFilm`] where the surfaces touch or overlap.
     #[inline]
-    pub fn force<T: Real>(&self, m: &JournalMotion<T>) -> Result<FilmForce<T>, NoFilm> {
+    pub fn force<T: Real>(&self, m: &JournalMotion<T>, fluid: Fluid) -> Result<FilmForce<T>, NoFilm> {
         match self {
-            GuideFilm::ShortBearing(film) => film.force(m),
-            GuideFilm::LubricantLayer(film) => film.force(m),
+            GuideFilm::ShortBearing(film) => film.force(m, fluid),
+            GuideFilm::LubricantLayer(film) => film.force(m, fluid),
         }
     }
 
@@ -119,22 +120,6 @@ impl GuideFilm {
             GuideFilm::ShortBearing(_) | GuideFilm::LubricantLayer(_) => Ok(()),
         }
     }
-
-    /// The film's viscosity eta0, Pa s.
-    pub fn viscosity(&self) -> f64 {
-        match self {
-            GuideFilm::ShortBearing(film) => film.viscosity,
-            GuideFilm::LubricantLayer(film) => film.viscosity,
-        }
-    }
-
-    /// The film's viscosity eta0, Pa s.
-    pub fn viscosity_mut(&mut self) -> &mut f64 {
-        match self {
-            GuideFilm::ShortBearing(film) => &mut film.viscosity,
-            GuideFilm::LubricantLayer(film) => &mut film.viscosity,
-        }
-    }
 }
 
 impl GuideLaw {
@@ -143,18 +128,19 @@ impl GuideLaw {
     /// # Errors
     /// [`NoFilm`] for a film without solid contact that is gone.
     #[inline]
-    pub fn force<T: Real>(&self, m: &JournalMotion<T>) -> Result<GuideForce<T>, NoFilm> {
+    pub fn force<T: Real>(&self, m: &JournalMotion<T>, fluid: Fluid) -> Result<GuideForce<T>, NoFilm> {
         let [y, z] = m.position;
         let r2 = y * y + z * z;
         // A centred journal has no direction; its solid contact is open and its film finds its own.
         let e = if r2.value() > 0.0 { r2.sqrt() } else { T::constant(0.0) };
         let gap = -e + self.free_clearance;
         match (&self.film, &self.solid) {
-            (Some(film), None) => Ok(from_film(film.force(m)?, T::constant(1.0))),
+            (Some(film), None) => Ok(from_film(film.force(m, fluid)?, T::constant(1.0))),
             (None, Some(solid)) => Ok(self.add_solid(solid, m, e, gap, apart(gap))),
             (Some(film), Some(solid)) => {
                 let share = self.film_share(gap);
-                let film = if share.value() > 0.0 { from_film(film.force(m)?, share) } else { apart(gap) };
+                let film =
+                    if share.value() > 0.0 { from_film(film.force(m, fluid)?, share) } else { apart(gap) };
                 Ok(self.add_solid(solid, m, e, gap, film))
             }
             (None, None) => Ok(apart(gap)),
@@ -283,33 +269,33 @@ mod tests {
         let law = mixed();
         let m = at(150e-6, 142.5);
         let film_alone = GuideLaw { solid: None, ..law.clone() };
-        let (a, b) = (law.force(&m).unwrap(), film_alone.force(&m).unwrap());
+        let (a, b) = (law.force(&m, Fluid::SAME).unwrap(), film_alone.force(&m, Fluid::SAME).unwrap());
         assert!((a.force()[0] - b.force()[0]).abs() < 1e-12 * b.force()[0].abs());
         assert_eq!((a.solid, a.moment), ([0.0; 2], b.moment * a.film_share));
         let m = at(220e-6, 142.5);
         let solid_alone = GuideLaw { film: None, ..law.clone() };
-        assert_eq!(law.force(&m), solid_alone.force(&m));
-        assert!(film_alone.force(&m).is_err());
+        assert_eq!(law.force(&m, Fluid::SAME), solid_alone.force(&m, Fluid::SAME));
+        assert!(film_alone.force(&m, Fluid::SAME).is_err());
     }
 
     #[test]
     fn solid_contact_pushes_back_and_brakes() {
         let law = GuideLaw { film: None, ..mixed() };
-        let f = law.force(&at(213.5e-6, 142.5)).unwrap();
+        let f = law.force(&at(213.5e-6, 142.5), Fluid::SAME).unwrap();
         // 3 um deep: 3 N inwards; the journal turns counter-clockwise and rubs at its top: friction to the right.
         assert!((f.solid[1] + 3.0).abs() < 1e-9, "{f:?}");
         assert!((f.solid[0] - 0.3).abs() < 1e-9);
         assert!((f.moment + 0.3 * 46.6615e-3).abs() < 1e-10);
         assert_eq!(f.film_share, 0.0);
-        assert_eq!(law.force(&at(210e-6, 142.5)).unwrap().solid, [0.0; 2]);
+        assert_eq!(law.force(&at(210e-6, 142.5), Fluid::SAME).unwrap().solid, [0.0; 2]);
         let carried = JournalMotion { bush_speed: 142.5, ..at(213.5e-6, 142.5) };
-        assert_eq!(law.force(&carried).unwrap().moment, 0.0);
+        assert_eq!(law.force(&carried, Fluid::SAME).unwrap().moment, 0.0);
     }
 
     #[test]
     fn the_sum_is_continuous_where_the_film_ends() {
         let law = mixed();
-        let force = |gap: f64| law.force(&at(0.2135e-3 - gap, 142.5)).unwrap().force();
+        let force = |gap: f64| law.force(&at(0.2135e-3 - gap, 142.5), Fluid::SAME).unwrap().force();
         let (a, b) = (force(1e-12), force(-1e-12));
         assert!((a[1] - b[1]).abs() < 1e-3, "{a:?} {b:?}");
         for k in 0..200 {
@@ -319,7 +305,7 @@ mod tests {
         }
         // The paper's share makes the force grow without bound instead.
         let literal = GuideLaw { touching_ratio: 0.0, ..mixed() };
-        let closing = |gap: f64| literal.force(&at(0.2135e-3 - gap, 142.5)).unwrap().force()[1];
+        let closing = |gap: f64| literal.force(&at(0.2135e-3 - gap, 142.5), Fluid::SAME).unwrap().force()[1];
         assert!(closing(1e-12) < 10.0 * closing(1e-9) && closing(1e-9) < 0.0);
     }
 }

@@ -62,6 +62,8 @@ impl Piece {
 /// Integrator over the arcs of one state; `gap` and `plain` are the same gap with and without derivatives.
 pub(super) struct Integrator<'a, T, G, P> {
     pub law: &'a LubricantLayer,
+    /// eta_0, Pa s.
+    pub viscosity: f64,
     pub gap: &'a G,
     pub plain: &'a P,
     film: BarusFilm,
@@ -73,14 +75,15 @@ pub(super) struct Integrator<'a, T, G, P> {
 
 impl<'a, T: Real, G: Gap<T>, P: Gap<f64>> Integrator<'a, T, G, P> {
     #[inline]
-    pub fn new(law: &'a LubricantLayer, gap: &'a G, plain: &'a P) -> Self {
+    pub fn new(law: &'a LubricantLayer, viscosity: f64, gap: &'a G, plain: &'a P) -> Self {
         let zero = T::constant(0.0);
         Self {
             law,
+            viscosity,
             gap,
             plain,
             film: BarusFilm { pressure_viscosity: law.pressure_viscosity, cap: law.cap },
-            peak_scale: 0.75 * law.viscosity * law.width * law.width,
+            peak_scale: 0.75 * viscosity * law.width * law.width,
             narrowness: plain.narrowness(),
             sums: Sums { pressure: [zero; 2], shear: [zero; 2], moment: zero },
         }
@@ -110,7 +113,7 @@ impl<'a, T: Real, G: Gap<T>, P: Gap<f64>> Integrator<'a, T, G, P> {
             return;
         }
         let (plain, scale, cap) = (self.plain, self.scale(), self.film.cap);
-        let over = |gamma: f64| scale * thickening(&plain.at(gamma)) - cap;
+        let over = |gamma: f64| scale * relative_pressure(&plain.at(gamma)) - cap;
         parts(over, [from, to], scan, |a, b| {
             // Not at an end: there, round-off decides on which side of the cap s lies.
             if b > a {
@@ -143,7 +146,7 @@ impl<'a, T: Real, G: Gap<T>, P: Gap<f64>> Integrator<'a, T, G, P> {
 
     #[inline]
     fn coordinate(&self, piece: &Piece, x: f64) -> f64 {
-        let s = self.scale() * thickening(&self.plain.at(piece.at(x).0));
+        let s = self.scale() * relative_pressure(&self.plain.at(piece.at(x).0));
         self.film.coordinate(s, piece.capped).0
     }
 
@@ -203,7 +206,7 @@ impl<'a, T: Real, G: Gap<T>, P: Gap<f64>> Integrator<'a, T, G, P> {
         let place = self.gap.at(gamma);
         let weight = weight * place.arc;
         let law = self.law;
-        let mut along = place.sliding * place.inverse_film * (-law.radius * law.viscosity * law.width);
+        let mut along = place.sliding * place.inverse_film * (-law.radius * self.viscosity * law.width);
         if place.opening.value() < 0.0 {
             let mean = self.film.mean(self.peak(&place));
             let line = mean.pressure * weight * law.width;
@@ -241,7 +244,7 @@ impl<'a, T: Real, G: Gap<T>, P: Gap<f64>> Integrator<'a, T, G, P> {
 
 /// -G/h^3.
 #[inline]
-fn thickening(p: &Place<f64>) -> f64 {
+fn relative_pressure(p: &Place<f64>) -> f64 {
     -p.opening * p.inverse_film * p.inverse_film * p.inverse_film
 }
 

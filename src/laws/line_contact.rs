@@ -100,11 +100,11 @@ impl<B> LineContact<B> {
 
 impl LineContact {
     /// Whether the thermal factor of its rolling resistance, or without it that of its film, is at its floor in a contact that
-    /// moves like this under this force, with the viscosity e^`thickening` times that of the laws.
+    /// moves like this under this force, with the viscosity e^`ln_viscosity` times that of the laws.
     pub fn is_at_floor(
         &self,
         motion: &ContactMotion<f64>,
-        thickening: f64,
+        ln_viscosity: f64,
         force: &ContactForce<f64>,
     ) -> bool {
         let (q, u) = (force.normal, 0.5 * (motion.u1 + motion.u2));
@@ -113,7 +113,7 @@ impl LineContact {
             (Some(law), _) => law.is_at_floor(force.rolling_resistance, q, u),
             (None, Some(film)) => {
                 let pressure = self.elastic.mean_pressure(q, self.elastic.half_width(q));
-                film.is_at_floor(pressure, &Entrainment::new(motion.u1, motion.u2, thickening))
+                film.is_at_floor(pressure, &Entrainment::new(motion.u1, motion.u2, ln_viscosity))
             }
             (None, None) => false,
         }
@@ -121,13 +121,13 @@ impl LineContact {
 }
 
 impl<B: Base> LineContact<B> {
-    /// Forces, with the viscosity e^`thickening` times that of the laws. Of an edge, its share w of the friction follows
+    /// Forces, with the viscosity e^`ln_viscosity` times that of the laws. Of an edge, its share w of the friction follows
     /// the law of edges, mu (1 - w) + mu_edge w; from w = 1 on there is no film.
     #[inline(always)]
     pub fn force<T: Of<B>>(
         &self,
         motion: &ContactMotion<T>,
-        thickening: T,
+        ln_viscosity: T,
         edge_share: T,
     ) -> ContactForce<T> {
         let zero = motion.delta.like(0.0);
@@ -139,7 +139,7 @@ impl<B: Base> LineContact<B> {
         // A NaN counts as contact and is passed on.
         let apart = normal.force.at_most(0.0);
 
-        let rolling = Entrainment::new(motion.u1, motion.u2, thickening);
+        let rolling = Entrainment::new(motion.u1, motion.u2, ln_viscosity);
         let mut mu = zero;
         if self.film.is_some() || self.rolling_resistance.is_some() {
             let load = T::select(apart, zero.like(1.0), normal.force);

@@ -29,6 +29,7 @@
 //! lie within a twelfth of the shortest period and the values around them do not curve towards zero; that costs
 //! accuracy, but neither continuity nor symmetry.
 
+use super::fluid::Fluid;
 use super::journal::{FilmForce, Harmonic, JournalMotion, NoFilm};
 use super::layer_gap::{Gap, ProfileGap, RoundGap, change, parts};
 use super::layer_quadrature::{Arc, Integrator};
@@ -85,12 +86,13 @@ pub struct LubricantLayer {
 
 impl LubricantLayer {
     /// Film force on the journal, or [`NoFilm`] where h <= 0.
-    pub fn force<T: Real>(&self, m: &JournalMotion<T>) -> Result<FilmForce<T>, NoFilm> {
+    pub fn force<T: Real>(&self, m: &JournalMotion<T>, fluid: Fluid) -> Result<FilmForce<T>, NoFilm> {
+        let viscosity = self.viscosity * fluid.relative_viscosity;
         let (eccentricity, direction) = eccentricity(m.position);
         if self.roundness.is_empty() {
-            self.round_force(m, eccentricity, direction)
+            self.round_force(m, eccentricity, direction, viscosity)
         } else {
-            self.profile_force(m, eccentricity.value(), direction.map(Real::value))
+            self.profile_force(m, eccentricity.value(), direction.map(Real::value), viscosity)
         }
     }
 
@@ -107,6 +109,7 @@ impl LubricantLayer {
         m: &JournalMotion<T>,
         e: T,
         direction: [T; 2],
+        viscosity: f64,
     ) -> Result<FilmForce<T>, NoFilm> {
         let [dy, dz] = direction;
         let [vy, vz] = m.velocity;
@@ -142,11 +145,11 @@ impl LubricantLayer {
             (depth * thickest).sqrt().atan2((dry * thinnest).sqrt()) * 2.0
         };
         let arc = Arc { start: -end, end };
-        let mut film = Integrator::new(self, &gap, &plain);
+        let mut film = Integrator::new(self, viscosity, &gap, &plain);
         let last = end.value();
         let [cos, sin] = plain.at(last).normal;
         let most = plain.wedge.abs() * (if cos > 0.0 { sin } else { 1.0 }) + plain.squeeze.abs();
-        let bound = self.thickening(most, plain.thinnest);
+        let bound = self.relative_pressure(viscosity, most, plain.thinnest);
         let mut from = -last;
         for at in plain.sign_changes() {
             if at > from && at < last {
@@ -170,8 +173,8 @@ impl LubricantLayer {
 
     /// s for an approach -G of `speed` m/s at a film of `film` m.
     #[inline]
-    fn thickening(&self, speed: f64, film: f64) -> f64 {
-        0.75 * self.viscosity * self.width.powi(2) * self.pressure_viscosity * speed / film.powi(3)
+    fn relative_pressure(&self, viscosity: f64, speed: f64, film: f64) -> f64 {
+        0.75 * viscosity * self.width.powi(2) * self.pressure_viscosity * speed / film.powi(3)
     }
 
     fn profile_force<T: Real>(
@@ -179,6 +182,7 @@ impl LubricantLayer {
         m: &JournalMotion<T>,
         e: f64,
         direction: [f64; 2],
+        viscosity: f64,
     ) -> Result<FilmForce<T>, NoFilm> {
         // The map has to stay regular; a profile that is thin nowhere near the eccentricity lets e reach C.
         let thinnest = (self.clearance - e).max(1e-4 * self.clearance);
@@ -194,7 +198,7 @@ impl LubricantLayer {
         let plain = gap.plain();
         let highest = self.roundness.iter().map(|a| a.order).max().unwrap_or(2);
         let widest = TAU / (PANELS_PER_PERIOD * f64::from(highest));
-        let mut film = Integrator::new(self, &gap, &plain);
+        let mut film = Integrator::new(self, viscosity, &gap, &plain);
         let (mut least, mut thinnest_at, mut missing) = (f64::INFINITY, 0.0, None);
         let slope = |gamma: f64| plain.at(gamma).slope;
         let mut from = -PI;
@@ -269,10 +273,9 @@ impl LubricantLayer {
             [start, end],
             PARTS,
             |a, b| {
-                let bound = [a, 0.5 * (a + b), b]
-                    .map(|g| plain.at(g))
-                    .iter()
-                    .fold(0.0, |most: f64, p| most.max(self.thickening(-p.opening, p.film)));
+                let bound = [a, 0.5 * (a + b), b].map(|g| plain.at(g)).iter().fold(0.0, |most: f64, p| {
+                    most.max(self.relative_pressure(film.viscosity, -p.opening, p.film))
+                });
                 film.piece(&arc, a, b, 2.0 * bound, PARTS);
             },
         );
@@ -351,11 +354,11 @@ mod tests {
         let unit = l.viscosity * l.radius * l.width.powi(3) / c.powi(2);
         for eps in [0.1f64, 0.3, 0.5, 0.7, 0.9] {
             let q2 = 1.0 - eps * eps;
-            let f = l.force(&motion([eps * c, 0.0], [0.0; 2], 100.0)).unwrap().pressure;
+            let f = l.force(&motion([eps * c, 0.0], [0.0; 2], 100.0), Fluid::SAME).unwrap().pressure;
             let exact = [-eps * eps / q2.powi(2), PI * eps / (4.0 * q2.powf(1.5))].map(|x| x * unit * 100.0);
             assert!((f[0] / exact[0] - 1.0).abs() < 1e-12 && (f[1] / exact[1] - 1.0).abs() < 1e-12, "{f:?}");
             // Pure approach: the half circle towards the thin side carries.
-            let f = l.force(&motion([eps * c, 0.0], [0.1 * c, 0.0], 0.0)).unwrap().pressure;
+            let f = l.force(&motion([eps * c, 0.0], [0.1 * c, 0.0], 0.0), Fluid::SAME).unwrap().pressure;
             let i_cc = ((-eps).acos() * (1.0 + 2.0 * eps * eps) + 3.0 * eps * q2.sqrt()) / q2.powf(2.5);
             assert!((f[0] / (-0.1 * i_cc * unit) - 1.0).abs() < 1e-12, "{f:?}");
         }
@@ -365,7 +368,7 @@ mod tests {
     fn half_speed_whirl_builds_no_pressure() {
         let l = layer();
         let e = 150e-6;
-        let f = l.force(&motion([e, 0.0], [0.0, e * 71.25], 142.5)).unwrap();
+        let f = l.force(&motion([e, 0.0], [0.0, e * 71.25], 142.5), Fluid::SAME).unwrap();
         assert!(f.pressure[0].abs() + f.pressure[1].abs() < 1e-12 && f.shear[1] < 0.0);
     }
 
@@ -373,25 +376,30 @@ mod tests {
     fn continuity() {
         let l = layer();
         let m = motion([190e-6, 20e-6], [0.02, -0.1], 142.5);
-        let zero = LubricantLayer { pressure_viscosity: 0.0, ..layer() }.force(&m).unwrap();
-        let tiny = LubricantLayer { pressure_viscosity: 1e-14, ..layer() }.force(&m).unwrap();
+        let zero = LubricantLayer { pressure_viscosity: 0.0, ..layer() }.force(&m, Fluid::SAME).unwrap();
+        let tiny = LubricantLayer { pressure_viscosity: 1e-14, ..layer() }.force(&m, Fluid::SAME).unwrap();
         assert!(distance(&zero, &tiny) < 1e-5);
         // The force starts as the square root of the immersion.
         let touch = l.clearance - l.thickness;
-        let dry = l.force(&motion([touch * (1.0 - 1e-12), 0.0], [0.02, -0.1], 142.5)).unwrap();
-        let wet = l.force(&motion([touch * (1.0 + 1e-12), 0.0], [0.02, -0.1], 142.5)).unwrap();
+        let dry = l.force(&motion([touch * (1.0 - 1e-12), 0.0], [0.02, -0.1], 142.5), Fluid::SAME).unwrap();
+        let wet = l.force(&motion([touch * (1.0 + 1e-12), 0.0], [0.02, -0.1], 142.5), Fluid::SAME).unwrap();
         assert!(
             all(&dry) == [0.0; 5] && size(&wet) < 1e-3 && (dry.minimum_film - wet.minimum_film).abs() < 1e-14
         );
         // Flooding.
         for pressure_shear in SHEARS {
-            let at = |thickness| LubricantLayer { thickness, pressure_shear, ..layer() }.force(&m).unwrap();
+            let at = |thickness| {
+                LubricantLayer { thickness, pressure_shear, ..layer() }.force(&m, Fluid::SAME).unwrap()
+            };
             let widest = l.clearance + 190e-6f64.hypot(20e-6);
             assert!(distance(&at(widest * (1.0 - 1e-12)), &at(widest * (1.0 + 1e-12))) < 1e-5);
         }
         // The place where the cap is reached.
         let steps: Vec<_> = (0..400)
-            .map(|i| l.force(&motion([205e-6, 0.0], [1e-4 + 5e-7 * f64::from(i), 0.01], 142.5)).unwrap())
+            .map(|i| {
+                l.force(&motion([205e-6, 0.0], [1e-4 + 5e-7 * f64::from(i), 0.01], 142.5), Fluid::SAME)
+                    .unwrap()
+            })
             .collect();
         assert!(steps.windows(2).all(|p| distance(&p[0], &p[1]) < 0.02));
     }
@@ -399,7 +407,7 @@ mod tests {
     #[test]
     fn approach_is_resisted() {
         for (e, v) in [(140e-6, 0.01), (200e-6, 0.5), (213.4e-6, 1.0), (213.4e-6, -1.0)] {
-            let f = layer().force(&motion([e, 0.0], [v, 0.0], 0.0)).unwrap().force();
+            let f = layer().force(&motion([e, 0.0], [v, 0.0], 0.0), Fluid::SAME).unwrap().force();
             assert!(f[0].is_finite() && f[0] * v <= 0.0, "{e} {v}: {f:?}");
         }
     }
@@ -410,11 +418,11 @@ mod tests {
         for roundness in [vec![], profile] {
             let l = LubricantLayer { roundness, ..layer() };
             let m = motion([120e-6, 130e-6], [0.02, -0.1], 142.5);
-            let f = l.force(&m).unwrap();
+            let f = l.force(&m, Fluid::SAME).unwrap();
             let mirrored =
                 JournalMotion { profile_angle: PI - 0.3, ..motion([-120e-6, 130e-6], [-0.02, -0.1], -142.5) };
             // A third harmonic seen in the mirror: n (pi - theta) - n (pi - psi) = -n (theta - psi).
-            let g = l.force(&mirrored).unwrap();
+            let g = l.force(&mirrored, Fluid::SAME).unwrap();
             let back = FilmForce {
                 pressure: [-g.pressure[0], g.pressure[1]],
                 shear: [-g.shear[0], g.shear[1]],
@@ -425,7 +433,7 @@ mod tests {
             let (s, c) = 1.1f64.sin_cos();
             let turn = |[y, z]: [f64; 2]| [c * y - s * z, s * y + c * z];
             let turned = motion(turn(m.position), turn(m.velocity), 142.5);
-            let g = l.force(&JournalMotion { profile_angle: 1.4, ..turned }).unwrap();
+            let g = l.force(&JournalMotion { profile_angle: 1.4, ..turned }, Fluid::SAME).unwrap();
             let expected = FilmForce { pressure: turn(f.pressure), shear: turn(f.shear), ..f };
             assert!(distance(&g, &expected) < 1e-9);
         }
@@ -442,7 +450,9 @@ mod tests {
                 for (e, v) in [(134e-6, 0.0), (150e-6, -0.1), (200e-6, 0.01), (210e-6, 0.2)] {
                     let m = motion([0.6 * e, 0.8 * e], [v, 0.5 * v - 0.1], 142.5);
                     let [a, b] = [&layer(), &rough].map(|l| {
-                        LubricantLayer { pressure_shear, thickness, ..l.clone() }.force(&m).unwrap()
+                        LubricantLayer { pressure_shear, thickness, ..l.clone() }
+                            .force(&m, Fluid::SAME)
+                            .unwrap()
                     });
                     assert!(distance(&a, &b) < 1e-8, "{e} {v} {a:?} {b:?}");
                 }
@@ -468,15 +478,17 @@ mod tests {
                             bush_speed: x[6],
                         }
                     }
-                    let d = l.force(&build(std::array::from_fn(|i| Dual::<7>::variable(x[i], i)))).unwrap();
+                    let d = l
+                        .force(&build(std::array::from_fn(|i| Dual::<7>::variable(x[i], i))), Fluid::SAME)
+                        .unwrap();
                     let exact = [d.pressure[0], d.pressure[1], d.shear[0], d.shear[1], d.moment / l.radius];
-                    let scale = size(&l.force(&build(x)).unwrap());
+                    let scale = size(&l.force(&build(x), Fluid::SAME).unwrap());
                     for i in 0..7 {
                         let h = [2e-10, 2e-10, 1e-6, 1e-6, 1e-5, 1e-3, 1e-3][i];
                         let [lo, hi] = [-h, h].map(|h| {
                             let mut x = x;
                             x[i] += h;
-                            let mut f = all(&l.force(&build(x)).unwrap());
+                            let mut f = all(&l.force(&build(x), Fluid::SAME).unwrap());
                             f[4] /= l.radius;
                             f
                         });
@@ -498,10 +510,10 @@ mod tests {
         for roundness in [vec![], vec![Harmonic { order: 2, amplitude: 1e-6, phase: 0.0 }]] {
             l.roundness = roundness;
             for y in [1.02, 1.5, f64::NAN, f64::INFINITY] {
-                assert!(l.force(&motion([y * l.clearance, 0.0], [0.0; 2], 1.0)).is_err());
+                assert!(l.force(&motion([y * l.clearance, 0.0], [0.0; 2], 1.0), Fluid::SAME).is_err());
             }
             for v in [f64::NAN, f64::INFINITY] {
-                let ended = l.force(&motion([0.9 * l.clearance, 0.0], [v, 0.0], 1.0));
+                let ended = l.force(&motion([0.9 * l.clearance, 0.0], [v, 0.0], 1.0), Fluid::SAME);
                 assert!(ended.is_err() || ended.is_ok_and(|f| !size(&f).is_finite() || f.moment.is_nan()));
             }
         }

@@ -9,6 +9,7 @@ pub mod contact_pair;
 #[cfg(test)]
 mod extremes;
 pub mod film_thickness;
+pub mod fluid;
 pub mod guide;
 pub mod journal;
 mod layer_gap;

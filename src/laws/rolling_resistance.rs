@@ -93,7 +93,7 @@ impl<B: Base> RollingResistance<B> {
         };
         let pressure = mean_pressure * self.pressure_factor;
         let t_r = self.thermal.gupta(pressure, e).floored(0.0);
-        let isothermal = ((e.ln_speed + e.thickening) * 0.648 + ln_q * 0.246).exp() * self.scale;
+        let isothermal = ((e.ln_speed + e.ln_viscosity) * 0.648 + ln_q * 0.246).exp() * self.scale;
         isothermal * t_r * share
     }
 }

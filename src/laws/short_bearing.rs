@@ -19,6 +19,7 @@
 //! film is thin, and a panel in which g changes sign ends there. Two changes within one panel go unseen; panels are
 //! narrow enough that this costs less than 1e-3 of the force, and usually 1e-9.
 
+use super::fluid::Fluid;
 use super::journal::{FilmForce, Harmonic, JournalMotion, NoFilm};
 use super::layer_gap::change;
 use crate::scalar::Real;
@@ -58,7 +59,8 @@ struct Eccentricity<T> {
 
 impl ShortBearing {
     /// Film force on the journal, or [`NoFilm`] where h <= 0.
-    pub fn force<T: Real>(&self, m: &JournalMotion<T>) -> Result<FilmForce<T>, NoFilm> {
+    pub fn force<T: Real>(&self, m: &JournalMotion<T>, fluid: Fluid) -> Result<FilmForce<T>, NoFilm> {
+        let viscosity = self.viscosity * fluid.relative_viscosity;
         let e = self.eccentricity(m);
         let film = (-e.ratio + 1.0) * self.clearance;
         // Written so that a NaN counts as no film. A profile can only be thinner in places; it checks itself.
@@ -67,12 +69,12 @@ impl ShortBearing {
             return Err(NoFilm { minimum_film: film.value() });
         }
         let (force, slopes, minimum_film) = if self.roundness.is_empty() {
-            let force = self.round_force(m, &e);
+            let force = self.round_force(m, &e, viscosity);
             (force, eccentric(m.position, force), film)
         } else {
-            self.profile_force(m, &e)?
+            self.profile_force(m, &e, viscosity)?
         };
-        let scale = -4.0 * PI * self.viscosity * self.radius.powi(3) * self.land_width / self.clearance;
+        let scale = -4.0 * PI * viscosity * self.radius.powi(3) * self.land_width / self.clearance;
         let mut moment = (m.journal_speed - m.bush_speed) * scale / one_minus_square(e.ratio).sqrt();
         if self.pressure_moment {
             moment += slopes * 0.5;
@@ -97,13 +99,13 @@ impl ShortBearing {
     }
 
     #[inline]
-    fn force_scale(&self) -> f64 {
-        2.0 * self.viscosity * self.radius * self.land_width.powi(3)
+    fn force_scale(&self, viscosity: f64) -> f64 {
+        2.0 * viscosity * self.radius * self.land_width.powi(3)
     }
 
     /// Exact force of a round cage. With b measured from the thinnest film, g = (A sin b + B cos b)/(c^2 (1 - eps cos b)^3)
     /// is negative on a half circle whose ends are mapped by Sommerfeld's substitution.
-    fn round_force<T: Real>(&self, m: &JournalMotion<T>, e: &Eccentricity<T>) -> [T; 2] {
+    fn round_force<T: Real>(&self, m: &JournalMotion<T>, e: &Eccentricity<T>, viscosity: f64) -> [T; 2] {
         let [dy, dz] = e.direction;
         let (mut a, mut b) = ((m.journal_speed + m.bush_speed) * e.ratio * 0.5, T::constant(0.0));
         if self.squeeze {
@@ -134,7 +136,7 @@ impl ShortBearing {
         let i_ss = sin_sin / (q2 * q);
         let i_sc = sin_cos / (q2 * q2);
         let i_cc = cos_cos / (q2 * q2 * q);
-        let scale = self.force_scale() / self.clearance.powi(2);
+        let scale = self.force_scale(viscosity) / self.clearance.powi(2);
         let radial = (a * i_sc + b * i_cc) * scale;
         let tangential = (a * i_ss + b * i_sc) * scale;
         [radial * dy - tangential * dz, radial * dz + tangential * dy]
@@ -145,6 +147,7 @@ impl ShortBearing {
         &self,
         m: &JournalMotion<T>,
         e: &Eccentricity<T>,
+        viscosity: f64,
     ) -> Result<([T; 2], T, T), NoFilm> {
         let highest = self.roundness.iter().map(|a| a.order).max().unwrap_or(2) as usize;
         // The substitution widens panels on the far side by up to (1 + eps)/q.
@@ -207,7 +210,7 @@ impl ShortBearing {
         if !defined {
             return Err(NoFilm { minimum_film: thinnest.value() });
         }
-        let [y, z, slopes] = sum.map(|s| s * self.force_scale());
+        let [y, z, slopes] = sum.map(|s| s * self.force_scale(viscosity));
         Ok(([y, z], slopes, thinnest))
     }
 
@@ -315,7 +318,7 @@ mod tests {
     /// Force of one land in units of eta R l^3 w / c^2, along and across the eccentricity (+y).
     fn ocvirk(eps: f64) -> [f64; 2] {
         let b = bearing();
-        let f = b.force(&motion([eps * b.clearance, 0.0], [0.0; 2], 100.0)).unwrap().force();
+        let f = b.force(&motion([eps * b.clearance, 0.0], [0.0; 2], 100.0), Fluid::SAME).unwrap().force();
         let scale = b.viscosity * b.radius * b.land_width.powi(3) * 100.0 / b.clearance.powi(2);
         f.map(|f| f / 2.0 / scale)
     }
@@ -343,7 +346,8 @@ mod tests {
         for (eps, factor) in [(0.2, -2.770609), (0.5, -9.115731), (0.8, -91.765030)] {
             let b = bearing();
             let speed = 0.01;
-            let f = b.force(&motion([eps * b.clearance, 0.0], [speed, 0.0], 0.0)).unwrap().force();
+            let f =
+                b.force(&motion([eps * b.clearance, 0.0], [speed, 0.0], 0.0), Fluid::SAME).unwrap().force();
             let scale = 2.0 * b.viscosity * b.radius * b.land_width.powi(3) * speed / b.clearance.powi(3);
             assert!((f[0] / scale / factor - 1.0).abs() < 1e-6, "{} {factor}", f[0] / scale);
             assert!(f[1].abs() < 1e-12 * f[0].abs());
@@ -354,7 +358,8 @@ mod tests {
     fn half_speed_whirl_has_no_pressure() {
         let b = bearing();
         let e = 0.6 * b.clearance;
-        let whirl = |rate: f64| b.force(&motion([e, 0.0], [0.0, e * rate], -100.0)).unwrap().force();
+        let whirl =
+            |rate: f64| b.force(&motion([e, 0.0], [0.0, e * rate], -100.0), Fluid::SAME).unwrap().force();
         let at_rest = whirl(0.0);
         let half = whirl(-50.0);
         assert!(half[0].hypot(half[1]) < 1e-12 * at_rest[0].hypot(at_rest[1]));
@@ -400,7 +405,7 @@ mod tests {
         ];
         let compare = |b: &ShortBearing, tolerance: f64| {
             for m in &motions {
-                let (f, x) = (b.force(m).unwrap().force(), brute_force(b, m, 1_000_000));
+                let (f, x) = (b.force(m, Fluid::SAME).unwrap().force(), brute_force(b, m, 1_000_000));
                 let size = x[0].hypot(x[1]);
                 let error = (f[0] - x[0]).hypot(f[1] - x[1]) / size;
                 assert!(error < tolerance, "{m:?}: {f:?} {x:?}");
@@ -416,7 +421,8 @@ mod tests {
         b.roundness = vec![Harmonic { order: 3, amplitude: 1e-15, phase: 0.0 }];
         let round = bearing();
         for m in &motions {
-            let (f, x) = (b.force(m).unwrap().force(), round.force(m).unwrap().force());
+            let (f, x) =
+                (b.force(m, Fluid::SAME).unwrap().force(), round.force(m, Fluid::SAME).unwrap().force());
             assert!((f[0] - x[0]).hypot(f[1] - x[1]) < 1e-8 * x[0].hypot(x[1]));
         }
     }
@@ -438,14 +444,17 @@ mod tests {
             };
             let d: Vec<Dual<7>> = (0..7).map(|i| Dual::variable(x[i], i)).collect();
             let exact = b
-                .force(&JournalMotion {
-                    position: [d[0], d[1]],
-                    velocity: [d[2], d[3]],
-                    profile_angle: d[4],
-                    profile_speed: d[5],
-                    journal_speed: d[5],
-                    bush_speed: d[6],
-                })
+                .force(
+                    &JournalMotion {
+                        position: [d[0], d[1]],
+                        velocity: [d[2], d[3]],
+                        profile_angle: d[4],
+                        profile_speed: d[5],
+                        journal_speed: d[5],
+                        bush_speed: d[6],
+                    },
+                    Fluid::SAME,
+                )
                 .unwrap()
                 .force();
             for i in 0..7 {
@@ -453,7 +462,10 @@ mod tests {
                 let (mut lo, mut hi) = (x, x);
                 lo[i] -= h;
                 hi[i] += h;
-                let (lo, hi) = (b.force(&build(lo)).unwrap().force(), b.force(&build(hi)).unwrap().force());
+                let (lo, hi) = (
+                    b.force(&build(lo), Fluid::SAME).unwrap().force(),
+                    b.force(&build(hi), Fluid::SAME).unwrap().force(),
+                );
                 for k in 0..2 {
                     let difference = (hi[k] - lo[k]) / (2.0 * h);
                     let error = (exact[k].eps[i] - difference).abs();
@@ -485,7 +497,7 @@ mod tests {
             };
             let scan =
                 (0..200_000).map(|i| film(TAU * f64::from(i) / 200_000.0)).fold(f64::INFINITY, f64::min);
-            let found = b.force(&m).unwrap().minimum_film;
+            let found = b.force(&m, Fluid::SAME).unwrap().minimum_film;
             // A scan so dense misses less than a thousandth of a nanometre.
             assert!((found - scan).abs() < 1e-12, "{k}: {found} {scan}");
         }
@@ -495,22 +507,22 @@ mod tests {
     fn a_missing_film_is_reported() {
         let mut b = bearing();
         for y in [1.0, 1.5, f64::NAN] {
-            assert!(b.force(&motion([y * b.clearance, 0.0], [0.0; 2], 1.0)).is_err());
+            assert!(b.force(&motion([y * b.clearance, 0.0], [0.0; 2], 1.0), Fluid::SAME).is_err());
         }
         b.roundness = vec![Harmonic { order: 2, amplitude: 1e-4, phase: 0.0 }];
-        assert!(b.force(&motion([0.6 * b.clearance, 0.0], [0.0; 2], 1.0)).is_err());
+        assert!(b.force(&motion([0.6 * b.clearance, 0.0], [0.0; 2], 1.0), Fluid::SAME).is_err());
         // The bulge turned away from the narrow side leaves a film.
         let turned =
             JournalMotion { profile_angle: PI / 2.0, ..motion([0.6 * b.clearance, 0.0], [0.0; 2], 1.0) };
-        assert!(b.force(&turned).is_ok());
+        assert!(b.force(&turned, Fluid::SAME).is_ok());
     }
 
     #[test]
     fn friction_moment_opposes_rotation() {
         let b = bearing();
         let together = JournalMotion { bush_speed: 100.0, ..motion([0.0; 2], [0.0; 2], 100.0) };
-        assert_eq!(b.force(&together).unwrap().moment, 0.0);
-        let m = b.force(&motion([0.5 * b.clearance, 0.0], [0.0; 2], 100.0)).unwrap().moment;
+        assert_eq!(b.force(&together, Fluid::SAME).unwrap().moment, 0.0);
+        let m = b.force(&motion([0.5 * b.clearance, 0.0], [0.0; 2], 100.0), Fluid::SAME).unwrap().moment;
         let petroff =
             -4.0 * PI * b.viscosity * 100.0 * b.radius.powi(3) * b.land_width / b.clearance / 0.75f64.sqrt();
         assert!((m / petroff - 1.0).abs() < 1e-14);

@@ -72,7 +72,7 @@ impl Traction {
         half_width: T,
         e: &Entrainment<T>,
     ) -> ShearState<T> {
-        let ln_viscosity_time = mean_pressure * self.pressure_viscosity + e.thickening + self.ln_time;
+        let ln_viscosity_time = mean_pressure * self.pressure_viscosity + e.ln_viscosity + self.ln_time;
         let stiffness = self.shear_modulus / self.eyring_stress;
         ShearState {
             ln_sigma: ln_viscosity_time + e.ln_slip - ln_film,

@@ -1,80 +1,56 @@
 //! From the scene to bodies, coordinates and inputs.
 
-use super::compile_laws::compile_laws;
-use super::inputs::{Input, InputSignals, InputSource, Oil, Orbit};
-use super::selection::Selection;
-use super::{CageBody, ElementKind, ElementSet, Layout, Model, RingBody, RollerSet};
-use crate::contact::guide::GuideSide;
-use crate::contact::raceway::RacewayGeometry;
+use super::report::Selection;
+use super::signals::{InputSignals, InputSource, Oil, Orbit};
+use super::{Input, Layout, Model};
+use crate::bodies;
 use crate::error::Result;
 use crate::laws::walther::Walther;
+use crate::pairs::guide::Guide;
+use crate::pairs::line_laws::LawBuilder;
+use crate::pairs::{self, ContactLaw};
 use crate::scalar::math;
-use crate::scene::{Cage, ElementMotion, GuideRing, RingMotion, Scene, Signal, SignalIntegral};
+use crate::scene::{ElementMotion, RingMotion, Scene, Signal, SignalIntegral};
 use crate::scene::{Temperature, VISCOSITY, Viscosity, bad_scene, interpolate};
-use std::f64::consts::TAU;
 
 /// Builds the model of a checked scene.
 pub(super) fn compile(scene: Scene) -> Result<Model> {
-    let elements = elements(&scene);
-    let ring = match scene.inner_ring.as_ref().map(|ring| &ring.motion) {
-        None => RingBody::Fixed([0.0; 2]),
-        Some(RingMotion::Fixed(position)) => RingBody::Fixed([position.y, position.z]),
-        Some(RingMotion::Free(free)) => {
-            RingBody::Free { mass: free.mass, damping: free.support_damping.unwrap_or(0.0) }
-        }
-    };
-    let (geometry, rollers) = match &elements.kind {
-        ElementKind::Rollers(rollers) => (Some(&rollers.geometry), elements.count),
-        ElementKind::Kinematic => (None, 0),
-    };
+    let (shared, elements) = (bodies::shared_bodies(&scene), bodies::elements(&scene));
     let inputs = inputs(&scene)?;
-    let viscosity = match (&inputs.oil, scene.lubricant.as_ref().map(|l| &l.viscosity)) {
-        (Some(oil), _) => Some(oil.built_at.1),
-        (None, Some(Viscosity::Constant(value))) => Some(*value),
-        _ => None,
-    };
+    let viscosity = viscosity_at_start(&scene, &inputs);
+    let pairs = pairs::element_pairs(&scene, viscosity)?;
+    let radius = elements.set().radius;
     let mut model = Model {
-        layout: Layout::new(matches!(ring, RingBody::Free { .. }), scene.cage.is_some(), rollers),
-        laws: compile_laws(&scene, viscosity, geometry)?,
-        elements,
+        layout: Layout::new(&shared, &*elements),
         gravity: scene.gravity.map_or([0.0; 2], |g| [g.y, g.z]),
-        ring,
-        cage: scene.cage.as_ref().map(cage),
+        shared,
+        mobility: elements.inertia().map_or(0.0, |i| 1.0 / i.mass + radius * radius / i.moment),
+        elements,
+        infos: pairs.iter().map(|pair| pair.info()).collect(),
+        laws: pairs.iter().map(|pair| pair.law()).collect::<Vec<ContactLaw>>(),
+        guide: Guide::new(&LawBuilder::new(&scene, viscosity))?,
+        pairs,
         inputs,
         selection: Selection::default(),
         scene,
     };
-    model.selection = Selection::new(&model.scene.record, &model.channels(), model.elements.count)?;
+    model.selection = Selection::new(&model.scene.record, &model.channels(), model.element_count())?;
     Ok(model)
 }
 
-fn elements(scene: &Scene) -> ElementSet {
-    let count = scene.element_count() as usize;
-    let radius = scene.element_radius();
-    let reference_angles: Vec<f64> =
-        (0..count).map(|j| scene.initial.first_roller_angle + TAU * j as f64 / count as f64).collect();
-    let kind = match &scene.rollers {
-        Some(rollers) => {
-            let outer = scene.outer_ring.as_ref().map_or(0.0, |ring| ring.raceway_radius);
-            let clearance = scene.inner_ring.as_ref().and_then(|ring| ring.radial_clearance).unwrap_or(0.0);
-            let geometry = RacewayGeometry::new(outer, radius, clearance);
-            ElementKind::Rollers(RollerSet { geometry, mass: rollers.mass, inertia: rollers.inertia })
-        }
-        None => ElementKind::Kinematic,
-    };
-    let directions = reference_angles.iter().map(|angle| [math::cos(*angle), math::sin(*angle)]).collect();
-    ElementSet { count, radius, pitch_radius: scene.pitch_radius(), reference_angles, directions, kind }
+/// Viscosity that laws are built with, Pa s.
+fn viscosity_at_start(scene: &Scene, inputs: &InputSignals) -> Option<f64> {
+    match (&inputs.oil, scene.lubricant.as_ref().map(|l| &l.viscosity)) {
+        (Some(oil), _) => Some(oil.built_at.1),
+        (None, Some(Viscosity::Constant(value))) => Some(*value),
+        _ => None,
+    }
 }
 
-fn cage(cage: &Cage) -> CageBody {
-    let guided_by_inner_ring = cage.guide.as_ref().is_some_and(|guide| guide.ring == GuideRing::InnerRing);
-    CageBody {
-        mass: cage.mass,
-        inertia: cage.inertia,
-        mass_eccentricity: cage.mass_eccentricity.map(|u| [u.y, u.z]),
-        guide_side: if guided_by_inner_ring { GuideSide::CageOutside } else { GuideSide::CageInside },
-        guided_by_inner_ring,
-        loaded: cage.load.is_some(),
+impl Model {
+    /// Viscosity that laws are built with, Pa s.
+    pub(super) fn viscosity_at_start(&self) -> Option<f64> {
+        viscosity_at_start(&self.scene, &self.inputs)
     }
 }
 

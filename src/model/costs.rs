@@ -1,9 +1,9 @@
 //! Where the time of a force evaluation goes, and what its derivatives take.
 
-use super::batch::CONTACT_LAWS;
-use super::laws::PocketLaws;
-use super::{ElementKind, Fault, InputValues, Model, Workspace};
+use super::{Fault, InputValues, Model, Workspace};
+use crate::bodies::{INNER_RING, OUTER_RING};
 use crate::laws::guide::GuideFilm;
+use crate::pairs::Cost;
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -14,42 +14,27 @@ pub const PARTS: [&str; 6] =
 /// Wall time of each of [`PARTS`], s.
 pub type PartTimes = [f64; PARTS.len()];
 
-/// Time of a part of an evaluation, and of its derivatives, ns. Only ratios matter: `cargo bench --bench jacobian` shows them
-/// beside measured ones.
-struct Cost {
-    value: f64,
-    slopes: f64,
-}
-
 /// An element whose contacts are looked for.
-const ELEMENT: Cost = Cost { value: 10.0, slopes: 5.0 };
-/// All contacts of a roller with raceways and pocket.
-const ROLLER: Cost = Cost { value: 220.0, slopes: 300.0 };
-/// A contact with a plane pocket.
-const PLANE: Cost = Cost { value: 50.0, slopes: 600.0 };
-const SHORT_BEARING: Cost = Cost { value: 160.0, slopes: 1550.0 };
+const ELEMENT: Cost = Cost { value: 10.0, slopes: 5.0, per_element: true };
+const SHORT_BEARING: Cost = Cost { value: 160.0, slopes: 1550.0, per_element: false };
 /// A layer, which is dry for most of the time in some scenes and never in others.
-const LAYER: Cost = Cost { value: 200.0, slopes: 400.0 };
+const LAYER: Cost = Cost { value: 200.0, slopes: 400.0, per_element: false };
 
 impl Model {
     /// Time that the derivatives of the forces take beside their values, in force evaluations, counted from elements, contacts
     /// and films. Never clocked, so that equal runs choose equally.
     pub fn jacobian_cost(&self) -> f64 {
-        let elements = self.elements.count as f64;
-        let rollers = if let ElementKind::Rollers(_) = self.elements.kind { elements } else { 0.0 };
-        // Of all planes, mostly one is touched.
-        let planes = if let Some(PocketLaws::Plane(_)) = self.laws.pocket { 1.0 } else { 0.0 };
-        let film = match &self.laws.guide {
-            Some(guide) => guide.film.as_ref().map_or((0.0, LAYER), |film| match film {
-                GuideFilm::ShortBearing(_) => (1.0, SHORT_BEARING),
-                GuideFilm::LubricantLayer(_) => (1.0, LAYER),
-            }),
-            None => (0.0, LAYER),
-        };
-        let parts = [(elements, ELEMENT), (rollers, ROLLER), (planes, PLANE), film];
-        let [value, slopes] = parts
-            .iter()
-            .fold([0.0; 2], |[value, slopes], (n, cost)| [value + n * cost.value, slopes + n * cost.slopes]);
+        let film = self.guide.as_ref().and_then(|guide| guide.law().film.as_ref()).map(|film| match film {
+            GuideFilm::ShortBearing(_) => SHORT_BEARING,
+            GuideFilm::LubricantLayer(_) => LAYER,
+        });
+        let of_pairs = self.pairs.iter().map(|pair| pair.cost());
+        let (mut value, mut slopes) = (0.0, 0.0);
+        for cost in std::iter::once(ELEMENT).chain(of_pairs).chain(film) {
+            let n = if cost.per_element { self.element_count() as f64 } else { 1.0 };
+            value += n * cost.value;
+            slopes += n * cost.slopes;
+        }
         if value > 0.0 { slopes / value } else { 1.0 }
     }
 
@@ -80,40 +65,52 @@ impl Model {
             Ok(())
         };
         time(0, &mut || self.locate(black_box(q), v, ws))?;
-        if self.laws.raceways.is_some() {
+        // The first batch has the raceways, if there are any, and the pockets whose laws have the same parts.
+        let raceways = self.has_raceways();
+        if raceways {
             time(1, &mut || {
-                ws.raceways.apply(ws.thickening, ws.instructions);
+                self.apply_to_contacts(ws, |batch| batch == 0);
                 Ok(())
             })?;
         }
-        if self.laws.pocket.is_some() {
+        if self.has_pockets() {
             time(3, &mut || {
-                self.apply_to_pockets(ws);
+                self.apply_to_contacts(ws, |batch| batch > 0 || !raceways);
                 Ok(())
             })?;
         }
-        if self.laws.guide.is_some() {
-            time(4, &mut || self.apply_guide(black_box(q), v, ws))?;
+        if self.guide.is_some() {
+            time(4, &mut || self.apply_guide(black_box(&mut *ws)))?;
         }
         time(5, &mut || {
-            self.assemble(black_box(q), v, ws, &mut a);
+            self.assemble(black_box(&mut *ws), &mut a);
             Ok(())
         })?;
-        share_by_contacts(&ws.raceways.counts, &mut times[1..4]);
+        self.share_by_contacts(ws, &mut times[1..4]);
         Ok(times)
     }
-}
 
-/// Shares the time of a batch, which is that of the first part, among outer raceway, inner raceway and pockets.
-fn share_by_contacts(counts: &[u64; CONTACT_LAWS], times: &mut [f64]) {
-    let [together, ..] = times else { return };
-    let together = std::mem::take(together);
-    let [outer, inner, pockets @ ..] = counts;
-    let n = [*outer, *inner, pockets.iter().sum()].map(|n| n as f64);
-    let all: f64 = n.iter().sum();
-    if all > 0.0 {
-        for (time, n) in times.iter_mut().zip(n) {
-            *time += together * n / all;
+    /// Shares the time of a batch, which is that of the first part, among outer raceway, inner raceway and pockets.
+    fn share_by_contacts(&self, ws: &Workspace, times: &mut [f64]) {
+        let [together, ..] = times else { return };
+        let together = std::mem::take(together);
+        let mut n = [0.0; 3];
+        for (pair, info) in self.infos.iter().enumerate() {
+            let (batch, contacts) = ws.contacts.range(pair);
+            let part = match info.mate {
+                OUTER_RING => 0,
+                INNER_RING => 1,
+                _ => 2,
+            };
+            if std::ptr::eq(batch, &ws.contacts.batches[0]) {
+                n[part] += contacts.len() as f64;
+            }
+        }
+        let all: f64 = n.iter().sum();
+        if all > 0.0 {
+            for (time, n) in times.iter_mut().zip(n) {
+                *time += together * n / all;
+            }
         }
     }
 }

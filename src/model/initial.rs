@@ -1,12 +1,14 @@
 //! Start of a run: kinematic speeds, and on request the static equilibrium of ring and rollers.
 
-use super::laws::RacewayLaws;
-use super::{ElementKind, HostInputs, Input, Model, RingBody};
-use crate::contact::raceway::{RacewayGeometry, RingMotion, RollerMotion};
-use crate::contact::rotate;
+use super::{HostInputs, Input, InputValues, Model};
+use crate::bodies::{ElementMotion, INNER_RING};
 use crate::error::{Error, Result, Status};
+use crate::laws::line_contact::LineContact;
+use crate::pairs::line_laws::LawBuilder;
+use crate::pairs::raceway::{RacewayGeometry, RingMotion};
 use crate::scalar::math;
-use crate::scene::RingStart;
+use crate::scene::{RingMotion as Held, RingStart};
+use crate::space::Frame;
 
 /// Steps for the equilibrium of the ring; about twenty are usual.
 const MAX_ITERATIONS: usize = 500;
@@ -30,36 +32,37 @@ impl Model {
         let (q, v) = state.split_at_mut(layout.positions());
         let [orbit, spin] = self.kinematic_speeds(&inputs);
         let start = &self.scene.initial;
-        let inner_guide = self.cage.as_ref().is_some_and(|cage| cage.guided_by_inner_ring);
-        let mut cage = match (start.cage, self.ring) {
+        let inner_guide = self.guide.as_ref().is_some_and(|guide| guide.ring == INNER_RING);
+        let mut cage = match (start.cage, self.scene.inner_ring.as_ref().map(|ring| &ring.motion)) {
             (Some(place), _) => [place.y, place.z],
-            (None, RingBody::Fixed(place)) if inner_guide => place,
+            (None, Some(Held::Fixed(place))) if inner_guide => [place.y, place.z],
             _ => [0.0; 2],
         };
-        if let Some(c) = layout.cage {
+        if let Some(c) = layout.cage() {
             v[c] = start.cage_velocity.y;
             v[c + 1] = start.cage_velocity.z;
             v[c + 2] = start.cage_speed.unwrap_or(orbit);
         }
         self.place_cage(cage, q);
-        let ElementKind::Rollers(rollers) = &self.elements.kind else { return Ok(state) };
+        let Some(inertia) = self.elements.inertia() else { return Ok(state) };
         for j in 0..layout.count {
             v[layout.roller(j) + 1] = orbit;
             v[layout.spin(j)] = spin;
         }
         if start.inner_ring == RingStart::Equilibrium
-            && let (Some(i), RingBody::Free { mass, .. }) = (layout.ring, self.ring)
-            && let Some(laws) = &self.laws.raceways
+            && let Some(i) = layout.ring()
+            && let Some(mass) = self.shared[INNER_RING].as_ref().and_then(|ring| ring.mass())
+            && let Some((geometry, laws)) =
+                LawBuilder::new(&self.scene, self.viscosity_at_start()).raceways()?
         {
+            let (geometry, laws) = (&geometry, &laws);
             let load = [
                 inputs.of(Input::LoadY) + mass * self.gravity[0],
                 inputs.of(Input::LoadZ) + mass * self.gravity[1],
             ];
-            let centrifugal = rollers.mass * rollers.geometry.pitch_radius * orbit * orbit;
-            let find = |q: &[f64]| {
-                StillBearing { model: self, geometry: &rollers.geometry, laws, q, centrifugal }
-                    .equilibrium(load)
-            };
+            let centrifugal = inertia.mass * geometry.pitch_radius * orbit * orbit;
+            let find =
+                |q: &[f64]| StillBearing { model: self, geometry, laws, q, centrifugal }.equilibrium(load);
             let mut ring = find(q)?;
             if inner_guide {
                 // A cage that starts in the centre of the ring moves the rollers along, and they the ring, by next to nothing.
@@ -70,7 +73,7 @@ impl Model {
                 }
                 self.scene.check_cage_start(cage, ring)?;
             }
-            let still = StillBearing { model: self, geometry: &rollers.geometry, laws, q, centrifugal };
+            let still = StillBearing { model: self, geometry, laws, q, centrifugal };
             let offsets: Vec<f64> =
                 (0..layout.count).map(|j| still.roller(j, ring).0.radial_offset).collect();
             q[i] = ring[0];
@@ -84,20 +87,14 @@ impl Model {
 
     /// Sets the cage centre (m), and the rollers into the middle of their pockets, which lie beside their angles then.
     fn place_cage(&self, cage: [f64; 2], q: &mut [f64]) {
-        if let Some(c) = self.layout.cage {
+        if let Some(c) = self.layout.cage() {
             q[c..c + 2].copy_from_slice(&cage);
         }
-        let ElementKind::Rollers(rollers) = &self.elements.kind else { return };
         for j in 0..self.layout.count {
-            let (sin, cos) = math::sin_cos(self.elements.reference_angles[j]);
+            let (sin, cos) = math::sin_cos(self.elements.set().reference_angles[j]);
             let beside = cage[1] * cos - cage[0] * sin;
-            q[self.layout.roller(j) + 1] = math::asin(beside / rollers.geometry.pitch_radius);
+            q[self.layout.roller(j) + 1] = math::asin(beside / self.pitch_radius());
         }
-    }
-
-    /// Angle of roller `j` about the bearing, rad.
-    pub(super) fn azimuth(&self, q: &[f64], j: usize) -> f64 {
-        self.elements.reference_angles[j] + q[self.layout.roller(j) + 1]
     }
 }
 
@@ -105,7 +102,8 @@ impl Model {
 struct StillBearing<'a> {
     model: &'a Model,
     geometry: &'a RacewayGeometry,
-    laws: &'a RacewayLaws,
+    /// Of outer and inner ring.
+    laws: &'a [LineContact; 2],
     q: &'a [f64],
     /// On each roller, N.
     centrifugal: f64,
@@ -119,7 +117,7 @@ impl StillBearing<'_> {
         if size == 0.0 {
             return Ok([0.0; 2]);
         }
-        let reach = (2.0 * self.geometry.gap).max(0.0) + 2.0 * self.laws.inner.elastic.approach(size);
+        let reach = (2.0 * self.geometry.gap).max(0.0) + 2.0 * self.laws[1].elastic.approach(size);
         let mut x = [0.0; 2];
         let mut here = self.ring_balance(x, load);
         let mut parameter = size / reach;
@@ -155,8 +153,8 @@ impl StillBearing<'_> {
         let mut sum =
             RingBalance { energy: -(load[0] * x[0] + load[1] * x[1]), force: load, stiffness: [0.0; 3] };
         for j in 0..self.model.layout.count {
-            let (roller, (sin, cos)) = self.roller(j, x);
-            let [ny, nz] = rotate(roller.normal, sin, cos);
+            let (roller, frame) = self.roller(j, x);
+            let [ny, nz] = frame.to_global(roller.normal);
             sum.energy += roller.energy;
             sum.force[0] += roller.load * ny;
             sum.force[1] += roller.load * nz;
@@ -167,23 +165,24 @@ impl StillBearing<'_> {
         sum
     }
 
-    /// Equilibrium of roller `j` with the ring at `x` in m, and sine and cosine of its azimuth.
-    fn roller(&self, j: usize, x: [f64; 2]) -> (RollerBalance, (f64, f64)) {
-        let (sin, cos) = math::sin_cos(self.model.azimuth(self.q, j));
-        (self.roller_balance(rotate(x, -sin, cos)), (sin, cos))
+    /// Equilibrium of roller `j` with the ring at `x` in m, and its frame.
+    fn roller(&self, j: usize, x: [f64; 2]) -> (RollerBalance, Frame<f64>) {
+        let Model { layout, elements, .. } = self.model;
+        let frame = elements.frame(layout, self.q, &InputValues::default(), j);
+        (self.roller_balance(frame.to_local(x)), frame)
     }
 
     /// Radial equilibrium of a roller, with the ring centre at `ring` (m) in the roller's local frame.
     fn roller_balance(&self, ring: [f64; 2]) -> RollerBalance {
-        let (outer, inner) = (&self.laws.outer.elastic, &self.laws.inner.elastic);
+        let [outer, inner] = self.laws.each_ref().map(|law| &law.elastic);
         let (g, centrifugal) = (self.geometry, self.centrifugal);
         // The outward force of the roller falls with its offset: bisection between resting outside and squeezed in.
         let state = |offset: f64| {
             let still =
-                RollerMotion { radial_offset: offset, radial_speed: 0.0, orbit_speed: 0.0, spin_speed: 0.0 };
+                ElementMotion { radial_offset: offset, radial_speed: 0.0, orbit_speed: 0.0, spin_speed: 0.0 };
             let still_ring = RingMotion { position: ring, velocity: [0.0; 2], speed: 0.0 };
-            let (motion, frame) = g.inner(&still, &still_ring);
-            (inner.load(motion.delta), outer.load(offset - g.gap), motion.delta, frame.normal)
+            let (motion, grip) = g.inner(&still, &still_ring);
+            (inner.load(motion.delta), outer.load(offset - g.gap), motion.delta, grip.normal)
         };
         let resting = g.gap + outer.approach(centrifugal);
         let squeezed = ring[0].abs() + ring[1].abs() + 2.0 * g.gap.abs();

@@ -1,119 +1,69 @@
-//! The compiled model: bodies, coordinates and interaction laws of a scene. Immutable, `Send` and `Sync`; any
-//! number of simulations in any number of threads can share one.
+//! The compiled model: bodies, pairs and inputs of a scene. Immutable, `Send` and `Sync`; any number of simulations in any
+//! number of threads can share one.
+//!
+//! It composes what bodies and pairs say of themselves, by the same code for all of them:
+//!
+//! | file | what |
+//! |---|---|
+//! | `compile`, `signals` | from the scene to bodies, pairs and inputs |
+//! | `evaluate`, `workspace` | forces and accelerations |
+//! | `linearize` | their exact derivatives |
+//! | `damping`, `step_forces` | what a semi-implicit step needs |
+//! | `works` | energies, powers |
+//! | `onsets`, `scales`, `costs` | how long steps may be, units of errors |
+//! | `initial` | start of a run |
+//! | `report/` | names, force reports, channels, what is followed in every step |
 
-mod batch;
-mod channels;
 mod compile;
-mod compile_laws;
 mod costs;
 mod damping;
-mod energy;
 mod evaluate;
-mod fault;
-mod forces;
 mod initial;
-mod inputs;
-mod jacobian;
-mod law_columns;
-mod law_slopes;
-mod laws;
-mod layout;
-mod locate;
-mod names;
+mod linearize;
 mod onsets;
-mod places;
-mod pocket_slopes;
-mod raceway_slopes;
+mod report;
 mod scales;
-mod selection;
+mod signals;
 mod step_forces;
-mod watch;
+mod works;
 mod workspace;
 
-pub use channels::Channel;
-pub use costs::{PARTS, PartTimes};
-pub(crate) use energy::AT_FLOOR;
-pub use energy::{Energy, POWERS};
-pub use fault::{FAULTS, Fault, FaultCounts};
-pub use forces::{
-    BodyForces, CONTACT_QUANTITIES, ContactForces, FORCE_SOURCES, Forces, GuideReport, Quantity,
+pub use crate::bodies::{
+    BodyForces, FAULTS, FORCE_SOURCES, Fault, FaultCounts, HostInputs, INPUTS, Input, InputValues, Layout,
+    POWERS,
 };
-pub use inputs::{HostInputs, INPUTS, Input, InputValues};
-pub use laws::{LAWS, LawCounts};
-pub use layout::Layout;
-pub use names::StateInfo;
+pub use crate::pairs::{LAWS, LawCounts};
+pub use costs::{PARTS, PartTimes};
+pub use report::{CONTACT_QUANTITIES, Channel, ContactForces, Forces, GuideReport, Quantity, StateInfo};
+pub(crate) use works::AT_FLOOR;
+pub use works::Energy;
 pub use workspace::Workspace;
 
-use crate::contact::guide::GuideSide;
-use crate::contact::raceway::RacewayGeometry;
+use crate::bodies::{CAGE, Elements, SHARED, SharedBodies};
 use crate::error::{Error, Result, Status};
+use crate::pairs::guide::Guide;
+use crate::pairs::raceway::RacewayGeometry;
+use crate::pairs::{ContactLaw, ElementPair, PairInfo};
 use crate::scene::{FORCE, SPEED, Scene, TEMPERATURE, TORQUE, VISCOSITY};
-use inputs::InputSignals;
-use laws::Laws;
-use selection::Selection;
-
-/// The inner ring.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum RingBody {
-    /// Held at a position, m.
-    Fixed([f64; 2]),
-    /// Free; mass in kg, support damping in N s/m.
-    Free { mass: f64, damping: f64 },
-}
-
-/// The rolling elements.
-#[derive(Clone, Debug, PartialEq)]
-struct ElementSet {
-    count: usize,
-    /// Radius of one, m.
-    radius: f64,
-    /// Radius of the circle of their centres, m.
-    pitch_radius: f64,
-    /// Angle from which the travel of each element counts, and of its pocket in the cage, rad.
-    reference_angles: Vec<f64>,
-    /// Their cosines and sines.
-    directions: Vec<[f64; 2]>,
-    kind: ElementKind,
-}
-
-#[derive(Clone, Debug, PartialEq)]
-enum ElementKind {
-    Rollers(RollerSet),
-    /// Their motion is prescribed.
-    Kinematic,
-}
-
-/// Rollers with states of their own.
-#[derive(Clone, Debug, PartialEq)]
-struct RollerSet {
-    geometry: RacewayGeometry,
-    mass: f64,
-    inertia: f64,
-}
-
-/// The cage.
-#[derive(Clone, Debug, PartialEq)]
-struct CageBody {
-    mass: f64,
-    inertia: f64,
-    /// Centre of mass in the axes of the cage, m.
-    mass_eccentricity: Option<[f64; 2]>,
-    guide_side: GuideSide,
-    guided_by_inner_ring: bool,
-    /// Whether external force and torque are inputs.
-    loaded: bool,
-}
+use crate::space::Motion;
+use report::Selection;
+use signals::InputSignals;
 
 /// A compiled scene.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug)]
 pub struct Model {
     scene: Scene,
     layout: Layout,
-    elements: ElementSet,
     gravity: [f64; 2],
-    ring: RingBody,
-    cage: Option<CageBody>,
-    laws: Laws,
+    shared: SharedBodies,
+    elements: Box<dyn Elements>,
+    /// Slip speed that a tangential impulse of 1 N s gives a free element, m/(N s^2).
+    mobility: f64,
+    pairs: Vec<Box<dyn ElementPair>>,
+    /// What the pairs say of themselves, for loops over contacts.
+    infos: Vec<&'static PairInfo>,
+    laws: Vec<ContactLaw>,
+    guide: Option<Guide>,
     inputs: InputSignals,
     selection: Selection,
 }
@@ -205,60 +155,66 @@ impl Model {
 
     /// The field of the scene by which the film of the guide can give energy to the cage, if it can.
     pub fn energy_giving_film(&self) -> Option<String> {
-        let film = self.laws.guide.as_ref()?.film.as_ref()?;
+        let film = self.guide.as_ref()?.law().film.as_ref()?;
         film.passive().err().map(|field| format!("cage.guide.film.{field}"))
     }
 
     /// Number of rolling elements, whether they have states or not.
     pub fn element_count(&self) -> usize {
-        self.elements.count
+        self.elements.set().count
     }
 
     /// Whether the elements move freely and are rollers; otherwise their motion is prescribed.
     pub fn has_rollers(&self) -> bool {
-        matches!(self.elements.kind, ElementKind::Rollers(_))
+        self.elements.inertia().is_some()
     }
 
     /// Radius of the pitch circle, m.
     pub fn pitch_radius(&self) -> f64 {
-        self.elements.pitch_radius
+        self.elements.set().pitch_radius
     }
 
     /// Radius of the inner raceway in m, where there are rollers.
     pub fn inner_raceway_radius(&self) -> Option<f64> {
-        match &self.elements.kind {
-            ElementKind::Rollers(rollers) => {
-                let g = &rollers.geometry;
-                Some(g.pitch_radius - g.roller_radius - g.gap)
-            }
-            ElementKind::Kinematic => None,
-        }
+        let rollers = self.scene.rollers.as_ref()?;
+        let outer = self.scene.outer_ring.as_ref().map_or(0.0, |ring| ring.raceway_radius);
+        let g = RacewayGeometry::new(outer, rollers.radius, self.scene.radial_clearance());
+        Some(g.pitch_radius - g.roller_radius - g.gap)
     }
 
     /// Orbit and spin speed of the elements without slip at these inputs, rad/s: of rollers that touch both raceways,
     /// or as prescribed.
     pub fn kinematic_speeds(&self, inputs: &InputValues) -> [f64; 2] {
-        match &self.elements.kind {
-            ElementKind::Kinematic => [inputs.of(Input::OrbitSpeed), inputs.of(Input::SpinSpeed)],
-            ElementKind::Rollers(rollers) => {
-                let orbit = rollers.orbit_ratio() * inputs.of(Input::RingSpeed);
-                let spin_ratio =
-                    -rollers.orbit_ratio() * rollers.outer_centre_radius() / self.elements.radius;
-                [orbit, spin_ratio * inputs.of(Input::RingSpeed)]
-            }
-        }
-    }
-}
-
-impl RollerSet {
-    /// Radius of the circle of the centres of rollers that touch the outer raceway, m.
-    fn outer_centre_radius(&self) -> f64 {
-        self.geometry.pitch_radius + self.geometry.gap
+        self.elements.kinematic_speeds(inputs)
     }
 
-    /// Orbit speed per ring speed of a roller that touches both raceways and does not slip: R_i/(2 (R_o - R_b)).
-    fn orbit_ratio(&self) -> f64 {
-        let g = &self.geometry;
-        (g.pitch_radius - g.roller_radius - g.gap) / (2.0 * self.outer_centre_radius())
+    /// Motion of the shared bodies at this state; of one that does not exist, none.
+    #[inline]
+    fn motions_at(&self, q: &[f64], v: &[f64], inputs: &InputValues) -> [Motion<f64>; SHARED] {
+        std::array::from_fn(|body| self.motion_of(body, q, v, inputs))
+    }
+
+    /// That of one of them.
+    #[inline]
+    fn motion_of(&self, body: usize, q: &[f64], v: &[f64], inputs: &InputValues) -> Motion<f64> {
+        let first = self.layout.shared(body).unwrap_or(0);
+        self.shared[body]
+            .as_ref()
+            .map_or_else(Motion::default, |b| b.motion(&q[first..], &v[first..], inputs))
+    }
+
+    /// Whether there is a cage.
+    fn has_cage(&self) -> bool {
+        self.shared[CAGE].is_some()
+    }
+
+    /// Place of a pair with this force source in the list, if there is one.
+    fn has_pockets(&self) -> bool {
+        self.infos.iter().any(|info| info.mate == CAGE)
+    }
+
+    /// Whether rollers roll on raceways.
+    fn has_raceways(&self) -> bool {
+        self.infos.iter().any(|info| info.rolls)
     }
 }

@@ -5,15 +5,13 @@
 //! law needs to become itself; within a gap it uses up at most a share of what is left. So no law is passed between two
 //! states that both are outside of it. Signals bound the step, too: see [`InputSignals::shortest_period`].
 //!
-//! [`InputSignals::shortest_period`]: super::inputs::InputSignals::shortest_period
+//! [`InputSignals::shortest_period`]: super::signals::InputSignals::shortest_period
 
-use super::laws::{PlaneLaws, PocketLaws};
-use super::{CageBody, ElementKind, HostInputs, Input, Model};
-use crate::contact::rotate;
+use super::{HostInputs, InputValues, Model};
+use crate::bodies::{CAGE, OUTER_RING, SHARED};
 use crate::integrate::Tuning;
-use crate::laws::guide::{GuideFilm, GuideLaw};
-use crate::laws::solid_contact::SolidContact;
-use crate::scalar::math;
+use crate::pairs::Ahead;
+use crate::space::Motion;
 
 impl Model {
     /// The longest step (s) from the state (q, v) at time `t` that passes no narrow law unseen, or any longer one than
@@ -27,136 +25,38 @@ impl Model {
         tuning: &Tuning,
     ) -> f64 {
         let mut longest = self.inputs.shortest_period(host) / tuning.steps_per_period;
-        let Some(cage) = &self.cage else { return longest };
-        if let Some(guide) = &self.laws.guide {
-            let inputs = if cage.guided_by_inner_ring { self.inputs_at(t, host) } else { Default::default() };
-            let [of_cage, of_ring] = self.guide_bodies(q, v, &inputs);
-            let relative = |a: [f64; 2], b: [f64; 2]| [a[0] - b[0], a[1] - b[1]];
-            let position = relative(of_cage.position, of_ring.position);
-            let velocity = relative(of_cage.velocity, of_ring.velocity);
-            longest = longest.min(in_guide(guide, cage, position, velocity, tuning));
+        let Some(mass) = self.shared[CAGE].as_ref().and_then(|cage| cage.mass()) else { return longest };
+        let prescribed = self.elements.inertia().is_none();
+        // Inputs matter where a ring that turns guides the cage, or elements move by them.
+        let moved = self.guide.as_ref().is_some_and(|guide| guide.ring != OUTER_RING) || prescribed;
+        let inputs = if moved { self.inputs_at(t, host) } else { InputValues::default() };
+        let shared: [Motion<f64>; SHARED] = self.motions_at(q, v, &inputs);
+        if let Some(guide) = &self.guide {
+            longest = longest.min(guide.longest_step(&shared, mass, tuning));
         }
-        if let Some(PocketLaws::Plane(laws)) = &self.laws.pocket {
-            let prescribed = match &self.elements.kind {
-                ElementKind::Rollers(_) => None,
-                ElementKind::Kinematic => {
-                    let inputs = self.inputs_at(t, host);
-                    Some([inputs.orbit_travel, inputs.of(Input::OrbitSpeed)])
-                }
-            };
-            longest = longest.min(self.in_pockets(laws, prescribed, [q, v], wanted, tuning));
-        }
-        longest
-    }
-
-    /// The same for the walls of plane pockets, with the travel (rad) and speed (rad/s) of elements that are prescribed.
-    fn in_pockets(
-        &self,
-        laws: &PlaneLaws,
-        prescribed: Option<[f64; 2]>,
-        [q, v]: [&[f64]; 2],
-        wanted: f64,
-        tuning: &Tuning,
-    ) -> f64 {
-        let (Some(cage), Some(c)) = (&self.cage, self.layout.cage) else { return f64::INFINITY };
-        let mass = match &self.elements.kind {
-            ElementKind::Rollers(rollers) => rollers.mass.min(cage.mass),
-            ElementKind::Kinematic => cage.mass,
+        let lightest = self.elements.inertia().map_or(mass, |inertia| inertia.mass.min(mass));
+        let ahead = Ahead {
+            shared: &shared,
+            elements: &*self.elements,
+            layout: &self.layout,
+            q,
+            v,
+            inputs: &inputs,
+            lightest,
+            wanted,
+            tuning,
         };
-        let (sin, cos) = math::sin_cos(q[c + 2]);
-        // Position and velocity of the cage in its own axes.
-        let (place, speed) = (rotate([q[c], q[c + 1]], -sin, cos), rotate([v[c], v[c + 1]], -sin, cos));
-        let pitch = self.elements.pitch_radius;
-        let pass = Passage::of(&laws.contact, mass, tuning);
-        let mut longest = f64::INFINITY;
-        for (j, [x, y]) in self.elements.directions.iter().enumerate() {
-            let [angle, orbit] = match prescribed {
-                Some(motion) => motion,
-                None => [q[self.layout.roller(j) + 1], v[self.layout.roller(j) + 1]],
-            };
-            let offset = pitch * (angle - q[c + 2]) - (place[1] * x - place[0] * y);
-            let approach = pitch * (orbit - v[c + 2]) - (speed[1] * x - speed[0] * y);
-            let rest = laws.shape.clearance - offset * approach.signum();
-            if rest > 0.0 && rest <= approach.abs() * wanted {
-                longest = longest.min(rest / approach.abs() + pass.time(approach.abs()));
-            }
+        for pair in &self.pairs {
+            longest = longest.min(pair.longest_step(&ahead));
         }
         longest
     }
-}
-
-/// How far a step may pass the onset of a solid contact.
-struct Passage {
-    /// Share of the time in which it turns a body, s.
-    turn: f64,
-    /// Share of the depth over which its damper sets in, m.
-    depth: f64,
-}
-
-impl Passage {
-    /// For a body of `mass` kg.
-    fn of(contact: &SolidContact, mass: f64, tuning: &Tuning) -> Self {
-        let turn = if contact.stiffness > 0.0 { (mass / contact.stiffness).sqrt() } else { 0.0 };
-        Self { turn: tuning.turn_share * turn, depth: tuning.onset_share * contact.softening_depth }
-    }
-
-    /// In s, at this speed in m/s.
-    fn time(&self, speed: f64) -> f64 {
-        self.turn.max(self.depth / speed)
-    }
-}
-
-/// The same for a journal at `position` (m) from the centre of its bush, with `velocity` (m/s).
-fn in_guide(
-    guide: &GuideLaw,
-    cage: &CageBody,
-    position: [f64; 2],
-    velocity: [f64; 2],
-    tuning: &Tuning,
-) -> f64 {
-    let share = tuning.onset_share;
-    let e = math::hypot(position[0], position[1]);
-    let speed = math::hypot(velocity[0], velocity[1]);
-    let along = position[0] * velocity[0] + position[1] * velocity[1];
-    // Time until the distance from the centre is `radius`, which is larger than e.
-    let until = |radius: f64| {
-        let rest = (radius - e) * (radius + e);
-        let root = (along * along + speed * speed * rest).sqrt();
-        if along > 0.0 { rest / (along + root) } else { (root - along) / (speed * speed) }
-    };
-    let gap = guide.free_clearance - e;
-    // Where surfaces touch before the film is gone, the gap may close.
-    let fading = tuning.fading * guide.roughness;
-    let least = if guide.solid.is_some() { fading } else { tuning.thinnest_film * guide.free_clearance };
-    let mut longest = f64::INFINITY;
-    if gap > 0.0 && guide.film.is_some() {
-        longest = until(e + share * gap.max(least));
-    }
-    let mut onset = |rest: f64, depth: f64| {
-        if rest > 0.0 {
-            longest = longest.min(until(e + rest + share * depth));
-        }
-    };
-    if let Some(GuideFilm::LubricantLayer(layer)) = &guide.film {
-        onset(gap - layer.thickness, layer.thickness);
-    }
-    if let Some(solid) = &guide.solid {
-        let rest = gap - solid.asperity_height;
-        if rest > 0.0 {
-            let depth = speed * Passage::of(&solid.contact, cage.mass, tuning).time(speed);
-            onset(rest, depth / share);
-        }
-        if guide.film.is_some() {
-            onset(gap - fading, fading);
-        }
-    }
-    if longest.is_nan() { f64::INFINITY } else { longest }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::Model;
+    use crate::model::{Input, Model};
 
     fn model(changes: &[(&str, &str)]) -> Model {
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/grease_guide.json");

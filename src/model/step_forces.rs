@@ -5,15 +5,15 @@
 //! F_T = F_T(v*) - s (u1 - u2 - (u1* - u2*))     at a share of its change, from the mean to the end
 //! ```
 //!
-//! v* velocities of the evaluation, c normal damping, s secant slope of friction; by the motion of the rollers.
+//! v* velocities of the evaluation, c normal damping, s secant slope of friction; by the motion of the elements.
 
-use super::batch::{Batch, Mate, Site};
-use super::evaluate::{add, pocket_wrenches};
-use super::workspace::{ElementSite, Workspace};
-use super::{ElementKind, Model, RingBody};
-use crate::contact::Wrench;
+use super::Model;
+use super::workspace::Workspace;
+use crate::bodies::{Motions, OF_ELEMENT, SHARED};
 use crate::integrate::SemiImplicit;
 use crate::laws::contact_pair::ContactForce;
+use crate::pairs::{Batch, Site};
+use crate::space::Wrench;
 
 /// Changes of the speeds of one contact, m/s: mean over the step, and slip at which friction acts.
 #[derive(Default)]
@@ -24,43 +24,34 @@ pub(super) struct Changes {
 }
 
 impl Model {
-    /// Adds to the accelerations `a` of ring and cage what the forces on them have become in the step of the rollers, with
-    /// the velocities `v` and the positions `q` of the last evaluation.
+    /// Adds to the accelerations `a` of the shared bodies what the forces on them have become in the step of the elements.
     ///
-    /// The forces between a roller and its mates are the same on both of them in this way. With those of the evaluation on
+    /// The forces between an element and its mates are the same on both of them in this way. With those of the evaluation on
     /// the mates, a ring under a heavy load swings against its rollers from step to step.
-    pub(crate) fn react(&self, q: &[f64], v: &[f64], step: &SemiImplicit<'_>, ws: &Workspace, a: &mut [f64]) {
-        let mut on_ring = [0.0; 2];
-        let mut on_cage = Wrench::default();
-        for Batch { sites, force, .. } in [&ws.raceways, &ws.pockets] {
+    pub(crate) fn react(&self, v: &[f64], step: &SemiImplicit<'_>, ws: &Workspace, a: &mut [f64]) {
+        let mut on = [Wrench::default(); SHARED];
+        for Batch { sites, force, .. } in &ws.contacts.batches {
             for (i, site) in sites.iter().enumerate() {
-                let element = &ws.elements[site.element];
-                if let Mate::Outer = site.mate {
+                if self.layout.shared(site.mate).is_none() {
                     continue;
                 }
-                let changes = self.step_changes(site, force.friction_secant[i], v, step, &ws.elements);
+                let changes = self.step_changes(site, force.friction_secant[i], v, step, &ws.motions);
                 let change = ContactForce {
                     normal: force.damping[i] * changes.approach_speed,
                     friction: -force.friction_secant[i] * changes.acting_slip,
                     ..ContactForce::none(0.0)
                 };
-                if let Mate::Pocket(pocket) = &site.mate {
-                    let (_, reaction) = pocket_wrenches(&site.frame, &change, pocket, element);
-                    add(&mut on_cage, reaction.force, reaction.moment);
-                } else {
-                    let [_, reaction] = site.frame.wrenches(&change);
-                    let [y, z] = element.to_global(reaction.force);
-                    on_ring = [on_ring[0] + y, on_ring[1] + z];
-                }
+                let [_, on_mate] = site.grip.wrenches(&change);
+                let force = ws.motions.elements[site.element].frame.to_global(on_mate.force);
+                on[site.mate].add(&Wrench { force, ..on_mate });
             }
         }
-        if let (RingBody::Free { mass, .. }, Some(i)) = (self.ring, self.layout.ring) {
-            a[i] += on_ring[0] / mass;
-            a[i + 1] += on_ring[1] / mass;
-        }
-        if let (Some(cage), Some(c)) = (&self.cage, self.layout.cage) {
-            for (a, change) in a[c..].iter_mut().zip(cage.response(&on_cage, cage.mass_offset(q[c + 2]))) {
-                *a += change;
+        for (place, body) in self.shared.iter().enumerate() {
+            if let (Some(body), Some(first)) = (body, self.layout.shared(place)) {
+                let response = body.response(&on[place], ws.motions.shared[place].angle);
+                for (a, change) in a[first..].iter_mut().zip(&response[..body.coordinates().len()]) {
+                    *a += change;
+                }
             }
         }
     }
@@ -68,10 +59,10 @@ impl Model {
     /// Makes the forces at the last evaluated state, whose velocities are `v`, those of a semi-implicit step from there; zero
     /// where damping would make a contact pull, which the step itself lets it do.
     pub(crate) fn apply_step(&self, v: &[f64], step: &SemiImplicit<'_>, ws: &mut Workspace) {
-        let Workspace { raceways, pockets, elements, .. } = ws;
-        for Batch { sites, force, .. } in [raceways, pockets] {
+        let Workspace { contacts, motions, .. } = ws;
+        for Batch { sites, force, .. } in &mut contacts.batches {
             for (i, site) in sites.iter().enumerate() {
-                let changes = self.step_changes(site, force.friction_secant[i], v, step, elements);
+                let changes = self.step_changes(site, force.friction_secant[i], v, step, motions);
                 force.normal[i] = (force.normal[i] + force.damping[i] * changes.approach_speed).max(0.0);
                 force.friction[i] -= force.friction_secant[i] * changes.acting_slip;
             }
@@ -79,7 +70,7 @@ impl Model {
     }
 
     /// How the speeds of a contact whose friction has the slope `secant` change from the evaluated velocities `v` to those of
-    /// the step, by the motion of its roller.
+    /// the step, by the motion of its element; not at all where that is prescribed.
     #[inline]
     pub(super) fn step_changes(
         &self,
@@ -87,24 +78,50 @@ impl Model {
         secant: f64,
         v: &[f64],
         step: &SemiImplicit<'_>,
-        elements: &[ElementSite],
+        motions: &Motions,
     ) -> Changes {
-        let ElementKind::Rollers(rollers) = &self.elements.kind else { return Changes::default() };
-        let element = &elements[site.element];
-        let [nr, nc] = element.normal(site);
-        let (j, spin) = (self.layout.roller(site.element), self.layout.spin(site.element));
-        let r = rollers.geometry.pitch_radius + element.motion.radial_offset;
-        let change = |to: &[f64]| [to[j] - v[j], r * (to[j + 1] - v[j + 1]), to[spin] - v[spin]];
-        let slip = |[radial, across, turning]: [f64; 3]| {
-            nr * across - nc * radial + rollers.geometry.roller_radius * turning
+        if site.element >= self.layout.count {
+            return Changes::default();
+        }
+        let [nr, nc] = site.grip.normal_on_element();
+        let places = self.layout.of_element(site.element);
+        let r = motions.elements[site.element].radius;
+        let change = |to: &[f64]| -> [f64; OF_ELEMENT] {
+            let [j, orbit, spin] = places;
+            [to[j] - v[j], r * (to[orbit] - v[orbit]), to[spin] - v[spin]]
+        };
+        let slip = |[radial, across, turning]: [f64; OF_ELEMENT]| {
+            nr * across - nc * radial + site.grip.arm * turning
         };
         let mean = change(step.mean);
         let [mean_slip, end_slip] = [slip(mean), slip(change(step.end))];
-        let beyond = 2.0 * rollers.friction_share(step.h, secant) - 1.0;
+        let beyond = 2.0 * self.friction_share(step.h, secant) - 1.0;
         Changes {
             approach_speed: nr * mean[0] + nc * mean[1],
             slip: mean_slip,
             acting_slip: mean_slip + beyond * (end_slip - mean_slip),
+        }
+    }
+
+    /// Force of contact `i` of a batch, or what a semi-implicit step has made of it.
+    #[inline]
+    pub(super) fn force_in_step(
+        &self,
+        batch: &Batch,
+        i: usize,
+        v: &[f64],
+        step: Option<&SemiImplicit<'_>>,
+        motions: &Motions,
+    ) -> ContactForce<f64> {
+        let f = &batch.force;
+        let secant = f.friction_secant[i];
+        let changes = step.map(|step| self.step_changes(&batch.sites[i], secant, v, step, motions));
+        let changes = changes.unwrap_or_default();
+        ContactForce {
+            normal: f.normal[i] + f.damping[i] * changes.approach_speed,
+            friction: f.friction[i] - secant * changes.acting_slip,
+            rolling_resistance: f.rolling_resistance[i],
+            ..ContactForce::none(0.0)
         }
     }
 }

@@ -225,8 +225,12 @@ impl Scene {
             return elements.pitch_radius;
         }
         let outer = self.outer_ring.as_ref().map_or(0.0, |r| r.raceway_radius);
-        let clearance = self.inner_ring.as_ref().and_then(|r| r.radial_clearance).unwrap_or(0.0);
-        outer - self.element_radius() - clearance / 4.0
+        outer - self.element_radius() - self.radial_clearance() / 4.0
+    }
+
+    /// Diametral play of the inner ring on the rollers, m; zero without rollers.
+    pub fn radial_clearance(&self) -> f64 {
+        self.inner_ring.as_ref().and_then(|r| r.radial_clearance).unwrap_or(0.0)
     }
 
     fn validate_run(&self) -> Result<()> {

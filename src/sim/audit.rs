@@ -88,12 +88,12 @@ impl Sim {
         self.evaluated = Evaluated::Other;
         let evaluated = self.bearing.accelerations_at(t, state, &mut self.accelerations);
         evaluated.map_err(|fault| self.bad_state(t, fault))?;
-        Ok(self.bearing.energy(state))
+        Ok(self.bearing.energy())
     }
 
     /// Starts the balance at the last evaluated state, which must be the present one.
     pub(super) fn start_audit(&mut self) {
-        self.audit = Start { time: self.time, energy: self.bearing.energy(&self.state) };
+        self.audit = Start { time: self.time, energy: self.bearing.energy() };
         self.driver.forget_integrals();
     }
 }

@@ -39,7 +39,7 @@ impl Bearing {
     pub(super) fn new(model: Arc<Model>, tuning: Tuning) -> Self {
         let workspace = Workspace::new(&model);
         let layout = model.layout();
-        let groups = layout.count + usize::from(layout.ring.is_some()) + usize::from(layout.cage.is_some());
+        let groups = layout.groups();
         Self {
             workspace,
             host: HostInputs::default(),
@@ -129,12 +129,7 @@ impl Bearing {
 
     /// Name of the body of a group.
     pub(super) fn group_name(&self, group: usize) -> Option<String> {
-        let layout = self.model.layout();
-        (group < self.rejections.len()).then(|| match group.checked_sub(layout.count) {
-            None => format!("{}[{group}]", self.model.element_kind()),
-            Some(0) if layout.ring.is_some() => "inner_ring".to_owned(),
-            Some(_) => "cage".to_owned(),
-        })
+        self.model.group_name(group)
     }
 
     pub(super) fn reset(&mut self) {
@@ -166,16 +161,14 @@ impl Bearing {
         let evaluated = self.accelerations_at(t, state, a);
         self.workspace.set_differentiating(false);
         evaluated?;
-        let (q, v) = state.split_at(self.model.layout().positions());
         let rates = self.model.input_rates_at(t, &self.host);
-        self.model.linearize(q, v, &mut self.workspace, &rates, &mut slopes.linearization);
+        self.model.linearize(&mut self.workspace, &rates, &mut slopes.linearization);
         Ok(())
     }
 
     /// Energy of the last evaluated state.
-    pub(super) fn energy(&self, state: &[f64]) -> Energy {
-        let (q, v) = state.split_at(self.model.layout().positions());
-        self.model.energy(q, v, &self.workspace)
+    pub(super) fn energy(&self) -> Energy {
+        self.model.energy(&self.workspace)
     }
 
     pub(super) fn limits(&self) -> &RunLimits {
@@ -275,15 +268,7 @@ impl System for Bearing {
     }
 
     fn group(&self, i: usize) -> [Option<usize>; 3] {
-        let layout = self.model.layout();
-        if i < layout.count {
-            return [Some(layout.roller(i)), Some(layout.roller(i) + 1), Some(layout.spin(i))];
-        }
-        match (layout.ring, layout.cage) {
-            (Some(ring), _) if i == layout.count => [Some(ring), Some(ring + 1), None],
-            (_, Some(cage)) => [Some(cage), Some(cage + 1), Some(cage + 2)],
-            _ => [None; 3],
-        }
+        self.model.layout().group(i)
     }
 
     fn structure(&self) -> Structure {
@@ -304,7 +289,7 @@ impl System for Bearing {
         evaluated?;
         self.jacobians += 1;
         let rates = self.model.input_rates_at(t, &self.host);
-        self.model.linearize(q, v, &mut self.workspace, &rates, out);
+        self.model.linearize(&mut self.workspace, &rates, out);
         Ok(())
     }
 
@@ -316,20 +301,20 @@ impl System for Bearing {
         self.workspace.vibration()
     }
 
-    fn quadratures(&self, q: &[f64], v: &[f64], step: Option<&SemiImplicit<'_>>) -> Quadratures {
-        self.model.powers(q, v, step, &self.workspace)
+    fn quadratures(&self, _q: &[f64], v: &[f64], step: Option<&SemiImplicit<'_>>) -> Quadratures {
+        self.model.powers(v, step, &self.workspace)
     }
 
     fn watched(&self) -> usize {
         self.model.watched().len()
     }
 
-    fn watch(&self, q: &[f64], v: &[f64], step: Option<&SemiImplicit<'_>>, out: &mut [f64]) {
-        self.model.watch(q, v, step, &self.workspace, out);
+    fn watch(&self, _q: &[f64], v: &[f64], step: Option<&SemiImplicit<'_>>, out: &mut [f64]) {
+        self.model.watch(v, step, &self.workspace, out);
     }
 
-    fn energy(&self, q: &[f64], v: &[f64]) -> [f64; 3] {
-        let Energy { kinetic, elastic, potential } = self.model.energy(q, v, &self.workspace);
+    fn energy(&self, _q: &[f64], _v: &[f64]) -> [f64; 3] {
+        let Energy { kinetic, elastic, potential } = self.model.energy(&self.workspace);
         [kinetic, elastic, potential]
     }
 
@@ -356,22 +341,12 @@ impl System for Bearing {
         }
     }
 
-    fn react(&self, q: &[f64], v: &[f64], step: &SemiImplicit<'_>, a: &mut [f64]) {
-        self.model.react(q, v, step, &self.workspace, a);
+    fn react(&self, _q: &[f64], v: &[f64], step: &SemiImplicit<'_>, a: &mut [f64]) {
+        self.model.react(v, step, &self.workspace, a);
     }
 
-    fn damping(&self, h: f64, q: &[f64], v: &[f64], out: &mut GroupDamping) {
-        let layout = self.model.layout();
-        self.model.roller_damping(h, &self.workspace, out);
-        let cage = self.model.cage_damping(q, v, &self.workspace, h);
-        let mut next = layout.count;
-        if layout.ring.is_some() {
-            out.set(next, &self.model.ring_damping(&cage, h));
-            next += 1;
-        }
-        if layout.cage.is_some() {
-            out.set(next, &cage);
-        }
+    fn damping(&self, h: f64, _q: &[f64], _v: &[f64], out: &mut GroupDamping) {
+        self.model.damping(h, &self.workspace, out);
     }
 }
 
@@ -395,7 +370,7 @@ mod tests {
             let text = include_str!("../../scenes/nu2310.json");
             let model = Arc::new(Model::new(Scene::from_json_with(text, sets).unwrap()).unwrap());
             let mut sim = Sim::new(model.clone()).unwrap();
-            let (ring, cage) = (model.layout().ring.unwrap(), model.layout().cage.unwrap());
+            let (ring, cage) = (model.layout().ring().unwrap(), model.layout().cage().unwrap());
             let (mut compared, nq) = (0, model.layout().positions());
             for _ in 0..1500 {
                 sim.step(sim.nominal_step()).unwrap();

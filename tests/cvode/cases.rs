@@ -239,7 +239,7 @@ impl System for Fixed {
     ) -> Result<(), Fault> {
         self.accelerations(t, q, v, a)?;
         let rates = self.model.input_rates_at(t, &HostInputs::default());
-        self.model.linearize(q, v, &mut self.workspace, &rates, out);
+        self.model.linearize(&mut self.workspace, &rates, out);
         Ok(())
     }
     fn damping(&self, _: f64, _: &[f64], _: &[f64], _: &mut GroupDamping) {}

@@ -1,11 +1,13 @@
 //! Films take energy out of the motion of cage and ring, never put it in: at random states over all that is in use.
 
 use crate::common::Random;
-use cagedyn::contact::guide::{BodyMotion, GuideSide};
+use cagedyn::laws::fluid::Fluid;
 use cagedyn::laws::guide::{GuideFilm, GuideLaw};
 use cagedyn::laws::journal::Harmonic;
 use cagedyn::laws::lubricant_layer::{LubricantLayer, PressureShear};
 use cagedyn::laws::short_bearing::ShortBearing;
+use cagedyn::pairs::guide::GuideSide;
+use cagedyn::space::Motion;
 use std::f64::consts::TAU;
 
 const STATES: u32 = 100_000;
@@ -64,7 +66,7 @@ fn law(random: &mut Random, layered: bool, shear: PressureShear, side: GuideSide
 
 /// Motion of cage and ring with a film between them: an outer ring at rest, or an inner one that turns about twice as fast as
 /// the cage. Where both turn almost alike, the difference of their radii, which the films neglect, is no longer small.
-fn motion(random: &mut Random, law: &GuideLaw, side: GuideSide) -> [BodyMotion<f64>; 2] {
+fn motion(random: &mut Random, law: &GuideLaw, side: GuideSide) -> [Motion<f64>; 2] {
     let gap = log(random, 1e-4, 1.0);
     let e = law.free_clearance * (1.0 - gap);
     let direction = random.within(0.0, TAU);
@@ -72,7 +74,7 @@ fn motion(random: &mut Random, law: &GuideLaw, side: GuideSide) -> [BodyMotion<f
         let size = log(random, low, high);
         if random.chance(0.5) { size } else { -size }
     };
-    let mut body = |position: [f64; 2]| BodyMotion {
+    let mut body = |position: [f64; 2]| Motion {
         position,
         velocity: [sized(1e-5, 1.0), sized(1e-5, 1.0)],
         angle: sized(1e-3, 10.0),
@@ -95,7 +97,7 @@ fn largest_power(layered: bool, shear: PressureShear) -> f64 {
         let law = law(&mut random, layered, shear, side);
         let [cage, ring] = motion(&mut random, &law, side);
         let motion = side.journal_motion(&cage, &ring);
-        let Ok(force) = law.force(&motion) else { continue };
+        let Ok(force) = law.force(&motion, Fluid::SAME) else { continue };
         let parts: Vec<f64> = side
             .wrenches(&force, &motion)
             .iter()

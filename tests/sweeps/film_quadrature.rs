@@ -4,6 +4,7 @@
 //! pressure-viscosity law and nothing else: no closed integral over the width, no integration by parts.
 
 use crate::common::Random;
+use cagedyn::laws::fluid::Fluid;
 use cagedyn::laws::journal::{FilmForce, Harmonic, JournalMotion};
 use cagedyn::laws::lubricant_layer::{LubricantLayer, PressureShear};
 use cagedyn::laws::short_bearing::ShortBearing;
@@ -411,7 +412,7 @@ fn round_layer_agrees() {
         far_over += usize::from(thickest > 1e3);
         flooded += usize::from(layer.thickness > layer.clearance + e);
         thin += usize::from(expected.minimum_film < 1e-6);
-        let found = layer.force(&motion).expect("a film");
+        let found = layer.force(&motion, Fluid::SAME).expect("a film");
         let error = error(layer.radius, &expected, &found);
         let film = (found.minimum_film / expected.minimum_film - 1.0).abs();
         assert!(
@@ -437,7 +438,7 @@ fn rough_layer_agrees() {
         let layer = LubricantLayer { clearance, thickness, roundness, ..layer };
         let motion = random_motion(&mut random, clearance - gap);
         let (expected, _) = Reference::new(&layer, &motion).force();
-        let found = layer.force(&motion).expect("a film");
+        let found = layer.force(&motion, Fluid::SAME).expect("a film");
         let error = error(layer.radius, &expected, &found);
         worst.add(error, 1e-8, || format!("{expected:?} wanted, {found:?} found in\n{layer:?}\n{motion:?}"));
     }
@@ -501,7 +502,7 @@ fn hard_states_agree() {
             profile_speed: w2,
         };
         let (expected, _) = Reference::new(&layer, &motion).force();
-        let error = error(radius, &expected, &layer.force(&motion).expect("a film"));
+        let error = error(radius, &expected, &layer.force(&motion, Fluid::SAME).expect("a film"));
         assert!(error <= 1e-9, "{error:e} in\n{layer:?}\n{motion:?}");
     }
 }
@@ -517,7 +518,7 @@ fn compare_short_bearings(seed: u64, count: usize, tolerance: f64, rough: bool) 
         let motion = random_motion(&mut random, clearance - gap);
         let squeeze = random.chance(0.8);
         let bearing = short_bearing(&land, squeeze);
-        let found = bearing.force(&motion).expect("a film");
+        let found = bearing.force(&motion, Fluid::SAME).expect("a film");
         let still = JournalMotion { velocity: [0.0; 2], profile_speed: 0.0, ..motion };
         let (land_force, _) = Reference::new(&land, if squeeze { &motion } else { &still }).force();
         let eps = size(motion.position) / clearance;
@@ -586,14 +587,14 @@ fn closed_forms() {
             (motion(-v, [0.0, 0.0]), -squeeze(-eps), 0.0, 0.0),
         ] {
             let pressure = [out * cos - around * sin, out * sin + around * cos];
-            let found = layer.force(&motion).expect("a film");
+            let found = layer.force(&motion, Fluid::SAME).expect("a film");
             for (name, f) in [("reference", Reference::new(&layer, &motion).force().0), ("layer", found)] {
                 let worst = apart(f.pressure, pressure) / size(pressure);
                 let moment = (f.moment - moment).abs() / (r * size(pressure)).max(moment.abs());
                 assert!(worst <= 1e-12, "{name}, eps {eps}: {:?}, closed form {pressure:?}", f.pressure);
                 assert!(moment <= 1e-12, "{name}, eps {eps}: {} N m, off by {moment:e}", f.moment);
             }
-            let found = short_bearing(&layer, true).force(&motion).expect("a film").pressure;
+            let found = short_bearing(&layer, true).force(&motion, Fluid::SAME).expect("a film").pressure;
             let twice = pressure.map(|f| 2.0 * f);
             let worst = apart(found, twice) / size(twice);
             assert!(worst <= 1e-12, "short bearing, eps {eps}: {found:?}, closed form {twice:?}");

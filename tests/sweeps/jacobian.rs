@@ -100,7 +100,7 @@ fn linearization(model: &Model, t: f64, state: &[f64]) -> Linearization {
     let mut a = vec![0.0; v.len()];
     model.accelerations(&model.inputs_at(t, &HostInputs::default()), q, v, &mut ws, &mut a).unwrap();
     let mut slope = Linearization::new(&model.structure(), v.len());
-    model.linearize(q, v, &mut ws, &model.input_rates_at(t, &HostInputs::default()), &mut slope);
+    model.linearize(&mut ws, &model.input_rates_at(t, &HostInputs::default()), &mut slope);
     slope
 }
 

@@ -65,7 +65,7 @@ fn bodies(model: &Model) -> Vec<Vec<String>> {
         Some(RingMotion::Free(_)) => "moves in the plane, turns at its given speed".to_owned(),
     };
     let mut rows = vec![row("outer_ring", "fixed at the origin"), row("inner_ring", ring)];
-    if layout.cage.is_some() {
+    if layout.cage().is_some() {
         rows.push(row("cage", "moves and turns in the plane"));
     }
     let text = if model.has_rollers() {

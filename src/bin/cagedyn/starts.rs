@@ -181,7 +181,7 @@ fn motion_from(
         let mut state = sim.state().to_vec();
         // The fractions of two irrational numbers spread over a square without pattern.
         let [angle, spin] = [GOLDEN_SECTION, SQRT_2].map(|part| (part * k as f64).fract());
-        if let Some(cage) = model.layout().cage {
+        if let Some(cage) = model.layout().cage() {
             state[cage] += apart.shift_m * (TAU * angle).cos();
             state[cage + 1] += apart.shift_m * (TAU * angle).sin();
             state[model.layout().positions() + cage + 2] *= 1.0 + apart.spin_share * (2.0 * spin - 1.0);

@@ -182,14 +182,14 @@ impl Bodies {
     pub fn balance(&self, layout: &Layout, state: &[f64]) -> Balance {
         let (q, v) = state.split_at(layout.positions());
         let mut sum = Balance::default();
-        let ring = layout.ring.map_or([0.0; 2], |i| [q[i], q[i + 1]]);
-        if let Some(i) = layout.ring {
+        let ring = layout.ring().map_or([0.0; 2], |i| [q[i], q[i + 1]]);
+        if let Some(i) = layout.ring() {
             let force = [0, 1].map(|k| self.ring_mass * self.gravity[k] + self.ring_load[k]);
             let velocity = [v[i], v[i + 1]];
             sum.carry(self.ring_mass, ring, velocity, force);
             sum.vibration += 0.5 * self.ring_mass * dot(velocity, velocity);
         }
-        if let (Some(cage), Some(c)) = (&self.cage, layout.cage) {
+        if let (Some(cage), Some(c)) = (&self.cage, layout.cage()) {
             cage.add(ring, &q[c..c + 3], &v[c..c + 3], self.gravity, &mut sum);
         }
         let Some(rollers) = &self.rollers else { return sum };
@@ -205,7 +205,7 @@ impl Bodies {
             let from_ring = length(difference(place, ring));
             sum.touch(rollers.springs[0], radius + rollers.radius - outer);
             sum.touch(rollers.springs[1], inner + rollers.radius - from_ring);
-            if let (Some(cage), Some(c)) = (&self.cage, layout.cage) {
+            if let (Some(cage), Some(c)) = (&self.cage, layout.cage()) {
                 let turn = start + q[c + 2];
                 let offset = turned(difference(place, [q[c], q[c + 1]]), -turn);
                 let offset = difference(offset, [rollers.pitch, 0.0]);

@@ -55,7 +55,8 @@ fn follow(case: &Case, solver: &Value) -> Record {
     let start = bodies.balance(&layout, sim.state());
     let spins = spins(&sim);
     let flatness = model.reference_length() / model.pitch_radius();
-    let bodies_count = layout.count + usize::from(layout.ring.is_some()) + usize::from(layout.cage.is_some());
+    let bodies_count =
+        layout.count + usize::from(layout.ring().is_some()) + usize::from(layout.cage().is_some());
     let mut record = Record { flatness, bodies: bodies_count, ..Record::default() };
     let mut touching = start.touching;
     for i in 1..=LOOKS {

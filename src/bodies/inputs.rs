@@ -1,0 +1,81 @@
+//! Inputs of the model: what drives the bodies from outside.
+
+use crate::registry::registry;
+
+registry! {
+    /// An input.
+    pub enum Input, /// Their names.
+    pub const INPUT_NAMES {
+        /// Rotation speed of the inner ring, rad/s.
+        RingSpeed = "inner_ring.speed",
+        /// External load on the inner ring to the right, N.
+        LoadY = "load.y",
+        /// External load on the inner ring upwards, N.
+        LoadZ = "load.z",
+        /// External force on the cage to the right, N.
+        CageForceY = "cage.force_y",
+        /// External force on the cage upwards, N.
+        CageForceZ = "cage.force_z",
+        /// External torque on the cage, N m.
+        CageTorque = "cage.torque",
+        /// Orbit speed of kinematic elements, rad/s.
+        OrbitSpeed = "elements.orbit_speed",
+        /// Spin speed of kinematic elements, rad/s.
+        SpinSpeed = "elements.spin_speed",
+        /// Temperature of the lubricant, K.
+        Temperature = "lubricant.temperature",
+    }
+}
+
+/// Number of inputs a model can have.
+pub const INPUTS: usize = INPUT_NAMES.len();
+
+impl Input {
+    /// SI unit, and what it is.
+    pub fn meaning(self) -> [&'static str; 2] {
+        match self {
+            Self::RingSpeed => ["rad/s", "rotation speed of the inner ring"],
+            Self::LoadY => ["N", "external load on the inner ring, to the right"],
+            Self::LoadZ => ["N", "external load on the inner ring, upwards"],
+            Self::CageForceY => ["N", "external force on the cage, to the right"],
+            Self::CageForceZ => ["N", "external force on the cage, upwards"],
+            Self::CageTorque => ["N m", "external torque on the cage"],
+            Self::OrbitSpeed => ["rad/s", "orbit speed of the rolling elements"],
+            Self::SpinSpeed => ["rad/s", "spin speed of the rolling elements"],
+            Self::Temperature => ["K", "temperature of the lubricant"],
+        }
+    }
+}
+
+/// Values of the inputs at one instant, and what follows from them.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct InputValues {
+    /// Values by [`Input`]; zero for inputs that the model does not have. Orbit and spin speed are those of rolling
+    /// where the scene asks for it.
+    pub values: [f64; INPUTS],
+    /// Orbit angle that kinematic elements have travelled since the start, rad.
+    pub orbit_travel: f64,
+}
+
+impl InputValues {
+    /// Value of one input.
+    pub fn of(&self, input: Input) -> f64 {
+        self.values[input as usize]
+    }
+}
+
+/// Values set by the host.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct HostInputs {
+    /// By [`Input`]; `None` follows the scene.
+    pub values: [Option<f64>; INPUTS],
+    /// Time (s) and orbit travel (rad) from which the travel of kinematic elements counts on.
+    pub anchor: [f64; 2],
+}
+
+impl HostInputs {
+    /// Value that the host has set, if it has.
+    pub fn of(&self, input: Input) -> Option<f64> {
+        self.values[input as usize]
+    }
+}

@@ -1,0 +1,91 @@
+//! Rolling elements whose orbit and spin are prescribed: they roll on, whatever the cage does to them.
+
+use super::elements::turned;
+use super::{
+    BodyEnergy, BodyForces, Coordinate, Element, ElementMotion, ElementSet, Elements, Fault, Inertia, Input,
+    InputValues, Layout, Motions, OF_ELEMENT,
+};
+use crate::integrate::arrowhead::Spoke;
+use crate::scene::Scene;
+use crate::space::Wrench;
+
+/// Elements of prescribed motion, at equal distances on the pitch circle.
+#[derive(Debug)]
+pub(super) struct KinematicElements {
+    set: ElementSet,
+}
+
+impl KinematicElements {
+    /// Those of a scene.
+    pub(super) fn new(scene: &Scene) -> Self {
+        Self { set: ElementSet::new(scene) }
+    }
+}
+
+impl Elements for KinematicElements {
+    fn set(&self) -> &ElementSet {
+        &self.set
+    }
+
+    fn kind(&self) -> &'static str {
+        "element"
+    }
+
+    fn coordinates(&self) -> &'static [Coordinate] {
+        &[]
+    }
+
+    fn inertia(&self) -> Option<Inertia> {
+        None
+    }
+
+    fn kinematic_speeds(&self, inputs: &InputValues) -> [f64; 2] {
+        [inputs.of(Input::OrbitSpeed), inputs.of(Input::SpinSpeed)]
+    }
+
+    fn orbit_ratio(&self) -> f64 {
+        0.0
+    }
+
+    fn find(
+        &self,
+        _layout: &Layout,
+        _q: &[f64],
+        _v: &[f64],
+        inputs: &InputValues,
+        out: &mut Motions,
+    ) -> Result<(), Fault> {
+        let [orbit_speed, spin_speed] = self.kinematic_speeds(inputs);
+        let places = &mut out.places;
+        places.together = Some(inputs.orbit_travel);
+        for (j, frame) in turned(&self.set, inputs.orbit_travel).enumerate() {
+            places.set_frame(j, frame);
+            let motion = ElementMotion { radial_offset: 0.0, radial_speed: 0.0, orbit_speed, spin_speed };
+            out.elements[j] = Element { motion, frame, radius: self.set.pitch_radius };
+        }
+        Ok(())
+    }
+
+    fn travel(&self, _layout: &Layout, _q: &[f64], inputs: &InputValues, _j: usize) -> [f64; 2] {
+        [inputs.orbit_travel, 0.0]
+    }
+
+    fn accelerate(&self, _: &Layout, _: &Motions, _: &[Wrench<f64>], _: [f64; 2], _: &mut [f64]) {}
+
+    fn slopes(
+        &self,
+        _element: &Element,
+        _on_element: &Wrench<f64>,
+        _gravity: [f64; 2],
+        _over_positions: &mut Spoke,
+        _over_velocities: &mut Spoke,
+    ) -> [f64; OF_ELEMENT] {
+        [0.0; OF_ELEMENT]
+    }
+
+    fn energy(&self, _element: &Element, _gravity: [f64; 2]) -> BodyEnergy {
+        BodyEnergy::default()
+    }
+
+    fn report(&self, _gravity: [f64; 2], _out: &mut BodyForces) {}
+}

@@ -1,0 +1,213 @@
+//! Bodies: each owns its coordinates with their names and units, its inertia, its weight and its energy.
+//!
+//! | body | file | coordinates |
+//! |---|---|---|
+//! | rings | `ring` | centre (y, z), or none for one that is held |
+//! | cage | `cage` | centre (y, z), angle |
+//! | rollers | `rollers` | radial offset and orbit angle, spin speed |
+//! | elements of prescribed motion | `kinematic` | none |
+//!
+//! Rings and cage are shared: there is one of each, and every element can touch it. Pairs of bodies see [`Motions`] only and
+//! act on bodies by wrenches only. A new body is a file with one of the two traits and a line in [`shared_bodies`] or
+//! [`elements`].
+
+mod cage;
+mod elements;
+mod fault;
+mod inputs;
+mod kinematic;
+mod layout;
+mod places;
+mod ring;
+mod rollers;
+
+pub use fault::{FAULTS, Fault, FaultCounts};
+pub use inputs::{HostInputs, INPUTS, Input, InputValues};
+pub use layout::Layout;
+
+pub(crate) use elements::{Element, ElementMotion, ElementSet, Elements, Inertia, Motions, scale_rows};
+pub(crate) use layout::{IN_HUB, OF_ELEMENT, State};
+
+use crate::registry::registry;
+use crate::scene::Scene;
+use crate::space::{Motion, Wrench};
+use cage::Cage;
+use kinematic::KinematicElements;
+use nalgebra::Matrix3;
+use ring::Ring;
+use rollers::Rollers;
+use std::fmt::Debug;
+
+/// Places of the shared bodies.
+pub(crate) const OUTER_RING: usize = 0;
+/// See [`OUTER_RING`].
+pub(crate) const INNER_RING: usize = 1;
+/// See [`OUTER_RING`].
+pub(crate) const CAGE: usize = 2;
+/// Number of shared bodies.
+pub(crate) const SHARED: usize = 3;
+
+/// The shared bodies of a bearing.
+pub(crate) type SharedBodies = [Option<Box<dyn SharedBody>>; SHARED];
+
+/// The shared bodies of a checked scene: outer ring, inner ring, cage.
+pub(crate) fn shared_bodies(scene: &Scene) -> SharedBodies {
+    [Some(Box::new(Ring::outer())), Some(Box::new(Ring::inner(scene))), Cage::new(scene)]
+}
+
+/// The rolling elements of a checked scene.
+pub(crate) fn elements(scene: &Scene) -> Box<dyn Elements> {
+    match Rollers::new(scene) {
+        Some(rollers) => Box::new(rollers),
+        None => Box::new(KinematicElements::new(scene)),
+    }
+}
+
+/// A coordinate of a body and its rate.
+#[derive(Debug)]
+pub(crate) struct Coordinate {
+    /// Name, SI unit and meaning of the position; `None` for one that enters no force, of which only the rate is a state.
+    pub(crate) position: Option<[&'static str; 3]>,
+    /// Name, SI unit and meaning of its rate.
+    pub(crate) rate: [&'static str; 3],
+    /// What a change of it moves.
+    pub(crate) moves: Moves,
+}
+
+/// What a unit of a coordinate moves by how much.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Moves {
+    /// The body, by as much.
+    Itself,
+    /// Points at the pitch radius.
+    PitchCircle,
+    /// The surface of an element.
+    Surface,
+}
+
+registry! {
+    /// Where forces on a body come from.
+    pub(crate) enum ForceSource,
+    /// Where forces on a body come from.
+    pub const FORCE_SOURCES {
+        OuterRaceway = "outer_raceway",
+        InnerRaceway = "inner_raceway",
+        Pocket = "pocket",
+        Guide = "guide",
+        Gravity = "gravity",
+        Load = "load",
+        Support = "support",
+    }
+}
+
+/// Forces on one body by source: (F_y in N, F_z in N, moment about its own geometric centre in N m).
+pub type BodyForces = [[f64; 3]; FORCE_SOURCES.len()];
+
+registry! {
+    /// A power of the power balance.
+    pub(crate) enum Power,
+    /// Names of the powers, W. Those of loads and of prescribed motions are positive where they drive the bearing; those of
+    /// forces inside are negative where they take energy. The solid contact of the guide gives back what its spring took.
+    pub const POWERS {
+        Loads = "loads",
+        RingDrive = "ring_drive",
+        ElementDrive = "element_drive",
+        RingSupport = "ring_support",
+        RacewayDamping = "raceway_damping",
+        RacewayFriction = "raceway_friction",
+        RollingResistance = "rolling_resistance",
+        PocketDamping = "pocket_damping",
+        PocketFriction = "pocket_friction",
+        GuideFilm = "guide_film",
+        GuideSolid = "guide_solid",
+    }
+}
+
+/// Energy of a body's motion and of its weight, J.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct BodyEnergy {
+    pub(crate) kinetic: f64,
+    pub(crate) potential: f64,
+}
+
+impl BodyEnergy {
+    /// Weight of `mass` kg with its centre at `position` (m): zero with all bodies at the centre.
+    pub(crate) fn of_weight(mass: f64, [gy, gz]: [f64; 2], [y, z]: [f64; 2]) -> f64 {
+        -mass * (gy * y + gz * z)
+    }
+}
+
+/// A body of which there is one and that every element can touch. Slices of its coordinates begin with its first.
+pub(crate) trait SharedBody: Debug + Send + Sync {
+    /// Name of the body.
+    fn name(&self) -> &'static str;
+
+    /// Its coordinates; none if it is held.
+    fn coordinates(&self) -> &'static [Coordinate];
+
+    /// Its motion at these positions, velocities and inputs.
+    fn motion(&self, q: &[f64], v: &[f64], inputs: &InputValues) -> Motion<f64>;
+
+    /// What it is when it is further than the pitch radius from the centre.
+    fn lost(&self) -> Fault;
+
+    /// Mass in kg, if it moves freely.
+    fn mass(&self) -> Option<f64>;
+
+    /// Adds loads and supports to the wrench on it.
+    fn add_external(&self, motion: &Motion<f64>, inputs: &InputValues, on_body: &mut Wrench<f64>);
+
+    /// Accelerations of its coordinates by a wrench alone, at the angle `angle` (rad).
+    fn response(&self, on_body: &Wrench<f64>, angle: f64) -> [f64; 3];
+
+    /// Accelerations `a` of its coordinates by all forces on it but the weight.
+    fn accelerate(&self, on_body: &Wrench<f64>, motion: &Motion<f64>, gravity: [f64; 2], a: &mut [f64]);
+
+    /// The wrench that makes these accelerations, without the weight: what [`SharedBody::accelerate`] turns round.
+    fn wrench_for(&self, a: [f64; 3], motion: &Motion<f64>, gravity: [f64; 2]) -> Wrench<f64>;
+
+    /// Rows of (force, moment) as rows of accelerations, at the angle `angle` (rad).
+    fn accelerations_of(&self, rows: &Matrix3<f64>, angle: f64) -> Matrix3<f64>;
+
+    /// Whether forces accelerate each coordinate by itself.
+    fn is_balanced(&self) -> bool {
+        true
+    }
+
+    /// Damping of its own over (y, z), N s/m.
+    fn support_damping(&self) -> f64 {
+        0.0
+    }
+
+    /// How its accelerations change with its position and velocity at these forces, but for the forces themselves; added to
+    /// the derivatives over positions and velocities.
+    fn add_inertial_slopes(
+        &self,
+        _on_body: &Wrench<f64>,
+        _motion: &Motion<f64>,
+        _over_position: &mut Matrix3<f64>,
+        _over_velocity: &mut Matrix3<f64>,
+    ) {
+    }
+
+    /// Energy of its motion and its weight.
+    fn energy(&self, motion: &Motion<f64>, gravity: [f64; 2]) -> BodyEnergy;
+
+    /// Adds the powers of its loads and supports, W, by [`Power`].
+    fn add_powers(&self, motion: &Motion<f64>, inputs: &InputValues, powers: &mut [f64]);
+
+    /// Writes weight, loads and supports into a report.
+    fn report(&self, motion: &Motion<f64>, inputs: &InputValues, gravity: [f64; 2], out: &mut BodyForces);
+
+    /// Inputs that are its load: to the right, upwards, moment.
+    fn load_inputs(&self) -> [Option<Input>; 3];
+
+    /// Largest squared frequency in 1/s^2 that a stiffness of `radial` (N/m) between centre and surroundings, and of `turning`
+    /// (N/m) along the circle with the radius `lever` (m), gives the body.
+    fn frequency_on(&self, radial: f64, turning: f64, lever: f64) -> f64;
+}
+
+/// Weight of `mass` kg as a row of a report.
+pub(crate) fn weight(mass: f64, [gy, gz]: [f64; 2]) -> [f64; 3] {
+    [mass * gy, mass * gz, 0.0]
+}

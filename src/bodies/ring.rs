@@ -1,0 +1,168 @@
+//! A ring: held, or free to move in the plane. Its rotation is prescribed.
+//!
+//! ```text
+//! m y'' = F_y + P_y - c y',   m z'' = F_z + P_z - c z'      and the weight
+//! ```
+//!
+//! P load, c damping of the support. What turns the ring is no state: it takes the moment that the speed needs.
+
+use super::{
+    BodyEnergy, BodyForces, Coordinate, Fault, ForceSource, Input, InputValues, Moves, Power, SharedBody,
+    weight,
+};
+use crate::scene::{RingMotion, Scene};
+use crate::space::{Motion, Wrench};
+use nalgebra::{Matrix3, RowVector3};
+
+/// A ring.
+#[derive(Debug)]
+pub(super) struct Ring {
+    name: &'static str,
+    held: Held,
+    /// Input that prescribes its speed; without one it does not turn.
+    speed: Option<Input>,
+}
+
+#[derive(Debug)]
+enum Held {
+    /// At this position, m.
+    At([f64; 2]),
+    /// Not at all; mass in kg, support damping in N s/m.
+    Free { mass: f64, damping: f64 },
+}
+
+const COORDINATES: [Coordinate; 2] = [
+    Coordinate {
+        position: Some(["y", "m", "centre position to the right"]),
+        rate: ["vy", "m/s", "velocity of the centre to the right"],
+        moves: Moves::Itself,
+    },
+    Coordinate {
+        position: Some(["z", "m", "centre position upwards"]),
+        rate: ["vz", "m/s", "velocity of the centre upwards"],
+        moves: Moves::Itself,
+    },
+];
+
+impl Ring {
+    /// The outer ring, which stands still.
+    pub(super) fn outer() -> Self {
+        Self { name: "outer_ring", held: Held::At([0.0; 2]), speed: None }
+    }
+
+    /// The inner ring of a scene.
+    pub(super) fn inner(scene: &Scene) -> Self {
+        let held = match scene.inner_ring.as_ref().map(|ring| &ring.motion) {
+            None => Held::At([0.0; 2]),
+            Some(RingMotion::Fixed(position)) => Held::At([position.y, position.z]),
+            Some(RingMotion::Free(free)) => {
+                Held::Free { mass: free.mass, damping: free.support_damping.unwrap_or(0.0) }
+            }
+        };
+        Self { name: "inner_ring", held, speed: Some(Input::RingSpeed) }
+    }
+}
+
+impl SharedBody for Ring {
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn coordinates(&self) -> &'static [Coordinate] {
+        match self.held {
+            Held::At(_) => &[],
+            Held::Free { .. } => &COORDINATES,
+        }
+    }
+
+    #[inline]
+    fn motion(&self, q: &[f64], v: &[f64], inputs: &InputValues) -> Motion<f64> {
+        let (position, velocity) = match self.held {
+            Held::At(position) => (position, [0.0; 2]),
+            Held::Free { .. } => ([q[0], q[1]], [v[0], v[1]]),
+        };
+        Motion { position, velocity, angle: 0.0, speed: self.speed.map_or(0.0, |input| inputs.of(input)) }
+    }
+
+    fn lost(&self) -> Fault {
+        Fault::LostRing
+    }
+
+    fn mass(&self) -> Option<f64> {
+        match self.held {
+            Held::At(_) => None,
+            Held::Free { mass, .. } => Some(mass),
+        }
+    }
+
+    fn add_external(&self, motion: &Motion<f64>, inputs: &InputValues, on_body: &mut Wrench<f64>) {
+        let load = [inputs.of(Input::LoadY), inputs.of(Input::LoadZ)];
+        for ((force, load), v) in on_body.force.iter_mut().zip(load).zip(motion.velocity) {
+            *force = *force + load - self.support_damping() * v;
+        }
+    }
+
+    fn response(&self, on_body: &Wrench<f64>, _angle: f64) -> [f64; 3] {
+        let mass = self.mass().unwrap_or(f64::INFINITY);
+        [on_body.force[0] / mass, on_body.force[1] / mass, 0.0]
+    }
+
+    fn accelerate(&self, on_body: &Wrench<f64>, _motion: &Motion<f64>, gravity: [f64; 2], a: &mut [f64]) {
+        let Some(mass) = self.mass() else { return };
+        for k in 0..2 {
+            a[k] = on_body.force[k] / mass + gravity[k];
+        }
+    }
+
+    fn wrench_for(&self, a: [f64; 3], _motion: &Motion<f64>, gravity: [f64; 2]) -> Wrench<f64> {
+        let mass = self.mass().unwrap_or(0.0);
+        Wrench { force: [mass * (a[0] - gravity[0]), mass * (a[1] - gravity[1])], moment: 0.0 }
+    }
+
+    fn accelerations_of(&self, rows: &Matrix3<f64>, _angle: f64) -> Matrix3<f64> {
+        let mass = self.mass().unwrap_or(f64::INFINITY);
+        Matrix3::from_rows(&[rows.row(0) / mass, rows.row(1) / mass, RowVector3::zeros()])
+    }
+
+    fn support_damping(&self) -> f64 {
+        match self.held {
+            Held::At(_) => 0.0,
+            Held::Free { damping, .. } => damping,
+        }
+    }
+
+    fn energy(&self, motion: &Motion<f64>, gravity: [f64; 2]) -> BodyEnergy {
+        let mass = self.mass().unwrap_or(0.0);
+        let [y, z] = motion.velocity;
+        BodyEnergy {
+            kinetic: 0.5 * mass * (y * y + z * z),
+            potential: BodyEnergy::of_weight(mass, gravity, motion.position),
+        }
+    }
+
+    fn add_powers(&self, motion: &Motion<f64>, inputs: &InputValues, powers: &mut [f64]) {
+        if self.mass().is_some() {
+            let [y, z] = motion.velocity;
+            powers[Power::Loads as usize] += inputs.of(Input::LoadY) * y + inputs.of(Input::LoadZ) * z;
+            powers[Power::RingSupport as usize] -= self.support_damping() * (y * y + z * z);
+        }
+    }
+
+    fn report(&self, motion: &Motion<f64>, inputs: &InputValues, gravity: [f64; 2], out: &mut BodyForces) {
+        if let Held::Free { mass, damping } = self.held {
+            let [y, z] = motion.velocity;
+            out[ForceSource::Gravity as usize] = weight(mass, gravity);
+            out[ForceSource::Load as usize] = [inputs.of(Input::LoadY), inputs.of(Input::LoadZ), 0.0];
+            out[ForceSource::Support as usize] = [-damping * y, -damping * z, 0.0];
+        }
+    }
+
+    fn load_inputs(&self) -> [Option<Input>; 3] {
+        let free = self.mass().is_some();
+        [free.then_some(Input::LoadY), free.then_some(Input::LoadZ), None]
+    }
+
+    fn frequency_on(&self, radial: f64, _turning: f64, _lever: f64) -> f64 {
+        self.mass().map_or(0.0, |mass| radial / mass)
+    }
+}

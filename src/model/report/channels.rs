@@ -1,0 +1,364 @@
+//! Output channels: the named quantities that a run records.
+
+use super::forces::{FILM_THICKNESS, FRICTION, Forces, GuideReport, NORMAL_FORCE, SLIP_SPEED};
+use crate::Model;
+use crate::bodies::{CAGE, ForceSource, INNER_RING, Input, InputValues, OUTER_RING};
+use crate::laws::guide::GuideFilm;
+use crate::model::Workspace;
+use crate::pairs::{ContactLaw, ElementPlace};
+use crate::scalar::math;
+use std::f64::consts::TAU;
+
+/// A ring slower than this stands still for the slip channels, rad/s.
+const STANDSTILL: f64 = 1e-9;
+
+/// What a channel shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Source {
+    CageY,
+    CageZ,
+    CageYRatio,
+    CageZRatio,
+    CageEccentricity,
+    CageSpeed,
+    CageSlip,
+    WhirlSpeed,
+    WhirlRadius,
+    TouchingElements,
+    GuideY,
+    GuideZ,
+    GuideMoment,
+    GuideFilm,
+    FilmShare,
+    /// Component of a guide force: which, along eps (0) or phi (1).
+    Guide(GuidePart, usize),
+    /// Sum of the pocket forces on the cage along eps (0) or phi (1).
+    PocketSum(usize),
+    PocketMoment,
+    Viscosity,
+    RingY,
+    RingZ,
+    DragTorque,
+    OuterRingTorque,
+    OrbitAngle(usize),
+    RollerSlip(usize),
+    PocketPosition(usize),
+    PocketForce(usize),
+    InnerForce(usize),
+    OuterForce(usize),
+    InnerFilm(usize),
+    OuterFilm(usize),
+    CageAngle,
+    /// Of a contact: its place among those of the element, and element.
+    Traction(usize, usize),
+    HertzPressure(usize, usize),
+    SlidingPower(usize, usize),
+}
+
+/// Part of the guide force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum GuidePart {
+    Pressure,
+    Shear,
+    Solid,
+}
+
+/// A named output.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Channel {
+    /// Name, for example `cage.y` or `roller[3].slip`.
+    pub name: String,
+    /// SI unit; "1" for ratios.
+    pub unit: &'static str,
+    /// What it is.
+    pub description: &'static str,
+    pub(super) source: Source,
+    /// Whether records leave it out unless they name it.
+    pub(super) detail: bool,
+}
+
+impl Model {
+    /// The output channels of this scene.
+    pub fn channels(&self) -> Vec<Channel> {
+        let mut list = ChannelList(Vec::new());
+        self.add_cage_channels(&mut list);
+        if self.scene.inner_ring.is_some() {
+            list.add("inner_ring.y", "m", "inner ring centre to the right", Source::RingY);
+            list.add("inner_ring.z", "m", "inner ring centre upwards", Source::RingZ);
+            let text = "torque that keeps the inner ring turning, positive against rolling drag";
+            list.add("inner_ring.drag_torque", "N m", text, Source::DragTorque);
+        }
+        let text = "moment on the outer ring about its centre, positive counter-clockwise";
+        list.add("outer_ring.torque", "N m", text, Source::OuterRingTorque);
+        if self.inputs.oil.is_some() {
+            let text = "dynamic viscosity of the lubricant at its temperature";
+            list.add("lubricant.viscosity", "Pa s", text, Source::Viscosity);
+        }
+        for j in 0..self.element_count() {
+            self.add_element_channels(j, &mut list);
+        }
+        // Behind all others, so that records without them have the places of channels.
+        list.0.sort_by_key(|channel| channel.detail);
+        list.0
+    }
+
+    fn add_cage_channels(&self, list: &mut ChannelList) {
+        if !self.has_cage() {
+            return;
+        }
+        list.add("cage.y", "m", "cage centre to the right", Source::CageY);
+        list.add("cage.z", "m", "cage centre upwards", Source::CageZ);
+        if self.guide.is_some() {
+            let text = "cage centre to the right of the guide centre, over the radial guide clearance";
+            list.add("cage.y_ratio", "1", text, Source::CageYRatio);
+            let text = "cage centre above the guide centre, over the radial guide clearance";
+            list.add("cage.z_ratio", "1", text, Source::CageZRatio);
+            let text = "distance of the cage centre from the guide centre over the radial guide clearance";
+            list.add("cage.eccentricity", "1", text, Source::CageEccentricity);
+        }
+        list.add("cage.angle", "rad", "rotation angle of the cage since the start", Source::CageAngle);
+        list.add("cage.speed", "rad/s", "rotation speed of the cage", Source::CageSpeed);
+        let text = "1 - cage speed over the speed without slip";
+        list.add("cage.slip", "1", text, Source::CageSlip);
+        let text = "speed of the cage centre about the guide centre, positive counter-clockwise";
+        list.add("cage.whirl_speed", "rad/s", text, Source::WhirlSpeed);
+        let text = "distance of the cage centre from the guide centre";
+        list.add("cage.whirl_radius", "m", text, Source::WhirlRadius);
+        if let Some(guide) = self.guide.as_ref().map(|guide| guide.law()) {
+            list.add("guide.force_y", "N", "guide force on the cage to the right", Source::GuideY);
+            list.add("guide.force_z", "N", "guide force on the cage upwards", Source::GuideZ);
+            list.add("guide.moment", "N m", "guide moment on the cage", Source::GuideMoment);
+            list.add("guide.minimum_film", "m", "smallest gap of the guide", Source::GuideFilm);
+            if guide.film.is_some() && guide.solid.is_some() {
+                let text = "share of the film in the guide force";
+                list.add("guide.film_share", "1", text, Source::FilmShare);
+            }
+            let layer = matches!(guide.film, Some(GuideFilm::LubricantLayer(_)));
+            for (part, name, present) in [
+                (GuidePart::Pressure, "pressure", guide.film.is_some()),
+                (GuidePart::Shear, "shear", layer),
+                (GuidePart::Solid, "solid", guide.solid.is_some()),
+            ] {
+                if present {
+                    let text = "guide force on the cage, along the line from guide to cage centre";
+                    list.add(&format!("guide.{name}_eps"), "N", text, Source::Guide(part, 0));
+                    let text = "guide force on the cage, across that line, positive counter-clockwise";
+                    list.add(&format!("guide.{name}_phi"), "N", text, Source::Guide(part, 1));
+                }
+            }
+        }
+        if self.has_pockets() {
+            let text = "all pocket forces on the cage, along the line from guide to cage centre";
+            list.add("pocket.force_eps", "N", text, Source::PocketSum(0));
+            let text = "all pocket forces on the cage, across that line, positive counter-clockwise";
+            list.add("pocket.force_phi", "N", text, Source::PocketSum(1));
+            list.add("pocket.moment", "N m", "all pocket moments on the cage", Source::PocketMoment);
+            let text = "number of elements that touch the cage";
+            list.add("pocket.touching_elements", "1", text, Source::TouchingElements);
+        }
+    }
+
+    fn add_element_channels(&self, j: usize, list: &mut ChannelList) {
+        let kind = self.element_kind();
+        let mut add = |field: &str, unit, text, source| {
+            list.add(&format!("{kind}[{j}].{field}"), unit, text, source);
+        };
+        add("orbit_angle", "rad", "angle of the element about the bearing", Source::OrbitAngle(j));
+        if self.has_rollers() {
+            add("slip", "1", "1 - spin speed over the spin without slip", Source::RollerSlip(j));
+        }
+        if self.has_pockets() {
+            let text = "distance ahead of the pocket centre in the direction of rotation";
+            add("pocket_position", "m", text, Source::PocketPosition(j));
+            let text = "circumferential force on the cage, positive when it drives the cage";
+            add("pocket_force", "N", text, Source::PocketForce(j));
+        }
+        if self.has_raceways() {
+            add("inner_force", "N", "normal force on the inner raceway", Source::InnerForce(j));
+            add("outer_force", "N", "normal force on the outer raceway", Source::OuterForce(j));
+            if self.laws[0].line().is_some_and(|law| law.film.is_some()) {
+                add("inner_film", "m", "central film thickness on the inner raceway", Source::InnerFilm(j));
+                add("outer_film", "m", "central film thickness on the outer raceway", Source::OuterFilm(j));
+            }
+        }
+        for (place, (pair, name)) in self.contact_kinds().enumerate() {
+            let name = name.trim_end_matches("_raceway");
+            let text = "friction F_T on the element along the tangent of the contact";
+            list.add_detail(&format!("{kind}[{j}].{name}_traction"), "N", text, Source::Traction(place, j));
+            if self.laws[pair].line().is_some() {
+                let text = "largest Hertz pressure in the contact; at the edge of a pocket as on its wall";
+                let source = Source::HertzPressure(place, j);
+                list.add_detail(&format!("{kind}[{j}].{name}_pressure"), "Pa", text, source);
+            }
+            let text = "power lost by sliding in the contact";
+            let source = Source::SlidingPower(place, j);
+            list.add_detail(&format!("{kind}[{j}].{name}_sliding_power"), "W", text, source);
+        }
+    }
+
+    /// Value of one channel at (`q`, `v`) and these inputs, with `forces` that `ws` was evaluated for.
+    pub(crate) fn channel_value(
+        &self,
+        channel: &Channel,
+        q: &[f64],
+        v: &[f64],
+        inputs: &InputValues,
+        ws: &Workspace,
+        forces: &Forces,
+    ) -> f64 {
+        let [orbit, spin] = self.kinematic_speeds(inputs);
+        let turning = if self.has_rollers() { inputs.of(Input::RingSpeed) } else { orbit };
+        let direction = self.direction(inputs);
+        let cage = |k: usize| self.layout.cage().map_or(0.0, |c| q[c + k]);
+        let cage_speed = || self.layout.cage().map_or(0.0, |c| v[c + 2]);
+        let clearance = self.guide_clearance().unwrap_or(f64::INFINITY);
+        let on = |body: usize, source: ForceSource| forces.bodies[body][source as usize];
+        let guide = |k: usize| on(CAGE, ForceSource::Guide)[k];
+        let contact = |j: usize, k: usize| &forces.contacts[self.contacts_per_element() * j + k];
+        // Without rotation there is no kinematic speed to compare with, and slip is reported as zero.
+        let slip = |speed: f64, without_slip: f64| {
+            if turning.abs() < STANDSTILL { 0.0 } else { 1.0 - speed / without_slip }
+        };
+        match channel.source {
+            Source::CageY => cage(0),
+            Source::CageZ => cage(1),
+            Source::CageYRatio => forces.guide.offset[0] / clearance,
+            Source::CageZRatio => forces.guide.offset[1] / clearance,
+            Source::CageEccentricity => forces.guide.radius() / clearance,
+            Source::CageSpeed => cage_speed(),
+            Source::CageSlip => slip(cage_speed(), orbit),
+            Source::WhirlSpeed => forces.guide.whirl_speed(),
+            Source::WhirlRadius => forces.guide.radius(),
+            Source::TouchingElements => self.touching_elements(ws) as f64,
+            Source::GuideY => guide(0),
+            Source::GuideZ => guide(1),
+            Source::GuideMoment => guide(2),
+            Source::GuideFilm => forces.guide.minimum_film,
+            Source::FilmShare => forces.guide.film_share,
+            Source::Guide(part, k) => {
+                let force = match part {
+                    GuidePart::Pressure => forces.guide.pressure,
+                    GuidePart::Shear => forces.guide.shear,
+                    GuidePart::Solid => forces.guide.solid,
+                };
+                forces.guide.along(force)[k]
+            }
+            Source::PocketSum(k) => {
+                let [y, z, _] = on(CAGE, ForceSource::Pocket);
+                forces.guide.along([y, z])[k]
+            }
+            Source::PocketMoment => on(CAGE, ForceSource::Pocket)[2],
+            Source::Viscosity => self.viscosity(inputs).unwrap_or(f64::NAN),
+            Source::RingY => self.motion_of(INNER_RING, q, v, inputs).position[0],
+            Source::RingZ => self.motion_of(INNER_RING, q, v, inputs).position[1],
+            Source::DragTorque => {
+                let moments =
+                    [ForceSource::InnerRaceway, ForceSource::Guide].map(|source| on(INNER_RING, source)[2]);
+                -direction * (moments[0] + moments[1])
+            }
+            Source::OuterRingTorque => {
+                on(OUTER_RING, ForceSource::OuterRaceway)[2] + on(OUTER_RING, ForceSource::Guide)[2]
+            }
+            Source::OrbitAngle(j) => self.elements.azimuth(&self.layout, q, inputs, j),
+            Source::RollerSlip(j) => slip(v[self.layout.spin(j)], spin),
+            Source::PocketPosition(j) => direction * self.pocket_position(q, v, inputs, j),
+            Source::PocketForce(j) => {
+                let [y, z, _] = on(self.element_body(j), ForceSource::Pocket);
+                -direction * ws.motions.elements[j].frame.to_local([y, z])[1]
+            }
+            Source::InnerForce(j) => contact(j, 1)[NORMAL_FORCE],
+            Source::OuterForce(j) => contact(j, 0)[NORMAL_FORCE],
+            Source::InnerFilm(j) => contact(j, 1)[FILM_THICKNESS],
+            Source::OuterFilm(j) => contact(j, 0)[FILM_THICKNESS],
+            Source::CageAngle => cage(2),
+            Source::Traction(ring, j) => contact(j, ring)[FRICTION],
+            Source::HertzPressure(ring, j) => {
+                self.hertz_pressure(ring, contact(j, ring)[NORMAL_FORCE]).unwrap_or(0.0)
+            }
+            Source::SlidingPower(ring, j) => {
+                (contact(j, ring)[FRICTION] * contact(j, ring)[SLIP_SPEED]).abs()
+            }
+        }
+    }
+
+    /// Largest pressure of Hertz's line contact of an element under a load in N, by the place of the contact among those of
+    /// the element, Pa: sqrt(Q E'/(2 pi R l)). E' = 2/((1 - nu1^2)/E1 + (1 - nu2^2)/E2), 1/R curvature, l length.
+    fn hertz_pressure(&self, place: usize, load: f64) -> Option<f64> {
+        let (pair, _) = self.contact_kinds().nth(place)?;
+        let ContactLaw::Line(law) = &self.laws[pair] else { return None };
+        let line = &law.elastic;
+        Some((load.max(0.0) * line.effective_modulus / (TAU * line.equivalent_radius * line.length)).sqrt())
+    }
+
+    /// 1 where the elements go round counter-clockwise at these inputs, else -1.
+    pub(super) fn direction(&self, inputs: &InputValues) -> f64 {
+        let drive = if self.has_rollers() { Input::RingSpeed } else { Input::OrbitSpeed };
+        if inputs.of(drive) < 0.0 { -1.0 } else { 1.0 }
+    }
+
+    /// Circumferential offset of element `j` in its pocket, m.
+    fn pocket_position(&self, q: &[f64], v: &[f64], inputs: &InputValues, j: usize) -> f64 {
+        let [travel, radial_offset] = self.elements.travel(&self.layout, q, inputs, j);
+        let frame = self.elements.frame(&self.layout, q, inputs, j);
+        let mate = self.motion_of(CAGE, q, v, inputs);
+        let place = ElementPlace { frame, radial_offset, travel, mate };
+        self.pairs.iter().find_map(|pair| pair.offset(&place)).unwrap_or(0.0)
+    }
+
+    /// Viscosity of the lubricant in Pa s at these inputs, if it follows the temperature.
+    pub fn viscosity(&self, inputs: &InputValues) -> Option<f64> {
+        self.inputs.oil.map(|oil| oil.law.viscosity(inputs.of(Input::Temperature)))
+    }
+
+    /// Number of elements with a force on the cage.
+    fn touching_elements(&self, ws: &Workspace) -> usize {
+        let touches = |j: usize| {
+            ws.contacts.iter().any(|c| c.site.mate == CAGE && c.site.element == j && c.force.normal > 0.0)
+        };
+        (0..self.element_count()).filter(|&j| touches(j)).count()
+    }
+}
+
+/// Channels in the making.
+struct ChannelList(Vec<Channel>);
+
+impl ChannelList {
+    fn add(&mut self, name: &str, unit: &'static str, description: &'static str, source: Source) {
+        self.0.push(Channel { name: name.to_owned(), unit, description, source, detail: false });
+    }
+
+    fn add_detail(&mut self, name: &str, unit: &'static str, description: &'static str, source: Source) {
+        self.0.push(Channel { name: name.to_owned(), unit, description, source, detail: true });
+    }
+}
+
+impl GuideReport {
+    /// Distance of the cage centre from the guide centre, m.
+    fn radius(&self) -> f64 {
+        radius(self.offset)
+    }
+
+    /// Angular speed of the cage centre about the guide centre, rad/s; zero in the centre.
+    fn whirl_speed(&self) -> f64 {
+        let [y, z] = self.offset;
+        let square = y * y + z * z;
+        if square > 0.0 { (y * self.velocity[1] - z * self.velocity[0]) / square } else { 0.0 }
+    }
+
+    /// Components of a vector along and across the line from guide to cage centre; (y, z) itself in the centre.
+    fn along(&self, force: [f64; 2]) -> [f64; 2] {
+        along(self.offset, force)
+    }
+}
+
+/// Length of a vector.
+pub(super) fn radius([y, z]: [f64; 2]) -> f64 {
+    math::hypot(y, z)
+}
+
+/// Components of a vector along and across another one; (y, z) itself where that is zero.
+pub(super) fn along(offset: [f64; 2], [fy, fz]: [f64; 2]) -> [f64; 2] {
+    let radius = radius(offset);
+    let [dy, dz] = if radius > 0.0 { offset.map(|x| x / radius) } else { [1.0, 0.0] };
+    [fy * dy + fz * dz, fz * dy - fy * dz]
+}

@@ -1,0 +1,44 @@
+//! Faults in words.
+
+use crate::Model;
+use crate::bodies::Fault;
+
+impl Model {
+    /// A fault in words.
+    pub fn describe(&self, fault: Fault) -> String {
+        match fault {
+            Fault::NoGuideFilm { minimum_film } => {
+                format!("no film between cage and guide (smallest thickness {minimum_film:e} m, must be > 0)")
+            }
+            Fault::NoViscosity { temperature } => {
+                format!("the lubricant has no viscosity at its temperature {temperature:?} K")
+            }
+            Fault::LostRoller { roller, radial_offset } => {
+                format!("roller[{roller}] has left the bearing (radial offset {radial_offset:e} m)")
+            }
+            Fault::OutOfPocket { element, lead } => {
+                let kind = self.element_kind();
+                format!("{kind}[{element}] is out of its pocket (ahead of it by {lead:e} rad)")
+            }
+            Fault::LostRing => "the inner ring has left the bearing".to_owned(),
+            Fault::LostCage => "the cage has left the bearing".to_owned(),
+            Fault::NotFinite { contact: Some(contact), .. } => {
+                let names = self.contact_names();
+                let name = names.get(contact).map_or("?", String::as_str);
+                format!("the force of {name} is not a finite number")
+            }
+            Fault::NotFinite { velocity, contact: None } => {
+                format!("the rate of {} is not a finite number", self.velocity_name(velocity))
+            }
+            Fault::NoSlope { velocity } => {
+                let name = self.velocity_name(velocity);
+                format!("a derivative of the rate of {name} is not a finite number")
+            }
+        }
+    }
+
+    fn velocity_name(&self, velocity: usize) -> String {
+        let mut infos = self.state_infos().into_iter();
+        infos.nth(self.layout().positions() + velocity).map_or("?".to_owned(), |info| info.name)
+    }
+}

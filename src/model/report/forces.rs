@@ -1,0 +1,167 @@
+//! Force report: every contact and every contribution to every body at one state.
+
+use crate::Model;
+use crate::bodies::{BodyForces, CAGE, ForceSource, OUTER_RING};
+use crate::model::Workspace;
+use crate::pairs::Loaded;
+use crate::space::Wrench;
+
+/// Name, unit and meaning of a reported quantity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Quantity {
+    /// Name.
+    pub name: &'static str,
+    /// SI unit; "1" for ratios.
+    pub unit: &'static str,
+    /// What it is.
+    pub description: &'static str,
+}
+
+const fn quantity(name: &'static str, unit: &'static str, description: &'static str) -> Quantity {
+    Quantity { name, unit, description }
+}
+
+/// What is reported of a contact. All zero when the surfaces are apart. A contact that touches but whose damping
+/// would pull has a normal force of zero, its approach and its speeds.
+pub const CONTACT_QUANTITIES: [Quantity; 12] = [
+    quantity("normal_force", "N", "normal force Q"),
+    quantity("approach", "m", "elastic approach delta"),
+    quantity("film_thickness", "m", "central film thickness h_c"),
+    quantity("film_ratio", "1", "film ratio Lambda"),
+    quantity("temperature_rise", "K", "temperature rise of the traction film"),
+    quantity("friction_coefficient", "1", "traction coefficient mu"),
+    quantity("friction", "N", "friction F_T on the roller along t"),
+    quantity(
+        "rolling_resistance",
+        "N",
+        "rolling resistance F_EHLr on each surface along t, against the rolling speed u",
+    ),
+    quantity("film_pressure_roller", "N", "film pressure force F_px through the roller centre along t"),
+    quantity("film_pressure_mate", "N", "film pressure force F_px through the centre of the mate along t"),
+    quantity("slip_speed", "m/s", "u1 - u2: surface speed of the roller less that of the mate"),
+    quantity("rolling_speed", "m/s", "u: mean of the surface speeds"),
+];
+
+/// Values of [`CONTACT_QUANTITIES`].
+pub type ContactForces = [f64; CONTACT_QUANTITIES.len()];
+
+/// Index of the normal force in [`ContactForces`].
+pub(super) const NORMAL_FORCE: usize = 0;
+/// Indices of friction and slip speed in [`ContactForces`].
+pub(super) const FRICTION: usize = 6;
+pub(super) const SLIP_SPEED: usize = 10;
+/// Index of the film thickness in [`ContactForces`].
+pub(super) const FILM_THICKNESS: usize = 2;
+
+/// All forces at one state.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Forces {
+    /// Per contact, in the order of [`Model::contact_names`].
+    pub contacts: Vec<ContactForces>,
+    /// Per body, in the order of [`Model::body_names`]. Inertia forces of the rotating frame are not included.
+    pub bodies: Vec<BodyForces>,
+    /// Acceleration of every velocity state, m/s^2 or rad/s^2.
+    pub accelerations: Vec<f64>,
+    /// The guide of the cage; all zero without one.
+    pub guide: GuideReport,
+}
+
+/// Forces of the guide on the cage (y, z) in N, and its film.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct GuideReport {
+    /// Film pressure.
+    pub pressure: [f64; 2],
+    /// Film shear.
+    pub shear: [f64; 2],
+    /// Solid contact.
+    pub solid: [f64; 2],
+    /// Share of the film: 1 for a film alone, 0 for a solid contact alone.
+    pub film_share: f64,
+    /// Smallest gap, m.
+    pub minimum_film: f64,
+    /// Cage centre relative to the centre of the guiding ring, m, and its velocity, m/s.
+    pub offset: [f64; 2],
+    /// See `offset`.
+    pub velocity: [f64; 2],
+}
+
+impl Model {
+    /// Writes the results of the last evaluation of `ws` into `out`, with the accelerations `a` and the bodies at (`q`, `v`).
+    pub(crate) fn report(&self, q: &[f64], v: &[f64], ws: &Workspace, a: &[f64], out: &mut Forces) {
+        let per_element = self.contacts_per_element();
+        out.contacts.clear();
+        out.contacts.resize(per_element * self.element_count(), ContactForces::default());
+        out.bodies.clear();
+        out.bodies.resize(self.body_count(), BodyForces::default());
+        out.accelerations.clear();
+        out.accelerations.extend_from_slice(a);
+        for contact in ws.contacts.iter() {
+            let site = contact.site;
+            out.contacts[self.contact_place(site)] = quantities(&contact);
+            let frame = ws.motions.elements[site.element].frame;
+            let source = self.infos[site.pair].source as usize;
+            for (body, on_body) in [self.element_body(site.element), site.mate]
+                .into_iter()
+                .zip(site.grip.wrenches(&contact.force))
+            {
+                let force = frame.to_global(on_body.force);
+                add(&mut out.bodies[body][source], &Wrench { force, ..on_body });
+            }
+        }
+        let shared = self.motions_at(q, v, &ws.inputs);
+        out.guide = GuideReport::default();
+        if let (Some(guide), Some(state)) = (&self.guide, &ws.guide) {
+            for (body, on_body) in [CAGE, guide.ring].into_iter().zip(guide.wrenches(state)) {
+                add(&mut out.bodies[body][ForceSource::Guide as usize], &on_body);
+            }
+            let on_cage = guide.on_cage(state);
+            out.guide.pressure = on_cage.pressure;
+            out.guide.shear = on_cage.shear;
+            out.guide.solid = on_cage.solid;
+            out.guide.film_share = on_cage.film_share;
+            out.guide.minimum_film = on_cage.minimum_film;
+        }
+        if self.has_cage() {
+            let [body, ring] = [&shared[CAGE], &shared[self.guiding_ring()]];
+            out.guide.offset = std::array::from_fn(|k| body.position[k] - ring.position[k]);
+            out.guide.velocity = std::array::from_fn(|k| body.velocity[k] - ring.velocity[k]);
+        }
+        for ((body, motion), out) in self.shared.iter().flatten().zip(&shared).zip(&mut out.bodies) {
+            body.report(motion, &ws.inputs, self.gravity, out);
+        }
+        let first = self.element_body(0);
+        for out in &mut out.bodies[first..] {
+            self.elements.report(self.gravity, out);
+        }
+    }
+
+    /// The ring that guides the cage; the outer one, which stands still, without a guide.
+    pub(super) fn guiding_ring(&self) -> usize {
+        self.guide.as_ref().map_or(OUTER_RING, |guide| guide.ring)
+    }
+}
+
+fn add(sum: &mut [f64; 3], w: &Wrench<f64>) {
+    for (sum, x) in sum.iter_mut().zip(w.components()) {
+        *sum += x;
+    }
+}
+
+fn quantities(contact: &Loaded<'_>) -> ContactForces {
+    let (f, m) = (contact.force, contact.motion);
+    let [pressure_roller, pressure_mate] = contact.site.grip.film_pressure_forces(&f);
+    [
+        f.normal,
+        m.delta,
+        f.film,
+        f.film_ratio,
+        f.temperature_rise,
+        f.friction_coefficient,
+        f.friction,
+        f.rolling_resistance,
+        pressure_roller,
+        pressure_mate,
+        m.u1 - m.u2,
+        0.5 * (m.u1 + m.u2),
+    ]
+}

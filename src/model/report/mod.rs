@@ -1,0 +1,13 @@
+//! What a model tells: names, force reports, output channels, and what is followed in every step.
+
+mod channels;
+mod faults;
+mod forces;
+mod names;
+mod selection;
+mod watch;
+
+pub use channels::Channel;
+pub use forces::{CONTACT_QUANTITIES, ContactForces, Forces, GuideReport, Quantity};
+pub use names::StateInfo;
+pub(super) use selection::Selection;

@@ -1,0 +1,124 @@
+//! Names of bodies, states, inputs and contacts.
+
+use crate::Model;
+use crate::bodies::{Layout, State};
+use crate::pairs::{ContactLaw, Law, Site, line_contact_parts};
+
+/// Name, unit and meaning of a state or an input.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct StateInfo {
+    /// Name, for example `roller[3].orbit_travel`.
+    pub name: String,
+    /// SI unit; "1" for ratios.
+    pub unit: &'static str,
+    /// What it is.
+    pub description: &'static str,
+}
+
+impl Model {
+    /// Names of the bodies, in the order of force reports: outer ring, inner ring, cage, rollers.
+    pub fn body_names(&self) -> Vec<String> {
+        let kind = self.element_kind();
+        let shared = self.shared.iter().flatten().map(|body| body.name().to_owned());
+        shared.chain((0..self.element_count()).map(|j| format!("{kind}[{j}]"))).collect()
+    }
+
+    /// Number of bodies in a force report.
+    pub fn body_count(&self) -> usize {
+        self.shared.iter().flatten().count() + self.element_count()
+    }
+
+    /// Index of an element among the bodies of a force report. Shared bodies come first, in their order.
+    pub(super) fn element_body(&self, j: usize) -> usize {
+        self.shared.iter().flatten().count() + j
+    }
+
+    /// Name of the body of a group of velocities: see [`crate::integrate::System::group`].
+    pub(crate) fn group_name(&self, group: usize) -> Option<String> {
+        if group < self.layout.count {
+            return Some(format!("{}[{group}]", self.element_kind()));
+        }
+        let body = self.layout.body_of_group(group)?;
+        self.shared[body].as_ref().map(|body| body.name().to_owned())
+    }
+
+    /// What the elements are called in names.
+    pub fn element_kind(&self) -> &'static str {
+        self.elements.kind()
+    }
+
+    /// The state vector: positions, then velocities.
+    pub fn state_infos(&self) -> Vec<StateInfo> {
+        let states = Layout::states_of(&self.shared, &*self.elements);
+        let named = states.map(|(state, body, coordinate)| {
+            let [name, unit, description] = match (state, coordinate.position) {
+                (State::Position, Some(position)) => position,
+                _ => coordinate.rate,
+            };
+            StateInfo { name: format!("{body}.{name}"), unit, description }
+        });
+        named.collect()
+    }
+
+    /// The inputs.
+    pub fn input_infos(&self) -> Vec<StateInfo> {
+        let named = self.input_list().map(|input| {
+            let [unit, description] = input.meaning();
+            StateInfo { name: input.name().to_owned(), unit, description }
+        });
+        named.collect()
+    }
+
+    /// Contacts per element in force reports.
+    pub(super) fn contacts_per_element(&self) -> usize {
+        self.infos.iter().map(|info| info.contacts.len()).sum()
+    }
+
+    /// Place of the first contact of a pair among those of an element.
+    fn first_contact(&self, pair: usize) -> usize {
+        self.infos[..pair].iter().map(|info| info.contacts.len()).sum()
+    }
+
+    /// Place of a contact in [`Model::contact_names`].
+    pub(in crate::model) fn contact_place(&self, site: &Site) -> usize {
+        site.element * self.contacts_per_element() + self.first_contact(site.pair) + site.contact
+    }
+
+    /// Pair of every contact that an element can have, and its name.
+    pub(super) fn contact_kinds(&self) -> impl Iterator<Item = (usize, &'static str)> + '_ {
+        self.infos
+            .iter()
+            .enumerate()
+            .flat_map(|(pair, info)| info.contacts.iter().map(move |name| (pair, *name)))
+    }
+
+    /// Names of all contacts that can exist, in the order of force reports.
+    pub fn contact_names(&self) -> Vec<String> {
+        let element = self.element_kind();
+        (0..self.element_count())
+            .flat_map(|j| self.contact_kinds().map(move |(_, kind)| format!("{element}[{j}].{kind}")))
+            .collect()
+    }
+
+    /// The laws that this scene uses, each with the largest number of contacts it can act in.
+    pub fn laws_in_use(&self) -> Vec<(&'static str, usize)> {
+        let mut most = [0; Law::ALL.len()];
+        for (info, law) in self.infos.iter().zip(&self.laws) {
+            let n = self.element_count() * info.contacts.len();
+            for counted in info.laws {
+                most[*counted as usize] += n;
+            }
+            if let ContactLaw::Line(line) = law {
+                for (part, _) in line_contact_parts(line).into_iter().filter(|(_, present)| *present) {
+                    most[part as usize] += n;
+                }
+            }
+        }
+        if let Some(guide) = &self.guide {
+            most[Law::GuideFilm as usize] += usize::from(guide.law().film.is_some());
+            most[Law::GuideSolid as usize] += usize::from(guide.law().solid.is_some());
+        }
+        most[Law::ViscosityTemperature as usize] += usize::from(self.inputs.oil.is_some());
+        Law::ALL.iter().map(|law| (law.name(), most[*law as usize])).filter(|(_, n)| *n > 0).collect()
+    }
+}

@@ -1,0 +1,179 @@
+//! Channels that are followed in every step, for their extremes and integrals between two records.
+//!
+//! With a semi-implicit step the forces are those that moved the bodies in it, also where damping pulls for a moment. That of
+//! the guide is what is left of the momentum of the cage after all others.
+
+use super::channels::{Channel, GuidePart, Source, along, radius};
+use crate::Model;
+use crate::bodies::{CAGE, INNER_RING, OUTER_RING, SHARED};
+use crate::integrate::SemiImplicit;
+use crate::laws::guide::GuideForce;
+use crate::model::Workspace;
+use crate::space::{Motion, Wrench};
+
+/// What is followed.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Watch {
+    /// Places of the channels among all.
+    channels: Vec<usize>,
+    /// Places among the watched channels of the forces of each element on the shared bodies.
+    contacts: Vec<[Option<usize>; SHARED]>,
+    /// Places of the others, and what they show.
+    others: Vec<(usize, Source)>,
+    /// Whether contacts with raceways, and their moments, matter.
+    raceways: bool,
+    torques: bool,
+    guide: bool,
+}
+
+impl Watch {
+    /// Of these places among all `channels` of a bearing with so many elements; all of them can be watched.
+    pub(super) fn new(places: Vec<usize>, channels: &[Channel], elements: usize) -> Self {
+        let mut watch = Self { contacts: vec![[None; SHARED]; elements], ..Self::default() };
+        for (i, place) in places.iter().enumerate() {
+            let source = channels[*place].source;
+            match source {
+                Source::OuterForce(j) => watch.contacts[j][OUTER_RING] = Some(i),
+                Source::InnerForce(j) => watch.contacts[j][INNER_RING] = Some(i),
+                Source::PocketForce(j) => watch.contacts[j][CAGE] = Some(i),
+                _ => watch.others.push((i, source)),
+            }
+        }
+        let any = |wanted: fn(&Source) -> bool| watch.others.iter().any(|(_, source)| wanted(source));
+        let torques = any(|s| matches!(s, Source::DragTorque | Source::OuterRingTorque));
+        let guide = torques || any(|s| matches!(s, Source::GuideY | Source::GuideZ | Source::GuideMoment));
+        (watch.torques, watch.guide) = (torques, guide);
+        watch.raceways =
+            torques || watch.contacts.iter().any(|c| c[OUTER_RING].is_some() || c[INNER_RING].is_some());
+        watch.channels = places;
+        watch
+    }
+}
+
+impl Channel {
+    /// Whether it is a force, or something else that may peak between two records and is known in every step.
+    pub(super) fn can_be_watched(&self) -> bool {
+        use Source as S;
+        matches!(
+            self.source,
+            S::OuterForce(_)
+                | S::InnerForce(_)
+                | S::PocketForce(_)
+                | S::PocketSum(_)
+                | S::PocketMoment
+                | S::GuideY
+                | S::GuideZ
+                | S::GuideMoment
+                | S::Guide(..)
+                | S::GuideFilm
+                | S::DragTorque
+                | S::OuterRingTorque
+                | S::CageEccentricity
+                | S::WhirlRadius
+        )
+    }
+}
+
+impl Model {
+    /// Places of the watched channels among [`Model::channels`].
+    pub fn watched(&self) -> &[usize] {
+        &self.selection.watch.channels
+    }
+
+    /// Values of the watched channels at the last evaluated state of `ws`, whose velocities are `v`, or in a step from there.
+    pub(crate) fn watch(&self, v: &[f64], step: Option<&SemiImplicit<'_>>, ws: &Workspace, out: &mut [f64]) {
+        out.fill(0.0);
+        let watch = &self.selection.watch;
+        let (direction, motions) = (self.direction(&ws.inputs), &ws.motions);
+        let mut on = [Wrench::default(); SHARED];
+        for (pair, info) in self.infos.iter().enumerate() {
+            let on_cage = info.mate == CAGE;
+            if !on_cage && !watch.raceways {
+                continue;
+            }
+            let (batch, contacts) = ws.contacts.range(pair);
+            for i in contacts {
+                let site = &batch.sites[i];
+                let force = self.force_in_step(batch, i, v, step, motions);
+                let place = watch.contacts[site.element][info.mate];
+                if on_cage {
+                    let [on_element, on_mate] = site.grip.wrenches(&force);
+                    if let Some(place) = place {
+                        out[place] -= direction * on_element.force[1];
+                    }
+                    let force = motions.elements[site.element].frame.to_global(on_mate.force);
+                    on[CAGE].add(&Wrench { force, ..on_mate });
+                } else {
+                    if let Some(place) = place {
+                        out[place] = force.normal;
+                    }
+                    if watch.torques {
+                        on[info.mate].moment += site.grip.wrenches(&force)[1].moment;
+                    }
+                }
+            }
+        }
+        if watch.others.is_empty() {
+            return;
+        }
+        let guiding = self.guiding_ring();
+        let [body, ring] = [&motions.shared[CAGE], &motions.shared[guiding]];
+        let offset = [body.position[0] - ring.position[0], body.position[1] - ring.position[1]];
+        let guide =
+            if watch.guide { self.guide_in_step(body, step, &on[CAGE], ws) } else { Wrench::default() };
+        let on_cage = on[CAGE];
+        on[guiding].moment -= guide.moment + offset[0] * guide.force[1] - offset[1] * guide.force[0];
+        for (place, source) in &self.selection.watch.others {
+            out[*place] = match source {
+                Source::PocketSum(k) => along(offset, on_cage.force)[*k],
+                Source::PocketMoment => on_cage.moment,
+                Source::GuideY => guide.force[0],
+                Source::GuideZ => guide.force[1],
+                Source::GuideMoment => guide.moment,
+                Source::DragTorque => -direction * on[INNER_RING].moment,
+                Source::OuterRingTorque => on[OUTER_RING].moment,
+                Source::WhirlRadius => radius(offset),
+                Source::CageEccentricity => self.guide_clearance().map_or(0.0, |c| radius(offset) / c),
+                Source::GuideFilm => self.force_of_guide(ws).map_or(0.0, |force| force.minimum_film),
+                Source::Guide(part, k) => self.force_of_guide(ws).map_or(0.0, |force| {
+                    let part = match part {
+                        GuidePart::Pressure => force.pressure,
+                        GuidePart::Shear => force.shear,
+                        GuidePart::Solid => force.solid,
+                    };
+                    along(offset, part)[*k]
+                }),
+                _ => 0.0,
+            };
+        }
+    }
+
+    /// Force of the guide on the cage at the last evaluated state.
+    fn force_of_guide(&self, ws: &Workspace) -> Option<GuideForce<f64>> {
+        Some(self.guide.as_ref()?.on_cage(ws.guide.as_ref()?))
+    }
+
+    /// Force of the guide on the cage, moment about the centre of the cage, whose pockets push with `pockets`.
+    fn guide_in_step(
+        &self,
+        motion: &Motion<f64>,
+        step: Option<&SemiImplicit<'_>>,
+        pockets: &Wrench<f64>,
+        ws: &Workspace,
+    ) -> Wrench<f64> {
+        let (Some(cage), Some(c)) = (&self.shared[CAGE], self.layout.cage()) else {
+            return Wrench::default();
+        };
+        let (Some(guide), Some(state)) = (&self.guide, &ws.guide) else { return Wrench::default() };
+        let Some(step) = step else { return guide.wrenches(state)[0] };
+        let gained = std::array::from_fn(|k| 2.0 * (step.end[c + k] - step.mean[c + k]) / step.h);
+        let all = cage.wrench_for(gained, motion, self.gravity);
+        let mut other = Wrench::default();
+        cage.add_external(motion, &ws.inputs, &mut other);
+        other.add(pockets);
+        Wrench {
+            force: [all.force[0] - other.force[0], all.force[1] - other.force[1]],
+            moment: all.moment - other.moment,
+        }
+    }
+}

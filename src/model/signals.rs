@@ -1,0 +1,154 @@
+//! What inputs follow: quantities that follow the scene's functions of time unless the host takes them over, and
+//! what follows from them: the prescribed motion of kinematic elements.
+
+use crate::bodies::{HostInputs, Input, InputValues};
+use crate::laws::walther::Walther;
+use crate::scene::{Signal, SignalIntegral, interpolate, slope};
+
+/// Where the value of an input comes from when the host does not set it.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum InputSource {
+    /// A function of time.
+    Time(Signal),
+    /// Points (rad/s, unit of the input) over the magnitude of the ring speed.
+    RingSpeed(Vec<f64>, Vec<f64>),
+}
+
+/// Prescribed orbit of kinematic elements.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Orbit {
+    /// The input that drives the orbit, and orbit speed per unit of it.
+    pub(super) drive: Input,
+    pub(super) orbit_ratio: f64,
+    /// Spin speed per unit of the drive; `None` if it is an input of its own.
+    pub(super) spin_ratio: Option<f64>,
+    pub(super) integral: SignalIntegral,
+}
+
+/// Viscosity that follows the temperature.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Oil {
+    pub(super) law: Walther,
+    /// Temperature (K) and viscosity (Pa s) that the laws were built with.
+    pub(super) built_at: (f64, f64),
+}
+
+/// The inputs that a scene has.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct InputSignals {
+    /// In the order of [`Input`]; the ring speed comes first where it exists.
+    pub(super) list: Vec<(Input, InputSource)>,
+    pub(super) orbit: Option<Orbit>,
+    /// Oil whose viscosity follows the temperature.
+    pub(super) oil: Option<Oil>,
+}
+
+impl InputSignals {
+    /// Values at time `t` in s.
+    pub(super) fn at(&self, t: f64, host: &HostInputs) -> InputValues {
+        let mut now = InputValues::default();
+        for (input, source) in &self.list {
+            let i = *input as usize;
+            now.values[i] = match (host.values[i], source) {
+                (Some(value), _) => value,
+                (None, InputSource::Time(signal)) => signal.at(t),
+                (None, InputSource::RingSpeed(speed, value)) => {
+                    interpolate(speed, value, now.of(Input::RingSpeed).abs())
+                }
+            };
+        }
+        if let Some(orbit) = &self.orbit {
+            let drive = now.of(orbit.drive);
+            now.values[Input::OrbitSpeed as usize] = orbit.orbit_ratio * drive;
+            if let Some(ratio) = orbit.spin_ratio {
+                now.values[Input::SpinSpeed as usize] = ratio * drive;
+            }
+            now.orbit_travel = orbit.travel(t, host);
+        }
+        now
+    }
+
+    /// Rates of what [`InputSignals::at`] gives, per second.
+    pub(super) fn rates_at(&self, t: f64, host: &HostInputs) -> InputValues {
+        let mut rates = InputValues::default();
+        for (input, source) in &self.list {
+            rates.values[*input as usize] = match (host.values[*input as usize], source) {
+                (Some(_), _) => 0.0,
+                (None, InputSource::Time(signal)) => signal.rate(t),
+                (None, InputSource::RingSpeed(speed, value)) => {
+                    let now = self.at(t, host).of(Input::RingSpeed);
+                    slope(speed, value, now.abs()) * now.signum() * rates.of(Input::RingSpeed)
+                }
+            };
+        }
+        if let Some(orbit) = &self.orbit {
+            let drive = rates.of(orbit.drive);
+            rates.values[Input::OrbitSpeed as usize] = orbit.orbit_ratio * drive;
+            if let Some(ratio) = orbit.spin_ratio {
+                rates.values[Input::SpinSpeed as usize] = ratio * drive;
+            }
+            rates.orbit_travel = self.at(t, host).of(Input::OrbitSpeed);
+        }
+        rates
+    }
+
+    /// The first jump or kink after `t`, s.
+    pub(super) fn next_event(&self, t: f64, host: &HostInputs) -> f64 {
+        let followed = self.list.iter().filter(|(input, _)| host.values[*input as usize].is_none());
+        followed
+            .map(|(_, source)| match source {
+                InputSource::Time(signal) => signal.next_event(t),
+                InputSource::RingSpeed(speed, _) => self.next_speed(t, speed, host),
+            })
+            .fold(f64::INFINITY, f64::min)
+    }
+
+    /// The first time after `t` (s) at which the magnitude of the ring speed passes one of these (rad/s).
+    fn next_speed(&self, t: f64, speeds: &[f64], host: &HostInputs) -> f64 {
+        let ring = self.list.iter().find(|(input, _)| *input == Input::RingSpeed);
+        let Some((_, InputSource::Time(signal))) = ring else { return f64::INFINITY };
+        if host.values[Input::RingSpeed as usize].is_some() {
+            return f64::INFINITY;
+        }
+        let both = speeds.iter().flat_map(|speed| [*speed, -speed]);
+        both.map(|speed| signal.next_passage(t, speed)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Shortest period of the sines that are followed, s; infinity without any.
+    pub(super) fn shortest_period(&self, host: &HostInputs) -> f64 {
+        let followed = self.list.iter().filter(|(input, _)| host.values[*input as usize].is_none());
+        followed
+            .map(|(_, source)| match source {
+                InputSource::Time(signal) => signal.period(),
+                InputSource::RingSpeed(..) => f64::INFINITY,
+            })
+            .fold(f64::INFINITY, f64::min)
+    }
+
+    /// Sets or releases an input at time `t` in s. The elements stay where they are.
+    pub(super) fn set(&self, host: &mut HostInputs, t: f64, input: Input, value: Option<f64>) {
+        if let Some(orbit) = &self.orbit {
+            host.anchor = [t, orbit.travel(t, host)];
+        }
+        host.values[input as usize] = value;
+    }
+
+    /// Largest magnitude of an input by the scene; zero for one it does not have.
+    pub(super) fn largest(&self, input: Input) -> f64 {
+        self.list.iter().find(|(i, _)| *i == input).map_or(0.0, |(_, source)| match source {
+            InputSource::Time(signal) => signal.largest(),
+            InputSource::RingSpeed(_, value) => value.iter().fold(0.0, |m, v| m.max(v.abs())),
+        })
+    }
+}
+
+impl Orbit {
+    fn travel(&self, t: f64, host: &HostInputs) -> f64 {
+        let [since, before] = host.anchor;
+        let turned = match host.values[self.drive as usize] {
+            Some(speed) => speed * (t - since),
+            None => self.integral.at(t) - self.integral.at(since),
+        };
+        before + self.orbit_ratio * turned
+    }
+}

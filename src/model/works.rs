@@ -1,0 +1,236 @@
+//! Energy of a bearing and the power that goes into it and out of it.
+//!
+//! ```text
+//! d/dt (kinetic + elastic + potential energy) = sum of the powers
+//! kinetic    m v^2/2 of ring, cage (at its centre of mass) and rollers, I w^2/2 of cage and rollers
+//! elastic    line contacts U = (9/19) delta Q_el(delta), plane pockets U = k delta^2/2
+//! contacts   -(Q - Q_el) delta_dot,  F_T (u1 - u2),  F_EHLr (u1 + u2)
+//! ```
+//!
+//! The sum is zero at any state, to round-off, with the accelerations of that state. What it adds up to over a run is the
+//! error of the integration. Rings whose rotation is prescribed have no kinetic energy of their own: what turns them is
+//! the power that the bearing takes from the shaft.
+
+use super::Model;
+use super::step_forces::Changes;
+use super::workspace::Workspace;
+use crate::bodies::{CAGE, INNER_RING, Input, POWERS, Power, SHARED};
+use crate::integrate::{Quadratures, SemiImplicit, WORKS};
+use crate::laws::contact_pair::ContactForce;
+use crate::pairs::{Batch, Site};
+use crate::space::Wrench;
+
+/// Behind the powers: 1 while a law between rollers and raceways is at a floor, else 0.
+pub(crate) const AT_FLOOR: usize = POWERS.len();
+const _: () = assert!(POWERS.len() == WORKS);
+
+/// Energy of a state, J.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Energy {
+    /// Kinetic energy.
+    pub kinetic: f64,
+    /// Energy of contacts that are pressed together.
+    pub elastic: f64,
+    /// Potential energy of the weight; zero with all bodies at the centre.
+    pub potential: f64,
+}
+
+impl Energy {
+    /// All of it, J.
+    pub fn total(&self) -> f64 {
+        self.kinetic + self.elastic + self.potential
+    }
+}
+
+impl Model {
+    /// Powers at the last evaluated state of `ws`, whose velocities are `v`, W, in the order of [`POWERS`], and whether a law is
+    /// at a floor (1 or 0). With a semi-implicit step those of its forces, which differ from the evaluated ones.
+    pub fn powers(&self, v: &[f64], step: Option<&SemiImplicit<'_>>, ws: &Workspace) -> Quadratures {
+        let mut p = Quadratures::default();
+        let motions = &ws.motions;
+        // Moments on the shared bodies, which the drives hold up whose speed is prescribed.
+        let mut moments = [0.0; SHARED];
+        for batch in &ws.contacts.batches {
+            for (i, site) in batch.sites.iter().enumerate() {
+                let secant = batch.force.friction_secant[i];
+                let changes = step.map(|step| self.step_changes(site, secant, v, step, motions));
+                let (power, on_surfaces) = self.contact_power(batch, i, changes);
+                let info = self.infos[site.pair];
+                let [damping, friction] = info.powers;
+                p[damping as usize] += power.damping;
+                p[friction as usize] += power.friction;
+                if info.rolls {
+                    p[Power::RollingResistance as usize] += power.rolling;
+                    if self.is_at_floor(batch, i, ws.fluid.ln_viscosity) {
+                        p[AT_FLOOR] = 1.0;
+                    }
+                }
+                if site.mate != CAGE {
+                    moments[site.mate] += site.grip.wrenches(&on_surfaces)[1].moment;
+                }
+            }
+        }
+        if let (Some(guide), Some(state)) = (&self.guide, &ws.guide) {
+            let bodies = [&motions.shared[CAGE], &motions.shared[guide.ring]];
+            let power =
+                |[on_cage, on_ring]: [Wrench<f64>; 2]| on_cage.power(bodies[0]) + on_ring.power(bodies[1]);
+            let wrenches = guide.wrenches(state);
+            let (all, film) = (power(wrenches), power(guide.film_wrenches(state)));
+            p[Power::GuideFilm as usize] = film;
+            p[Power::GuideSolid as usize] = all - film;
+            moments[guide.ring] += wrenches[1].moment;
+        }
+        for (body, motion) in self.shared.iter().zip(&motions.shared) {
+            if let Some(body) = body {
+                body.add_powers(motion, &ws.inputs, &mut p);
+            }
+        }
+        p[Power::RingDrive as usize] = -moments[INNER_RING] * ws.inputs.of(Input::RingSpeed);
+        if self.elements.inertia().is_none() {
+            p[Power::ElementDrive as usize] = -self.power_on_elements(ws);
+        }
+        p
+    }
+
+    /// Power of contact forces on elements whose motion is prescribed, W.
+    fn power_on_elements(&self, ws: &Workspace) -> f64 {
+        let on_element = |(site, force): (&Site, ContactForce<f64>)| {
+            let element = &ws.motions.elements[site.element];
+            let [wrench, _] = site.grip.wrenches(&force);
+            wrench.force[1] * element.radius * element.motion.orbit_speed
+                + wrench.moment * element.motion.spin_speed
+        };
+        ws.contacts.batches.iter().flat_map(|batch| batch.forces()).map(on_element).sum()
+    }
+
+    /// Power of contact `i`, whose speeds and forces a semi-implicit step has changed, and the forces on its surfaces.
+    fn contact_power(
+        &self,
+        batch: &Batch,
+        i: usize,
+        changes: Option<Changes>,
+    ) -> (ContactPower, ContactForce<f64>) {
+        let (f, m) = (&batch.force, &batch.motion);
+        let Changes { approach_speed, slip, acting_slip } = changes.unwrap_or_default();
+        let approach_speed = m.delta_dot[i] + approach_speed;
+        let friction = f.friction[i] - f.friction_secant[i] * acting_slip;
+        let damping = if f.normal[i] == 0.0 && m.delta[i] > 0.0 {
+            // Damping has cut off the force, and the spring loses what it held.
+            self.laws[batch.sites[i].pair].spring(m.delta[i])[0] * approach_speed
+        } else {
+            -f.damping[i] * approach_speed * approach_speed
+        };
+        let rolling_resistance = f.rolling_resistance[i];
+        let power = ContactPower {
+            damping,
+            friction: friction * (m.u1[i] - m.u2[i] + slip),
+            rolling: rolling_resistance * (m.u1[i] + m.u2[i]),
+        };
+        (power, ContactForce { friction, rolling_resistance, ..ContactForce::none(0.0) })
+    }
+
+    /// Whether a law of contact `i` is at a floor.
+    fn is_at_floor(&self, batch: &Batch, i: usize, ln_viscosity: f64) -> bool {
+        let law = &self.laws[batch.sites[i].pair];
+        law.is_at_floor(&batch.motion.map(|x| x[i]), ln_viscosity, &batch.force.map(|x| x[i]))
+    }
+
+    /// Energy of the last evaluated state of `ws`.
+    pub fn energy(&self, ws: &Workspace) -> Energy {
+        let mut e = Energy::default();
+        let of_shared = self
+            .shared
+            .iter()
+            .zip(&ws.motions.shared)
+            .filter_map(|(body, motion)| Some(body.as_ref()?.energy(motion, self.gravity)));
+        let free = ws.motions.elements.iter().take(self.layout.count);
+        let of_elements = free.map(|element| self.elements.energy(element, self.gravity));
+        for energy in of_shared.chain(of_elements) {
+            e.kinetic += energy.kinetic;
+            e.potential += energy.potential;
+        }
+        e.elastic = ws.contacts.iter().map(|c| self.laws[c.site.pair].spring(c.motion.delta)[1]).sum();
+        e
+    }
+}
+
+/// Power of one contact, W.
+struct ContactPower {
+    damping: f64,
+    friction: f64,
+    rolling: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Sim;
+    use crate::model::HostInputs;
+    use std::sync::Arc;
+
+    /// Runs a scene and compares the powers with the change of the energy along the motion.
+    fn check(file: &str, sets: &[(&str, &str)]) {
+        let path = format!("{}/scenes/{file}.json", env!("CARGO_MANIFEST_DIR"));
+        let text = std::fs::read_to_string(path).unwrap();
+        let scene = crate::Scene::from_json_with(&text, sets.iter().copied()).unwrap();
+        let mut sim = Sim::new(Arc::new(Model::new(scene).unwrap())).unwrap();
+        let nq = sim.model().layout().positions();
+        let model = sim.model().clone();
+        let mut ws = Workspace::new(&model);
+        let mut a = vec![0.0; model.layout().velocities()];
+        let mut evaluate = |state: &[f64], t: f64| {
+            let (q, v) = state.split_at(nq);
+            let inputs = model.inputs_at(t, &HostInputs::default());
+            model.accelerations(&inputs, q, v, &mut ws, &mut a).unwrap();
+            (model.powers(v, None, &ws), model.energy(&ws))
+        };
+        for step in 1..=40 {
+            sim.advance_to(0.25e-3 * f64::from(step)).unwrap();
+            let (t, state) = (sim.time(), sim.state().to_vec());
+            let mut rate = vec![0.0; state.len()];
+            sim.derivative(t, &state, &mut rate).unwrap();
+            let dt = 1e-9;
+            let moved = |s: f64| -> Vec<f64> { state.iter().zip(&rate).map(|(x, r)| x + s * r).collect() };
+            let (powers, _) = evaluate(&state, t);
+            let (after, before) = (evaluate(&moved(dt), t + dt).1, evaluate(&moved(-dt), t - dt).1);
+            let change = (after.total() - before.total()) / (2.0 * dt);
+            let sum: f64 = powers.iter().sum();
+            let size = powers.iter().fold(0.0, |size, p| size + p.abs());
+            assert!(
+                (sum - change).abs() < 1e-5 * size + 1e-6,
+                "{file} at {t}: {sum} {change} of {powers:?}, {before:?} {after:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn powers_are_the_change_of_energy() {
+        check("nu2310", &[]);
+        check("nu2310_grease", &[]);
+        check("grease_guide", &[]);
+        check("ball_short_bearing", &[]);
+        check("nu2310", &[("raceways.contact.damping", "null"), ("cage.guide", "null")]);
+        check("grease_guide", &[("cage.mass_eccentricity", r#"{"y": 2e-5, "z": 1e-5}"#)]);
+        check(
+            "nu2310",
+            &[(
+                "inner_ring.motion.free.load.z",
+                r#"{"sine": {"mean": -3000, "amplitude": 2000, "frequency": 400, "phase": 0}}"#,
+            )],
+        );
+    }
+
+    #[test]
+    fn forces_inside_take_energy() {
+        let path = format!("{}/scenes/nu2310.json", env!("CARGO_MANIFEST_DIR"));
+        let mut sim =
+            Sim::new(Arc::new(Model::from_json(&std::fs::read_to_string(path).unwrap()).unwrap())).unwrap();
+        sim.advance_to(20e-3).unwrap();
+        let balance = sim.power_balance().unwrap();
+        for (name, work) in POWERS.iter().zip(balance.work).skip(Power::RingSupport as usize) {
+            assert!(work <= 0.0, "{name}: {work}");
+        }
+        assert!(balance.work[Power::RingDrive as usize] > 1.0, "{balance:?}");
+        assert!(balance.throughput() >= balance.work[Power::RingDrive as usize]);
+    }
+}

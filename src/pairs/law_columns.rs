@@ -1,0 +1,141 @@
+//! Constants of line contact laws in columns, and the evaluation of a batch with them.
+//!
+//! Contacts of several kinds share a batch if the laws of these kinds have the same parts. They differ in constants only,
+//! which are columns too, so that vector instructions serve all of them at once.
+
+use crate::laws::contact_pair::{ContactForce, ContactMotion};
+use crate::laws::line_contact::LineContact;
+use crate::scalar::{Columns, Pack, dispatch};
+use pulp::{Arch, Simd};
+
+/// The constants of the law of every contact in a batch.
+#[derive(Clone, Debug)]
+pub(super) struct LawColumns {
+    /// The first of the laws; all have the same parts.
+    first: LineContact,
+    /// Constants of each kind, in the order of [`LineContact::map`].
+    table: Vec<Vec<f64>>,
+    columns: Vec<Vec<f64>>,
+    /// Kind of each place, whose constants the columns have.
+    kind: Vec<usize>,
+}
+
+impl LawColumns {
+    /// Room for this many contacts of kinds with these laws, which have the same parts; there is at least one.
+    pub(super) fn new(first: LineContact, others: &[LineContact], room: usize) -> Self {
+        let constants = |law: &LineContact| {
+            let mut list = Vec::new();
+            law.map(&mut |x| list.push(*x));
+            list
+        };
+        let table: Vec<Vec<f64>> = std::iter::once(&first).chain(others).map(constants).collect();
+        let columns = table[0].iter().map(|x| vec![*x; room]).collect();
+        Self { first, table, columns, kind: vec![0; room] }
+    }
+
+    /// Makes contact `i` one of this kind.
+    #[inline]
+    pub(super) fn set(&mut self, i: usize, kind: usize) {
+        if self.kind[i] != kind {
+            self.kind[i] = kind;
+            for (column, x) in self.columns.iter_mut().zip(&self.table[kind]) {
+                column[i] = *x;
+            }
+        }
+    }
+
+    /// Laws of the contacts from the first one on, as many as fit.
+    #[inline(always)]
+    pub(super) fn load<S: Simd, const K: usize>(&self, simd: S, first: usize) -> LineContact<Pack<S, K>> {
+        let mut columns = self.columns.iter();
+        self.first.map(&mut |_| match columns.next() {
+            Some(column) => Pack::load(simd, &column[first..]),
+            None => Pack::all(simd, f64::NAN),
+        })
+    }
+
+    /// Evaluates the laws of the first `rows` contacts, with the logarithm `ln_viscosity` of the relative viscosity.
+    pub(super) fn apply(
+        &self,
+        rows: usize,
+        motion: &ContactMotion<Vec<f64>>,
+        edge_share: &[f64],
+        ln_viscosity: f64,
+        force: &mut ContactForce<Vec<f64>>,
+        instructions: Arch,
+    ) {
+        dispatch(instructions, Apply { laws: self, rows, motion, edge_share, ln_viscosity, force });
+    }
+}
+
+struct Apply<'a> {
+    laws: &'a LawColumns,
+    rows: usize,
+    motion: &'a ContactMotion<Vec<f64>>,
+    edge_share: &'a [f64],
+    ln_viscosity: f64,
+    force: &'a mut ContactForce<Vec<f64>>,
+}
+
+impl Columns for Apply<'_> {
+    fn rows(&self) -> usize {
+        self.rows
+    }
+
+    #[inline(always)]
+    fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
+        let law = self.laws.load::<S, K>(simd, first);
+        let motion = self.motion.load(simd, first);
+        let ln_viscosity = Pack::all(simd, self.ln_viscosity);
+        let edge_share = Pack::load(simd, &self.edge_share[first..]);
+        self.force.store(first, &law.force(&motion, ln_viscosity, edge_share));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::laws::line_contact::tests::raceway;
+    use crate::laws::normal_contact::ElasticLine;
+    use crate::laws::solid_friction::SolidFriction;
+
+    /// Three laws with every part, different in all of them.
+    fn laws() -> [LineContact; 3] {
+        let edge_friction = Some(SolidFriction { coefficient: 0.1, transition_speed: 0.02 });
+        let law = LineContact { edge_friction, ..raceway() };
+        let other = |factor: f64| law.map(&mut |x| x * factor);
+        let elastic = ElasticLine::new(2e11, 0.01, 0.02);
+        [LineContact { elastic, ..law }, other(1.1), other(0.9)]
+    }
+
+    #[test]
+    fn every_contact_gets_the_force_of_its_law() {
+        let laws = laws();
+        let n = 32;
+        let mut columns = LawColumns::new(laws[0], &laws[1..], n);
+        let mut motion = ContactMotion { delta: 0.0, delta_dot: 0.0, u1: 0.0, u2: 0.0 }.map(|_| vec![0.0; n]);
+        let mut force = ContactForce::none(0.0).map(|_| vec![0.0; n]);
+        // Twice, so that places change their kind.
+        for turn in 0..2 {
+            let at = |i: usize| {
+                let x = i as f64;
+                let motion =
+                    ContactMotion { delta: 1e-8 * (x * x - 4.0), delta_dot: 0.0, u1: 6.0, u2: 0.3 * x };
+                (motion, 0.1 * ((i * 7) % 12) as f64, (i / 2 + turn) % laws.len())
+            };
+            let mut shares = vec![0.0; n];
+            for (i, share) in shares.iter_mut().enumerate() {
+                let (contact, edge_share, kind) = at(i);
+                motion.set(i, &contact);
+                columns.set(i, kind);
+                *share = edge_share;
+            }
+            columns.apply(n, &motion, &shares, 0.2, &mut force, Arch::new());
+            for i in 0..n {
+                let (contact, edge_share, kind) = at(i);
+                let alone = laws[kind].force(&contact, 0.2, edge_share);
+                assert_eq!(force.map(|x| x[i]), alone, "{turn} {i}");
+            }
+        }
+    }
+}

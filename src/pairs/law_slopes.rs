@@ -1,0 +1,123 @@
+//! Derivatives of line contact forces over what their law sees, for a whole batch at once.
+
+use super::law_columns::LawColumns;
+use crate::laws::contact_pair::{ContactForce, ContactMotion};
+use crate::scalar::{Columns, Dual, Duals, Pack, Real, dispatch};
+use pulp::{Arch, Simd};
+
+/// Directions of the derivatives: approach, approach speed, u1, u2, edge share, logarithm of the viscosity.
+pub(super) const DIRECTIONS: usize = 6;
+pub(super) const EDGE_SHARE: usize = 4;
+pub(super) const VISCOSITY: usize = 5;
+/// Forces that have derivatives: normal force, friction, rolling resistance.
+pub(super) const FORCES: usize = 3;
+
+/// Derivatives of the forces of one contact.
+pub(super) type Slopes = [[f64; DIRECTIONS]; FORCES];
+
+/// Derivatives in columns, by force and direction.
+#[derive(Clone, Debug, Default)]
+pub(super) struct LawSlopes([[Vec<f64>; DIRECTIONS]; FORCES]);
+
+impl LawSlopes {
+    /// Room for this many contacts.
+    pub(super) fn new(room: usize) -> Self {
+        Self(std::array::from_fn(|_| std::array::from_fn(|_| vec![0.0; room])))
+    }
+
+    /// Finds the forces of the first `rows` contacts, for which there must be room, and their derivatives, from their
+    /// motions and edge shares, with the logarithm `ln_viscosity` of the relative viscosity.
+    pub(super) fn find(
+        &mut self,
+        laws: &LawColumns,
+        rows: usize,
+        (motion, edge_share): (&ContactMotion<Vec<f64>>, &[f64]),
+        ln_viscosity: f64,
+        force: &mut ContactForce<Vec<f64>>,
+        instructions: Arch,
+    ) {
+        let slopes = &mut self.0;
+        dispatch(instructions, Differentiate { laws, motion, edge_share, force, slopes, rows, ln_viscosity });
+    }
+
+    /// Derivatives of the forces of contact `i`.
+    #[inline(always)]
+    pub(super) fn of(&self, i: usize) -> Slopes {
+        let mut slopes = [[0.0; DIRECTIONS]; FORCES];
+        for (row, columns) in slopes.iter_mut().zip(&self.0) {
+            for (slope, column) in row.iter_mut().zip(columns) {
+                *slope = column[i];
+            }
+        }
+        slopes
+    }
+}
+
+/// The forces of a contact, with the `slopes` of its law, over the coordinates of its bodies: chain rule.
+#[inline]
+pub(super) fn chain<const N: usize>(
+    forces: &[f64; FORCES],
+    slopes: &Slopes,
+    motion: &ContactMotion<Dual<N>>,
+    edge_share: Option<Dual<N>>,
+) -> ContactForce<Dual<N>> {
+    let inner = [motion.delta, motion.delta_dot, motion.u1, motion.u2];
+    let over_coordinates = |f: usize| {
+        let mut out = Dual::constant(forces[f]);
+        for (slope, x) in slopes[f].iter().zip(inner.iter().chain(&edge_share)) {
+            for (e, dx) in out.eps.iter_mut().zip(x.eps) {
+                *e += slope * dx;
+            }
+        }
+        out
+    };
+    contact_force([over_coordinates(0), over_coordinates(1), over_coordinates(2)])
+}
+
+/// A contact with this normal force, friction and rolling resistance, N, or their rates; all else is zero.
+#[inline]
+pub(super) fn contact_force<T: Real>([normal, friction, rolling_resistance]: [T; FORCES]) -> ContactForce<T> {
+    ContactForce { normal, friction, rolling_resistance, ..ContactForce::none(T::constant(0.0)) }
+}
+
+struct Differentiate<'a> {
+    laws: &'a LawColumns,
+    motion: &'a ContactMotion<Vec<f64>>,
+    edge_share: &'a [f64],
+    force: &'a mut ContactForce<Vec<f64>>,
+    slopes: &'a mut [[Vec<f64>; DIRECTIONS]; FORCES],
+    rows: usize,
+    ln_viscosity: f64,
+}
+
+impl Columns for Differentiate<'_> {
+    /// Values with their derivatives fill the registers by themselves.
+    const PAIRED: bool = false;
+
+    fn rows(&self) -> usize {
+        self.rows
+    }
+
+    #[inline(always)]
+    #[expect(clippy::needless_range_loop, reason = "iterators might not be inlined")]
+    fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
+        let motion = self.motion.load::<S, K>(simd, first);
+        let motion = ContactMotion {
+            delta: Duals::<DIRECTIONS, _>::variable(motion.delta, 0),
+            delta_dot: Duals::variable(motion.delta_dot, 1),
+            u1: Duals::variable(motion.u1, 2),
+            u2: Duals::variable(motion.u2, 3),
+        };
+        let edge_share = Duals::variable(Pack::load(simd, &self.edge_share[first..]), EDGE_SHARE);
+        let ln_viscosity = Duals::variable(Pack::all(simd, self.ln_viscosity), VISCOSITY);
+        let law = self.laws.load::<S, K>(simd, first);
+        let force = law.force(&motion, ln_viscosity, edge_share);
+        self.force.store(first, &force);
+        let forces = [force.normal, force.friction, force.rolling_resistance];
+        for f in 0..FORCES {
+            for d in 0..DIRECTIONS {
+                forces[f].eps[d].store(&mut self.slopes[f][d][first..]);
+            }
+        }
+    }
+}

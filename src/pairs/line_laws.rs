@@ -1,0 +1,240 @@
+//! From the blocks of a scene to laws and their constants. A law is built only if the scene asks for it.
+
+use super::raceway::RacewayGeometry;
+use crate::error::Result;
+use crate::laws::film_thickness::{FilmThickness, ThermalCorrection, ThermalLoad};
+use crate::laws::line_contact::LineContact;
+use crate::laws::lubrication_regime::LubricationRegime;
+use crate::laws::normal_contact::{ElasticLine, NormalDamping, effective_modulus};
+use crate::laws::rolling_resistance::{Extent, RollingResistance};
+use crate::laws::self_heating::SelfHeating;
+use crate::laws::solid_contact::SolidContact;
+use crate::laws::solid_friction::SolidFriction;
+use crate::laws::traction::Traction;
+use crate::scene::{self, ContactLaws, Lubricant, Material, Scene, bad_scene, needed};
+
+/// The parts of the scene that several laws need, with the path of the law being built.
+pub(crate) struct LawBuilder<'a> {
+    scene: &'a Scene,
+    path: &'a str,
+    /// eta0 the laws are built with, Pa s.
+    viscosity: Option<f64>,
+}
+
+/// One of the two bodies of a line contact.
+struct Element<'a> {
+    path: &'a str,
+    material: &'a str,
+    effective_length: f64,
+}
+
+impl<'a> LawBuilder<'a> {
+    /// For the laws of a scene, with the lubricant at `viscosity` in Pa s.
+    pub(crate) fn new(scene: &'a Scene, viscosity: Option<f64>) -> Self {
+        Self { scene, path: "", viscosity }
+    }
+
+    /// The scene.
+    pub(crate) fn scene(&self) -> &'a Scene {
+        self.scene
+    }
+
+    /// The same for the law at this path, which messages name.
+    pub(crate) fn at(&self, path: &'a str) -> Self {
+        Self { path, ..*self }
+    }
+
+    fn lubricant(&self, by: &str) -> Result<&'a Lubricant> {
+        self.scene
+            .lubricant
+            .as_ref()
+            .ok_or_else(|| bad_scene("lubricant", format!("missing; {} needs it", self.law(by))))
+    }
+
+    pub(crate) fn viscosity(&self, by: &str) -> Result<f64> {
+        self.lubricant(by)?;
+        needed("lubricant.viscosity", self.viscosity, &self.law(by))
+    }
+
+    /// Material and contact length of the rolling elements.
+    fn element(&self) -> Result<Element<'a>> {
+        if let Some(rollers) = &self.scene.rollers {
+            let (path, material) = ("rollers.material", rollers.material.as_str());
+            return Ok(Element { path, material, effective_length: rollers.effective_length });
+        }
+        let elements = self.scene.kinematic_elements.as_ref();
+        let (path, by) = ("kinematic_elements.material", "cage.pocket.lubricated_cylinder");
+        let material = needed(path, elements.and_then(|e| e.material.as_deref()), by)?;
+        let length = elements.and_then(|e| e.effective_length);
+        let effective_length = needed("kinematic_elements.effective_length", length, by)?;
+        Ok(Element { path, material, effective_length })
+    }
+
+    fn law(&self, field: &str) -> String {
+        format!("{}.{field}", self.path)
+    }
+
+    pub(crate) fn pressure_viscosity(&self, by: &str) -> Result<f64> {
+        needed("lubricant.pressure_viscosity", self.lubricant(by)?.pressure_viscosity, &self.law(by))
+    }
+
+    fn temperature_viscosity(&self, by: &str) -> Result<f64> {
+        needed("lubricant.temperature_viscosity", self.lubricant(by)?.temperature_viscosity, &self.law(by))
+    }
+
+    fn conductivity(&self, by: &str) -> Result<f64> {
+        needed("lubricant.conductivity", self.lubricant(by)?.conductivity, &self.law(by))
+    }
+
+    fn eyring_stress(&self, by: &str) -> Result<f64> {
+        needed("lubricant.eyring_stress", self.lubricant(by)?.eyring_stress, &self.law(by))
+    }
+
+    fn thermal_load(&self, by: &str) -> Result<ThermalLoad> {
+        let viscosity = self.viscosity(by)?;
+        Ok(ThermalLoad::new(self.temperature_viscosity(by)?, viscosity, self.conductivity(by)?))
+    }
+
+    fn material(&self, path: &str, name: &str) -> Result<&'a Material> {
+        self.scene
+            .materials
+            .get(name)
+            .ok_or_else(|| bad_scene(path, format!("'{name}' is not one of the materials")))
+    }
+
+    /// k rho c of a material.
+    fn thermal_product(&self, name: &str, by: &str) -> Result<f64> {
+        let path = format!("materials.{name}.thermal");
+        let t = self.material(&path, name)?.thermal.as_ref();
+        let t = t.ok_or_else(|| bad_scene(&path, format!("missing; {} needs it", self.law(by))))?;
+        Ok(t.conductivity * t.density * t.specific_heat)
+    }
+
+    /// A contact between an element and a mate of the given material.
+    pub(crate) fn line_contact(
+        &self,
+        laws: &ContactLaws,
+        mate: &str,
+        equivalent_radius: f64,
+    ) -> Result<LineContact> {
+        let element = self.element()?;
+        let (a, b) = (self.material(element.path, element.material)?, self.material(self.path, mate)?);
+        let modulus = effective_modulus(a.young_modulus, a.poisson_ratio, b.young_modulus, b.poisson_ratio);
+        let elastic = ElasticLine::new(modulus, equivalent_radius, element.effective_length);
+        let thermal = match laws.thermal_correction {
+            None => None,
+            Some(kind) => {
+                let load = self.thermal_load("thermal_correction")?;
+                Some(match kind {
+                    scene::ThermalCorrection::GhoshPandey => ThermalCorrection::GhoshPandey(load),
+                    scene::ThermalCorrection::Gupta => ThermalCorrection::Gupta(load),
+                })
+            }
+        };
+        let film = match laws.film {
+            None => None,
+            Some(scene::FilmLaw::PanHamrock) => {
+                let viscosity = self.viscosity("film")?;
+                Some(FilmThickness::new(&elastic, viscosity, self.pressure_viscosity("film")?, thermal))
+            }
+        };
+        let traction = match laws.traction {
+            None => None,
+            Some(scene::TractionLaw::MurakiKimura) => {
+                let lubricant = self.lubricant("traction")?;
+                let path = "lubricant.shear_modulus";
+                Some(Traction::new(
+                    self.viscosity("traction")?,
+                    self.pressure_viscosity("traction")?,
+                    self.eyring_stress("traction")?,
+                    needed(path, lubricant.shear_modulus, &self.law("traction"))?,
+                ))
+            }
+        };
+        let self_heating = match laws.self_heating {
+            None => None,
+            Some(scene::SelfHeating::FilmAndFlash) => Some(SelfHeating {
+                temperature_viscosity: self.temperature_viscosity("self_heating")?,
+                conductivity: self.conductivity("self_heating")?,
+                eyring_stress: self.eyring_stress("self_heating")?,
+                thermal_product_1: self.thermal_product(element.material, "self_heating")?,
+                thermal_product_2: self.thermal_product(mate, "self_heating")?,
+            }),
+        };
+        let damping = laws.damping.as_ref().map(|d| NormalDamping {
+            relaxation_time: d.relaxation_time,
+            softening_depth: d.softening_depth,
+        });
+        let regime = laws.boundary_friction.as_ref().map(|b| LubricationRegime {
+            boundary: SolidFriction { coefficient: b.coefficient, transition_speed: b.transition_speed },
+            lambda_boundary: b.lambda_boundary,
+            lambda_full: b.lambda_full,
+            roughness: b.roughness,
+        });
+        Ok(LineContact {
+            elastic,
+            damping,
+            film,
+            traction,
+            self_heating,
+            regime,
+            rolling_resistance: None,
+            edge_friction: None,
+        })
+    }
+
+    /// Geometry and laws of the raceways of outer and inner ring, if there are any.
+    pub(crate) fn raceways(&self) -> Result<Option<(RacewayGeometry, [LineContact; 2])>> {
+        let (Some(_), Some(laws)) = (&self.scene.rollers, &self.scene.raceways) else { return Ok(None) };
+        let this = self.at("raceways.contact");
+        let rings = (self.scene.outer_ring.as_ref(), self.scene.inner_ring.as_ref());
+        let outer_ring = needed("outer_ring", rings.0, "raceways")?;
+        let (outer, radius) = (outer_ring.raceway_radius, self.scene.element_radius());
+        let geometry = RacewayGeometry::new(outer, radius, self.scene.radial_clearance());
+        let inner = geometry.inner_radius(outer);
+        let inner_material = rings.1.and_then(|ring| ring.material.as_deref());
+        let inner_material = needed("inner_ring.material", inner_material, "raceways")?;
+        let laws = [
+            this.raceway(laws, &outer_ring.material, 1.0 / (1.0 / radius - 1.0 / outer))?,
+            this.raceway(laws, inner_material, 1.0 / (1.0 / radius + 1.0 / inner))?,
+        ];
+        Ok(Some((geometry, laws)))
+    }
+
+    fn raceway(&self, laws: &scene::Raceways, mate: &str, equivalent_radius: f64) -> Result<LineContact> {
+        let mut law = self.line_contact(&laws.contact, mate, equivalent_radius)?;
+        if let Some(rolling) = &laws.rolling_resistance {
+            let extent = match rolling.extent {
+                scene::Extent::All => Extent::All,
+                scene::Extent::Loaded { threshold } => Extent::Loaded { threshold },
+            };
+            let builder = self.at("raceways");
+            let by = "rolling_resistance";
+            law.rolling_resistance = Some(RollingResistance::new(
+                &law.elastic,
+                builder.viscosity(by)?,
+                builder.pressure_viscosity(by)?,
+                builder.thermal_load(by)?,
+                extent,
+            ));
+        }
+        Ok(law)
+    }
+}
+
+impl From<&scene::SolidContact> for SolidContact {
+    fn from(law: &scene::SolidContact) -> Self {
+        Self {
+            stiffness: law.stiffness,
+            damping: law.damping,
+            softening_depth: law.softening_depth,
+            friction: law.friction.as_ref().map(SolidFriction::from),
+        }
+    }
+}
+
+impl From<&scene::Friction> for SolidFriction {
+    fn from(law: &scene::Friction) -> Self {
+        Self { coefficient: law.coefficient, transition_speed: law.transition_speed }
+    }
+}

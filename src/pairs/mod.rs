@@ -1,0 +1,240 @@
+//! Pairs of bodies: each owns the gap, the approach, the surface speeds and the levers of its contacts, written once.
+//!
+//! | pair | file | bodies | force |
+//! |---|---|---|---|
+//! | raceway | `raceway` | roller, outer or inner ring | line contact |
+//! | cylindrical pocket | `pocket_cylinder` | element, cage | line contact, edge |
+//! | plane pocket | `pocket_plane` | element, cage | spring, damper, friction |
+//! | guide | `guide` | cage, outer or inner ring | films, solid contact |
+//!
+//! A pair of elements finds its touching contacts and hands motion and [`Grip`] of each to [`Contacts`]. Wrenches, powers,
+//! damping, the change of forces in a step and the reaction follow from these by the same code for all pairs
+//! (`model/evaluate`, `model/works`, `model/damping`, `model/step_forces`). A new pair is a file with the trait
+//! [`ElementPair`] and a line in [`element_pairs`].
+
+mod contacts;
+pub(crate) mod grip;
+pub mod guide;
+mod law_columns;
+mod law_slopes;
+pub(crate) mod line_laws;
+mod pocket;
+mod pocket_cylinder;
+mod pocket_plane;
+mod pocket_slopes;
+pub(crate) mod raceway;
+mod raceway_slopes;
+mod slope_sums;
+
+pub(crate) use contacts::{Batch, Contacts, Loaded, Site, Touching};
+pub(crate) use grip::{Grip, MateLever};
+pub(crate) use slope_sums::SlopeSums;
+
+use crate::bodies::{Elements, Fault, ForceSource, InputValues, Layout, Motions, Power};
+use crate::error::Result;
+use crate::integrate::Tuning;
+use crate::laws::contact_pair::{ContactForce, ContactMotion};
+use crate::laws::line_contact::LineContact;
+use crate::laws::solid_contact::SolidContact;
+use crate::registry::registry;
+use crate::scene::Scene;
+use crate::space::{Frame, Motion};
+use line_laws::LawBuilder;
+use std::fmt::Debug;
+use std::ops::Range;
+
+/// The pairs of elements of a checked scene, with the lubricant at `viscosity` in Pa s, in the order of force reports.
+pub(crate) fn element_pairs(scene: &Scene, viscosity: Option<f64>) -> Result<Vec<Box<dyn ElementPair>>> {
+    let laws = LawBuilder::new(scene, viscosity);
+    let list = [
+        raceway::outer(&laws)?,
+        raceway::inner(&laws)?,
+        pocket_cylinder::new(&laws)?,
+        pocket_plane::new(&laws)?,
+    ];
+    Ok(list.into_iter().flatten().collect())
+}
+
+registry! {
+    /// A law whose evaluations are counted.
+    pub(crate) enum Law,
+    /// Laws whose evaluations are counted.
+    pub const LAWS {
+        OuterRaceway = "outer_raceway",
+        InnerRaceway = "inner_raceway",
+        PocketWall = "pocket_wall",
+        PocketEdge = "pocket_edge",
+        PocketPlane = "pocket_plane",
+        FilmThickness = "film_thickness",
+        Traction = "traction",
+        SelfHeating = "self_heating",
+        LubricationRegime = "lubrication_regime",
+        RollingResistance = "rolling_resistance",
+        GuideFilm = "guide_film",
+        GuideSolid = "guide_solid",
+        ViscosityTemperature = "viscosity_temperature",
+    }
+}
+
+/// Counts by law, in the order of [`LAWS`].
+pub type LawCounts = [u64; LAWS.len()];
+
+/// The optional laws in a line contact, and whether they are there.
+pub(crate) fn line_contact_parts(contact: &LineContact) -> [(Law, bool); 5] {
+    [
+        (Law::FilmThickness, contact.film.is_some()),
+        (Law::Traction, contact.traction.is_some()),
+        (Law::SelfHeating, contact.self_heating.is_some()),
+        (Law::LubricationRegime, contact.regime.is_some()),
+        (Law::RollingResistance, contact.rolling_resistance.is_some()),
+    ]
+}
+
+/// What a pair is called and where its forces count.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PairInfo {
+    /// Shared body that elements touch.
+    pub(crate) mate: usize,
+    /// Under which its forces are reported.
+    pub(crate) source: ForceSource,
+    /// Names of the contacts that an element can have with it.
+    pub(crate) contacts: &'static [&'static str],
+    /// Laws that its contacts are counted by: of walls, of edges.
+    pub(crate) laws: &'static [Law],
+    /// Powers that its damping and its friction belong to.
+    pub(crate) powers: [Power; 2],
+    /// Whether elements roll on it under load: its vibration is that of the bearing, and its laws have floors.
+    pub(crate) rolls: bool,
+}
+
+/// Force law of the contacts of a pair.
+#[expect(clippy::large_enum_variant, reason = "a few per model")]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum ContactLaw {
+    /// Lubricated line contact.
+    Line(LineContact),
+    /// Spring, damper and friction.
+    Solid(SolidContact),
+}
+
+impl ContactLaw {
+    /// The line contact, if it is one.
+    pub(crate) fn line(&self) -> Option<&LineContact> {
+        match self {
+            Self::Line(law) => Some(law),
+            Self::Solid(_) => None,
+        }
+    }
+
+    /// Elastic force in N and energy in J at the approach `delta` (m).
+    pub(crate) fn spring(&self, delta: f64) -> [f64; 2] {
+        match self {
+            Self::Line(law) => {
+                let force = law.elastic.load(delta);
+                [force, 9.0 / 19.0 * force * delta]
+            }
+            Self::Solid(law) => {
+                let force = law.stiffness * delta;
+                [force, 0.5 * force * delta]
+            }
+        }
+    }
+
+    /// Stiffness under a load in N, N/m.
+    pub(crate) fn stiffness_at_load(&self, load: f64) -> f64 {
+        match self {
+            Self::Line(law) => law.elastic.stiffness_at_load(load),
+            Self::Solid(law) => law.stiffness,
+        }
+    }
+
+    /// Whether it has a damper.
+    pub(crate) fn damped(&self) -> bool {
+        match self {
+            Self::Line(law) => law.damping.is_some(),
+            Self::Solid(law) => law.damping > 0.0,
+        }
+    }
+
+    /// Whether a thermal factor is at its floor in a contact that moves like this under this force.
+    pub(crate) fn is_at_floor(
+        &self,
+        motion: &ContactMotion<f64>,
+        ln_viscosity: f64,
+        force: &ContactForce<f64>,
+    ) -> bool {
+        self.line().is_some_and(|law| law.is_at_floor(motion, ln_viscosity, force))
+    }
+}
+
+/// What a pair may look at to say how long a step may be.
+pub(crate) struct Ahead<'a> {
+    pub(crate) shared: &'a [Motion<f64>],
+    pub(crate) elements: &'a dyn Elements,
+    pub(crate) layout: &'a Layout,
+    pub(crate) q: &'a [f64],
+    pub(crate) v: &'a [f64],
+    pub(crate) inputs: &'a InputValues,
+    /// Smaller of the masses of the cage and of a free element, kg.
+    pub(crate) lightest: f64,
+    /// Step that is wanted, s.
+    pub(crate) wanted: f64,
+    pub(crate) tuning: &'a Tuning,
+}
+
+/// Contacts of all elements with one shared body.
+pub(crate) trait ElementPair: Debug + Send + Sync {
+    /// Names and places.
+    fn info(&self) -> &'static PairInfo;
+
+    /// Force law.
+    fn law(&self) -> ContactLaw;
+
+    /// Finds the contacts that touch.
+    ///
+    /// # Errors
+    /// The fault of an element where the pair has no law.
+    fn find(&self, motions: &Motions, out: &mut Touching<'_>) -> std::result::Result<(), Fault>;
+
+    /// Adds the derivatives of the forces of these contacts of a batch over the coordinates of both bodies.
+    fn add_slopes(&self, batch: &Batch, contacts: Range<usize>, motions: &Motions, sums: &mut SlopeSums<'_>);
+
+    /// The longest step (s) that passes no onset of its law unseen; infinite where the law sets in smoothly.
+    fn longest_step(&self, _ahead: &Ahead<'_>) -> f64 {
+        f64::INFINITY
+    }
+
+    /// Clearance of a centred element in m, where the pair holds it loosely.
+    fn clearance(&self) -> Option<f64> {
+        None
+    }
+
+    /// Offset of an element in the direction of rotation from the place where the pair holds it, m: with the radial offset and
+    /// the travel of element `j`, and the mate where it is.
+    fn offset(&self, _motion: &ElementPlace) -> Option<f64> {
+        None
+    }
+
+    /// Time of a contact and of its derivatives beside that of finding it, ns, and how many of the contacts of an element are
+    /// to be expected: see [`crate::Model::jacobian_cost`].
+    fn cost(&self) -> Cost;
+}
+
+/// Place of an element beside its mate.
+pub(crate) struct ElementPlace {
+    pub(crate) frame: Frame<f64>,
+    pub(crate) radial_offset: f64,
+    /// Angle travelled since the start, rad.
+    pub(crate) travel: f64,
+    pub(crate) mate: Motion<f64>,
+}
+
+/// Time of a part of an evaluation, and of its derivatives, ns. Only ratios matter: `cargo bench --bench jacobian` shows them
+/// beside measured ones.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cost {
+    pub(crate) value: f64,
+    pub(crate) slopes: f64,
+    /// Whether it is that of each element, or of the whole pair.
+    pub(crate) per_element: bool,
+}

@@ -1,0 +1,203 @@
+//! Cylindrical pocket: two pillars, each a cylindrical wall that ends in two edges.
+//!
+//! ```text
+//! wall   |phi| <= phi_p : delta = |d| - (R_p - R_b),        n along d
+//! edge   |phi| >  phi_p : delta = R_b - |d - R_p e(phi_p)|, n from the roller centre to the edge
+//! ```
+//!
+//! d is the roller centre relative to the pocket centre, phi its angle from the circumferential direction of the
+//! pillar. delta and n are continuous at phi_p. The wall carries the lubricated line contact; an edge carries the
+//! normal force and boundary friction only. The friction coefficient goes from one to the other over the last
+//! `edge_blend` of the wall (an assumption; 0 leaves the jump). Source: NTN section 3.2 and Fig. 2.
+//!
+//! Local frame: (radial, circumferential) at the pocket centre, turning with the cage.
+
+use super::line_laws::LawBuilder;
+use super::pocket::{Pillar, PillarContact, PocketMotion, PocketPlace, PocketShape, Pockets};
+use super::{ContactLaw, Cost, ElementPair, Law, PairInfo};
+use crate::bodies::{CAGE, ForceSource, Power};
+use crate::error::Result;
+use crate::laws::line_contact::LineContact;
+use crate::laws::solid_friction::SolidFriction;
+use crate::scalar::math;
+use crate::scalar::{Real, smoothstep};
+use crate::scene::{Pocket, needed};
+
+/// Shape of the pockets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CylinderPocket {
+    /// Place and element size.
+    pub place: PocketPlace,
+    /// R_p - R_b, m.
+    pub clearance: f64,
+    /// phi_p, half angle of the wall, rad.
+    pub half_angle: f64,
+    /// Angle before the edge over which friction changes, rad.
+    pub edge_blend: f64,
+    /// Sine and cosine of the angles where the wall ends and where friction begins to change.
+    edge: (f64, f64),
+    blend: (f64, f64),
+}
+
+impl CylinderPocket {
+    /// From the place, the clearance in m, the half angle of the wall and the angle of the blend in rad.
+    pub fn new(place: PocketPlace, clearance: f64, half_angle: f64, edge_blend: f64) -> Self {
+        let (edge, blend) = (math::sin_cos(half_angle), math::sin_cos(half_angle - edge_blend));
+        Self { place, clearance, half_angle, edge_blend, edge, blend }
+    }
+}
+
+impl PocketShape for CylinderPocket {
+    fn place(&self) -> PocketPlace {
+        self.place
+    }
+
+    fn clearance(&self) -> f64 {
+        self.clearance
+    }
+
+    #[inline]
+    fn apart(&self, [a, b]: [f64; 2]) -> bool {
+        a * a + b * b < self.clearance * self.clearance
+    }
+
+    #[inline]
+    fn pillar<T: Real>(&self, side: Pillar, m: &PocketMotion<T>) -> Option<PillarContact<T>> {
+        let (sign, radius) = (side.sign(), self.place.element_radius);
+        // Coordinates towards the pillar and radially outward.
+        let (towards, radial) = (m.offset[1] * sign, m.offset[0]);
+        let distance = (towards * towards + radial * radial).sqrt();
+        let (sin, cos) = self.edge;
+        // |phi| <= phi_p without the angle, which is needed near the edge only.
+        let on_wall = radial.value().abs() * cos <= towards.value() * sin;
+        let (delta, normal, edge_share) = if on_wall {
+            let (blend_sin, blend_cos) = self.blend;
+            let share = if radial.value().abs() * blend_cos > towards.value() * blend_sin {
+                let angle = radial.atan2(towards);
+                smoothstep((angle.abs() + (self.edge_blend - self.half_angle)) / self.edge_blend)
+            } else {
+                T::constant(0.0)
+            };
+            (distance - self.clearance, [radial / distance, m.offset[1] / distance], share)
+        } else {
+            let pocket_radius = radius + self.clearance;
+            let edge = [pocket_radius * sin * radial.sign(), pocket_radius * cos];
+            let to_edge = [-radial + edge[0], -towards + edge[1]];
+            let reach = (to_edge[0] * to_edge[0] + to_edge[1] * to_edge[1]).sqrt();
+            // R_b - |d - R_p e| without the difference of two radii.
+            let inside = (radial * edge[0] + towards * edge[1]) * 2.0
+                - distance * distance
+                - self.clearance * (radius + pocket_radius);
+            let delta = inside / (reach + radius);
+            (delta, [to_edge[0] / reach, to_edge[1] / reach * sign], T::constant(1.0))
+        };
+        if delta.value() <= 0.0 {
+            return None;
+        }
+        Some(self.place.contact(m, delta, normal, edge_share))
+    }
+}
+
+static INFO: PairInfo = PairInfo {
+    mate: CAGE,
+    source: ForceSource::Pocket,
+    contacts: &["pocket_front", "pocket_back"],
+    laws: &[Law::PocketWall, Law::PocketEdge],
+    powers: [Power::PocketDamping, Power::PocketFriction],
+    rolls: false,
+};
+
+/// The cylindrical pockets of a scene, if it has any.
+pub(super) fn new(laws: &LawBuilder<'_>) -> Result<Option<Box<dyn ElementPair>>> {
+    let scene = laws.scene();
+    let Some(cage) = &scene.cage else { return Ok(None) };
+    let Some(Pocket::LubricatedCylinder(pocket)) = &cage.pocket else { return Ok(None) };
+    let element_radius = scene.element_radius();
+    let place = PocketPlace { pitch_radius: scene.pitch_radius(), element_radius };
+    let shape = CylinderPocket::new(place, pocket.radial_clearance, pocket.half_angle, pocket.edge_blend);
+    let pocket_radius = element_radius + pocket.radial_clearance;
+    let equivalent_radius = element_radius * pocket_radius / pocket.radial_clearance;
+    let mate = needed("cage.material", cage.material.as_deref(), "cage.pocket.lubricated_cylinder")?;
+    let laws = laws.at("cage.pocket.lubricated_cylinder.contact");
+    let wall = laws.line_contact(&pocket.contact, mate, equivalent_radius)?;
+    let edge_friction = pocket.edge_friction.as_ref().map_or(SolidFriction::NONE, SolidFriction::from);
+    let law = ContactLaw::Line(LineContact { edge_friction: Some(edge_friction), ..wall });
+    // A contact with them costs as much as one with a raceway, but few are touched.
+    let cost = Cost { value: 0.0, slopes: 0.0, per_element: false };
+    Ok(Some(Box::new(Pockets { shape, law, info: &INFO, cost, longest_step: |_, _, _| f64::INFINITY })))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pocket() -> CylinderPocket {
+        let place = PocketPlace { pitch_radius: 0.04, element_radius: 0.0075 };
+        CylinderPocket::new(place, 0.15e-3, 0.436, 0.02)
+    }
+
+    fn at(offset: [f64; 2]) -> PocketMotion<f64> {
+        PocketMotion { offset, velocity: [0.1, -0.2], spin: 800.0 }
+    }
+
+    #[test]
+    fn wall_contact_follows_the_gap() {
+        let c = pocket().pillar(Pillar::Front, &at([0.0, 0.151e-3])).unwrap();
+        assert!((c.motion.delta - 1e-6).abs() < 1e-18);
+        assert_eq!(c.normal, [0.0, 1.0]);
+        assert_eq!(c.edge_share, 0.0);
+        assert_eq!(c.motion.delta_dot, -0.2);
+        // Front pillar: t points inwards, the surface slides with -v_r + R_b w.
+        assert!((c.motion.u1 - (-0.1 + 0.0075 * 800.0)).abs() < 1e-14);
+        assert!(pocket().pillar(Pillar::Back, &at([0.0, 0.151e-3])).is_none());
+        let back = pocket().pillar(Pillar::Back, &at([0.0, -0.152e-3])).unwrap();
+        assert!((back.motion.delta - 2e-6).abs() < 1e-18);
+        assert_eq!(back.normal, [0.0, -1.0]);
+    }
+
+    #[test]
+    fn approach_and_normal_are_continuous_at_the_edges() {
+        let d = 0.155e-3;
+        for side in [Pillar::Front, Pillar::Back] {
+            let s = if side == Pillar::Front { 1.0 } else { -1.0 };
+            for edge in [pocket().half_angle, -pocket().half_angle] {
+                let get = |phi: f64| pocket().pillar(side, &at([d * phi.sin(), s * d * phi.cos()])).unwrap();
+                let (a, b) = (get(edge * (1.0 - 1e-9)), get(edge * (1.0 + 1e-9)));
+                assert!((a.motion.delta - b.motion.delta).abs() < 1e-15);
+                assert!((a.normal[0] - b.normal[0]).abs() < 1e-7);
+                assert!((a.normal[1] - b.normal[1]).abs() < 1e-7);
+                assert!((a.edge_share - 1.0).abs() < 1e-6 && b.edge_share == 1.0);
+            }
+        }
+    }
+
+    #[test]
+    fn a_roller_pushed_outwards_rests_on_both_pillars() {
+        // At d = clearance/sin(phi_p) (to first order) the edges are reached.
+        let d = 0.4e-3;
+        let (front, back) =
+            (pocket().pillar(Pillar::Front, &at([d, 0.0])), pocket().pillar(Pillar::Back, &at([d, 0.0])));
+        let (front, back) = (front.unwrap(), back.unwrap());
+        assert!((front.motion.delta - back.motion.delta).abs() < 1e-18);
+        assert!((front.normal[1] + back.normal[1]).abs() < 1e-15);
+        assert!((front.normal[0] - back.normal[0]).abs() < 1e-15);
+        let expected = {
+            let (s, c) = pocket().half_angle.sin_cos();
+            let r = 0.00765;
+            0.0075 - (r * s - d).hypot(r * c)
+        };
+        assert!((front.motion.delta - expected).abs() < 1e-15);
+    }
+
+    #[test]
+    fn nothing_touches_within_the_clearance() {
+        for i in 0..100 {
+            let phi = i as f64 * 0.0628;
+            let m = at([0.1499e-3 * phi.sin(), 0.1499e-3 * phi.cos()]);
+            assert!(pocket().apart(m.offset));
+            assert!(
+                pocket().pillar(Pillar::Front, &m).is_none() && pocket().pillar(Pillar::Back, &m).is_none()
+            );
+        }
+    }
+}

@@ -1,0 +1,153 @@
+//! Pocket with plane walls across the circumference.
+//!
+//! ```text
+//! delta = |s| - c_p/2,   s = d . t,   n = sgn(s) t
+//! ```
+//!
+//! d element centre relative to the pocket centre, t circumferential direction of the pocket, c_p clearance between
+//! element and both walls together. The walls turn with the cage and are unbounded radially. Source: Takeshima et al.
+//! 2025, section 3.
+
+use super::line_laws::LawBuilder;
+use super::pocket::{Pillar, PillarContact, PocketMotion, PocketPlace, PocketShape, Pockets};
+use super::{Ahead, ContactLaw, Cost, ElementPair, Law, PairInfo};
+use crate::bodies::{CAGE, ForceSource, Input, Power};
+use crate::error::Result;
+use crate::integrate::Tuning;
+use crate::laws::solid_contact::SolidContact;
+use crate::scalar::{Real, math};
+use crate::scene::Pocket;
+use crate::space::rotate;
+
+/// Shape of the pockets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlanePocket {
+    /// Place and element size.
+    pub place: PocketPlace,
+    /// c_p/2: clearance on each side of a centred element, m.
+    pub clearance: f64,
+}
+
+impl PocketShape for PlanePocket {
+    fn place(&self) -> PocketPlace {
+        self.place
+    }
+
+    fn clearance(&self) -> f64 {
+        self.clearance
+    }
+
+    #[inline]
+    fn apart(&self, offset: [f64; 2]) -> bool {
+        offset[1].abs() < self.clearance
+    }
+
+    #[inline]
+    fn pillar<T: Real>(&self, side: Pillar, m: &PocketMotion<T>) -> Option<PillarContact<T>> {
+        let sign = side.sign();
+        let delta = m.offset[1] * sign - self.clearance;
+        if delta.value() <= 0.0 {
+            return None;
+        }
+        let normal = [T::constant(0.0), T::constant(sign)];
+        Some(self.place.contact(m, delta, normal, T::constant(0.0)))
+    }
+}
+
+static INFO: PairInfo = PairInfo {
+    mate: CAGE,
+    source: ForceSource::Pocket,
+    contacts: &["pocket_front", "pocket_back"],
+    laws: &[Law::PocketPlane],
+    powers: [Power::PocketDamping, Power::PocketFriction],
+    rolls: false,
+};
+
+/// The plane pockets of a scene, if it has any.
+pub(super) fn new(laws: &LawBuilder<'_>) -> Result<Option<Box<dyn ElementPair>>> {
+    let scene = laws.scene();
+    let Some(Pocket::SolidPlane(pocket)) = scene.cage.as_ref().and_then(|cage| cage.pocket.as_ref()) else {
+        return Ok(None);
+    };
+    let place = PocketPlace { pitch_radius: scene.pitch_radius(), element_radius: scene.element_radius() };
+    let shape = PlanePocket { place, clearance: pocket.diametral_clearance / 2.0 };
+    let law = ContactLaw::Solid(SolidContact::from(&pocket.contact));
+    // Of all planes, mostly one is touched.
+    let cost = Cost { value: 50.0, slopes: 600.0, per_element: false };
+    Ok(Some(Box::new(Pockets { shape, law, info: &INFO, cost, longest_step })))
+}
+
+/// The longest step that meets every wall in time: it ends no further behind the wall than a share of what the law needs to
+/// become itself. Bodies move on straight lines for this.
+fn longest_step(shape: &PlanePocket, law: &ContactLaw, ahead: &Ahead<'_>) -> f64 {
+    let ContactLaw::Solid(contact) = law else { return f64::INFINITY };
+    let cage = &ahead.shared[CAGE];
+    let (sin, cos) = math::sin_cos(cage.angle);
+    // Position and velocity of the cage in its own axes.
+    let (place, speed) = (rotate(cage.position, -sin, cos), rotate(cage.velocity, -sin, cos));
+    let (set, prescribed) = (ahead.elements.set(), ahead.elements.inertia().is_none());
+    let pitch = set.pitch_radius;
+    let pass = Passage::of(contact, ahead.lightest, ahead.tuning);
+    let mut longest = f64::INFINITY;
+    for (j, [x, y]) in set.directions.iter().enumerate() {
+        let [angle, orbit] = if prescribed {
+            [ahead.inputs.orbit_travel, ahead.inputs.of(Input::OrbitSpeed)]
+        } else {
+            let i = ahead.layout.roller(j) + 1;
+            [ahead.q[i], ahead.v[i]]
+        };
+        let offset = pitch * (angle - cage.angle) - (place[1] * x - place[0] * y);
+        let approach = pitch * (orbit - cage.speed) - (speed[1] * x - speed[0] * y);
+        let rest = shape.clearance - offset * approach.signum();
+        if rest > 0.0 && rest <= approach.abs() * ahead.wanted {
+            longest = longest.min(rest / approach.abs() + pass.time(approach.abs()));
+        }
+    }
+    longest
+}
+
+/// How far a step may pass the onset of a solid contact.
+pub(super) struct Passage {
+    /// Share of the time in which it turns a body, s.
+    turn: f64,
+    /// Share of the depth over which its damper sets in, m.
+    depth: f64,
+}
+
+impl Passage {
+    /// For a body of `mass` kg.
+    pub(super) fn of(contact: &SolidContact, mass: f64, tuning: &Tuning) -> Self {
+        let turn = if contact.stiffness > 0.0 { (mass / contact.stiffness).sqrt() } else { 0.0 };
+        Self { turn: tuning.turn_share * turn, depth: tuning.onset_share * contact.softening_depth }
+    }
+
+    /// In s, at this speed in m/s.
+    pub(super) fn time(&self, speed: f64) -> f64 {
+        self.turn.max(self.depth / speed)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const P: PlanePocket =
+        PlanePocket { place: PocketPlace { pitch_radius: 0.045, element_radius: 0.004 }, clearance: 0.25e-3 };
+
+    #[test]
+    fn walls_are_flat_and_face_each_other() {
+        for radial in [-0.3e-3, 0.0, 0.2e-3] {
+            let m = |s: f64| PocketMotion { offset: [radial, s], velocity: [0.3, 0.2], spin: -1500.0 };
+            let front = P.pillar(Pillar::Front, &m(0.251e-3)).unwrap();
+            assert!((front.motion.delta - 1e-6).abs() < 1e-18);
+            assert_eq!(front.normal, [0.0, 1.0]);
+            assert_eq!(front.motion.delta_dot, 0.2);
+            // The front wall's t points inwards: radial sliding and spin at the contact.
+            assert!((front.motion.u1 - (-0.3 - 1500.0 * 0.004)).abs() < 1e-14);
+            let back = P.pillar(Pillar::Back, &m(-0.252e-3)).unwrap();
+            assert!((back.motion.delta - 2e-6).abs() < 1e-18);
+            assert_eq!(back.motion.delta_dot, -0.2);
+            assert!(P.apart([radial, 0.249e-3]) && P.pillar(Pillar::Front, &m(0.249e-3)).is_none());
+        }
+    }
+}

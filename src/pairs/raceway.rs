@@ -1,0 +1,308 @@
+//! Roller against the raceway of the outer or the inner ring.
+//!
+//! The roller is described in cylindrical coordinates about the centre of the outer ring: r = r_p + rho, angle psi.
+//! rho is its offset from the pitch circle, so a gap of nanometres is a sum of small numbers and never a
+//! difference of radii:
+//!
+//! ```text
+//! outer gap = gap_0 - rho
+//! inner gap = gap_0 + rho + (d - r),   d - r = (|x|^2 - 2 r x_r)/(d + r)
+//! ```
+//!
+//! with x the centre of the inner ring, x_r its component along the roller's radius and d its distance from the
+//! roller centre. Local frame: (radial, circumferential) at the roller.
+//!
+//! Surface speeds are relative to the contact point, which moves with the line of centres:
+//! `u1 = arm_1 (w_b - phi_dot)`, `u2 = -arm_2 (w_r - phi_dot)`, phi_dot the turning rate of that line.
+
+use super::contacts::{Batch, Touching};
+use super::line_laws::LawBuilder;
+use super::{ContactLaw, Cost, ElementPair, Grip, Law, MateLever, PairInfo, SlopeSums, raceway_slopes};
+use crate::bodies::{ElementMotion, Fault, ForceSource, INNER_RING, Motions, OUTER_RING, Power};
+use crate::error::Result;
+use crate::laws::contact_pair::ContactMotion;
+use crate::laws::line_contact::LineContact;
+use crate::scalar::{Columns, Numeric, Pack, Real, dispatch};
+use crate::space::rotate;
+use pulp::Simd;
+use std::ops::Range;
+
+/// Motion of a ring, its vectors in the local frame of a roller.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RingMotion<T> {
+    /// Centre, m.
+    pub position: [T; 2],
+    /// Velocity of the centre, m/s.
+    pub velocity: [T; 2],
+    /// Rotation speed, rad/s.
+    pub speed: T,
+}
+
+/// Radii of a roller set between its raceways.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RacewayGeometry {
+    /// r_p, radius of the pitch circle: mean of the raceway radii, m.
+    pub pitch_radius: f64,
+    /// R_b, m.
+    pub roller_radius: f64,
+    /// Gap of a roller on the pitch circle to either raceway with the inner ring centred, m.
+    pub gap: f64,
+}
+
+impl RacewayGeometry {
+    /// From the outer raceway radius, the roller radius and the diametral clearance, m.
+    pub fn new(outer_raceway_radius: f64, roller_radius: f64, diametral_clearance: f64) -> Self {
+        let gap = diametral_clearance / 4.0;
+        Self { pitch_radius: outer_raceway_radius - roller_radius - gap, roller_radius, gap }
+    }
+
+    /// Radius of the inner raceway in m, with this one of the outer.
+    pub fn inner_radius(&self, outer_raceway_radius: f64) -> f64 {
+        outer_raceway_radius - 2.0 * self.roller_radius - 2.0 * self.gap
+    }
+
+    /// Motion and levers of the contact with the outer raceway; the outer ring is centred and at rest.
+    #[inline]
+    pub fn outer<T: Real>(&self, roller: &ElementMotion<T>) -> (ContactMotion<T>, Grip<T>) {
+        let arm_1 = T::constant(self.roller_radius);
+        let arm_2 = -(roller.radial_offset + (self.pitch_radius + self.roller_radius));
+        let motion = ContactMotion {
+            delta: roller.radial_offset - self.gap,
+            delta_dot: roller.radial_speed,
+            u1: arm_1 * (roller.spin_speed - roller.orbit_speed),
+            u2: arm_2 * roller.orbit_speed,
+        };
+        let normal = [T::constant(1.0), T::constant(0.0)];
+        (motion, Grip { normal, arm: arm_1, mate: MateLever::Centre(arm_2) })
+    }
+
+    /// Approach of a roller to the inner raceway, m, without anything else: the test for contact.
+    #[inline(always)]
+    pub fn inner_approach<T: Numeric>(&self, radial_offset: T, ring: [T; 2]) -> T {
+        let r = radial_offset + self.pitch_radius;
+        let across = r - ring[0];
+        let d = (across * across + ring[1] * ring[1]).sqrt();
+        -(radial_offset + self.gap + shift(r, d, ring))
+    }
+
+    /// Motion and levers of the contact with the inner raceway.
+    #[inline]
+    pub fn inner<T: Real>(
+        &self,
+        roller: &ElementMotion<T>,
+        ring: &RingMotion<T>,
+    ) -> (ContactMotion<T>, Grip<T>) {
+        let r = roller.radial_offset + self.pitch_radius;
+        let to_ring = [ring.position[0] - r, ring.position[1]];
+        let d = (to_ring[0] * to_ring[0] + to_ring[1] * to_ring[1]).sqrt();
+        let normal = [to_ring[0] / d, to_ring[1] / d];
+        let arm_1 = T::constant(self.roller_radius);
+        let arm_2 = d - self.roller_radius;
+        let grip = Grip { normal, arm: arm_1, mate: MateLever::Centre(arm_2) };
+        let tangent = grip.tangent();
+        let relative = [ring.velocity[0] - roller.radial_speed, ring.velocity[1] - r * roller.orbit_speed];
+        let turning = (relative[0] * tangent[0] + relative[1] * tangent[1]) / d;
+        let motion = ContactMotion {
+            delta: -(roller.radial_offset + self.gap + shift(r, d, ring.position)),
+            delta_dot: -(relative[0] * normal[0] + relative[1] * normal[1]),
+            u1: arm_1 * (roller.spin_speed - turning),
+            u2: -(arm_2 * (ring.speed - turning)),
+        };
+        (motion, grip)
+    }
+}
+
+/// d - r without cancellation.
+#[inline(always)]
+fn shift<T: Numeric>(r: T, d: T, ring: [T; 2]) -> T {
+    (ring[0] * ring[0] + ring[1] * ring[1] - r * ring[0] * 2.0) / (d + r)
+}
+
+/// The contacts of all rollers with one ring.
+#[derive(Debug)]
+struct Raceway {
+    geometry: RacewayGeometry,
+    law: LineContact,
+    ring: &'static PairInfo,
+}
+
+static OUTER: PairInfo = PairInfo {
+    mate: OUTER_RING,
+    source: ForceSource::OuterRaceway,
+    contacts: &["outer_raceway"],
+    laws: &[Law::OuterRaceway],
+    powers: [Power::RacewayDamping, Power::RacewayFriction],
+    rolls: true,
+};
+
+static INNER: PairInfo = PairInfo {
+    mate: INNER_RING,
+    source: ForceSource::InnerRaceway,
+    contacts: &["inner_raceway"],
+    laws: &[Law::InnerRaceway],
+    powers: [Power::RacewayDamping, Power::RacewayFriction],
+    rolls: true,
+};
+
+/// The raceway of the outer ring of a scene, if its rollers have laws.
+pub(super) fn outer(laws: &LawBuilder<'_>) -> Result<Option<Box<dyn ElementPair>>> {
+    let Some((geometry, [law, _])) = laws.raceways()? else { return Ok(None) };
+    Ok(Some(Box::new(Raceway { geometry, law, ring: &OUTER })))
+}
+
+/// That of the inner ring.
+pub(super) fn inner(laws: &LawBuilder<'_>) -> Result<Option<Box<dyn ElementPair>>> {
+    let Some((geometry, [_, law])) = laws.raceways()? else { return Ok(None) };
+    Ok(Some(Box::new(Raceway { geometry, law, ring: &INNER })))
+}
+
+impl ElementPair for Raceway {
+    fn info(&self) -> &'static PairInfo {
+        self.ring
+    }
+
+    fn law(&self) -> ContactLaw {
+        ContactLaw::Line(self.law)
+    }
+
+    fn find(&self, motions: &Motions, out: &mut Touching<'_>) -> std::result::Result<(), Fault> {
+        let geometry = &self.geometry;
+        if self.ring.mate == OUTER_RING {
+            for (j, element) in motions.elements.iter().enumerate() {
+                if touching(element.motion.radial_offset - geometry.gap) {
+                    let (contact, grip) = geometry.outer(&element.motion);
+                    out.push(j, 0, grip, 0.0, &contact);
+                }
+            }
+            return Ok(());
+        }
+        let ring = &motions.shared[INNER_RING];
+        let n = motions.elements.len();
+        let approach = &mut out.gaps[0];
+        dispatch(motions.instructions, Approach { motions, geometry, ring: ring.position, n, approach });
+        for (j, element) in motions.elements.iter().enumerate() {
+            if touching(out.gaps[0][j]) {
+                let frame = element.frame;
+                let (position, velocity) = (frame.to_local(ring.position), frame.to_local(ring.velocity));
+                let seen = RingMotion { position, velocity, speed: ring.speed };
+                let (contact, grip) = geometry.inner(&element.motion, &seen);
+                out.push(j, 0, grip, 0.0, &contact);
+            }
+        }
+        Ok(())
+    }
+
+    fn add_slopes(&self, batch: &Batch, contacts: Range<usize>, motions: &Motions, sums: &mut SlopeSums<'_>) {
+        for i in contacts {
+            if self.ring.mate == OUTER_RING {
+                raceway_slopes::add_outer(&self.geometry, batch, i, motions, sums);
+            } else {
+                raceway_slopes::add_inner(&self.geometry, batch, i, motions, sums);
+            }
+        }
+    }
+
+    fn cost(&self) -> Cost {
+        Cost { value: 110.0, slopes: 150.0, per_element: true }
+    }
+}
+
+/// A NaN approach counts as contact, so that it reaches the accelerations and is reported.
+#[inline]
+fn touching(approach: f64) -> bool {
+    approach > 0.0 || approach.is_nan()
+}
+
+/// Finds the approach of all rollers to the inner raceway.
+struct Approach<'a> {
+    motions: &'a Motions,
+    geometry: &'a RacewayGeometry,
+    ring: [f64; 2],
+    n: usize,
+    approach: &'a mut [f64],
+}
+
+impl Columns for Approach<'_> {
+    fn rows(&self) -> usize {
+        self.n
+    }
+
+    #[inline(always)]
+    fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
+        let places = &self.motions.places;
+        let all = |x: f64| Pack::<S, K>::all(simd, x);
+        let load = |column: &[f64]| Pack::load(simd, &column[first..]);
+        let [sin, cos] = [load(&places.direction[0]), load(&places.direction[1])];
+        let ring = rotate([all(self.ring[0]), all(self.ring[1])], -sin, cos);
+        let approach = self.geometry.inner_approach(load(&places.radial_offset), ring);
+        approach.store(&mut self.approach[first..]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const G: RacewayGeometry = RacewayGeometry { pitch_radius: 0.03999, roller_radius: 0.0075, gap: 1e-5 };
+
+    #[test]
+    fn geometry_splits_the_clearance() {
+        let g = RacewayGeometry::new(0.0475, 0.0075, 40e-6);
+        assert!((g.pitch_radius - 0.03999).abs() < 1e-15);
+        assert!((g.gap - 1e-5).abs() < 1e-18);
+    }
+
+    #[test]
+    fn kinematic_speeds_roll_without_slip() {
+        // Inner ring centred and turning: cage speed w_i (1 - gamma)/2, roller spin from rolling on the outer ring.
+        let (r_i, r_o) = (0.03999 - 0.0075, 0.03999 + 0.0075);
+        let w_i = -314.0;
+        let orbit = w_i * r_i / (r_i + r_o);
+        let spin = -orbit * 0.03999 / 0.0075;
+        let roller =
+            ElementMotion { radial_offset: 0.0, radial_speed: 0.0, orbit_speed: orbit, spin_speed: spin };
+        let ring = RingMotion { position: [0.0; 2], velocity: [0.0; 2], speed: w_i };
+        let (outer, _) = G.outer(&roller);
+        let (inner, frame) = G.inner(&roller, &ring);
+        assert!((outer.u1 - outer.u2).abs() < 1e-13);
+        assert!((inner.u1 - inner.u2).abs() < 1e-13);
+        // Entrainment d_m w_i (1 - gamma^2)/4, in magnitude.
+        let gamma = 0.0075 / 0.03999;
+        let u = 2.0 * 0.03999 * 314.0 * (1.0 - gamma * gamma) / 4.0;
+        assert!((outer.u1.abs() - u).abs() < 1e-12 && (inner.u1.abs() - u).abs() < 1e-12);
+        assert_eq!(frame.normal, [-1.0, 0.0]);
+        assert!((inner.delta + G.gap).abs() < 1e-20);
+    }
+
+    #[test]
+    fn nanometre_gaps_keep_their_digits() {
+        // The exact gap of a ring shifted along the radius is gap + rho - x: check it to 1e-22 m.
+        let (rho, x) = (3.123_456_789e-9, 1.000_987_654_321e-5);
+        let approach = G.inner_approach(rho, [x, 0.0]);
+        assert!((approach - (x - G.gap - rho)).abs() < 1e-20, "{approach}");
+        // A sideways shift lengthens the distance by x^2/(2 r) to leading order.
+        let approach = G.inner_approach(0.0, [0.0, 2e-5]);
+        let expected = -(G.gap + 4e-10 / (2.0 * G.pitch_radius));
+        assert!((approach / expected - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn approach_speed_is_the_derivative_of_approach() {
+        let roller =
+            ElementMotion { radial_offset: 2e-6, radial_speed: 0.01, orbit_speed: -120.0, spin_speed: 700.0 };
+        let ring = RingMotion { position: [8e-6, -1.5e-5], velocity: [0.02, -0.03], speed: -314.0 };
+        let (motion, frame) = G.inner(&roller, &ring);
+        let h = 1e-9;
+        let at = |s: f64| {
+            // The ring vector as seen from the turning local frame.
+            let turn = roller.orbit_speed * s;
+            let x = [ring.position[0] + ring.velocity[0] * s, ring.position[1] + ring.velocity[1] * s];
+            let x = rotate(x, (-turn).sin(), (-turn).cos());
+            G.inner_approach(roller.radial_offset + roller.radial_speed * s, x)
+        };
+        let difference = (at(h) - at(-h)) / (2.0 * h);
+        assert!((motion.delta_dot - difference).abs() < 1e-7, "{} {difference}", motion.delta_dot);
+        assert!((motion.delta - at(0.0)).abs() < 1e-22);
+        assert!((frame.normal[0].hypot(frame.normal[1]) - 1.0).abs() < 1e-15);
+    }
+}
