@@ -4,9 +4,9 @@ use super::{
     BodyEnergy, BodyForces, Coordinate, Fault, InputValues, Layout, OF_ELEMENT, SHARED, places::Places,
 };
 use crate::integrate::arrowhead::Spoke;
-use crate::scalar::math;
+use crate::scalar::{WIDEST, math};
 use crate::scene::Scene;
-use crate::space::{Frame, Motion, Wrench, rotate};
+use crate::space::{Frame, Motion, Wrench};
 use pulp::Arch;
 use std::f64::consts::TAU;
 use std::fmt::Debug;
@@ -21,8 +21,8 @@ pub(crate) struct ElementSet {
     pub(crate) pitch_radius: f64,
     /// Angle from which the travel of each element counts, and of its pocket in the cage, rad.
     pub(crate) reference_angles: Vec<f64>,
-    /// Their cosines and sines.
-    pub(crate) directions: Vec<[f64; 2]>,
+    /// Their sines and cosines, in columns as long as whole groups of vector instructions need.
+    pub(crate) directions: [Vec<f64>; 2],
 }
 
 impl ElementSet {
@@ -31,8 +31,12 @@ impl ElementSet {
         let count = scene.element_count() as usize;
         let reference_angles: Vec<f64> =
             (0..count).map(|j| scene.initial.first_roller_angle + TAU * j as f64 / count as f64).collect();
-        let directions =
-            reference_angles.iter().map(|angle| [math::cos(*angle), math::sin(*angle)]).collect();
+        let column = |f: fn(f64) -> f64| {
+            let mut column: Vec<f64> = reference_angles.iter().map(|angle| f(*angle)).collect();
+            column.resize(count.next_multiple_of(WIDEST), 0.0);
+            column
+        };
+        let directions = [column(math::sin), column(math::cos)];
         let (radius, pitch_radius) = (scene.element_radius(), scene.pitch_radius());
         Self { count, radius, pitch_radius, reference_angles, directions }
     }
@@ -61,19 +65,15 @@ pub(crate) struct Element {
     pub(crate) radius: f64,
 }
 
-impl Default for Element {
-    fn default() -> Self {
-        Self { motion: ElementMotion::default(), frame: Frame::GLOBAL, radius: 0.0 }
-    }
-}
-
 /// Motion of all bodies at one state: all that pairs see of them.
 #[derive(Clone, Debug)]
 pub(crate) struct Motions {
     /// Of the shared bodies.
     pub(crate) shared: [Motion<f64>; SHARED],
     /// Of the elements.
-    pub(crate) elements: Vec<Element>,
+    pub(crate) elements: Vec<ElementMotion<f64>>,
+    /// r_p, m.
+    pitch_radius: f64,
     /// What pairs need of all elements at once, in columns.
     pub(crate) places: Places,
     /// Vector instructions of this machine.
@@ -86,10 +86,24 @@ impl Motions {
         let count = elements.set().count;
         Self {
             shared: [Motion::default(); SHARED],
-            elements: vec![Element::default(); count],
+            elements: vec![ElementMotion::default(); count],
+            pitch_radius: elements.set().pitch_radius,
             places: Places::new(count),
             instructions: Arch::new(),
         }
+    }
+
+    /// Axes of element `j`.
+    #[inline]
+    pub(crate) fn frame(&self, j: usize) -> Frame<f64> {
+        self.places.frame(j)
+    }
+
+    /// Element `j`.
+    #[inline]
+    pub(crate) fn element(&self, j: usize) -> Element {
+        let motion = self.elements[j];
+        Element { motion, frame: self.frame(j), radius: self.pitch_radius + motion.radial_offset }
     }
 }
 
@@ -173,15 +187,6 @@ pub(crate) trait Elements: Debug + Send + Sync {
         let (sin, cos) = math::sin_cos(self.azimuth(layout, q, inputs, j));
         Frame { sin, cos }
     }
-}
-
-/// Directions of elements that all have travelled by the same angle (rad).
-pub(super) fn turned(set: &ElementSet, travel: f64) -> impl Iterator<Item = Frame<f64>> + '_ {
-    let (sin, cos) = math::sin_cos(travel);
-    set.directions.iter().map(move |direction| {
-        let [cos, sin] = rotate(*direction, sin, cos);
-        Frame { sin, cos }
-    })
 }
 
 /// Multiplies the rows of a matrix, given by its columns, by these factors.

@@ -1,6 +1,5 @@
 //! Rolling elements whose orbit and spin are prescribed: they roll on, whatever the cage does to them.
 
-use super::elements::turned;
 use super::{
     BodyEnergy, BodyForces, Coordinate, Element, ElementMotion, ElementSet, Elements, Fault, Inertia, Input,
     InputValues, Layout, Motions, OF_ELEMENT,
@@ -56,13 +55,11 @@ impl Elements for KinematicElements {
         out: &mut Motions,
     ) -> Result<(), Fault> {
         let [orbit_speed, spin_speed] = self.kinematic_speeds(inputs);
-        let places = &mut out.places;
-        places.together = Some(inputs.orbit_travel);
-        for (j, frame) in turned(&self.set, inputs.orbit_travel).enumerate() {
-            places.set_frame(j, frame);
-            let motion = ElementMotion { radial_offset: 0.0, radial_speed: 0.0, orbit_speed, spin_speed };
-            out.elements[j] = Element { motion, frame, radius: self.set.pitch_radius };
+        let motion = ElementMotion { radial_offset: 0.0, radial_speed: 0.0, orbit_speed, spin_speed };
+        if out.elements.first() != Some(&motion) {
+            out.elements.fill(motion);
         }
+        out.places.turn_together(&self.set, inputs.orbit_travel, out.instructions);
         Ok(())
     }
 

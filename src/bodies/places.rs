@@ -1,8 +1,9 @@
 //! Places of all rolling elements, in columns: what pairs look at to find contacts.
 
+use super::ElementSet;
 use crate::scalar::elementary::{ANGLE_LARGEST, sin_cos};
-use crate::scalar::{Columns, Pack, WIDEST, dispatch};
-use crate::space::Frame;
+use crate::scalar::{Columns, Pack, WIDEST, dispatch, math};
+use crate::space::{Frame, rotate};
 use pulp::{Arch, Simd};
 use std::f64::consts::TAU;
 
@@ -47,10 +48,11 @@ impl Places {
         Frame { sin: self.direction[0][j], cos: self.direction[1][j] }
     }
 
-    /// Sets the direction of element `j`.
-    #[inline]
-    pub(crate) fn set_frame(&mut self, j: usize, frame: Frame<f64>) {
-        (self.direction[0][j], self.direction[1][j]) = (frame.sin, frame.cos);
+    /// Sets the directions of elements that all have travelled by the same angle (rad).
+    pub(crate) fn turn_together(&mut self, set: &ElementSet, travel: f64, instructions: Arch) {
+        self.together = Some(travel);
+        let (sin, cos) = math::sin_cos(travel);
+        dispatch(instructions, Turn { places: self, set, sin, cos });
     }
 }
 
@@ -59,6 +61,30 @@ impl Places {
 pub(crate) fn reduce(angles: &mut [f64]) {
     for angle in angles.iter_mut().filter(|angle| angle.abs() > ANGLE_LARGEST) {
         *angle %= TAU;
+    }
+}
+
+/// Turns the directions that the elements have at the start.
+struct Turn<'a> {
+    places: &'a mut Places,
+    set: &'a ElementSet,
+    sin: f64,
+    cos: f64,
+}
+
+impl Columns for Turn<'_> {
+    fn rows(&self) -> usize {
+        self.set.count
+    }
+
+    #[inline(always)]
+    fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
+        let all = |x: f64| Pack::<S, K>::all(simd, x);
+        let [sines, cosines] = &self.set.directions;
+        let start = [Pack::load(simd, &cosines[first..]), Pack::load(simd, &sines[first..])];
+        let [cos, sin] = rotate(start, all(self.sin), all(self.cos));
+        sin.store(&mut self.places.direction[0][first..]);
+        cos.store(&mut self.places.direction[1][first..]);
     }
 }
 

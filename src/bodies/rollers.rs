@@ -113,15 +113,17 @@ impl Elements for Rollers {
             }
         }
         places.find_directions(n, *instructions);
-        for (j, element) in elements.iter_mut().enumerate() {
-            let i = layout.roller(j);
-            let motion = ElementMotion {
-                radial_offset: q[i],
-                radial_speed: v[i],
-                orbit_speed: v[i + 1],
-                spin_speed: v[layout.spin(j)],
+        let (rates, spins) = v[layout.rollers..].split_at(2 * n);
+        let rates = rates.chunks_exact(2).zip(spins);
+        for ((motion, (rates, spin)), radial_offset) in
+            elements.iter_mut().zip(rates).zip(&places.radial_offset)
+        {
+            *motion = ElementMotion {
+                radial_offset: *radial_offset,
+                radial_speed: rates[0],
+                orbit_speed: rates[1],
+                spin_speed: *spin,
             };
-            *element = Element { motion, frame: places.frame(j), radius: self.set.pitch_radius + q[i] };
         }
         Ok(())
     }
@@ -140,14 +142,16 @@ impl Elements for Rollers {
         a: &mut [f64],
     ) {
         let Inertia { mass, moment } = self.inertia;
-        for (j, (element, wrench)) in motions.elements.iter().zip(on_elements).enumerate() {
-            let i = layout.roller(j);
+        let (rates, spins) = a[layout.rollers..].split_at_mut(2 * layout.count);
+        let rates = rates.chunks_exact_mut(2).zip(spins);
+        for (j, ((rates, spin), wrench)) in rates.zip(on_elements).enumerate() {
+            let element = motions.element(j);
             let r = element.radius;
             let weight = element.frame.to_local(gravity);
             let (radial_speed, orbit) = (element.motion.radial_speed, element.motion.orbit_speed);
-            a[i] = wrench.force[0] / mass + weight[0] + r * orbit * orbit;
-            a[i + 1] = (wrench.force[1] / mass + weight[1] - 2.0 * radial_speed * orbit) / r;
-            a[layout.spin(j)] = wrench.moment / moment;
+            rates[0] = wrench.force[0] / mass + weight[0] + r * orbit * orbit;
+            rates[1] = (wrench.force[1] / mass + weight[1] - 2.0 * radial_speed * orbit) / r;
+            *spin = wrench.moment / moment;
         }
     }
 

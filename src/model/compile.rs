@@ -6,9 +6,9 @@ use super::{Input, Layout, Model};
 use crate::bodies;
 use crate::error::Result;
 use crate::laws::walther::Walther;
+use crate::pairs;
 use crate::pairs::guide::Guide;
 use crate::pairs::line_laws::LawBuilder;
-use crate::pairs::{self, ContactLaw};
 use crate::scalar::math;
 use crate::scene::{ElementMotion, RingMotion, Scene, Signal, SignalIntegral};
 use crate::scene::{Temperature, VISCOSITY, Viscosity, bad_scene, interpolate};
@@ -27,7 +27,8 @@ pub(super) fn compile(scene: Scene) -> Result<Model> {
         mobility: elements.inertia().map_or(0.0, |i| 1.0 / i.mass + radius * radius / i.moment),
         elements,
         infos: pairs.iter().map(|pair| pair.info()).collect(),
-        laws: pairs.iter().map(|pair| pair.law()).collect::<Vec<ContactLaw>>(),
+        parts: pairs.iter().map(|pair| pair.law().parts()).collect(),
+        laws: pairs.iter().map(|pair| pair.law()).collect(),
         guide: Guide::new(&LawBuilder::new(&scene, viscosity))?,
         pairs,
         inputs,

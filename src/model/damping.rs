@@ -8,7 +8,7 @@
 
 use super::Model;
 use super::workspace::Workspace;
-use crate::bodies::{CAGE, OF_ELEMENT, SHARED};
+use crate::bodies::{CAGE, OF_ELEMENT};
 use crate::integrate::{DampingBlock, GroupDamping, implicit_share};
 use crate::scalar::{Columns, Pack, dispatch};
 use nalgebra::{Matrix3, Vector3};
@@ -18,11 +18,26 @@ impl Model {
     /// Damping of every group for a step of size `h` (s).
     pub(crate) fn damping(&self, h: f64, ws: &Workspace, out: &mut GroupDamping) {
         self.element_damping(h, ws, out);
-        let slopes = self.shared_damping(ws);
+        let guide =
+            self.guide.as_ref().map(|guide| (guide.ring, guide.damping(&ws.motions.shared, ws.fluid)));
         for group in self.layout.count..self.layout.groups() {
             let Some(place) = self.layout.body_of_group(group) else { continue };
             let Some(body) = &self.shared[place] else { continue };
-            let slope = slopes[place] + support(body.support_damping());
+            let mut slope = Matrix3::zeros();
+            match &guide {
+                Some((_, on_cage)) if place == CAGE => slope = *on_cage,
+                // The ring feels what the cage feels, but for the lever.
+                Some((ring, on_cage)) if place == *ring => {
+                    slope.fixed_view_mut::<2, 2>(0, 0).copy_from(&on_cage.fixed_view::<2, 2>(0, 0));
+                }
+                _ => {}
+            }
+            if self.elements.inertia().is_none() {
+                slope += contact_damping(place, ws);
+            }
+            for k in 0..2 {
+                slope[(k, k)] += body.support_damping();
+            }
             let full = body.accelerations_of(&slope, ws.motions.shared[place].angle);
             let implicit = full * self.guide_share(h * full.diagonal().amax());
             out.set(group, &DampingBlock { full, implicit });
@@ -60,33 +75,6 @@ impl Model {
         dispatch(ws.motions.instructions, divide);
     }
 
-    /// -d(force, moment)/d(velocity, speed) of the shared bodies, N s/m and its kin.
-    fn shared_damping(&self, ws: &Workspace) -> [Matrix3<f64>; SHARED] {
-        let mut slopes = [Matrix3::zeros(); SHARED];
-        if let Some(guide) = &self.guide {
-            let slope = guide.damping(&ws.motions.shared, ws.fluid);
-            slopes[CAGE] += slope;
-            // The ring feels what the cage feels, but for the lever.
-            let on_ring = slope.fixed_view::<2, 2>(0, 0).into_owned();
-            let mut corner = slopes[guide.ring].fixed_view_mut::<2, 2>(0, 0);
-            corner += on_ring;
-        }
-        if self.elements.inertia().is_some() {
-            return slopes;
-        }
-        let mut contacts = [Matrix3::zeros(); SHARED];
-        for batch in &ws.contacts.batches {
-            for (site, [damping, secant]) in batch.damping() {
-                let frame = &ws.motions.elements[site.element].frame;
-                for (direction, rate) in [(site.grip.normal, damping), (site.grip.tangent(), secant)] {
-                    let g = Vector3::from(site.grip.row_on_mate(direction, frame));
-                    contacts[site.mate] += g * g.transpose() * rate;
-                }
-            }
-        }
-        std::array::from_fn(|body| slopes[body] + contacts[body])
-    }
-
     /// Share of a guide's damping to take at the end of a step. Where both bodies move, each takes the other's
     /// predicted velocity, and only twice the share keeps the exchange stable.
     fn guide_share(&self, z: f64) -> f64 {
@@ -101,9 +89,19 @@ impl Model {
     }
 }
 
-/// Damping `c` (N s/m) of a support in both directions.
-fn support(c: f64) -> Matrix3<f64> {
-    Matrix3::from_diagonal(&Vector3::new(c, c, 0.0))
+/// -d(force, moment)/d(velocity, speed) of a shared body by the contacts with elements of prescribed motion, N s/m and its kin.
+fn contact_damping(body: usize, ws: &Workspace) -> Matrix3<f64> {
+    let mut slope = Matrix3::zeros();
+    for batch in &ws.contacts.batches {
+        for (site, [damping, secant]) in batch.damping().filter(|(site, _)| site.mate == body) {
+            let frame = ws.motions.frame(site.element);
+            for (direction, rate) in [(site.grip.normal, damping), (site.grip.tangent(), secant)] {
+                let g = Vector3::from(site.grip.row_on_mate(direction, &frame));
+                slope += g * g.transpose() * rate;
+            }
+        }
+    }
+    slope
 }
 
 /// Places of the upper triangle of a matrix.

@@ -8,7 +8,7 @@ use super::{Fault, Input, InputValues, Model};
 use crate::bodies::{CAGE, SHARED};
 use crate::laws::contact_pair::ContactForce;
 use crate::laws::fluid::Fluid;
-use crate::pairs::{ContactLaw, Law, line_contact_parts};
+use crate::pairs::Law;
 use crate::scalar::math;
 use crate::space::Wrench;
 
@@ -64,9 +64,10 @@ impl Model {
         contacts.clear();
         let reach = LOST_BODY * self.pitch_radius();
         motions.shared = self.motions_at(q, v, inputs);
-        for (body, motion) in self.shared.iter().zip(&motions.shared) {
-            let [y, z] = motion.position;
+        for (place, body) in self.shared.iter().enumerate() {
+            let [y, z] = motions.shared[place].position;
             if let Some(body) = body
+                && self.layout.shared(place).is_some()
                 && math::hypot(y, z) > reach
             {
                 return Err(body.lost());
@@ -125,7 +126,7 @@ impl Model {
             for (site, force) in batch.forces() {
                 let [on_element, on_mate] = site.grip.wrenches(&force);
                 if self.layout.shared(site.mate).is_some() {
-                    let force = motions.elements[site.element].frame.to_global(on_mate.force);
+                    let force = motions.frame(site.element).to_global(on_mate.force);
                     on[site.mate].add(&Wrench { force, ..on_mate });
                 }
                 if let Some(sum) = on_elements.get_mut(site.element) {
@@ -151,15 +152,13 @@ impl Model {
     /// Counts the evaluations of this pass; laws that the scene does not use cost nothing here.
     fn count(&self, ws: &mut Workspace) {
         let counts = &mut ws.counts;
-        for ((info, law), of_pair) in self.infos.iter().zip(&self.laws).zip(&ws.contacts.counts) {
-            for (counted, n) in info.laws.iter().zip(of_pair) {
-                counts[*counted as usize] += n;
+        for ((info, parts), of_pair) in self.infos.iter().zip(&self.parts).zip(&ws.contacts.counts) {
+            for (law, n) in info.laws.iter().zip(of_pair) {
+                counts[*law as usize] += n;
             }
-            if let ContactLaw::Line(line) = law {
-                // Edges have no film, nor what belongs to it.
-                for (part, present) in line_contact_parts(line) {
-                    counts[part as usize] += if present { of_pair[0] } else { 0 };
-                }
+            // Edges have no film, nor what belongs to it.
+            for part in parts {
+                counts[*part as usize] += of_pair[0];
             }
         }
         if let (Some(guide), Some(state)) = (&self.guide, &ws.guide) {

@@ -84,7 +84,7 @@ impl Model {
                 out.over_velocities.hub[(at + k, at + k)] -= body.support_damping();
             }
             let corner = body.accelerations_of(&Matrix3::identity(), ws.motions.shared[place].angle);
-            inverse.view_mut((at, at), (n, n)).copy_from(&corner.view((0, 0), (n, n)));
+            add_corner(&mut inverse, &corner, at, n);
             balanced &= body.is_balanced();
         }
         let diagonal = inverse.diagonal().data.0[0];
@@ -105,10 +105,10 @@ impl Model {
             }
         }
         self.add_inertial_slopes(ws, out);
-        let elements = ws.motions.elements.iter().zip(&ws.on_elements);
-        for (j, (element, on_element)) in elements.enumerate() {
+        for (j, on_element) in ws.on_elements.iter().enumerate() {
+            let element = ws.motions.element(j);
             let (k, d) = (&mut out.over_positions.spokes[j], &mut out.over_velocities.spokes[j]);
-            let inverse = self.elements.slopes(element, on_element, self.gravity, k, d);
+            let inverse = self.elements.slopes(&element, on_element, self.gravity, k, d);
             for (place, factor) in self.layout.of_element(j).into_iter().zip(inverse) {
                 out.over_time[place] *= factor;
             }
@@ -122,9 +122,17 @@ impl Model {
             let (mut k, mut d) = (Matrix3::zeros(), Matrix3::zeros());
             body.add_inertial_slopes(&ws.on_shared[place], &ws.motions.shared[place], &mut k, &mut d);
             for (part, own) in [(&mut out.over_positions, k), (&mut out.over_velocities, d)] {
-                let mut corner = part.hub.view_mut((at, at), (n, n));
-                corner += own.view((0, 0), (n, n));
+                add_corner(&mut part.hub, &own, at, n);
             }
+        }
+    }
+}
+
+/// Adds the first `n` rows and columns of a matrix to those of the hub that begin at `at`.
+fn add_corner(hub: &mut Matrix5<f64>, own: &Matrix3<f64>, at: usize, n: usize) {
+    for (sums, column) in hub.data.0[at..at + n].iter_mut().zip(&own.data.0) {
+        for (sum, x) in sums[at..at + n].iter_mut().zip(column) {
+            *sum += x;
         }
     }
 }

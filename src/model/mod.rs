@@ -39,11 +39,11 @@ pub(crate) use works::AT_FLOOR;
 pub use works::Energy;
 pub use workspace::Workspace;
 
-use crate::bodies::{CAGE, Elements, SHARED, SharedBodies};
+use crate::bodies::{CAGE, Elements, INNER_RING, SHARED, SharedBodies};
 use crate::error::{Error, Result, Status};
 use crate::pairs::guide::Guide;
 use crate::pairs::raceway::RacewayGeometry;
-use crate::pairs::{ContactLaw, ElementPair, PairInfo};
+use crate::pairs::{ContactLaw, ElementPair, Law, PairInfo};
 use crate::scene::{FORCE, SPEED, Scene, TEMPERATURE, TORQUE, VISCOSITY};
 use crate::space::Motion;
 use report::Selection;
@@ -63,6 +63,8 @@ pub struct Model {
     /// What the pairs say of themselves, for loops over contacts.
     infos: Vec<&'static PairInfo>,
     laws: Vec<ContactLaw>,
+    /// Optional laws in those of each pair.
+    parts: Vec<Vec<Law>>,
     guide: Option<Guide>,
     inputs: InputSignals,
     selection: Selection,
@@ -191,7 +193,12 @@ impl Model {
     /// Motion of the shared bodies at this state; of one that does not exist, none.
     #[inline]
     fn motions_at(&self, q: &[f64], v: &[f64], inputs: &InputValues) -> [Motion<f64>; SHARED] {
-        std::array::from_fn(|body| self.motion_of(body, q, v, inputs))
+        let mut motions = [Motion::default(); SHARED];
+        // The outer ring stands still in the centre.
+        for body in [INNER_RING, CAGE] {
+            motions[body] = self.motion_of(body, q, v, inputs);
+        }
+        motions
     }
 
     /// That of one of them.

@@ -30,8 +30,10 @@ impl Model {
         // Inputs matter where a ring that turns guides the cage, or elements move by them.
         let moved = self.guide.as_ref().is_some_and(|guide| guide.ring != OUTER_RING) || prescribed;
         let inputs = if moved { self.inputs_at(t, host) } else { InputValues::default() };
-        let shared: [Motion<f64>; SHARED] = self.motions_at(q, v, &inputs);
+        let mut shared = [Motion::default(); SHARED];
+        shared[CAGE] = self.motion_of(CAGE, q, v, &inputs);
         if let Some(guide) = &self.guide {
+            shared[guide.ring] = self.motion_of(guide.ring, q, v, &inputs);
             longest = longest.min(guide.longest_step(&shared, mass, tuning));
         }
         let lightest = self.elements.inertia().map_or(mass, |inertia| inertia.mass.min(mass));

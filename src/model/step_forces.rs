@@ -42,7 +42,7 @@ impl Model {
                     ..ContactForce::none(0.0)
                 };
                 let [_, on_mate] = site.grip.wrenches(&change);
-                let force = ws.motions.elements[site.element].frame.to_global(on_mate.force);
+                let force = ws.motions.frame(site.element).to_global(on_mate.force);
                 on[site.mate].add(&Wrench { force, ..on_mate });
             }
         }
@@ -85,7 +85,7 @@ impl Model {
         }
         let [nr, nc] = site.grip.normal_on_element();
         let places = self.layout.of_element(site.element);
-        let r = motions.elements[site.element].radius;
+        let r = motions.element(site.element).radius;
         let change = |to: &[f64]| -> [f64; OF_ELEMENT] {
             let [j, orbit, spin] = places;
             [to[j] - v[j], r * (to[orbit] - v[orbit]), to[spin] - v[spin]]

@@ -14,7 +14,7 @@
 use super::Model;
 use super::step_forces::Changes;
 use super::workspace::Workspace;
-use crate::bodies::{CAGE, INNER_RING, Input, POWERS, Power, SHARED};
+use crate::bodies::{CAGE, INNER_RING, Input, POWERS, Power};
 use crate::integrate::{Quadratures, SemiImplicit, WORKS};
 use crate::laws::contact_pair::ContactForce;
 use crate::pairs::{Batch, Site};
@@ -48,8 +48,8 @@ impl Model {
     pub fn powers(&self, v: &[f64], step: Option<&SemiImplicit<'_>>, ws: &Workspace) -> Quadratures {
         let mut p = Quadratures::default();
         let motions = &ws.motions;
-        // Moments on the shared bodies, which the drives hold up whose speed is prescribed.
-        let mut moments = [0.0; SHARED];
+        // Moment on the inner ring, which its drive holds up.
+        let mut on_ring = 0.0;
         for batch in &ws.contacts.batches {
             for (i, site) in batch.sites.iter().enumerate() {
                 let secant = batch.force.friction_secant[i];
@@ -65,8 +65,8 @@ impl Model {
                         p[AT_FLOOR] = 1.0;
                     }
                 }
-                if site.mate != CAGE {
-                    moments[site.mate] += site.grip.wrenches(&on_surfaces)[1].moment;
+                if site.mate == INNER_RING {
+                    on_ring += site.grip.wrenches(&on_surfaces)[1].moment;
                 }
             }
         }
@@ -78,14 +78,14 @@ impl Model {
             let (all, film) = (power(wrenches), power(guide.film_wrenches(state)));
             p[Power::GuideFilm as usize] = film;
             p[Power::GuideSolid as usize] = all - film;
-            moments[guide.ring] += wrenches[1].moment;
+            on_ring += if guide.ring == INNER_RING { wrenches[1].moment } else { 0.0 };
         }
         for (body, motion) in self.shared.iter().zip(&motions.shared) {
             if let Some(body) = body {
                 body.add_powers(motion, &ws.inputs, &mut p);
             }
         }
-        p[Power::RingDrive as usize] = -moments[INNER_RING] * ws.inputs.of(Input::RingSpeed);
+        p[Power::RingDrive as usize] = -on_ring * ws.inputs.of(Input::RingSpeed);
         if self.elements.inertia().is_none() {
             p[Power::ElementDrive as usize] = -self.power_on_elements(ws);
         }
@@ -95,7 +95,7 @@ impl Model {
     /// Power of contact forces on elements whose motion is prescribed, W.
     fn power_on_elements(&self, ws: &Workspace) -> f64 {
         let on_element = |(site, force): (&Site, ContactForce<f64>)| {
-            let element = &ws.motions.elements[site.element];
+            let element = ws.motions.element(site.element);
             let [wrench, _] = site.grip.wrenches(&force);
             wrench.force[1] * element.radius * element.motion.orbit_speed
                 + wrench.moment * element.motion.spin_speed
@@ -143,8 +143,8 @@ impl Model {
             .iter()
             .zip(&ws.motions.shared)
             .filter_map(|(body, motion)| Some(body.as_ref()?.energy(motion, self.gravity)));
-        let free = ws.motions.elements.iter().take(self.layout.count);
-        let of_elements = free.map(|element| self.elements.energy(element, self.gravity));
+        let free = (0..self.layout.count).map(|j| ws.motions.element(j));
+        let of_elements = free.map(|element| self.elements.energy(&element, self.gravity));
         for energy in of_shared.chain(of_elements) {
             e.kinetic += energy.kinetic;
             e.potential += energy.potential;

@@ -240,12 +240,12 @@ impl Contacts {
 
     /// Where a pair puts its touching contacts.
     #[inline]
-    pub(crate) fn of(&mut self, pair: usize, mate: usize) -> Touching<'_> {
+    pub(crate) fn of(&mut self, pair: usize, mate: usize) -> Search<'_> {
         let [batch, kind] = self.place[pair];
         let batch = &mut self.batches[batch];
-        let (range, counts) = (&mut self.ranges[pair], &mut self.counts[pair]);
-        *range = batch.len()..batch.len();
-        Touching { batch, range, counts, gaps: &mut self.gaps, pair, mate, kind }
+        let first = batch.len();
+        let touching = Touching { batch, counts: &mut self.counts[pair], pair, mate, kind };
+        Search { touching, gaps: &mut self.gaps, range: &mut self.ranges[pair], first }
     }
 
     /// The batch of a pair and its contacts there.
@@ -274,12 +274,25 @@ fn join(laws: &[ContactLaw], law: &ContactLaw) -> Option<Vec<ContactLaw>> {
     Some(all)
 }
 
+/// A pair's search for its touching contacts.
+pub(crate) struct Search<'a> {
+    pub(crate) touching: Touching<'a>,
+    /// Memory for what it finds of all elements.
+    pub(crate) gaps: &'a mut [Vec<f64>; GAPS],
+    range: &'a mut Range<usize>,
+    first: usize,
+}
+
+impl Drop for Search<'_> {
+    fn drop(&mut self) {
+        *self.range = self.first..self.touching.batch.len();
+    }
+}
+
 /// Touching contacts of one pair in the making.
 pub(crate) struct Touching<'a> {
     batch: &'a mut Batch,
-    range: &'a mut Range<usize>,
     counts: &'a mut [u64; LAWS_OF_PAIR],
-    pub(crate) gaps: &'a mut [Vec<f64>; GAPS],
     pair: usize,
     mate: usize,
     kind: usize,
@@ -298,7 +311,6 @@ impl Touching<'_> {
     ) {
         let site = Site { element, pair: self.pair, contact, mate: self.mate, grip };
         self.batch.push(self.kind, site, edge_share, motion);
-        self.range.end += 1;
         self.counts[usize::from(edge_share >= 1.0)] += 1;
     }
 }

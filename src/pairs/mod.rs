@@ -26,7 +26,7 @@ pub(crate) mod raceway;
 mod raceway_slopes;
 mod slope_sums;
 
-pub(crate) use contacts::{Batch, Contacts, Loaded, Site, Touching};
+pub(crate) use contacts::{Batch, Contacts, Loaded, Search, Site};
 pub(crate) use grip::{Grip, MateLever};
 pub(crate) use slope_sums::SlopeSums;
 
@@ -79,17 +79,6 @@ registry! {
 /// Counts by law, in the order of [`LAWS`].
 pub type LawCounts = [u64; LAWS.len()];
 
-/// The optional laws in a line contact, and whether they are there.
-pub(crate) fn line_contact_parts(contact: &LineContact) -> [(Law, bool); 5] {
-    [
-        (Law::FilmThickness, contact.film.is_some()),
-        (Law::Traction, contact.traction.is_some()),
-        (Law::SelfHeating, contact.self_heating.is_some()),
-        (Law::LubricationRegime, contact.regime.is_some()),
-        (Law::RollingResistance, contact.rolling_resistance.is_some()),
-    ]
-}
-
 /// What a pair is called and where its forces count.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PairInfo {
@@ -124,6 +113,19 @@ impl ContactLaw {
             Self::Line(law) => Some(law),
             Self::Solid(_) => None,
         }
+    }
+
+    /// The optional laws in it.
+    pub(crate) fn parts(&self) -> Vec<Law> {
+        let Self::Line(line) = self else { return Vec::new() };
+        let parts = [
+            (Law::FilmThickness, line.film.is_some()),
+            (Law::Traction, line.traction.is_some()),
+            (Law::SelfHeating, line.self_heating.is_some()),
+            (Law::LubricationRegime, line.regime.is_some()),
+            (Law::RollingResistance, line.rolling_resistance.is_some()),
+        ];
+        parts.into_iter().filter_map(|(law, present)| present.then_some(law)).collect()
     }
 
     /// Elastic force in N and energy in J at the approach `delta` (m).
@@ -194,7 +196,7 @@ pub(crate) trait ElementPair: Debug + Send + Sync {
     ///
     /// # Errors
     /// The fault of an element where the pair has no law.
-    fn find(&self, motions: &Motions, out: &mut Touching<'_>) -> std::result::Result<(), Fault>;
+    fn find(&self, motions: &Motions, out: &mut Search<'_>) -> std::result::Result<(), Fault>;
 
     /// Adds the derivatives of the forces of these contacts of a batch over the coordinates of both bodies.
     fn add_slopes(&self, batch: &Batch, contacts: Range<usize>, motions: &Motions, sums: &mut SlopeSums<'_>);

@@ -5,7 +5,7 @@
 //!
 //! Local frame: (radial, circumferential) at the pocket centre, turning with the cage.
 
-use super::contacts::{Batch, Touching};
+use super::contacts::{Batch, Search};
 use super::pocket_slopes::add_pocket;
 use super::{Ahead, ContactLaw, Cost, ElementPair, ElementPlace, Grip, MateLever, PairInfo, SlopeSums};
 use crate::bodies::{CAGE, ElementMotion, Fault, Motions};
@@ -177,7 +177,7 @@ impl<S: PocketShape> ElementPair for Pockets<S> {
         self.law
     }
 
-    fn find(&self, motions: &Motions, out: &mut Touching<'_>) -> Result<(), Fault> {
+    fn find(&self, motions: &Motions, out: &mut Search<'_>) -> Result<(), Fault> {
         let (place, cage) = (self.shape.place(), &motions.shared[CAGE]);
         let largest_lead = OUT_OF_POCKET * place.element_radius / place.pitch_radius;
         let places = &motions.places;
@@ -200,20 +200,23 @@ impl<S: PocketShape> ElementPair for Pockets<S> {
                 Some(Frame { sin, cos })
             }
         };
-        dispatch(motions.instructions, Offsets { motions, place, together, gaps: out.gaps });
-        for (j, element) in motions.elements.iter().enumerate() {
-            let [offset_r, offset_c, sin, cos] = out.gaps.each_ref().map(|column| column[j]);
-            let (offset, lead) = ([offset_r, offset_c], Frame { sin, cos });
+        let Search { touching, gaps, .. } = out;
+        dispatch(motions.instructions, Offsets { motions, place, together, gaps });
+        let [along, across, sin, cos] = &**gaps;
+        let offsets = along.iter().zip(across).zip(&motions.elements);
+        for (j, ((along, across), motion)) in offsets.enumerate() {
+            let offset = [*along, *across];
             if self.shape.apart(offset) {
                 continue;
             }
-            let velocity = lead.to_global(element.frame.to_local(cage.velocity));
-            let relative = place.relative_motion(offset, &element.motion, lead, velocity, cage.speed);
+            let lead = together.unwrap_or(Frame { sin: sin[j], cos: cos[j] });
+            let velocity = lead.to_global(motions.frame(j).to_local(cage.velocity));
+            let relative = place.relative_motion(offset, motion, lead, velocity, cage.speed);
             for side in [Pillar::Front, Pillar::Back] {
                 if let Some(PillarContact { motion, normal, edge_share }) = self.shape.pillar(side, &relative)
                 {
                     let grip = place.grip(offset, normal, lead);
-                    out.push(j, side as usize, grip, edge_share, &motion);
+                    touching.push(j, side as usize, grip, edge_share, &motion);
                 }
             }
         }
@@ -252,7 +255,7 @@ struct Offsets<'a> {
     place: PocketPlace,
     /// Lead of all elements, where it is the same.
     together: Option<Frame<f64>>,
-    /// Offset, then sine and cosine of the lead.
+    /// Offset, then sine and cosine of the lead where it is not the same.
     gaps: &'a mut [Vec<f64>; 4],
 }
 
@@ -277,8 +280,10 @@ impl Columns for Offsets<'_> {
         let [along, across, sines, cosines] = &mut *self.gaps;
         offset[0].store(&mut along[first..]);
         offset[1].store(&mut across[first..]);
-        sin.store(&mut sines[first..]);
-        cos.store(&mut cosines[first..]);
+        if self.together.is_none() {
+            sin.store(&mut sines[first..]);
+            cos.store(&mut cosines[first..]);
+        }
     }
 }
 

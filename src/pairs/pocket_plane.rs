@@ -85,16 +85,19 @@ fn longest_step(shape: &PlanePocket, law: &ContactLaw, ahead: &Ahead<'_>) -> f64
     let (sin, cos) = math::sin_cos(cage.angle);
     // Position and velocity of the cage in its own axes.
     let (place, speed) = (rotate(cage.position, -sin, cos), rotate(cage.velocity, -sin, cos));
-    let (set, prescribed) = (ahead.elements.set(), ahead.elements.inertia().is_none());
+    let set = ahead.elements.set();
+    let prescribed = [ahead.inputs.orbit_travel, ahead.inputs.of(Input::OrbitSpeed)];
+    let free = ahead.elements.inertia().is_some();
     let pitch = set.pitch_radius;
     let pass = Passage::of(contact, ahead.lightest, ahead.tuning);
     let mut longest = f64::INFINITY;
-    for (j, [x, y]) in set.directions.iter().enumerate() {
-        let [angle, orbit] = if prescribed {
-            [ahead.inputs.orbit_travel, ahead.inputs.of(Input::OrbitSpeed)]
-        } else {
+    let [sines, cosines] = &set.directions;
+    for (j, (x, y)) in cosines.iter().zip(sines).take(set.count).enumerate() {
+        let [angle, orbit] = if free {
             let i = ahead.layout.roller(j) + 1;
             [ahead.q[i], ahead.v[i]]
+        } else {
+            prescribed
         };
         let offset = pitch * (angle - cage.angle) - (place[1] * x - place[0] * y);
         let approach = pitch * (orbit - cage.speed) - (speed[1] * x - speed[0] * y);

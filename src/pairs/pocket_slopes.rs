@@ -5,7 +5,7 @@ use super::contacts::Batch;
 use super::law_slopes::{DIRECTIONS, FORCES, Slopes, VISCOSITY, chain, contact_force};
 use super::pocket::{Pillar, PillarContact, PocketPlace, PocketShape};
 use super::{ContactLaw, SlopeSums};
-use crate::bodies::{CAGE, Element, ElementMotion, Input, Motions};
+use crate::bodies::{CAGE, Element, ElementMotion, IN_HUB, Input, Motions};
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
 use crate::laws::solid_contact::SolidContact;
 use crate::scalar::{Dual, Real};
@@ -35,7 +35,7 @@ pub(super) fn add_pocket<S: PocketShape>(
         super::MateLever::Point(_, lead) => lead,
         super::MateLever::Centre(_) => return,
     };
-    let pair = Pair::new(&motions.elements[j], lead, &motions.shared[CAGE]);
+    let pair = Pair::new(&motions.element(j), lead, &motions.shared[CAGE]);
     let law = match law {
         ContactLaw::Line(_) => Law::Known(batch.slopes(i)),
         ContactLaw::Solid(law) => Law::Solid(law),
@@ -64,11 +64,9 @@ struct PairForce {
 
 /// Adds the derivatives of the forces of one contact of element `j`.
 fn add_pair(j: usize, force: &PairForce, sums: &mut SlopeSums<'_>) {
-    for (i, row) in force.on_cage.iter().enumerate() {
-        let [_, _, _, _, _, p0, p1, p2, v0, v1, v2] = row.eps;
-        sums.add_mate(CAGE, i, &[p0, p1, p2], &[v0, v1, v2]);
-    }
-    sums.add_mate_over_time(CAGE, &force.warming[1]);
+    const AT: usize = IN_HUB[CAGE];
+    sums.add_mate(AT, &force.on_cage.map(over_cage));
+    sums.add_mate_over_time(AT, &force.warming[1]);
     if j >= sums.layout.count {
         // The motion of the element is prescribed.
         let rates = sums.rates;
@@ -77,19 +75,25 @@ fn add_pair(j: usize, force: &PairForce, sums: &mut SlopeSums<'_>) {
                 + row.eps[3] * rates.of(Input::OrbitSpeed)
                 + row.eps[4] * rates.of(Input::SpinSpeed)
         });
-        sums.add_mate_over_time(CAGE, &over_time);
+        sums.add_mate_over_time(AT, &over_time);
         return;
     }
-    for (i, row) in force.on_cage.iter().enumerate() {
-        let [p0, p1, v0, v1, v2, ..] = row.eps;
-        sums.add_mate_over_own((j, CAGE), i, &[p0, p1], &[v0, v1, v2]);
-    }
-    for (i, row) in force.own.iter().enumerate() {
-        let [p0, p1, v0, v1, v2, c0, c1, c2, w0, w1, w2] = row.eps;
-        sums.add_own(j, i, &[p0, p1], &[v0, v1, v2]);
-        sums.add_own_over_mate((j, CAGE), i, &[c0, c1, c2], &[w0, w1, w2]);
-    }
+    sums.add_mate_over_own(j, AT, &force.on_cage.map(over_element));
+    sums.add_own(j, &force.own.map(over_element));
+    sums.add_own_over_mate(j, AT, &force.own.map(over_cage));
     sums.add_own_over_time(j, &force.warming[0]);
+}
+
+#[inline]
+fn over_element(row: PairDual) -> ([f64; 2], [f64; 3]) {
+    let [p0, p1, v0, v1, v2, ..] = row.eps;
+    ([p0, p1], [v0, v1, v2])
+}
+
+#[inline]
+fn over_cage(row: PairDual) -> ([f64; 3], [f64; 3]) {
+    let [.., p0, p1, p2, v0, v1, v2] = row.eps;
+    ([p0, p1, p2], [v0, v1, v2])
 }
 
 /// The coordinates of an element and of the cage as variables.

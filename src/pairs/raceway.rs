@@ -15,7 +15,7 @@
 //! Surface speeds are relative to the contact point, which moves with the line of centres:
 //! `u1 = arm_1 (w_b - phi_dot)`, `u2 = -arm_2 (w_r - phi_dot)`, phi_dot the turning rate of that line.
 
-use super::contacts::{Batch, Touching};
+use super::contacts::{Batch, Search};
 use super::line_laws::LawBuilder;
 use super::{ContactLaw, Cost, ElementPair, Grip, Law, MateLever, PairInfo, SlopeSums, raceway_slopes};
 use crate::bodies::{ElementMotion, Fault, ForceSource, INNER_RING, Motions, OUTER_RING, Power};
@@ -165,28 +165,29 @@ impl ElementPair for Raceway {
         ContactLaw::Line(self.law)
     }
 
-    fn find(&self, motions: &Motions, out: &mut Touching<'_>) -> std::result::Result<(), Fault> {
+    fn find(&self, motions: &Motions, out: &mut Search<'_>) -> std::result::Result<(), Fault> {
+        let Search { touching, gaps, .. } = out;
         let geometry = &self.geometry;
         if self.ring.mate == OUTER_RING {
-            for (j, element) in motions.elements.iter().enumerate() {
-                if touching(element.motion.radial_offset - geometry.gap) {
-                    let (contact, grip) = geometry.outer(&element.motion);
-                    out.push(j, 0, grip, 0.0, &contact);
+            for (j, motion) in motions.elements.iter().enumerate() {
+                if is_touching(motion.radial_offset - geometry.gap) {
+                    let (contact, grip) = geometry.outer(motion);
+                    touching.push(j, 0, grip, 0.0, &contact);
                 }
             }
             return Ok(());
         }
         let ring = &motions.shared[INNER_RING];
         let n = motions.elements.len();
-        let approach = &mut out.gaps[0];
+        let approach = &mut gaps[0];
         dispatch(motions.instructions, Approach { motions, geometry, ring: ring.position, n, approach });
-        for (j, element) in motions.elements.iter().enumerate() {
-            if touching(out.gaps[0][j]) {
-                let frame = element.frame;
+        for (j, (motion, approach)) in motions.elements.iter().zip(&gaps[0]).enumerate() {
+            if is_touching(*approach) {
+                let frame = motions.frame(j);
                 let (position, velocity) = (frame.to_local(ring.position), frame.to_local(ring.velocity));
                 let seen = RingMotion { position, velocity, speed: ring.speed };
-                let (contact, grip) = geometry.inner(&element.motion, &seen);
-                out.push(j, 0, grip, 0.0, &contact);
+                let (contact, grip) = geometry.inner(motion, &seen);
+                touching.push(j, 0, grip, 0.0, &contact);
             }
         }
         Ok(())
@@ -209,7 +210,7 @@ impl ElementPair for Raceway {
 
 /// A NaN approach counts as contact, so that it reaches the accelerations and is reported.
 #[inline]
-fn touching(approach: f64) -> bool {
+fn is_touching(approach: f64) -> bool {
     approach > 0.0 || approach.is_nan()
 }
 

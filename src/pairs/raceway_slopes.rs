@@ -14,7 +14,7 @@ use super::contacts::Batch;
 use super::law_slopes::{FORCES, Slopes, VISCOSITY, chain, contact_force};
 use super::raceway::{RacewayGeometry, RingMotion};
 use super::{Grip, MateLever, SlopeSums};
-use crate::bodies::{Element, ElementMotion, INNER_RING, Input, Motions};
+use crate::bodies::{Element, ElementMotion, IN_HUB, INNER_RING, Input, Motions};
 use crate::scalar::{Dual, Real};
 use crate::space::Wrench;
 
@@ -36,14 +36,14 @@ pub(super) fn add_outer(
 ) {
     let site = &batch.sites[i];
     let j = site.element;
-    let (motion, grip) = geometry.outer(&lift::<4>(&motions.elements[j].motion));
+    let (motion, grip) = geometry.outer(&lift::<4>(&motions.elements[j]));
     let (forces, slopes) = batch.slopes(i);
     let [on_roller, _] = grip.wrenches(&chain(&forces, &slopes, &motion, None));
-    let rows: [OuterDual; 3] = on_roller.components();
-    for (k, row) in rows.iter().enumerate() {
+    let rows = on_roller.components().map(|row: OuterDual| {
         let [offset, radial, orbit, spin] = row.eps;
-        sums.add_own(j, k, &[offset], &[radial, orbit, spin]);
-    }
+        ([offset], [radial, orbit, spin])
+    });
+    sums.add_own(j, &rows);
     if let Some([on_roller, _]) = over_time(&slopes, &site.grip, 0.0, sums.ln_viscosity_rate) {
         sums.add_own_over_time(j, &on_roller.components());
     }
@@ -59,7 +59,7 @@ pub(super) fn add_inner(
 ) {
     let site = &batch.sites[i];
     let (j, ring) = (site.element, &motions.shared[INNER_RING]);
-    let element = &motions.elements[j];
+    let element = &motions.element(j);
     let (x, v) = (element.frame.to_local(ring.position), element.frame.to_local(ring.velocity));
     let constant = InnerDual::constant;
     let seen = RingMotion {
@@ -81,25 +81,17 @@ pub(super) fn add_inner(
     }
     let shared = [over_global(first, element), over_global(second, element)];
     let ring_moves = sums.layout.shared(INNER_RING).is_some();
-    let pair = (j, INNER_RING);
-    for (k, row) in own.iter().enumerate() {
-        let [p0, p1, v0, v1, v2, x0, x1, w0, w1] = *row;
-        sums.add_own(j, k, &[p0, p1], &[v0, v1, v2]);
-        if ring_moves {
-            sums.add_own_over_mate(pair, k, &[x0, x1], &[w0, w1]);
-        }
-    }
+    sums.add_own(j, &own.map(over_element));
     let MateLever::Centre(arm) = site.grip.mate else { return };
     let speeding = -arm * sums.rates.of(Input::RingSpeed);
     let time = over_time(&slopes, &site.grip, speeding, sums.ln_viscosity_rate);
     if ring_moves {
-        for (k, row) in shared.iter().enumerate() {
-            let [p0, p1, v0, v1, v2, x0, x1, w0, w1] = *row;
-            sums.add_mate_over_own(pair, k, &[p0, p1], &[v0, v1, v2]);
-            sums.add_mate(INNER_RING, k, &[x0, x1], &[w0, w1]);
-        }
+        const RING: usize = IN_HUB[INNER_RING];
+        sums.add_own_over_mate(j, RING, &own.map(over_ring));
+        sums.add_mate_over_own(j, RING, &shared.map(over_element));
+        sums.add_mate(RING, &shared.map(over_ring));
         if let Some([_, on_ring]) = &time {
-            sums.add_mate_over_time(INNER_RING, &element.frame.to_global(on_ring.force));
+            sums.add_mate_over_time(RING, &element.frame.to_global(on_ring.force));
         }
     }
     if let Some([on_roller, _]) = time {
@@ -126,6 +118,16 @@ fn over_time(
 type Row = [f64; 9];
 const RING_POSITION: usize = 5;
 const RING_VELOCITY: usize = 7;
+
+#[inline]
+fn over_element([p0, p1, v0, v1, v2, ..]: Row) -> ([f64; 2], [f64; 3]) {
+    ([p0, p1], [v0, v1, v2])
+}
+
+#[inline]
+fn over_ring([.., x0, x1, w0, w1]: Row) -> ([f64; 2], [f64; 2]) {
+    ([x0, x1], [w0, w1])
+}
 
 /// From the derivatives in the frame of the roller, with the centre `x` and the velocity `v` of the ring in that frame.
 #[inline]

@@ -1,7 +1,7 @@
 //! Sums of the derivatives of all wrenches over the coordinates, in the structure of the bearing: shared bodies are coupled to
 //! every element, elements to nothing else.
 
-use crate::bodies::{IN_HUB, InputValues, Layout, OF_ELEMENT};
+use crate::bodies::{InputValues, Layout, OF_ELEMENT};
 use crate::integrate::Linearization;
 use nalgebra::Vector5;
 
@@ -18,70 +18,68 @@ pub(crate) struct SlopeSums<'a> {
 }
 
 impl SlopeSums<'_> {
-    /// Adds derivatives of component `i` of the wrench on element `j`, in its local frame, over its own coordinates.
+    /// Adds derivatives of the wrench on element `j`, in its local frame, over its own first positions and its velocities.
     #[inline]
-    pub(crate) fn add_own(&mut self, j: usize, i: usize, position: &[f64], velocity: &[f64; OF_ELEMENT]) {
-        let k = &mut self.out.over_positions.spokes[j];
-        for (c, slope) in position.iter().enumerate() {
-            k.own[(i, c)] += slope;
-        }
-        let d = &mut self.out.over_velocities.spokes[j];
-        for (c, slope) in velocity.iter().enumerate() {
-            d.own[(i, c)] += slope;
+    pub(crate) fn add_own<const P: usize>(&mut self, j: usize, rows: &[([f64; P], [f64; OF_ELEMENT]); 3]) {
+        let k = &mut self.out.over_positions.spokes[j].own;
+        let d = &mut self.out.over_velocities.spokes[j].own;
+        for (i, (position, velocity)) in rows.iter().enumerate() {
+            for (c, slope) in position.iter().enumerate() {
+                k[(i, c)] += slope;
+            }
+            for (c, slope) in velocity.iter().enumerate() {
+                d[(i, c)] += slope;
+            }
         }
     }
 
-    /// The same over the first coordinates of the shared body `mate`, positions and velocities.
+    /// The same over the first positions and velocities of the shared body that begins at `at` in the hub.
     #[inline]
     pub(crate) fn add_own_over_mate<const N: usize>(
         &mut self,
-        (j, mate): (usize, usize),
-        i: usize,
-        position: &[f64; N],
-        velocity: &[f64; N],
+        j: usize,
+        at: usize,
+        rows: &[([f64; N], [f64; N]); 3],
     ) {
-        let at = IN_HUB[mate];
-        let k = &mut self.out.over_positions.spokes[j];
-        let d = &mut self.out.over_velocities.spokes[j];
-        for c in 0..N {
-            k.from_hub[(i, at + c)] += position[c];
-            d.from_hub[(i, at + c)] += velocity[c];
+        let k = &mut self.out.over_positions.spokes[j].from_hub;
+        let d = &mut self.out.over_velocities.spokes[j].from_hub;
+        for (i, (position, velocity)) in rows.iter().enumerate() {
+            for c in 0..N {
+                k[(i, at + c)] += position[c];
+                d[(i, at + c)] += velocity[c];
+            }
         }
     }
 
-    /// Adds derivatives of component `i` of the wrench on the shared body `mate` over the coordinates of element `j`.
+    /// Adds derivatives of the first components of the wrench on that body over the coordinates of element `j`.
     #[inline]
-    pub(crate) fn add_mate_over_own(
+    pub(crate) fn add_mate_over_own<const M: usize>(
         &mut self,
-        (j, mate): (usize, usize),
-        i: usize,
-        position: &[f64; 2],
-        velocity: &[f64; OF_ELEMENT],
+        j: usize,
+        at: usize,
+        rows: &[([f64; 2], [f64; OF_ELEMENT]); M],
     ) {
-        let at = IN_HUB[mate];
-        let k = &mut self.out.over_positions.spokes[j];
-        for (c, slope) in position.iter().enumerate() {
-            k.to_hub[(at + i, c)] += slope;
-        }
-        let d = &mut self.out.over_velocities.spokes[j];
-        for (c, slope) in velocity.iter().enumerate() {
-            d.to_hub[(at + i, c)] += slope;
+        let k = &mut self.out.over_positions.spokes[j].to_hub;
+        let d = &mut self.out.over_velocities.spokes[j].to_hub;
+        for (i, (position, velocity)) in rows.iter().enumerate() {
+            for (c, slope) in position.iter().enumerate() {
+                k[(at + i, c)] += slope;
+            }
+            for (c, slope) in velocity.iter().enumerate() {
+                d[(at + i, c)] += slope;
+            }
         }
     }
 
     /// The same over the first coordinates of that body.
     #[inline]
-    pub(crate) fn add_mate<const N: usize>(
-        &mut self,
-        mate: usize,
-        i: usize,
-        position: &[f64; N],
-        velocity: &[f64; N],
-    ) {
-        let at = IN_HUB[mate];
-        for c in 0..N {
-            self.out.over_positions.hub[(at + i, at + c)] += position[c];
-            self.out.over_velocities.hub[(at + i, at + c)] += velocity[c];
+    pub(crate) fn add_mate<const N: usize>(&mut self, at: usize, rows: &[([f64; N], [f64; N]); N]) {
+        let (k, d) = (&mut self.out.over_positions.hub, &mut self.out.over_velocities.hub);
+        for (i, (position, velocity)) in rows.iter().enumerate() {
+            for c in 0..N {
+                k[(at + i, at + c)] += position[c];
+                d[(at + i, at + c)] += velocity[c];
+            }
         }
     }
 
@@ -93,11 +91,11 @@ impl SlopeSums<'_> {
         }
     }
 
-    /// Adds rates of the first components of the wrench on the shared body `mate` at constant state.
+    /// Adds rates of the first components of the wrench on the shared body that begins at `at` at constant state.
     #[inline]
-    pub(crate) fn add_mate_over_time(&mut self, mate: usize, rates: &[f64]) {
+    pub(crate) fn add_mate_over_time(&mut self, at: usize, rates: &[f64]) {
         for (k, rate) in rates.iter().enumerate() {
-            self.hub_over_time[IN_HUB[mate] + k] += rate;
+            self.hub_over_time[at + k] += rate;
         }
     }
 }

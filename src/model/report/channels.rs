@@ -264,7 +264,7 @@ impl Model {
             Source::PocketPosition(j) => direction * self.pocket_position(q, v, inputs, j),
             Source::PocketForce(j) => {
                 let [y, z, _] = on(self.element_body(j), ForceSource::Pocket);
-                -direction * ws.motions.elements[j].frame.to_local([y, z])[1]
+                -direction * ws.motions.frame(j).to_local([y, z])[1]
             }
             Source::InnerForce(j) => contact(j, 1)[NORMAL_FORCE],
             Source::OuterForce(j) => contact(j, 0)[NORMAL_FORCE],

@@ -98,7 +98,7 @@ impl Model {
         for contact in ws.contacts.iter() {
             let site = contact.site;
             out.contacts[self.contact_place(site)] = quantities(&contact);
-            let frame = ws.motions.elements[site.element].frame;
+            let frame = ws.motions.frame(site.element);
             let source = self.infos[site.pair].source as usize;
             for (body, on_body) in [self.element_body(site.element), site.mate]
                 .into_iter()

@@ -2,7 +2,7 @@
 
 use crate::Model;
 use crate::bodies::{Layout, State};
-use crate::pairs::{ContactLaw, Law, Site, line_contact_parts};
+use crate::pairs::{Law, Site};
 
 /// Name, unit and meaning of a state or an input.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -103,15 +103,9 @@ impl Model {
     /// The laws that this scene uses, each with the largest number of contacts it can act in.
     pub fn laws_in_use(&self) -> Vec<(&'static str, usize)> {
         let mut most = [0; Law::ALL.len()];
-        for (info, law) in self.infos.iter().zip(&self.laws) {
-            let n = self.element_count() * info.contacts.len();
-            for counted in info.laws {
-                most[*counted as usize] += n;
-            }
-            if let ContactLaw::Line(line) = law {
-                for (part, _) in line_contact_parts(line).into_iter().filter(|(_, present)| *present) {
-                    most[part as usize] += n;
-                }
+        for (info, parts) in self.infos.iter().zip(&self.parts) {
+            for law in info.laws.iter().chain(parts) {
+                most[*law as usize] += self.element_count() * info.contacts.len();
             }
         }
         if let Some(guide) = &self.guide {

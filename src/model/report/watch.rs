@@ -101,7 +101,7 @@ impl Model {
                     if let Some(place) = place {
                         out[place] -= direction * on_element.force[1];
                     }
-                    let force = motions.elements[site.element].frame.to_global(on_mate.force);
+                    let force = motions.frame(site.element).to_global(on_mate.force);
                     on[CAGE].add(&Wrench { force, ..on_mate });
                 } else {
                     if let Some(place) = place {
