@@ -176,6 +176,7 @@ impl Draw {
         // Only rollers in cylindrical pockets hold a cage by themselves.
         let held = rollers && cage["pocket"]["lubricated_cylinder"].is_object();
         if !held && cage["guide"].is_null() {
+            let place = pitch + 0.35 * radius;
             cage["guide"] = json!({
                 "ring": "outer_ring", "guide_radius": place, "diametral_clearance": 5e-3 * place,
                 "solid": {"contact": self.solid(mass)}

@@ -1,14 +1,14 @@
 //! A million random and extreme arguments: results are finite, correctly signed, and monotone where physics says so.
 
-use super::contact_pair::ContactMotion;
-use super::fluid::Fluid;
-use super::journal::JournalMotion;
-use super::line_contact::LineContact;
-use super::line_contact::tests::raceway;
-use super::lubricant_layer::{LubricantLayer, PressureShear};
-use super::short_bearing::ShortBearing;
-use super::solid_contact::SolidContact;
-use super::solid_friction::SolidFriction;
+use crate::laws::contact_pair::ContactMotion;
+use crate::laws::elastic::solid::SolidContact;
+use crate::laws::fluid::Fluid;
+use crate::laws::guide::journal::JournalMotion;
+use crate::laws::guide::lubricant_layer::{LubricantLayer, PressureShear};
+use crate::laws::guide::short_bearing::ShortBearing;
+use crate::laws::line_contact::LineContact;
+use crate::laws::line_contact::tests::raceway;
+use crate::laws::traction::solid_friction::SolidFriction;
 
 #[allow(dead_code)] // used in part
 #[path = "../../tests/common/random.rs"]

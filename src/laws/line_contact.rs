@@ -9,14 +9,14 @@
 //! Eq. 10). There are no branches on numbers, so that one call can serve a group of contacts. The logarithms of load,
 //! rolling speed and slip are taken once and serve all power laws.
 
-use super::contact_pair::{ContactForce, ContactMotion};
-use super::film_thickness::{Entrainment, FilmThickness};
-use super::lubrication_regime::LubricationRegime;
-use super::normal_contact::{ElasticLine, NormalDamping};
-use super::rolling_resistance::RollingResistance;
-use super::self_heating::SelfHeating;
-use super::solid_friction::SolidFriction;
-use super::traction::Traction;
+use crate::laws::contact_pair::{ContactForce, ContactMotion};
+use crate::laws::elastic::line::{ElasticLine, NormalDamping};
+use crate::laws::film::regime::LubricationRegime;
+use crate::laws::film::thickness::{Entrainment, FilmThickness};
+use crate::laws::rolling::RollingResistance;
+use crate::laws::traction::muraki_kimura::Traction;
+use crate::laws::traction::self_heating::SelfHeating;
+use crate::laws::traction::solid_friction::SolidFriction;
 use crate::scalar::{Base, Of};
 
 /// The laws of one kind of line contact (for example all roller and inner ring contacts).
@@ -216,9 +216,9 @@ impl<B: Base> LineContact<B> {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::laws::film_thickness::{ThermalCorrection, ThermalLoad};
-    use crate::laws::normal_contact::effective_modulus;
-    use crate::laws::rolling_resistance::Extent;
+    use crate::laws::elastic::line::effective_modulus;
+    use crate::laws::film::thickness::{ThermalCorrection, ThermalLoad};
+    use crate::laws::rolling::{Extent, Isothermal, RollingFilm, ZhouHoeprich};
     use crate::scalar::{Dual, Real};
 
     /// The inner raceway contact of the NU2310 example.
@@ -226,6 +226,8 @@ pub(crate) mod tests {
         let e = effective_modulus(206e9, 0.3, 206e9, 0.3);
         let elastic = ElasticLine::new(e, 1.0 / (1.0 / 7.5e-3 + 1.0 / 32.5e-3), 0.0204);
         let thermal = ThermalLoad::new(0.04, 0.06, 0.13);
+        let film = RollingFilm { line: &elastic, viscosity: 0.06, pressure_viscosity: 2e-8 };
+        let rolling = Isothermal::ZhouHoeprich(ZhouHoeprich::new(&film));
         let steel = 46.0 * 7830.0 * 460.0;
         LineContact {
             elastic,
@@ -250,7 +252,7 @@ pub(crate) mod tests {
                 lambda_full: 3.0,
                 roughness: 1e-7,
             }),
-            rolling_resistance: Some(RollingResistance::new(&elastic, 0.06, 2e-8, thermal, Extent::All)),
+            rolling_resistance: Some(RollingResistance::new(rolling, &elastic, thermal, Extent::All)),
             edge_friction: None,
         }
     }

@@ -5,7 +5,7 @@ use super::signals::{InputSignals, InputSource, Oil, Orbit};
 use super::{Input, Layout, Model};
 use crate::bodies;
 use crate::error::Result;
-use crate::laws::walther::Walther;
+use crate::laws::fluid::walther::Walther;
 use crate::pairs;
 use crate::pairs::guide::Guide;
 use crate::pairs::line_laws::LawBuilder;

@@ -2,7 +2,7 @@
 //! what follows from them: the prescribed motion of kinematic elements.
 
 use crate::bodies::{HostInputs, Input, InputValues};
-use crate::laws::walther::Walther;
+use crate::laws::fluid::walther::Walther;
 use crate::scene::{Signal, SignalIntegral, interpolate, slope};
 
 /// Where the value of an input comes from when the host does not set it.

@@ -9,12 +9,12 @@ use super::pocket_plane::Passage;
 use crate::bodies::{CAGE, Fault, IN_HUB, INNER_RING, Input, Motions, OUTER_RING, SHARED};
 use crate::error::Result;
 use crate::integrate::Tuning;
+use crate::laws::elastic::solid::SolidContact;
 use crate::laws::fluid::Fluid;
+use crate::laws::guide::journal::{Harmonic, JournalMotion};
+use crate::laws::guide::lubricant_layer::{LubricantLayer, PressureShear};
+use crate::laws::guide::short_bearing::ShortBearing;
 use crate::laws::guide::{GuideFilm, GuideForce, GuideLaw, GuideSolid};
-use crate::laws::journal::{Harmonic, JournalMotion};
-use crate::laws::lubricant_layer::{LubricantLayer, PressureShear};
-use crate::laws::short_bearing::ShortBearing;
-use crate::laws::solid_contact::SolidContact;
 use crate::scalar::{Dual, Real, math};
 use crate::scene::{self, GuideRing};
 use crate::space::{Motion, Wrench};
@@ -385,9 +385,9 @@ fn longest_step(guide: &GuideLaw, mass: f64, place: &JournalPlace, tuning: &Tuni
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::laws::elastic::solid::SolidContact;
     use crate::laws::guide::{GuideLaw, GuideSolid};
-    use crate::laws::solid_contact::SolidContact;
-    use crate::laws::solid_friction::SolidFriction;
+    use crate::laws::traction::solid_friction::SolidFriction;
 
     fn law() -> GuideLaw {
         let friction = Some(SolidFriction { coefficient: 0.2, transition_speed: 0.01 });

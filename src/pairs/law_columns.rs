@@ -95,9 +95,9 @@ impl Columns for Apply<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::laws::elastic::line::ElasticLine;
     use crate::laws::line_contact::tests::raceway;
-    use crate::laws::normal_contact::ElasticLine;
-    use crate::laws::solid_friction::SolidFriction;
+    use crate::laws::traction::solid_friction::SolidFriction;
 
     /// Three laws with every part, different in all of them.
     fn laws() -> [LineContact; 3] {

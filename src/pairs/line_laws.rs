@@ -2,15 +2,15 @@
 
 use super::raceway::RacewayGeometry;
 use crate::error::Result;
-use crate::laws::film_thickness::{FilmThickness, ThermalCorrection, ThermalLoad};
+use crate::laws::elastic::line::{ElasticLine, NormalDamping, effective_modulus};
+use crate::laws::elastic::solid::SolidContact;
+use crate::laws::film::regime::LubricationRegime;
+use crate::laws::film::thickness::{FilmThickness, ThermalCorrection, ThermalLoad};
 use crate::laws::line_contact::LineContact;
-use crate::laws::lubrication_regime::LubricationRegime;
-use crate::laws::normal_contact::{ElasticLine, NormalDamping, effective_modulus};
-use crate::laws::rolling_resistance::{Extent, RollingResistance};
-use crate::laws::self_heating::SelfHeating;
-use crate::laws::solid_contact::SolidContact;
-use crate::laws::solid_friction::SolidFriction;
-use crate::laws::traction::Traction;
+use crate::laws::rolling::{Extent, Isothermal, RigidLimit, RollingFilm, RollingResistance, ZhouHoeprich};
+use crate::laws::traction::muraki_kimura::Traction;
+use crate::laws::traction::self_heating::SelfHeating;
+use crate::laws::traction::solid_friction::SolidFriction;
 use crate::scene::{self, ContactLaws, Lubricant, Material, Scene, bad_scene, needed};
 
 /// The parts of the scene that several laws need, with the path of the law being built.
@@ -210,13 +210,17 @@ impl<'a> LawBuilder<'a> {
             };
             let builder = self.at("raceways");
             let by = "rolling_resistance";
-            law.rolling_resistance = Some(RollingResistance::new(
-                &law.elastic,
-                builder.viscosity(by)?,
-                builder.pressure_viscosity(by)?,
-                builder.thermal_load(by)?,
-                extent,
-            ));
+            let film = RollingFilm {
+                line: &law.elastic,
+                viscosity: builder.viscosity(by)?,
+                pressure_viscosity: builder.pressure_viscosity(by)?,
+            };
+            let isothermal = match rolling.law {
+                scene::RollingLaw::ZhouHoeprich => Isothermal::ZhouHoeprich(ZhouHoeprich::new(&film)),
+                scene::RollingLaw::RigidLimit => Isothermal::RigidLimit(RigidLimit::new(&film)),
+            };
+            let thermal = builder.thermal_load(by)?;
+            law.rolling_resistance = Some(RollingResistance::new(isothermal, &law.elastic, thermal, extent));
         }
         Ok(law)
     }

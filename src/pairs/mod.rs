@@ -34,8 +34,8 @@ use crate::bodies::{Elements, Fault, ForceSource, InputValues, Layout, Motions, 
 use crate::error::Result;
 use crate::integrate::Tuning;
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
+use crate::laws::elastic::solid::SolidContact;
 use crate::laws::line_contact::LineContact;
-use crate::laws::solid_contact::SolidContact;
 use crate::registry::registry;
 use crate::scene::Scene;
 use crate::space::{Frame, Motion};

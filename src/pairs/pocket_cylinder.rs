@@ -18,7 +18,7 @@ use super::{ContactLaw, Cost, ElementPair, Law, PairInfo};
 use crate::bodies::{CAGE, ForceSource, Power};
 use crate::error::Result;
 use crate::laws::line_contact::LineContact;
-use crate::laws::solid_friction::SolidFriction;
+use crate::laws::traction::solid_friction::SolidFriction;
 use crate::scalar::math;
 use crate::scalar::{Real, smoothstep};
 use crate::scene::{Pocket, needed};

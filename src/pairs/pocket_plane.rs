@@ -14,7 +14,7 @@ use super::{Ahead, ContactLaw, Cost, ElementPair, Law, PairInfo};
 use crate::bodies::{CAGE, ForceSource, Input, Power};
 use crate::error::Result;
 use crate::integrate::Tuning;
-use crate::laws::solid_contact::SolidContact;
+use crate::laws::elastic::solid::SolidContact;
 use crate::scalar::{Real, math};
 use crate::scene::Pocket;
 use crate::space::rotate;

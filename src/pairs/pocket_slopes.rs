@@ -7,7 +7,7 @@ use super::pocket::{Pillar, PillarContact, PocketPlace, PocketShape};
 use super::{ContactLaw, SlopeSums};
 use crate::bodies::{CAGE, Element, ElementMotion, IN_HUB, Input, Motions};
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
-use crate::laws::solid_contact::SolidContact;
+use crate::laws::elastic::solid::SolidContact;
 use crate::scalar::{Dual, Real};
 use crate::space::{Frame, Motion};
 

@@ -10,7 +10,7 @@ pub struct Raceways {
     /// Laws besides elasticity. Normal forces follow Palmgren's line contact.
     #[serde(default)]
     pub contact: ContactLaws,
-    /// Rolling resistance of the film (Zhou and Hoeprich). Absent: off.
+    /// Rolling resistance of the film. Absent: off.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rolling_resistance: Option<RollingResistance>,
 }
@@ -118,8 +118,27 @@ pub struct BoundaryFriction {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct RollingResistance {
+    /// Law of the rolling resistance.
+    #[serde(default, skip_serializing_if = "is_usual")]
+    pub law: RollingLaw,
     /// Contacts in which it acts.
     pub extent: Extent,
+}
+
+/// Law of the rolling resistance.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum RollingLaw {
+    /// Zhou and Hoeprich, for loaded contacts.
+    #[default]
+    ZhouHoeprich,
+    /// The same with the limit of rigid surfaces at low load, which follows from Reynolds' equation.
+    RigidLimit,
+}
+
+fn is_usual(law: &RollingLaw) -> bool {
+    *law == RollingLaw::default()
 }
 
 /// Contacts with rolling resistance.

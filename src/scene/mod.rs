@@ -24,8 +24,8 @@ pub use cage::{
 pub use cases::{CASES_SCHEMA, Case, CaseSet};
 pub(crate) use check::{bad as bad_scene, needed};
 pub use contact_laws::{
-    BoundaryFriction, ContactDamping, ContactLaws, Extent, FilmLaw, Raceways, RollingResistance, SelfHeating,
-    ThermalCorrection, TractionLaw,
+    BoundaryFriction, ContactDamping, ContactLaws, Extent, FilmLaw, Raceways, RollingLaw, RollingResistance,
+    SelfHeating, ThermalCorrection, TractionLaw,
 };
 pub use elements::{ElementMotion, KinematicElements, Rollers};
 pub use json::{parse_override, set_path};

@@ -134,7 +134,8 @@ impl Scene {
         }
         let raceways = self.raceways.as_ref().ok_or_else(|| missing("raceways"))?;
         contact("raceways.contact", &raceways.contact)?;
-        if let Some(RollingResistance { extent: Extent::Loaded { threshold } }) = raceways.rolling_resistance
+        if let Some(RollingResistance { extent: Extent::Loaded { threshold }, .. }) =
+            raceways.rolling_resistance
         {
             let path = "raceways.rolling_resistance.extent.loaded.threshold";
             number(path, threshold, range(1e-6, 1e9, "N"))?;

@@ -2,10 +2,10 @@
 
 use crate::common::Random;
 use cagedyn::laws::fluid::Fluid;
+use cagedyn::laws::guide::journal::Harmonic;
+use cagedyn::laws::guide::lubricant_layer::{LubricantLayer, PressureShear};
+use cagedyn::laws::guide::short_bearing::ShortBearing;
 use cagedyn::laws::guide::{GuideFilm, GuideLaw};
-use cagedyn::laws::journal::Harmonic;
-use cagedyn::laws::lubricant_layer::{LubricantLayer, PressureShear};
-use cagedyn::laws::short_bearing::ShortBearing;
 use cagedyn::pairs::guide::GuideSide;
 use cagedyn::space::Motion;
 use std::f64::consts::TAU;

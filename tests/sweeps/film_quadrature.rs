@@ -5,9 +5,9 @@
 
 use crate::common::Random;
 use cagedyn::laws::fluid::Fluid;
-use cagedyn::laws::journal::{FilmForce, Harmonic, JournalMotion};
-use cagedyn::laws::lubricant_layer::{LubricantLayer, PressureShear};
-use cagedyn::laws::short_bearing::ShortBearing;
+use cagedyn::laws::guide::journal::{FilmForce, Harmonic, JournalMotion};
+use cagedyn::laws::guide::lubricant_layer::{LubricantLayer, PressureShear};
+use cagedyn::laws::guide::short_bearing::ShortBearing;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Nodes and weights of Gauss-Legendre quadrature on [0, 1].

@@ -29,10 +29,10 @@
 //! lie within a twelfth of the shortest period and the values around them do not curve towards zero; that costs
 //! accuracy, but neither continuity nor symmetry.
 
-use super::fluid::Fluid;
-use super::journal::{FilmForce, Harmonic, JournalMotion, NoFilm};
-use super::layer_gap::{Gap, ProfileGap, RoundGap, change, parts};
-use super::layer_quadrature::{Arc, Integrator};
+use crate::laws::fluid::Fluid;
+use crate::laws::guide::journal::{FilmForce, Harmonic, JournalMotion, NoFilm};
+use crate::laws::guide::layer_gap::{Gap, ProfileGap, RoundGap, change, parts};
+use crate::laws::guide::layer_quadrature::{Arc, Integrator};
 use crate::scalar::Real;
 use std::f64::consts::{PI, TAU};
 

@@ -16,12 +16,19 @@
 //! The factor f is an assumption: without it (Lambda_t = 0) the share falls slower than the film force grows, their
 //! product goes to infinity as the gap closes and is gone when it has closed. With it the force is continuous.
 
-use super::contact_pair::ContactMotion;
-use super::fluid::Fluid;
-use super::journal::{FilmForce, JournalMotion, NoFilm};
-use super::lubricant_layer::{LubricantLayer, PressureShear};
-use super::short_bearing::ShortBearing;
-use super::solid_contact::SolidContact;
+pub mod barus_film;
+pub mod journal;
+mod layer_gap;
+mod layer_quadrature;
+pub mod lubricant_layer;
+pub mod short_bearing;
+
+use crate::laws::contact_pair::ContactMotion;
+use crate::laws::elastic::solid::SolidContact;
+use crate::laws::fluid::Fluid;
+use crate::laws::guide::journal::{FilmForce, JournalMotion, NoFilm};
+use crate::laws::guide::lubricant_layer::{LubricantLayer, PressureShear};
+use crate::laws::guide::short_bearing::ShortBearing;
 use crate::scalar::{Real, smoothstep};
 
 /// Film in the guide.
@@ -214,7 +221,7 @@ fn from_film<T: Real>(film: FilmForce<T>, share: T) -> GuideForce<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laws::solid_friction::SolidFriction;
+    use crate::laws::traction::solid_friction::SolidFriction;
 
     fn layer() -> GuideFilm {
         GuideFilm::LubricantLayer(LubricantLayer {

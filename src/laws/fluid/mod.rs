@@ -1,5 +1,7 @@
 //! The lubricant as all laws see it at one instant.
 
+pub mod walther;
+
 use crate::scalar::math;
 
 /// How much thicker the lubricant is than that which laws were built with.

@@ -19,9 +19,9 @@
 //! film is thin, and a panel in which g changes sign ends there. Two changes within one panel go unseen; panels are
 //! narrow enough that this costs less than 1e-3 of the force, and usually 1e-9.
 
-use super::fluid::Fluid;
-use super::journal::{FilmForce, Harmonic, JournalMotion, NoFilm};
-use super::layer_gap::change;
+use crate::laws::fluid::Fluid;
+use crate::laws::guide::journal::{FilmForce, Harmonic, JournalMotion, NoFilm};
+use crate::laws::guide::layer_gap::change;
 use crate::scalar::Real;
 use crate::scalar::math;
 use std::f64::consts::{PI, TAU};

@@ -10,7 +10,7 @@
 //! at asinh(Sigma); it is continuously differentiable at X_c = 2. Sigma/D does not depend on viscosity, and only
 //! ln(eta_P) enters, so pressures far above 1 GPa do not overflow. Source: NTN Eq. 6-8.
 
-use super::film_thickness::Entrainment;
+use crate::laws::film::thickness::Entrainment;
 use crate::scalar::Numeric;
 use crate::scalar::math;
 use std::f64::consts::LN_2;

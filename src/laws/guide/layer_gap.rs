@@ -9,7 +9,7 @@
 //! because powers of 1/h are polynomials in cos gamma: however thin the film, few quadrature nodes do. Everything is
 //! written with cos(gamma/2) and sin(gamma/2), so that nothing cancels at either end and e = 0 needs no special case.
 
-use super::journal::{Harmonic, JournalMotion};
+use crate::laws::guide::journal::{Harmonic, JournalMotion};
 use crate::scalar::Real;
 use crate::scalar::math;
 

@@ -8,9 +8,9 @@
 //! say so, which is exact for a coordinate with one term. All places are chosen from plain values; nodes move with the
 //! ends of the arc, so that derivatives are those of the integral.
 
-use super::barus_film::BarusFilm;
-use super::layer_gap::{Gap, Place, parts};
-use super::lubricant_layer::{LubricantLayer, PressureShear};
+use crate::laws::guide::barus_film::BarusFilm;
+use crate::laws::guide::layer_gap::{Gap, Place, parts};
+use crate::laws::guide::lubricant_layer::{LubricantLayer, PressureShear};
 use crate::scalar::Real;
 use crate::scalar::math;
 use std::f64::consts::PI;

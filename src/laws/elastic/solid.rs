@@ -9,8 +9,8 @@
 //! a positive delta_d makes N continuous and is an assumption of this library. N never pulls. Source: Takeshima et
 //! al., Front. Mech. Eng. 10 (2025), section 3.
 
-use super::contact_pair::{ContactForce, ContactMotion};
-use super::solid_friction::SolidFriction;
+use crate::laws::contact_pair::{ContactForce, ContactMotion};
+use crate::laws::traction::solid_friction::SolidFriction;
 use crate::scalar::{Real, smoothstep};
 
 /// Added to |du| in m/s, so that friction and its slope are defined at zero slip.

@@ -1,22 +1,79 @@
-//! Rolling resistance of a lubricated line contact (Zhou and Hoeprich).
+//! Rolling resistance of a lubricated line contact.
 //!
 //! ```text
-//! F_EHLr = T_R 29.2 R_e l (G U)^0.648 W^0.246 / alpha
+//! F_R = share T_R F_iso
 //! T_R = max(0, [1 - 13.2 (P_max/E') L_T^0.42] / [1 + 0.213 (1 + 2.23 s^0.83) L_T^0.64])
 //! ```
 //!
-//! F_EHLr acts on both surfaces against the rolling velocity. The pressure of the film adds 2 R_e F_EHLr/R through
-//! the centre of each body along it, so that the four tangential forces of a contact cancel. Source: NTN Eq. 11
-//! and 12. The floor at zero is an assumption: the fitted T_R turns negative at very high speed and pressure.
+//! F_iso is that of one of the laws of this folder, share that of the load zone if asked for. F_R acts on both surfaces
+//! against the rolling velocity. The pressure of the film adds 2 R_e F_R/R through the centre of each body along it, so that
+//! the four tangential forces of a contact cancel. Source: NTN Eq. 11 and 12. The floor at zero is an assumption: the fitted
+//! T_R turns negative at very high speed and pressure.
 //!
-//! The paper applies the law to unloaded contacts too and finds the result too large; [`Extent::Loaded`] leaves
-//! it out there.
+//! The paper applies its law to unloaded contacts too and finds the result too large; [`Extent::Loaded`] leaves it out there.
+//!
+//! A new law is a file with [`RollingLaw`] and its name in `rolling_laws!`.
 
-use super::film_thickness::{ENTRAINMENT_FLOOR, Entrainment, ThermalLoad};
-use super::normal_contact::ElasticLine;
-use crate::scalar::math;
+mod rigid_limit;
+mod zhou_hoeprich;
+
+pub use rigid_limit::RigidLimit;
+pub use zhou_hoeprich::ZhouHoeprich;
+
+use crate::laws::elastic::line::ElasticLine;
+use crate::laws::film::thickness::{ENTRAINMENT_FLOOR, Entrainment, ThermalLoad};
 use crate::scalar::{Base, Of, smoothstep};
 use std::f64::consts::PI;
+
+/// What a law is made from.
+#[derive(Clone, Copy, Debug)]
+pub struct RollingFilm<'a> {
+    /// The elastic contact.
+    pub line: &'a ElasticLine,
+    /// eta0, Pa s.
+    pub viscosity: f64,
+    /// alpha, 1/Pa.
+    pub pressure_viscosity: f64,
+}
+
+/// A law of isothermal rolling resistance: constants of the surfaces, and F_iso.
+pub trait RollingLaw {
+    /// The same law without force anywhere.
+    fn none(&self) -> Self;
+}
+
+/// Defines the choice among the laws, each of which has `new`, `map` and `force`.
+macro_rules! rolling_laws {
+    ($($law:ident),+) => {
+        /// One of the laws of this folder.
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub enum Isothermal<B = f64> {
+            $(#[doc = concat!("See [`", stringify!($law), "`].")] $law($law<B>)),+
+        }
+
+        impl Isothermal {
+            fn none(&self) -> Self {
+                match self { $(Self::$law(law) => Self::$law(law.none())),+ }
+            }
+        }
+
+        impl<B> Isothermal<B> {
+            #[inline(always)]
+            fn map<U>(&self, f: &mut impl FnMut(&B) -> U) -> Isothermal<U> {
+                match self { $(Self::$law(law) => Isothermal::$law(law.map(f))),+ }
+            }
+        }
+
+        impl<B: Base> Isothermal<B> {
+            #[inline(always)]
+            fn force<T: Of<B>>(&self, ln_q: T, e: &Entrainment<T>) -> T {
+                match self { $(Self::$law(law) => law.force(ln_q, e)),+ }
+            }
+        }
+    };
+}
+
+rolling_laws!(ZhouHoeprich, RigidLimit);
 
 /// Where rolling resistance acts.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,11 +87,11 @@ pub enum Extent {
     },
 }
 
-/// Rolling resistance law of one contact pair.
+/// Rolling resistance of one contact pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RollingResistance<B = f64> {
-    /// 29.2 R_e l (G U)^0.648 W^0.246 / alpha at Q = 1 N, |u| = 1 m/s, N.
-    pub scale: B,
+    /// F_iso.
+    pub law: Isothermal<B>,
     /// 4/(pi E'), from P_mean to P_max/E', 1/Pa.
     pub pressure_factor: B,
     /// Thermal load constant of T_R.
@@ -44,29 +101,14 @@ pub struct RollingResistance<B = f64> {
 }
 
 impl RollingResistance {
-    /// From the elastic contact, eta0 (Pa s), alpha (1/Pa) and the thermal load constant.
-    pub fn new(
-        line: &ElasticLine,
-        viscosity: f64,
-        pressure_viscosity: f64,
-        thermal: ThermalLoad,
-        extent: Extent,
-    ) -> Self {
-        let g_u = pressure_viscosity * viscosity / line.equivalent_radius;
-        let w = 1.0 / (line.effective_modulus * line.equivalent_radius * line.length);
-        Self {
-            scale: 29.2 * line.equivalent_radius * line.length / pressure_viscosity
-                * math::powf(g_u, 0.648)
-                * math::powf(w, 0.246),
-            pressure_factor: 4.0 / PI / line.effective_modulus,
-            thermal,
-            extent,
-        }
+    /// From the law, the elastic contact and the thermal load constant.
+    pub fn new(law: Isothermal, line: &ElasticLine, thermal: ThermalLoad, extent: Extent) -> Self {
+        Self { law, pressure_factor: 4.0 / PI / line.effective_modulus, thermal, extent }
     }
 
     /// The same, but without force anywhere.
     pub fn none(&self) -> Self {
-        Self { scale: 0.0, ..*self }
+        Self { law: self.law.none(), ..*self }
     }
 }
 
@@ -75,7 +117,7 @@ impl<B> RollingResistance<B> {
     #[inline(always)]
     pub fn map<U>(&self, f: &mut impl FnMut(&B) -> U) -> RollingResistance<U> {
         RollingResistance {
-            scale: f(&self.scale),
+            law: self.law.map(f),
             pressure_factor: f(&self.pressure_factor),
             thermal: self.thermal,
             extent: self.extent,
@@ -84,7 +126,7 @@ impl<B> RollingResistance<B> {
 }
 
 impl<B: Base> RollingResistance<B> {
-    /// F_EHLr >= 0 in N under the load `q` > 0 (N), of which ln is `ln_q`, and mean pressure (Pa).
+    /// F_R >= 0 in N under the load `q` > 0 (N), of which ln is `ln_q`, and mean pressure (Pa).
     #[inline(always)]
     pub fn force<T: Of<B>>(&self, q: T, ln_q: T, mean_pressure: T, e: &Entrainment<T>) -> T {
         let share = match self.extent {
@@ -93,8 +135,7 @@ impl<B: Base> RollingResistance<B> {
         };
         let pressure = mean_pressure * self.pressure_factor;
         let t_r = self.thermal.gupta(pressure, e).floored(0.0);
-        let isothermal = ((e.ln_speed + e.ln_viscosity) * 0.648 + ln_q * 0.246).exp() * self.scale;
-        isothermal * t_r * share
+        self.law.force(ln_q, e) * t_r * share
     }
 }
 
@@ -106,7 +147,7 @@ impl RollingResistance {
             Extent::All => 0.0,
             Extent::Loaded { threshold } => threshold,
         };
-        force == 0.0 && self.scale > 0.0 && q > least && u.abs() > ENTRAINMENT_FLOOR
+        force == 0.0 && self.law != self.law.none() && q > least && u.abs() > ENTRAINMENT_FLOOR
     }
 }
 
@@ -116,7 +157,9 @@ mod tests {
 
     fn law(extent: Extent) -> RollingResistance {
         let line = ElasticLine::new(2.263736e11, 6.4e-3, 0.024);
-        RollingResistance::new(&line, 0.05, 2e-8, ThermalLoad::new(0.04, 0.05, 0.13), extent)
+        let film = RollingFilm { line: &line, viscosity: 0.05, pressure_viscosity: 2e-8 };
+        let law = Isothermal::ZhouHoeprich(ZhouHoeprich::new(&film));
+        RollingResistance::new(law, &line, ThermalLoad::new(0.04, 0.05, 0.13), extent)
     }
 
     #[test]

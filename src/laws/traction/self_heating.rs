@@ -16,7 +16,7 @@
 //! The iteration ends with a guarantee. F' >= 1, so |F| bounds the error of dT before the last step; |S''| <= 1 over
 //! ln(eta_P), so S = dT/A after it is wrong by less than (beta F)^2/2, which is held below 1e-14 of S.
 
-use super::traction::{MeanShear, ShearState};
+use crate::laws::traction::muraki_kimura::{MeanShear, ShearState};
 use crate::scalar::{Base, Numeric, Of};
 use std::f64::consts::PI;
 
@@ -153,8 +153,8 @@ fn heat_flow<B, T: Of<B>>(thermal_product: B, u: T, half_width: T) -> T {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laws::film_thickness::Entrainment;
-    use crate::laws::traction::Traction;
+    use crate::laws::film::thickness::Entrainment;
+    use crate::laws::traction::muraki_kimura::Traction;
     use crate::scalar::{Dual, Real};
 
     const STEEL: f64 = 46.0 * 7830.0 * 460.0;

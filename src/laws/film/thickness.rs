@@ -12,7 +12,7 @@
 //! Valid for fully flooded line contacts in the piezoviscous-elastic regime. Sources: NTN Eq. 2, 3, 5 and 11.
 //! The Ghosh-Pandey factor is only partly legible in the paper's text; its form here is the best reading.
 
-use super::normal_contact::ElasticLine;
+use crate::laws::elastic::line::ElasticLine;
 use crate::scalar::math;
 use crate::scalar::{Base, Numeric, Of};
 use std::f64::consts::PI;
@@ -191,7 +191,7 @@ impl FilmThickness {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laws::normal_contact::effective_modulus;
+    use crate::laws::elastic::line::effective_modulus;
 
     fn at(u: f64, du: f64) -> Entrainment<f64> {
         Entrainment::new(u + du / 2.0, u - du / 2.0, 0.0)

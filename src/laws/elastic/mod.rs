@@ -1,0 +1,4 @@
+//! Normal force of two surfaces that are pressed together.
+
+pub mod line;
+pub mod solid;

@@ -1,0 +1,4 @@
+//! Films between rolling surfaces.
+
+pub mod regime;
+pub mod thickness;

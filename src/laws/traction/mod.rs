@@ -1,0 +1,5 @@
+//! Friction of sliding surfaces.
+
+pub mod muraki_kimura;
+pub mod self_heating;
+pub mod solid_friction;
