@@ -76,7 +76,7 @@ const fn added(effect: &'static str, set: &'static [(&'static str, &'static str)
 pub const STUDIES: [Study; 2] =
     [Study { name: "nu2310", rows: &NU2310 }, Study { name: "grease_guide", rows: &GREASE_GUIDE }];
 
-const NU2310: [Row; 20] = [
+const NU2310: [Row; 22] = [
     removed("gravity", &[("gravity", "null")], &[]),
     removed("raceway damping", &[("raceways.contact.damping", "null")], &[]),
     removed("raceway thermal correction", &[("raceways.contact.thermal_correction", "null")], &[]),
@@ -96,6 +96,20 @@ const NU2310: [Row; 20] = [
         &[("raceways.rolling_resistance", "null")],
         &[("rolling_resistance", NOWHERE)],
     ),
+    Row {
+        effect: "rolling resistance with the limit of rigid surfaces",
+        kind: Kind::Replaced,
+        set: &[("raceways.rolling_resistance.law", "rigid_limit")],
+        gone: &[],
+        states: &[],
+    },
+    Row {
+        effect: "rolling resistance of loaded contacts",
+        kind: Kind::Replaced,
+        set: &[("raceways.rolling_resistance.extent", r#"{"loaded": {"threshold": 50}}"#)],
+        gone: &[],
+        states: &[],
+    },
     removed(
         "all raceway laws but elasticity",
         &[("raceways.contact", "{}"), ("raceways.rolling_resistance", "null")],

@@ -1,296 +1,37 @@
 //! Time integration. Knows second-order systems, steps and errors; nothing of bearings.
+//!
+//! | folder or file | what |
+//! |---|---|
+//! | `system` | what a method asks of a system |
+//! | `stepper` | what a method gives |
+//! | `driver/` | a run: steps, errors, events, undoing, following |
+//! | `methods/` | leapfrog, Dormand-Prince, Rosenbrock, Radau |
+//! | `auto/` | the choice among them, its monitors and its constants |
+//! | `linear/` | structured linear systems |
+//!
+//! A new method is a file in `methods/` and a line in `sim/method.rs`.
 
-pub mod arrowhead;
 pub mod auto;
-pub mod control;
-pub(crate) mod damping;
-mod dense;
-mod dormand_prince;
 mod driver;
-mod leapfrog;
-mod ledger;
-pub mod mode;
-mod pack;
-mod radau;
-mod rosenbrock;
-mod selection;
-pub(crate) mod shifted;
-pub mod stability;
-mod tuning;
-mod watch;
+pub mod linear;
+mod methods;
+mod stepper;
+mod system;
 
-pub use damping::{DampingBlock, GroupDamping, implicit_share};
-pub use dormand_prince::DormandPrince;
-pub use driver::{Driver, Failure, Limits, Statistics};
-pub use leapfrog::Leapfrog;
-pub use ledger::throughput;
-pub use pack::Reader;
-pub use radau::Radau;
-pub use rosenbrock::Rosenbrock;
-pub use tuning::{Constant, Tuning};
-pub use watch::{Samples, Total};
+pub use auto::ledger::throughput;
+pub use auto::tuning::{Constant, Tuning};
+pub use driver::watch::{Samples, Total};
+pub use driver::{Driver, Failure, Limits, Statistics, control};
+pub use methods::damping::{DampingBlock, GroupDamping, implicit_share};
+pub use methods::dormand_prince::DormandPrince;
+pub use methods::leapfrog::Leapfrog;
+pub use methods::pack::Reader;
+pub use methods::radau::Radau;
+pub use methods::rosenbrock::Rosenbrock;
+pub use stepper::{Applied, Stepper};
+pub use system::{
+    Interruption, Linearization, Linearized, Observed, Quadratures, SemiImplicit, Split, Structure, System,
+    Vibration, WORKS,
+};
 
-use arrowhead::{Arrowhead, HUB, SPOKE};
-use auto::Choice;
-use control::{Estimate, Law};
-
-/// A second-order system `q' = v[..positions]`, `v' = a(t, q, v)`. Velocities beyond the positions have no position.
-///
-/// A state vector is (q, v).
-pub trait System {
-    /// Why an evaluation failed.
-    type Fault: Copy;
-
-    /// Number of positions.
-    fn positions(&self) -> usize;
-    /// Number of velocities, at least the number of positions.
-    fn velocities(&self) -> usize;
-    /// Accelerations at time `t` in s. A failure makes the driver retry with a smaller step.
-    ///
-    /// # Errors
-    /// The system's fault when forces are undefined at this state.
-    fn accelerations(&mut self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> Result<(), Self::Fault>;
-    /// The fault for a result that is not finite at the index of a velocity.
-    fn not_finite(&self, velocity: usize) -> Self::Fault;
-    /// The first time after `t` at which the accelerations jump or kink by themselves; infinity if there is none.
-    fn next_event(&self, t: f64) -> f64;
-    /// The longest step (s) from this state at time `t` in which nothing narrow can be passed unseen, or any longer one than
-    /// `wanted`. No method takes a longer one.
-    fn longest_step(&self, _t: f64, _q: &[f64], _v: &[f64], _wanted: f64) -> f64 {
-        f64::INFINITY
-    }
-    /// Number of groups of up to three velocities that belong together, as those of one body do.
-    fn groups(&self) -> usize;
-    /// Velocity indices of such a group; `None` for an unused place.
-    fn group(&self, i: usize) -> [Option<usize>; 3];
-    /// Which velocities are coupled.
-    fn structure(&self) -> Structure;
-    /// Accelerations `a` at time `t` in s, and their derivatives.
-    ///
-    /// # Errors
-    /// The system's fault when forces are undefined at this state.
-    fn linearize(
-        &mut self,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
-        a: &mut [f64],
-        out: &mut Linearization,
-    ) -> Result<(), Self::Fault>;
-    /// Time that the derivatives take beside the accelerations, in evaluations of these.
-    fn linearization_cost(&self) -> f64 {
-        2.0
-    }
-    /// Damping within each of the groups at the last evaluated state (`q`, `v`), for a step of size `h` in s.
-    fn damping(&self, h: f64, q: &[f64], v: &[f64], out: &mut GroupDamping);
-    /// Number of groups whose step a semi-implicit method finds first. The others follow: what the forces of the first have
-    /// become in that step acts on them too.
-    fn leaders(&self) -> usize {
-        self.groups()
-    }
-    /// Adds to the accelerations `a` of the groups that follow what the forces between them and the leaders have become
-    /// since the last evaluation, at (`q`, `v`), in the `step` of the leaders.
-    fn react(&self, _q: &[f64], _v: &[f64], _step: &SemiImplicit<'_>, _a: &mut [f64]) {}
-    /// The fast vibration at the last evaluated state, which a method must not damp by itself.
-    fn vibration(&self) -> Vibration {
-        Vibration::default()
-    }
-    /// What is integrated over time beside the state, at the last evaluated state (`q`, `v`), or for a step from there.
-    fn quadratures(&self, _q: &[f64], _v: &[f64], _step: Option<&SemiImplicit<'_>>) -> Quadratures {
-        Quadratures::default()
-    }
-    /// Number of quantities that the host watches in every step.
-    fn watched(&self) -> usize {
-        0
-    }
-    /// Their values, as those of [`System::quadratures`].
-    fn watch(&self, _q: &[f64], _v: &[f64], _step: Option<&SemiImplicit<'_>>, _out: &mut [f64]) {}
-    /// Kinds of energy stored at the last evaluated state (`q`, `v`), J. Their rate is the sum of the quadratures.
-    fn energy(&self, _q: &[f64], _v: &[f64]) -> [f64; 3] {
-        [0.0; 3]
-    }
-    /// Whether the host wants the run to stop; asked before every attempt.
-    fn interruption(&mut self) -> Option<Interruption> {
-        None
-    }
-    /// Told of every attempt from time `t` (s) that failed with `fault`.
-    fn failed(&mut self, _t: f64, _fault: Self::Fault) {}
-    /// Told of every attempt whose error in this group was too large.
-    fn rejected(&mut self, _group: usize) {}
-}
-
-/// Why a host stops a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Interruption {
-    /// Asked to.
-    Cancelled,
-    /// The wall time is used up.
-    OutOfTime,
-}
-
-/// Quantities that are integrated over time beside the state, or their integrals: powers or works first, then others.
-pub type Quadratures = [f64; WORKS + 1];
-/// Number of the powers among them.
-pub const WORKS: usize = 11;
-
-/// A semi-implicit step, whose forces F are linear from those at the evaluated velocities v* on: F(v*) - D (v - v*) with the
-/// share of the change of the step that [`implicit_share`] says, and do their work at the mean velocities.
-#[derive(Clone, Copy, Debug)]
-pub struct SemiImplicit<'a> {
-    /// Mean velocities.
-    pub mean: &'a [f64],
-    /// Velocities at the end.
-    pub end: &'a [f64],
-    /// Step, s.
-    pub h: f64,
-}
-
-/// The evaluation that a semi-implicit step was made with: positions `start.q + h/2 start.v`, velocities `predicted`. The
-/// forces it applied lie between those of the states on both sides; where friction is steep neither of them has their mean.
-#[derive(Clone, Copy, Debug)]
-pub struct Applied<'a> {
-    /// State (q, v) at the start.
-    pub start: &'a [f64],
-    /// State at the end.
-    pub end: &'a [f64],
-    /// Velocities of the evaluation.
-    pub predicted: &'a [f64],
-    /// Step, s.
-    pub h: f64,
-}
-
-/// `sum` + `weight` `x`, in place.
-pub(crate) fn add_weighted(sum: &mut Quadratures, weight: f64, x: &Quadratures) {
-    for (sum, x) in sum.iter_mut().zip(x) {
-        *sum += weight * x;
-    }
-}
-
-/// How much a system vibrates: mean squares, added up.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Vibration {
-    /// Sum of squared speeds, m^2/s^2.
-    pub squares: f64,
-    /// Number of speeds in it.
-    pub count: f64,
-}
-
-impl Vibration {
-    /// Adds another with a weight.
-    pub fn add(&mut self, other: Self, weight: f64) {
-        self.squares += weight * other.squares;
-        self.count += weight * other.count;
-    }
-
-    /// Root mean square speed, m/s; zero of nothing.
-    pub fn rms(self) -> f64 {
-        if self.count > 0.0 { (self.squares / self.count).sqrt() } else { 0.0 }
-    }
-}
-
-/// Velocities by their coupling: a hub, coupled to all, and spokes, coupled to the hub only. Every velocity has one place.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Structure {
-    /// Velocity index of each place of the hub; `None` for an unused place.
-    pub hub: [Option<usize>; HUB],
-    /// Velocity indices of each spoke.
-    pub spokes: Vec<[usize; SPOKE]>,
-}
-
-/// Derivatives of the accelerations at one state. Unused places are zero, and so are columns of velocities without
-/// position in the first.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Linearization {
-    /// da/dq.
-    pub over_positions: Arrowhead,
-    /// da/dv.
-    pub over_velocities: Arrowhead,
-    /// da/dt at constant state.
-    pub over_time: Vec<f64>,
-}
-
-impl Linearization {
-    /// Memory for a system of this structure with `velocities` velocities.
-    pub fn new(structure: &Structure, velocities: usize) -> Self {
-        let zero = Arrowhead::new(structure.spokes.len());
-        Self { over_positions: zero.clone(), over_velocities: zero, over_time: vec![0.0; velocities] }
-    }
-
-    /// Sets everything to zero.
-    pub fn clear(&mut self) {
-        self.over_positions.fill_zero();
-        self.over_velocities.fill_zero();
-        self.over_time.fill(0.0);
-    }
-}
-
-/// One integration method: makes steps and interpolates in the last one.
-pub trait Stepper<S: System> {
-    /// Sets the state.
-    fn set_state(&mut self, state: &[f64]);
-    /// Evaluates what the next step starts from; called at the start and after events.
-    ///
-    /// # Errors
-    /// The system's fault at this state.
-    fn refresh(&mut self, system: &mut S, t: f64) -> Result<(), S::Fault>;
-    /// Called before every attempt from time `t`: the method may measure the system and change itself. Returns the
-    /// step to go on with, if it is to change.
-    fn review(&mut self, _system: &mut S, _t: f64) -> Option<f64> {
-        None
-    }
-    /// Forgets what was learned from earlier states.
-    fn forget(&mut self) {}
-    /// Tries a step of size `h` from time `t`; never evaluates later than `t_last`. Returns the error, if the method
-    /// estimates it.
-    ///
-    /// # Errors
-    /// The system's fault at a stage; the state is then unchanged.
-    fn attempt(&mut self, system: &mut S, t: f64, h: f64, t_last: f64) -> Result<Option<Estimate>, S::Fault>;
-    /// Makes the last attempt the current state.
-    fn accept(&mut self);
-    /// Integrals of [`System::quadratures`] over the last attempt.
-    fn integrals(&self) -> &Quadratures;
-    /// What the host watches, in the last attempt.
-    fn samples(&self) -> &Samples;
-    /// What the last accepted step was made with, for methods whose forces are those of steps and not of states.
-    fn applied(&self) -> Option<Applied<'_>> {
-        None
-    }
-    /// State at the end of the last accepted step.
-    fn state(&self) -> &[f64];
-    /// State within the last accepted step at the fraction 0 <= `theta` <= 1 of it.
-    fn interpolate(&self, theta: f64, out: &mut [f64]);
-    /// Largest number of steps that are judged together before they count; zero if they count at once.
-    fn longest_stretch(&self) -> usize {
-        0
-    }
-    /// Whether the steps since the last judgement were right, at time `t`. If not, the driver goes back to their start.
-    fn judge(&mut self, _system: &mut S, _t: f64) -> bool {
-        true
-    }
-    /// Called at time `t` of the start of a stretch that was wrong, with the memory of then: the method must follow the
-    /// system more closely. Returns the step to go on with, if it is to change.
-    fn go_back(&mut self, _system: &mut S, _t: f64) -> Option<f64> {
-        None
-    }
-    /// Appends what [`Stepper::recall`] needs to know of the last accepted step.
-    fn keep(&self, _out: &mut Vec<f64>) {}
-    /// State within a step of which this was kept, at the fraction 0 <= `theta` <= 1 of it.
-    fn recall(&self, _kept: &[f64], theta: f64, out: &mut [f64]) {
-        self.interpolate(theta, out);
-    }
-    /// As [`Stepper::applied`], of a step of which this was kept.
-    fn applied_in<'a>(&'a self, _kept: &'a [f64]) -> Option<Applied<'a>> {
-        self.applied()
-    }
-    /// How the steps follow the errors; of no use for methods without error estimate.
-    fn control(&self) -> Law;
-    /// What a method that chooses among others has chosen.
-    fn choice(&self) -> Option<Choice> {
-        None
-    }
-    /// Appends everything that the next steps depend on.
-    fn save(&self, out: &mut Vec<f64>);
-    /// Takes back what [`Stepper::save`] wrote; `None` if it does not fit.
-    fn load(&mut self, from: &mut Reader<'_>) -> Option<()>;
-}
+pub(crate) use system::add_weighted;

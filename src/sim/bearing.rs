@@ -3,8 +3,8 @@
 use super::jacobian::Slopes;
 use super::limits::RunLimits;
 use crate::integrate::{
-    Applied, GroupDamping, Interruption, Linearization, Quadratures, SemiImplicit, Structure, System, Tuning,
-    Vibration,
+    Applied, GroupDamping, Interruption, Linearization, Linearized, Observed, Quadratures, SemiImplicit,
+    Split, Structure, System, Tuning, Vibration,
 };
 use crate::model::{
     Channel, Energy, Fault, FaultCounts, Forces, HostInputs, Input, LawCounts, Model, PartTimes, Workspace,
@@ -270,7 +270,9 @@ impl System for Bearing {
     fn group(&self, i: usize) -> [Option<usize>; 3] {
         self.model.layout().group(i)
     }
+}
 
+impl Linearized for Bearing {
     fn structure(&self) -> Structure {
         self.model.structure()
     }
@@ -296,7 +298,27 @@ impl System for Bearing {
     fn linearization_cost(&self) -> f64 {
         self.model.jacobian_cost()
     }
+}
 
+impl Split for Bearing {
+    fn damping(&self, h: f64, _q: &[f64], _v: &[f64], out: &mut GroupDamping) {
+        self.model.damping(h, &self.workspace, out);
+    }
+
+    /// The rollers; ring and cage follow.
+    fn leaders(&self) -> usize {
+        match self.model.layout().count {
+            0 => self.groups(),
+            rollers => rollers,
+        }
+    }
+
+    fn react(&self, _q: &[f64], v: &[f64], step: &SemiImplicit<'_>, a: &mut [f64]) {
+        self.model.react(v, step, &self.workspace, a);
+    }
+}
+
+impl Observed for Bearing {
     fn vibration(&self) -> Vibration {
         self.workspace.vibration()
     }
@@ -305,17 +327,17 @@ impl System for Bearing {
         self.model.powers(v, step, &self.workspace)
     }
 
+    fn energy(&self, _q: &[f64], _v: &[f64]) -> [f64; 3] {
+        let Energy { kinetic, elastic, potential } = self.model.energy(&self.workspace);
+        [kinetic, elastic, potential]
+    }
+
     fn watched(&self) -> usize {
         self.model.watched().len()
     }
 
     fn watch(&self, _q: &[f64], v: &[f64], step: Option<&SemiImplicit<'_>>, out: &mut [f64]) {
         self.model.watch(v, step, &self.workspace, out);
-    }
-
-    fn energy(&self, _q: &[f64], _v: &[f64]) -> [f64; 3] {
-        let Energy { kinetic, elastic, potential } = self.model.energy(&self.workspace);
-        [kinetic, elastic, potential]
     }
 
     fn interruption(&mut self) -> Option<Interruption> {
@@ -331,22 +353,6 @@ impl System for Bearing {
         if let Some(count) = self.rejections.get_mut(group) {
             *count += 1;
         }
-    }
-
-    /// The rollers; ring and cage follow.
-    fn leaders(&self) -> usize {
-        match self.model.layout().count {
-            0 => self.groups(),
-            rollers => rollers,
-        }
-    }
-
-    fn react(&self, _q: &[f64], v: &[f64], step: &SemiImplicit<'_>, a: &mut [f64]) {
-        self.model.react(v, step, &self.workspace, a);
-    }
-
-    fn damping(&self, h: f64, _q: &[f64], _v: &[f64], out: &mut GroupDamping) {
-        self.model.damping(h, &self.workspace, out);
     }
 }
 

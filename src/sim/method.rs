@@ -2,8 +2,8 @@
 
 use super::bearing::Bearing;
 use super::preset::{Numbers, UNDAMPED_SHARE, numbers};
+use crate::integrate::auto::stability::Expectation;
 use crate::integrate::auto::{Aim, Auto, Choice, Kind, Reason};
-use crate::integrate::stability::Expectation;
 use crate::integrate::{DormandPrince, Leapfrog, Limits, Radau, Rosenbrock, Stepper, Tuning};
 use crate::model::Model;
 use crate::scene::{Method, Solver};

@@ -4,7 +4,7 @@
 use super::jacobian::Slopes;
 use super::{Evaluated, Sim, check_time, wrong_size};
 use crate::error::{Error, Result, Status};
-use crate::integrate::shifted::Shifted;
+use crate::integrate::linear::shifted::Shifted;
 use crate::model::Model;
 
 /// Derivatives and factors that are kept from call to call.

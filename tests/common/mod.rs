@@ -9,6 +9,7 @@ pub mod palmgren;
 pub mod parts;
 mod random;
 pub mod reports;
+pub mod systems;
 
 pub use random::Random;
 

@@ -3,7 +3,8 @@
 use crate::common::{example, read, with};
 use crate::cvode::{self, Derivatives, Method, Options};
 use cagedyn::integrate::{
-    DormandPrince, Driver, GroupDamping, Limits, Linearization, Rosenbrock, Stepper, Structure, System,
+    DormandPrince, Driver, Limits, Linearization, Linearized, Observed, Rosenbrock, Stepper, Structure,
+    System,
 };
 use cagedyn::model::{Fault, HostInputs, Workspace};
 use cagedyn::{Model, Sim};
@@ -202,7 +203,6 @@ struct Fixed {
 
 impl System for Fixed {
     type Fault = Fault;
-
     fn positions(&self) -> usize {
         self.model.layout().positions()
     }
@@ -217,15 +217,9 @@ impl System for Fixed {
     fn not_finite(&self, velocity: usize) -> Fault {
         Fault::NotFinite { velocity, contact: None }
     }
-    fn next_event(&self, _: f64) -> f64 {
-        f64::INFINITY
-    }
-    fn groups(&self) -> usize {
-        0
-    }
-    fn group(&self, _: usize) -> [Option<usize>; 3] {
-        [None; 3]
-    }
+}
+
+impl Linearized for Fixed {
     fn structure(&self) -> Structure {
         self.model.structure()
     }
@@ -242,8 +236,9 @@ impl System for Fixed {
         self.model.linearize(&mut self.workspace, &rates, out);
         Ok(())
     }
-    fn damping(&self, _: f64, _: &[f64], _: &[f64], _: &mut GroupDamping) {}
 }
+
+impl Observed for Fixed {}
 
 impl Case {
     /// The end by CVODE with all the digits that it has.

@@ -1,13 +1,12 @@
 //! The choice of a method on small systems: what it measures, when it leaves the leapfrog and returns, and the selection
 //! between the methods with error control.
 
+use crate::common::systems::Stiffening;
 use cagedyn::integrate::Tuning;
+use cagedyn::integrate::auto::mode::{Mode, ModeFinder};
+use cagedyn::integrate::auto::stability::Expectation;
 use cagedyn::integrate::auto::{Aim, Auto, Kind, Reason};
-use cagedyn::integrate::mode::{Mode, ModeFinder};
-use cagedyn::integrate::stability::Expectation;
-use cagedyn::integrate::{
-    Driver, GroupDamping, Leapfrog, Limits, Linearization, Structure, System, Vibration,
-};
+use cagedyn::integrate::{Driver, Leapfrog, Limits, Linearization, Structure};
 
 fn limits(step: f64) -> Limits {
     Limits { nominal_step: step, min_step: 1e-14, max_step: 0.5, max_steps: 10_000_000 }
@@ -42,71 +41,6 @@ fn the_fastest_vibration_of_a_chain_is_found() {
     let (structure, mut nothing) = coupled([0.0; 2], 0.0);
     nothing.clear();
     assert_eq!(ModeFinder::new(&structure, 3, &[1.0; 7]).find(&nothing), Mode::default());
-}
-
-/// An undamped spring whose stiffness changes at given times, and that fails for some evaluations after one.
-struct Stiffening {
-    /// From these times on (s) the square of the frequency is this.
-    squares: [(f64, f64); 3],
-    fails_from: f64,
-    failures: u64,
-}
-
-impl Stiffening {
-    fn square(&self, t: f64) -> f64 {
-        self.squares.iter().rev().find(|(from, _)| t >= *from).map_or(1.0, |(_, square)| *square)
-    }
-}
-
-impl System for Stiffening {
-    type Fault = &'static str;
-
-    fn positions(&self) -> usize {
-        1
-    }
-    fn velocities(&self) -> usize {
-        1
-    }
-    fn accelerations(&mut self, t: f64, q: &[f64], _: &[f64], a: &mut [f64]) -> Result<(), &'static str> {
-        if t > self.fails_from && self.failures > 0 {
-            self.failures -= 1;
-            return Err("out of order");
-        }
-        a[0] = -self.square(t) * q[0];
-        Ok(())
-    }
-    fn not_finite(&self, _: usize) -> &'static str {
-        "not finite"
-    }
-    fn next_event(&self, t: f64) -> f64 {
-        self.squares.iter().map(|(from, _)| *from).find(|from| *from > t).unwrap_or(f64::INFINITY)
-    }
-    fn groups(&self) -> usize {
-        1
-    }
-    fn group(&self, _: usize) -> [Option<usize>; 3] {
-        [Some(0), None, None]
-    }
-    fn structure(&self) -> Structure {
-        Structure { hub: [Some(0), None, None, None, None], spokes: Vec::new() }
-    }
-    fn linearize(
-        &mut self,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
-        a: &mut [f64],
-        out: &mut Linearization,
-    ) -> Result<(), &'static str> {
-        self.accelerations(t, q, v, a)?;
-        out.clear();
-        out.over_positions.hub[(0, 0)] = -self.square(t);
-        Ok(())
-    }
-    fn damping(&self, _: f64, _: &[f64], _: &[f64], _: &mut GroupDamping) {}
-    fn vibration(&self) -> Vibration {
-        Vibration { squares: 1.0, count: 1.0 }
-    }
 }
 
 fn auto(system: &Stiffening, statistics: bool) -> Driver<Stiffening> {

@@ -1,73 +1,7 @@
 //! The implicit methods on a stiff, driven system with the structure of a bearing.
 
-use cagedyn::integrate::{
-    DormandPrince, Driver, GroupDamping, Limits, Linearization, Radau, Rosenbrock, Stepper, Structure, System,
-};
-
-/// v' = -rate (v - cos t) with a position, coupled to a spoke of three velocities: stiff and driven.
-struct Driven {
-    rate: f64,
-}
-
-impl System for Driven {
-    type Fault = &'static str;
-
-    fn positions(&self) -> usize {
-        3
-    }
-    fn velocities(&self) -> usize {
-        4
-    }
-    fn accelerations(&mut self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> Result<(), &'static str> {
-        a[0] = -self.rate * (v[0] - t.cos()) - t.sin() + 0.3 * (q[1] - q[0]) - v[3] * v[0];
-        a[1] = -q[1] * q[1] * q[1] + 0.5 * q[0] - 0.2 * v[1] * v[2];
-        a[2] = -4.0 * q[2] + (t * q[1]).sin();
-        a[3] = v[0] - v[3] * v[3];
-        Ok(())
-    }
-    fn not_finite(&self, _: usize) -> &'static str {
-        "not finite"
-    }
-    fn next_event(&self, _: f64) -> f64 {
-        f64::INFINITY
-    }
-    fn groups(&self) -> usize {
-        0
-    }
-    fn group(&self, _: usize) -> [Option<usize>; 3] {
-        [None; 3]
-    }
-    fn structure(&self) -> Structure {
-        Structure { hub: [Some(0), None, None, None, None], spokes: vec![[1, 2, 3]] }
-    }
-    fn linearize(
-        &mut self,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
-        a: &mut [f64],
-        out: &mut Linearization,
-    ) -> Result<(), &'static str> {
-        self.accelerations(t, q, v, a)?;
-        out.clear();
-        let (k, d) = (&mut out.over_positions, &mut out.over_velocities);
-        k.hub[(0, 0)] = -0.3;
-        k.spokes[0].to_hub[(0, 0)] = 0.3;
-        d.hub[(0, 0)] = -self.rate - v[3];
-        d.spokes[0].to_hub[(0, 2)] = -v[0];
-        k.spokes[0].from_hub[(0, 0)] = 0.5;
-        k.spokes[0].own[(0, 0)] = -3.0 * q[1] * q[1];
-        d.spokes[0].own[(0, 0)] = -0.2 * v[2];
-        d.spokes[0].own[(0, 1)] = -0.2 * v[1];
-        k.spokes[0].own[(1, 0)] = t * (t * q[1]).cos();
-        k.spokes[0].own[(1, 1)] = -4.0;
-        d.spokes[0].from_hub[(2, 0)] = 1.0;
-        d.spokes[0].own[(2, 2)] = -2.0 * v[3];
-        out.over_time.copy_from_slice(&[-self.rate * t.sin() - t.cos(), 0.0, q[1] * (t * q[1]).cos(), 0.0]);
-        Ok(())
-    }
-    fn damping(&self, _: f64, _: &[f64], _: &[f64], _: &mut GroupDamping) {}
-}
+use crate::common::systems::Driven;
+use cagedyn::integrate::{DormandPrince, Driver, Limits, Radau, Rosenbrock, Stepper};
 
 const DRIVEN_START: [f64; 7] = [0.0, 0.3, -0.2, 1.0, 0.1, 0.4, 0.5];
 

@@ -27,12 +27,17 @@ macro_rules! active {
     };
 }
 
+pub mod ledger;
+pub mod mode;
+mod selection;
+pub mod stability;
 mod stepper;
+pub mod tuning;
 
-use super::ledger::Ledger;
-use super::selection::Selection;
-use super::stability::{Expectation, StabilityMonitor, Verdict};
-use super::{DormandPrince, Leapfrog, Rosenbrock, Stepper, System, Tuning};
+use crate::integrate::{DormandPrince, Leapfrog, Linearized, Observed, Rosenbrock, Split, Stepper, Tuning};
+use ledger::Ledger;
+use selection::Selection;
+use stability::{Expectation, StabilityMonitor, Verdict};
 
 /// Places of the methods in the selection.
 const EXPLICIT: usize = 0;
@@ -172,7 +177,7 @@ pub struct Auto {
 
 impl Auto {
     /// Memory for a system.
-    pub fn new<S: System>(system: &S, aim: Aim) -> Self {
+    pub fn new<S: Linearized + Split + Observed>(system: &S, aim: Aim) -> Self {
         let tolerance: Vec<f64> = aim.units.iter().map(|unit| unit * aim.tolerance).collect();
         let mut auto = Self {
             leapfrog: Leapfrog::new(system),
@@ -231,7 +236,13 @@ impl Auto {
 
     /// Goes on with another method from the present state at time `t`. Returns the step to take, or nothing if the
     /// method cannot start there.
-    fn change_to<S: System>(&mut self, kind: Kind, reason: Reason, system: &mut S, t: f64) -> Option<f64> {
+    fn change_to<S: Linearized + Split + Observed>(
+        &mut self,
+        kind: Kind,
+        reason: Reason,
+        system: &mut S,
+        t: f64,
+    ) -> Option<f64> {
         let mut state = std::mem::take(&mut self.state);
         state.copy_from_slice(Stepper::<S>::state(self));
         let before = std::mem::replace(&mut self.active, kind);
@@ -253,13 +264,18 @@ impl Auto {
     }
 
     /// From the leapfrog to error control.
-    fn control_errors<S: System>(&mut self, reason: Reason, system: &mut S, t: f64) -> Option<f64> {
+    fn control_errors<S: Linearized + Split + Observed>(
+        &mut self,
+        reason: Reason,
+        system: &mut S,
+        t: f64,
+    ) -> Option<f64> {
         self.selection = Selection::new(IMPLICIT, self.aim.tuning);
         self.last_steps = [self.monitor.step(); 2];
         self.change_to(Kind::Rosenbrock, reason, system, t)
     }
 
-    fn review_leapfrog<S: System>(&mut self, system: &mut S, t: f64) -> Option<f64> {
+    fn review_leapfrog<S: Linearized + Split + Observed>(&mut self, system: &mut S, t: f64) -> Option<f64> {
         let stretch_over = std::mem::take(&mut self.judged);
         if stretch_over {
             self.note_right_stretch();
@@ -284,7 +300,7 @@ impl Auto {
     }
 
     /// After a right stretch of error control: whether the leapfrog takes over, or how strict the next one is.
-    fn ease<S: System>(&mut self, system: &mut S, t: f64) -> Option<f64> {
+    fn ease<S: Linearized + Split + Observed>(&mut self, system: &mut S, t: f64) -> Option<f64> {
         let (advanced, cost) = (std::mem::take(&mut self.advanced), std::mem::take(&mut self.cost));
         self.note_right_stretch();
         if self.hold > 0 {
@@ -321,7 +337,11 @@ impl Auto {
         }
     }
 
-    fn review_error_control<S: System>(&mut self, system: &mut S, t: f64) -> Option<f64> {
+    fn review_error_control<S: Linearized + Split + Observed>(
+        &mut self,
+        system: &mut S,
+        t: f64,
+    ) -> Option<f64> {
         if std::mem::take(&mut self.event) {
             self.hold = self.hold.max(self.aim.tuning.transient);
         }
@@ -363,7 +383,7 @@ impl Auto {
     }
 
     /// Whether a probe says that the leapfrog could go on from the present state.
-    fn may_leapfrog<S: System>(&mut self, system: &mut S, t: f64) -> bool {
+    fn may_leapfrog<S: Linearized + Split + Observed>(&mut self, system: &mut S, t: f64) -> bool {
         let mut state = std::mem::take(&mut self.state);
         state.copy_from_slice(Stepper::<S>::state(self));
         Stepper::<S>::set_state(&mut self.leapfrog, &state);

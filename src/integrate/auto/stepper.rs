@@ -1,10 +1,10 @@
 //! The chosen method at work: attempts, accounts, judgement, memory.
 
-use super::super::control::{Estimate, Law};
-use super::super::{Applied, Quadratures, Reader, Samples, Stepper, System};
 use super::{Auto, Choice, EXPLICIT, IMPLICIT, KINDS, Kind, Reason};
+use crate::integrate::driver::control::{Estimate, Law};
+use crate::integrate::{Applied, Linearized, Observed, Quadratures, Reader, Samples, Split, Stepper};
 
-impl<S: System> Stepper<S> for Auto {
+impl<S: Linearized + Split + Observed> Stepper<S> for Auto {
     fn set_state(&mut self, state: &[f64]) {
         self.ledger.close();
         self.placed = true;

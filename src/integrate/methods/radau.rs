@@ -24,9 +24,11 @@
 //!
 //! Source: Hairer and Wanner, Solving Ordinary Differential Equations II, section IV.8 and the program RADAU5.
 
-use super::control::{ErrorNorm, Estimate, Law};
-use super::shifted::Shifted;
-use super::{Linearization, Quadratures, Reader, Samples, Stepper, Structure, System, add_weighted};
+use crate::integrate::driver::control::{ErrorNorm, Estimate, Law};
+use crate::integrate::linear::shifted::Shifted;
+use crate::integrate::{
+    Linearization, Linearized, Observed, Quadratures, Reader, Samples, Stepper, Structure, add_weighted,
+};
 use crate::scalar::math;
 use nalgebra::Complex;
 
@@ -115,7 +117,7 @@ enum Iteration {
 
 impl Radau {
     /// Memory for a system with an absolute tolerance for every state.
-    pub fn new<S: System>(system: &S, tolerance: &[f64]) -> Self {
+    pub fn new<S: Linearized + Observed>(system: &S, tolerance: &[f64]) -> Self {
         let structure = system.structure();
         let (nq, nv) = (system.positions(), system.velocities());
         let zeros = || vec![0.0; nq + nv];
@@ -169,7 +171,7 @@ impl Radau {
     }
 
     /// Solves for the stages by Newton's method.
-    fn iterate<S: System>(
+    fn iterate<S: Linearized + Observed>(
         &mut self,
         system: &mut S,
         t: f64,
@@ -259,7 +261,7 @@ impl Radau {
     }
 }
 
-impl<S: System> Stepper<S> for Radau {
+impl<S: Linearized + Observed> Stepper<S> for Radau {
     fn set_state(&mut self, state: &[f64]) {
         self.state.copy_from_slice(state);
         for part in &mut self.dense {

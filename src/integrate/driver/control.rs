@@ -5,7 +5,7 @@
 //! Soderlind and Wang, Adaptive time-stepping and computational stability, J. Comp. Appl. Math. 185 (2006) 225
 //! (smooth limiter).
 
-use super::System;
+use crate::integrate::System;
 use crate::scalar::math;
 
 /// Aim at this share of the largest step that the error estimate allows.

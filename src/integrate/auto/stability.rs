@@ -3,8 +3,8 @@
 //! The step is `share / highest frequency`, and half of it where that vibration is hardly damped. A system tells the frequency
 //! that it expects; from time to time it is measured at the present state.
 
-use super::mode::{Mode, ModeFinder};
-use super::{Leapfrog, Linearization, Reader, Stepper, System, Tuning};
+use crate::integrate::auto::mode::{Mode, ModeFinder};
+use crate::integrate::{Leapfrog, Linearization, Linearized, Observed, Reader, Split, Stepper, Tuning};
 
 /// What is known about a system before its first step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,7 +60,12 @@ pub struct StabilityMonitor {
 
 impl StabilityMonitor {
     /// A monitor of a system; `units` are one unit of error of each state.
-    pub fn new<S: System>(system: &S, expected: Expectation, units: &[f64], tuning: Tuning) -> Self {
+    pub fn new<S: Linearized + Split + Observed>(
+        system: &S,
+        expected: Expectation,
+        units: &[f64],
+        tuning: Tuning,
+    ) -> Self {
         let structure = system.structure();
         Self {
             tuning,
@@ -97,7 +102,12 @@ impl StabilityMonitor {
     }
 
     /// Measures, if it is time to, at the state of `main` at time `t` (s).
-    pub fn look<S: System>(&mut self, system: &mut S, main: &Leapfrog, t: f64) -> Verdict {
+    pub fn look<S: Linearized + Split + Observed>(
+        &mut self,
+        system: &mut S,
+        main: &Leapfrog,
+        t: f64,
+    ) -> Verdict {
         if self.due > 0 {
             return Verdict::Keep;
         }
@@ -114,7 +124,12 @@ impl StabilityMonitor {
     }
 
     /// Whether the leapfrog could go on from the state that `main` has been set to at time `t` (s).
-    pub fn allows<S: System>(&mut self, system: &mut S, main: &Leapfrog, t: f64) -> bool {
+    pub fn allows<S: Linearized + Split + Observed>(
+        &mut self,
+        system: &mut S,
+        main: &Leapfrog,
+        t: f64,
+    ) -> bool {
         self.due = self.tuning.frequency_interval;
         self.measure(system, main, t);
         !self.too_fast()
@@ -124,7 +139,7 @@ impl StabilityMonitor {
         self.frequency > self.tuning.highest_frequency * self.expected.frequency
     }
 
-    fn measure<S: System>(&mut self, system: &mut S, main: &Leapfrog, t: f64) {
+    fn measure<S: Linearized + Split + Observed>(&mut self, system: &mut S, main: &Leapfrog, t: f64) {
         let (q, v) = Stepper::<S>::state(main).split_at(system.positions());
         if system.linearize(t, q, v, &mut self.a, &mut self.slopes).is_err() {
             return;

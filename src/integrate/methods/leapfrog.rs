@@ -15,9 +15,11 @@
 //! velocity-dependent forces also where D is known roughly. Forces may decay far faster than the step. Stable up to
 //! h = 2/omega of the highest undamped frequency. No error estimate.
 
-use super::control::{Estimate, Law};
-use super::damping::{VectorColumns, zero_vectors};
-use super::{Applied, GroupDamping, Quadratures, Reader, Samples, SemiImplicit, Stepper, System};
+use crate::integrate::driver::control::{Estimate, Law};
+use crate::integrate::methods::damping::{VectorColumns, zero_vectors};
+use crate::integrate::{
+    Applied, GroupDamping, Observed, Quadratures, Reader, Samples, SemiImplicit, Split, Stepper,
+};
 use pulp::Arch;
 
 /// The method's memory.
@@ -48,7 +50,7 @@ pub struct Leapfrog {
 
 impl Leapfrog {
     /// Memory for a system.
-    pub fn new<S: System>(system: &S) -> Self {
+    pub fn new<S: Split + Observed>(system: &S) -> Self {
         let (nq, nv) = (system.positions(), system.velocities());
         let (state, velocity) = (vec![0.0; nq + nv], vec![0.0; nv]);
         let groups = system.groups();
@@ -97,7 +99,7 @@ fn interpolate(positions: usize, h: f64, start: &[f64], end: &[f64], theta: f64,
     }
 }
 
-impl<S: System> Stepper<S> for Leapfrog {
+impl<S: Split + Observed> Stepper<S> for Leapfrog {
     fn set_state(&mut self, state: &[f64]) {
         self.start.copy_from_slice(state);
         self.end.copy_from_slice(state);

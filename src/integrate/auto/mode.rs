@@ -2,8 +2,8 @@
 //!
 //! Power iteration on -da/dq: of all modes the one with the highest frequency survives.
 
-use super::arrowhead::{Arrowhead, HUB, SPOKE};
-use super::{Linearization, Structure};
+use crate::integrate::linear::arrowhead::{Arrowhead, HUB, SPOKE};
+use crate::integrate::{Linearization, Structure};
 use nalgebra::SVector;
 
 /// Multiplications by -da/dq. Frequencies of loaded rollers lie close together: any mixture of them will do.

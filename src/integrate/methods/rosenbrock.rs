@@ -11,10 +11,12 @@
 //! Seven evaluations and one derivative per step, six solves and one factorisation per attempt. Source: Hairer and
 //! Wanner, Solving Ordinary Differential Equations II, section IV.7 and the program RODAS (method 1).
 
-use super::control::{ErrorNorm, Estimate, Law};
-use super::pack::{keep_parts, kept_parts};
-use super::shifted::Shifted;
-use super::{Linearization, Quadratures, Reader, Samples, Stepper, Structure, System, add_weighted};
+use crate::integrate::driver::control::{ErrorNorm, Estimate, Law};
+use crate::integrate::linear::shifted::Shifted;
+use crate::integrate::methods::pack::{keep_parts, kept_parts};
+use crate::integrate::{
+    Linearization, Linearized, Observed, Quadratures, Reader, Samples, Stepper, Structure, add_weighted,
+};
 
 const GAMMA: f64 = 0.25;
 const A: [[f64; 5]; 6] = [
@@ -91,7 +93,7 @@ pub struct Rosenbrock {
 
 impl Rosenbrock {
     /// Memory for a system with an absolute tolerance for every state.
-    pub fn new<S: System>(system: &S, tolerance: &[f64]) -> Self {
+    pub fn new<S: Linearized + Observed>(system: &S, tolerance: &[f64]) -> Self {
         let structure = system.structure();
         let (nq, nv) = (system.positions(), system.velocities());
         let zeros = || vec![0.0; nq + nv];
@@ -120,7 +122,14 @@ impl Rosenbrock {
 impl Rosenbrock {
     /// Integrates over the attempt by Simpson's rule. The last stage was evaluated within its error of the end, whose
     /// quadratures `end` are; the middle comes from the dense output.
-    fn integrate<S: System>(&mut self, system: &mut S, end: &Quadratures, t: f64, h: f64, t_last: f64) {
+    fn integrate<S: Linearized + Observed>(
+        &mut self,
+        system: &mut S,
+        end: &Quadratures,
+        t: f64,
+        h: f64,
+        t_last: f64,
+    ) {
         let [start, last, bend, twist] = &self.trial_dense;
         for (k, x) in self.middle.iter_mut().enumerate() {
             *x = 0.5 * (start[k] + last[k] + 0.5 * (bend[k] + 0.5 * twist[k]));
@@ -160,7 +169,7 @@ fn interpolate(parts: [&[f64]; 4], theta: f64, out: &mut [f64]) {
     }
 }
 
-impl<S: System> Stepper<S> for Rosenbrock {
+impl<S: Linearized + Observed> Stepper<S> for Rosenbrock {
     fn set_state(&mut self, state: &[f64]) {
         self.state.copy_from_slice(state);
         self.dense[0].copy_from_slice(state);

@@ -3,7 +3,7 @@
 //! The works of all forces ([`System::quadratures`]) less the gain of stored energy ([`System::energy`]) are zero for an exact
 //! solution. What is missing, as a share of what passed through, is an error of all of the integration.
 
-use super::{Quadratures, Reader, System, Tuning, WORKS, add_weighted};
+use crate::integrate::{Observed, Quadratures, Reader, Tuning, WORKS, add_weighted};
 
 /// Energy that passed through a system, J: all that came in by work, or was stored before and is no longer.
 pub fn throughput(works: impl IntoIterator<Item = f64>, gains: impl IntoIterator<Item = f64>) -> f64 {
@@ -92,7 +92,7 @@ impl Ledger {
     ///
     /// # Errors
     /// The system's fault at this state.
-    pub fn open<S: System>(&mut self, system: &mut S, t: f64, state: &[f64]) -> Result<(), S::Fault> {
+    pub fn open<S: Observed>(&mut self, system: &mut S, t: f64, state: &[f64]) -> Result<(), S::Fault> {
         self.energy = self.energy_at(system, t, state)?;
         (self.open, self.stretch) = (true, Turnover::default());
         Ok(())
@@ -108,7 +108,7 @@ impl Ledger {
     ///
     /// # Errors
     /// The system's fault at this state; the stretch then goes on.
-    pub fn settle<S: System>(&mut self, system: &mut S, t: f64, state: &[f64]) -> Result<bool, S::Fault> {
+    pub fn settle<S: Observed>(&mut self, system: &mut S, t: f64, state: &[f64]) -> Result<bool, S::Fault> {
         let energy = self.energy_at(system, t, state)?;
         self.stretch.gains = [0, 1, 2].map(|k| energy[k] - self.energy[k]);
         self.energy = energy;
@@ -126,7 +126,12 @@ impl Ledger {
         self.before.missing_share() <= self.tuning.energy_share * self.allowed
     }
 
-    fn energy_at<S: System>(&mut self, system: &mut S, t: f64, state: &[f64]) -> Result<[f64; 3], S::Fault> {
+    fn energy_at<S: Observed>(
+        &mut self,
+        system: &mut S,
+        t: f64,
+        state: &[f64],
+    ) -> Result<[f64; 3], S::Fault> {
         let (q, v) = state.split_at(system.positions());
         system.accelerations(t, q, v, &mut self.a)?;
         Ok(system.energy(q, v))

@@ -14,28 +14,28 @@ pub struct Samples {
 
 impl Samples {
     /// Room for `count` quantities at up to `places` places.
-    pub(super) fn new(count: usize, places: usize) -> Self {
+    pub(in crate::integrate) fn new(count: usize, places: usize) -> Self {
         Self { values: vec![0.0; count * places], count, weights: &[] }
     }
 
     /// Number of quantities.
-    pub(super) fn count(&self) -> usize {
+    pub(in crate::integrate) fn count(&self) -> usize {
         self.count
     }
 
     /// The values at a place, to be written; `None` if nothing is watched.
-    pub(super) fn row(&mut self, place: usize) -> Option<&mut [f64]> {
+    pub(in crate::integrate) fn row(&mut self, place: usize) -> Option<&mut [f64]> {
         let from = place * self.count;
         self.values.get_mut(from..from + self.count).filter(|row| !row.is_empty())
     }
 
     /// The step is complete: these are the weights of its first places. They add up to one.
-    pub(super) fn weigh(&mut self, weights: &'static [f64]) {
+    pub(in crate::integrate) fn weigh(&mut self, weights: &'static [f64]) {
         self.weights = weights;
     }
 
     /// Becomes a copy of another one of as many quantities.
-    pub(super) fn copy(&mut self, other: &Self) {
+    pub(in crate::integrate) fn copy(&mut self, other: &Self) {
         self.weights = other.weights;
         self.count = other.count;
         self.values.clear();
@@ -62,35 +62,35 @@ pub struct Total {
 
 /// Totals of all watched quantities over an interval that grows.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Tally {
+pub(in crate::integrate) struct Tally {
     min: Vec<f64>,
     max: Vec<f64>,
     integral: Vec<f64>,
     positive: Vec<f64>,
     /// Start and present end of the interval, s.
-    pub(super) from: f64,
+    pub(in crate::integrate) from: f64,
     to: f64,
 }
 
 impl Tally {
-    pub(super) fn new(count: usize) -> Self {
+    pub(in crate::integrate) fn new(count: usize) -> Self {
         let column = || vec![0.0; count];
         Self { min: column(), max: column(), integral: column(), positive: column(), from: 0.0, to: 0.0 }
     }
 
     /// Whether nothing is watched.
-    pub(super) fn is_empty(&self) -> bool {
+    pub(in crate::integrate) fn is_empty(&self) -> bool {
         self.min.is_empty()
     }
 
     /// Of one quantity; `None` of no time.
-    pub(super) fn total(&self, i: usize) -> Option<Total> {
+    pub(in crate::integrate) fn total(&self, i: usize) -> Option<Total> {
         let (min, max) = (self.min[i], self.max[i]);
         (min <= max).then(|| Total { min, max, integral: self.integral[i], positive: self.positive[i] })
     }
 
     /// Begins an interval at time `t` (s).
-    pub(super) fn begin(&mut self, t: f64) {
+    pub(in crate::integrate) fn begin(&mut self, t: f64) {
         self.min.fill(f64::INFINITY);
         self.max.fill(f64::NEG_INFINITY);
         self.integral.fill(0.0);
@@ -99,7 +99,7 @@ impl Tally {
     }
 
     /// Adds what of the step from `from` to `to` (s) lies behind the end of the interval and not behind `until`.
-    pub(super) fn add(&mut self, [from, to]: [f64; 2], samples: &Samples, until: f64) {
+    pub(in crate::integrate) fn add(&mut self, [from, to]: [f64; 2], samples: &Samples, until: f64) {
         let (begin, end) = (self.to.max(from), until.min(to));
         if end <= begin {
             return;

@@ -3,9 +3,9 @@
 //! Coefficients: Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, table II.5.2 and
 //! section II.6.
 
-use super::control::{ErrorNorm, Estimate, Law};
-use super::pack::{keep_parts, kept_parts};
-use super::{Quadratures, Reader, Samples, Stepper, System, add_weighted};
+use crate::integrate::driver::control::{ErrorNorm, Estimate, Law};
+use crate::integrate::methods::pack::{keep_parts, kept_parts};
+use crate::integrate::{Observed, Quadratures, Reader, Samples, Stepper, add_weighted};
 
 const C: [f64; 7] = [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0];
 const A: [[f64; 6]; 7] = [
@@ -57,7 +57,7 @@ pub struct DormandPrince {
 
 impl DormandPrince {
     /// Memory for a system with an absolute tolerance for every state.
-    pub fn new<S: System>(system: &S, tolerance: &[f64]) -> Self {
+    pub fn new<S: Observed>(system: &S, tolerance: &[f64]) -> Self {
         let n = system.positions() + system.velocities();
         let zeros = || vec![0.0; n];
         Self {
@@ -75,7 +75,7 @@ impl DormandPrince {
         }
     }
 
-    fn rate<S: System>(
+    fn rate<S: Observed>(
         system: &mut S,
         t: f64,
         positions: usize,
@@ -100,7 +100,7 @@ fn interpolate(parts: [&[f64]; 5], theta: f64, out: &mut [f64]) {
     }
 }
 
-impl<S: System> Stepper<S> for DormandPrince {
+impl<S: Observed> Stepper<S> for DormandPrince {
     fn set_state(&mut self, state: &[f64]) {
         self.state.copy_from_slice(state);
         for part in &mut self.dense {

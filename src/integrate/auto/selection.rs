@@ -3,7 +3,7 @@
 //! Both work on the run itself, so a trial of the slower one costs time but no accuracy. A method that loses waits
 //! twice as long for its next trial. All of it counts evaluations and not seconds of a clock, so it is reproducible.
 
-use super::{Reader, Tuning};
+use crate::integrate::{Reader, Tuning};
 
 /// Two methods, numbered 0 and 1, one of which is active.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -16,7 +16,7 @@
 //!
 //! A singular spoke in a matrix that is not singular stops this elimination; such a matrix is solved as a dense one.
 
-use super::dense::DenseFactors;
+use crate::integrate::linear::dense::DenseFactors;
 use nalgebra::{ComplexField, SMatrix, SVector};
 
 /// Unknowns of the hub.

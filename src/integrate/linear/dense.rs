@@ -1,12 +1,12 @@
 //! Dense elimination with row exchanges over the whole matrix, for the arrowheads that elimination by blocks fails on: a
 //! singular spoke in a regular matrix. Rare, so it takes its memory when it is needed.
 
-use super::arrowhead::{Arrowhead, HUB, Number, SPOKE};
+use crate::integrate::linear::arrowhead::{Arrowhead, HUB, Number, SPOKE};
 use nalgebra::{DMatrix, DVector, Dyn, LU, SVector};
 
 /// The factors of an [`Arrowhead`] as a dense matrix, rows and columns scaled to about one.
 #[derive(Clone, Debug)]
-pub(super) struct DenseFactors<T: Number> {
+pub(in crate::integrate) struct DenseFactors<T: Number> {
     lu: LU<T, Dyn, Dyn>,
     rows: Vec<f64>,
     columns: Vec<f64>,
@@ -14,7 +14,7 @@ pub(super) struct DenseFactors<T: Number> {
 
 impl<T: Number> DenseFactors<T> {
     /// Factorises a matrix; `None` when it is singular within rounding or not finite.
-    pub(super) fn new(a: &Arrowhead<T>) -> Option<Self> {
+    pub(in crate::integrate) fn new(a: &Arrowhead<T>) -> Option<Self> {
         let n = HUB + SPOKE * a.spokes.len();
         let mut matrix = DMatrix::<T>::zeros(n, n);
         for i in 0..HUB {
@@ -53,7 +53,7 @@ impl<T: Number> DenseFactors<T> {
     }
 
     /// Replaces the right-hand side (`hub`, `spokes`) by the solution.
-    pub(super) fn solve(&self, hub: &mut SVector<T, HUB>, spokes: &mut [SVector<T, SPOKE>]) {
+    pub(in crate::integrate) fn solve(&self, hub: &mut SVector<T, HUB>, spokes: &mut [SVector<T, SPOKE>]) {
         let values = hub.iter().chain(spokes.iter().flatten()).zip(&self.rows);
         let mut right = DVector::<T>::zeros(self.rows.len());
         for (i, (x, scale)) in values.enumerate() {

@@ -1,0 +1,92 @@
+//! What an integration method gives: steps, and what is known within them.
+
+use super::auto::Choice;
+use super::driver::control::{Estimate, Law};
+use super::driver::watch::Samples;
+use super::methods::pack::Reader;
+use super::system::{Quadratures, System};
+
+/// The evaluation that a semi-implicit step was made with: positions `start.q + h/2 start.v`, velocities `predicted`. The
+/// forces it applied lie between those of the states on both sides; where friction is steep neither of them has their mean.
+#[derive(Clone, Copy, Debug)]
+pub struct Applied<'a> {
+    /// State (q, v) at the start.
+    pub start: &'a [f64],
+    /// State at the end.
+    pub end: &'a [f64],
+    /// Velocities of the evaluation.
+    pub predicted: &'a [f64],
+    /// Step, s.
+    pub h: f64,
+}
+
+/// One integration method: makes steps and interpolates in the last one.
+pub trait Stepper<S: System> {
+    /// Sets the state.
+    fn set_state(&mut self, state: &[f64]);
+    /// Evaluates what the next step starts from; called at the start and after events.
+    ///
+    /// # Errors
+    /// The system's fault at this state.
+    fn refresh(&mut self, system: &mut S, t: f64) -> Result<(), S::Fault>;
+    /// Called before every attempt from time `t`: the method may measure the system and change itself. Returns the
+    /// step to go on with, if it is to change.
+    fn review(&mut self, _system: &mut S, _t: f64) -> Option<f64> {
+        None
+    }
+    /// Forgets what was learned from earlier states.
+    fn forget(&mut self) {}
+    /// Tries a step of size `h` from time `t`; never evaluates later than `t_last`. Returns the error, if the method
+    /// estimates it.
+    ///
+    /// # Errors
+    /// The system's fault at a stage; the state is then unchanged.
+    fn attempt(&mut self, system: &mut S, t: f64, h: f64, t_last: f64) -> Result<Option<Estimate>, S::Fault>;
+    /// Makes the last attempt the current state.
+    fn accept(&mut self);
+    /// Integrals of [`super::Observed::quadratures`] over the last attempt.
+    fn integrals(&self) -> &Quadratures;
+    /// What the host watches, in the last attempt.
+    fn samples(&self) -> &Samples;
+    /// What the last accepted step was made with, for methods whose forces are those of steps and not of states.
+    fn applied(&self) -> Option<Applied<'_>> {
+        None
+    }
+    /// State at the end of the last accepted step.
+    fn state(&self) -> &[f64];
+    /// State within the last accepted step at the fraction 0 <= `theta` <= 1 of it.
+    fn interpolate(&self, theta: f64, out: &mut [f64]);
+    /// Largest number of steps that are judged together before they count; zero if they count at once.
+    fn longest_stretch(&self) -> usize {
+        0
+    }
+    /// Whether the steps since the last judgement were right, at time `t`. If not, the driver goes back to their start.
+    fn judge(&mut self, _system: &mut S, _t: f64) -> bool {
+        true
+    }
+    /// Called at time `t` of the start of a stretch that was wrong, with the memory of then: the method must follow the
+    /// system more closely. Returns the step to go on with, if it is to change.
+    fn go_back(&mut self, _system: &mut S, _t: f64) -> Option<f64> {
+        None
+    }
+    /// Appends what [`Stepper::recall`] needs to know of the last accepted step.
+    fn keep(&self, _out: &mut Vec<f64>) {}
+    /// State within a step of which this was kept, at the fraction 0 <= `theta` <= 1 of it.
+    fn recall(&self, _kept: &[f64], theta: f64, out: &mut [f64]) {
+        self.interpolate(theta, out);
+    }
+    /// As [`Stepper::applied`], of a step of which this was kept.
+    fn applied_in<'a>(&'a self, _kept: &'a [f64]) -> Option<Applied<'a>> {
+        self.applied()
+    }
+    /// How the steps follow the errors; of no use for methods without error estimate.
+    fn control(&self) -> Law;
+    /// What a method that chooses among others has chosen.
+    fn choice(&self) -> Option<Choice> {
+        None
+    }
+    /// Appends everything that the next steps depend on.
+    fn save(&self, out: &mut Vec<f64>);
+    /// Takes back what [`Stepper::save`] wrote; `None` if it does not fit.
+    fn load(&mut self, from: &mut Reader<'_>) -> Option<()>;
+}

@@ -1,0 +1,198 @@
+//! What methods ask of a system: every one the accelerations, some more.
+
+use super::linear::arrowhead::{Arrowhead, HUB, SPOKE};
+use super::methods::damping::GroupDamping;
+
+/// A second-order system `q' = v[..positions]`, `v' = a(t, q, v)`. Velocities beyond the positions have no position.
+///
+/// A state vector is (q, v).
+pub trait System {
+    /// Why an evaluation failed.
+    type Fault: Copy;
+
+    /// Number of positions.
+    fn positions(&self) -> usize;
+    /// Number of velocities, at least the number of positions.
+    fn velocities(&self) -> usize;
+    /// Accelerations at time `t` in s. A failure makes the driver retry with a smaller step.
+    ///
+    /// # Errors
+    /// The system's fault when forces are undefined at this state.
+    fn accelerations(&mut self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> Result<(), Self::Fault>;
+    /// The fault for a result that is not finite at the index of a velocity.
+    fn not_finite(&self, velocity: usize) -> Self::Fault;
+    /// The first time after `t` at which the accelerations jump or kink by themselves; infinity if there is none.
+    fn next_event(&self, _t: f64) -> f64 {
+        f64::INFINITY
+    }
+    /// The longest step (s) from this state at time `t` in which nothing narrow can be passed unseen, or any longer one than
+    /// `wanted`. No method takes a longer one.
+    fn longest_step(&self, _t: f64, _q: &[f64], _v: &[f64], _wanted: f64) -> f64 {
+        f64::INFINITY
+    }
+    /// Number of groups of up to three velocities that belong together, as those of one body do.
+    fn groups(&self) -> usize {
+        0
+    }
+    /// Velocity indices of such a group; `None` for an unused place.
+    fn group(&self, _i: usize) -> [Option<usize>; 3] {
+        [None; 3]
+    }
+}
+
+/// A system that knows the derivatives of its accelerations: what implicit methods need.
+pub trait Linearized: System {
+    /// Which velocities are coupled.
+    fn structure(&self) -> Structure;
+    /// Accelerations `a` at time `t` in s, and their derivatives.
+    ///
+    /// # Errors
+    /// The system's fault when forces are undefined at this state.
+    fn linearize(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        a: &mut [f64],
+        out: &mut Linearization,
+    ) -> Result<(), Self::Fault>;
+    /// Time that the derivatives take beside the accelerations, in evaluations of these.
+    fn linearization_cost(&self) -> f64 {
+        2.0
+    }
+}
+
+/// A system that knows how its forces oppose velocities: what semi-implicit methods split off.
+pub trait Split: System {
+    /// Damping within each of the groups at the last evaluated state (`q`, `v`), for a step of size `h` in s.
+    fn damping(&self, h: f64, q: &[f64], v: &[f64], out: &mut GroupDamping);
+    /// Number of groups whose step is found first. The others follow: what the forces of the first have become in that step
+    /// acts on them too.
+    fn leaders(&self) -> usize {
+        self.groups()
+    }
+    /// Adds to the accelerations `a` of the groups that follow what the forces between them and the leaders have become
+    /// since the last evaluation, at (`q`, `v`), in the `step` of the leaders.
+    fn react(&self, _q: &[f64], _v: &[f64], _step: &SemiImplicit<'_>, _a: &mut [f64]) {}
+}
+
+/// What the owner of a system wants to know of a run, and says to it. Nothing by default.
+pub trait Observed: System {
+    /// What is integrated over time beside the state, at the last evaluated state (`q`, `v`), or for a step from there.
+    fn quadratures(&self, _q: &[f64], _v: &[f64], _step: Option<&SemiImplicit<'_>>) -> Quadratures {
+        Quadratures::default()
+    }
+    /// Kinds of energy stored at the last evaluated state (`q`, `v`), J. Their rate is the sum of the quadratures.
+    fn energy(&self, _q: &[f64], _v: &[f64]) -> [f64; 3] {
+        [0.0; 3]
+    }
+    /// The fast vibration at the last evaluated state, which a method must not damp by itself.
+    fn vibration(&self) -> Vibration {
+        Vibration::default()
+    }
+    /// Number of quantities that the host watches in every step.
+    fn watched(&self) -> usize {
+        0
+    }
+    /// Their values, as those of [`Observed::quadratures`].
+    fn watch(&self, _q: &[f64], _v: &[f64], _step: Option<&SemiImplicit<'_>>, _out: &mut [f64]) {}
+    /// Whether the host wants the run to stop; asked before every attempt.
+    fn interruption(&mut self) -> Option<Interruption> {
+        None
+    }
+    /// Told of every attempt from time `t` (s) that failed with `fault`.
+    fn failed(&mut self, _t: f64, _fault: Self::Fault) {}
+    /// Told of every attempt whose error in this group was too large.
+    fn rejected(&mut self, _group: usize) {}
+}
+
+/// Why a host stops a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interruption {
+    /// Asked to.
+    Cancelled,
+    /// The wall time is used up.
+    OutOfTime,
+}
+
+/// Quantities that are integrated over time beside the state, or their integrals: powers or works first, then others.
+pub type Quadratures = [f64; WORKS + 1];
+/// Number of the powers among them.
+pub const WORKS: usize = 11;
+
+/// A semi-implicit step, whose forces F are linear from those at the evaluated velocities v* on: F(v*) - D (v - v*) with the
+/// share of the change of the step that [`super::implicit_share`] says, and do their work at the mean velocities.
+#[derive(Clone, Copy, Debug)]
+pub struct SemiImplicit<'a> {
+    /// Mean velocities.
+    pub mean: &'a [f64],
+    /// Velocities at the end.
+    pub end: &'a [f64],
+    /// Step, s.
+    pub h: f64,
+}
+
+/// `sum` + `weight` `x`, in place.
+pub(crate) fn add_weighted(sum: &mut Quadratures, weight: f64, x: &Quadratures) {
+    for (sum, x) in sum.iter_mut().zip(x) {
+        *sum += weight * x;
+    }
+}
+
+/// How much a system vibrates: mean squares, added up.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Vibration {
+    /// Sum of squared speeds, m^2/s^2.
+    pub squares: f64,
+    /// Number of speeds in it.
+    pub count: f64,
+}
+
+impl Vibration {
+    /// Adds another with a weight.
+    pub fn add(&mut self, other: Self, weight: f64) {
+        self.squares += weight * other.squares;
+        self.count += weight * other.count;
+    }
+
+    /// Root mean square speed, m/s; zero of nothing.
+    pub fn rms(self) -> f64 {
+        if self.count > 0.0 { (self.squares / self.count).sqrt() } else { 0.0 }
+    }
+}
+
+/// Velocities by their coupling: a hub, coupled to all, and spokes, coupled to the hub only. Every velocity has one place.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Structure {
+    /// Velocity index of each place of the hub; `None` for an unused place.
+    pub hub: [Option<usize>; HUB],
+    /// Velocity indices of each spoke.
+    pub spokes: Vec<[usize; SPOKE]>,
+}
+
+/// Derivatives of the accelerations at one state. Unused places are zero, and so are columns of velocities without
+/// position in the first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Linearization {
+    /// da/dq.
+    pub over_positions: Arrowhead,
+    /// da/dv.
+    pub over_velocities: Arrowhead,
+    /// da/dt at constant state.
+    pub over_time: Vec<f64>,
+}
+
+impl Linearization {
+    /// Memory for a system of this structure with `velocities` velocities.
+    pub fn new(structure: &Structure, velocities: usize) -> Self {
+        let zero = Arrowhead::new(structure.spokes.len());
+        Self { over_positions: zero.clone(), over_velocities: zero, over_time: vec![0.0; velocities] }
+    }
+
+    /// Sets everything to zero.
+    pub fn clear(&mut self) {
+        self.over_positions.fill_zero();
+        self.over_velocities.fill_zero();
+        self.over_time.fill(0.0);
+    }
+}
