@@ -2,7 +2,7 @@
 //!
 //! Compare numbers of one run only: machines differ and drift.
 
-use cagedyn::integrate::linear::arrowhead::{Arrowhead, Factors, HUB, SPOKE};
+use cagedyn::integrate::linear::{Arrowhead, Factors, HUB, SPOKE};
 use criterion::{Criterion, criterion_group, criterion_main};
 use faer::linalg::solvers::Solve;
 use nalgebra::{SMatrix, SVector};

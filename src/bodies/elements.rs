@@ -3,7 +3,7 @@
 use super::{
     BodyEnergy, BodyForces, Coordinate, Fault, InputValues, Layout, OF_ELEMENT, SHARED, places::Places,
 };
-use crate::integrate::linear::arrowhead::Spoke;
+use crate::integrate::linear::Spoke;
 use crate::scalar::{WIDEST, math};
 use crate::scene::Scene;
 use crate::space::{Frame, Motion, Wrench};

@@ -4,7 +4,7 @@ use super::{
     BodyEnergy, BodyForces, Coordinate, Element, ElementMotion, ElementSet, Elements, Fault, Inertia, Input,
     InputValues, Layout, Motions, OF_ELEMENT,
 };
-use crate::integrate::linear::arrowhead::Spoke;
+use crate::integrate::linear::Spoke;
 use crate::scene::Scene;
 use crate::space::Wrench;
 

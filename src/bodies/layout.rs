@@ -13,7 +13,7 @@
 
 use super::{CAGE, Coordinate, Elements, INNER_RING, SHARED, SharedBodies};
 use crate::integrate::Structure;
-use crate::integrate::linear::arrowhead::HUB;
+use crate::integrate::linear::HUB;
 
 /// Velocities of a free element.
 pub(crate) const OF_ELEMENT: usize = 3;

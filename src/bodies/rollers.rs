@@ -11,7 +11,7 @@ use super::{
     BodyEnergy, BodyForces, Coordinate, Element, ElementMotion, ElementSet, Elements, Fault, ForceSource,
     Inertia, Input, InputValues, Layout, Motions, Moves, OF_ELEMENT, weight,
 };
-use crate::integrate::linear::arrowhead::Spoke;
+use crate::integrate::linear::Spoke;
 use crate::scene::Scene;
 use crate::space::Wrench;
 

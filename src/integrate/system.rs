@@ -1,6 +1,6 @@
 //! What methods ask of a system: every one the accelerations, some more.
 
-use super::linear::arrowhead::{Arrowhead, HUB, SPOKE};
+use super::linear::{Arrowhead, HUB, SPOKE};
 use super::methods::damping::GroupDamping;
 
 /// A second-order system `q' = v[..positions]`, `v' = a(t, q, v)`. Velocities beyond the positions have no position.

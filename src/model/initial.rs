@@ -5,7 +5,7 @@ use crate::bodies::{ElementMotion, INNER_RING};
 use crate::error::{Error, Result, Status};
 use crate::laws::line_contact::LineContact;
 use crate::pairs::line_laws::LawBuilder;
-use crate::pairs::raceway::{RacewayGeometry, RingMotion};
+use crate::pairs::raceway::{self, RacewayGeometry, RingMotion};
 use crate::scalar::math;
 use crate::scene::{RingMotion as Held, RingStart};
 use crate::space::Frame;
@@ -53,7 +53,7 @@ impl Model {
             && let Some(i) = layout.ring()
             && let Some(mass) = self.shared[INNER_RING].as_ref().and_then(|ring| ring.mass())
             && let Some((geometry, laws)) =
-                LawBuilder::new(&self.scene, self.viscosity_at_start()).raceways()?
+                raceway::laws_of(&LawBuilder::new(&self.scene, self.viscosity_at_start()))?
         {
             let (geometry, laws) = (&geometry, &laws);
             let load = [

@@ -9,7 +9,7 @@
 use super::workspace::Workspace;
 use super::{Input, InputValues, Model};
 use crate::bodies::{IN_HUB, SharedBody, scale_rows};
-use crate::integrate::linear::arrowhead::HUB;
+use crate::integrate::linear::HUB;
 use crate::integrate::{Linearization, Structure};
 use crate::pairs::SlopeSums;
 use nalgebra::{Matrix3, Matrix5, Vector5};

@@ -1,6 +1,5 @@
 //! From the blocks of a scene to laws and their constants. A law is built only if the scene asks for it.
 
-use super::raceway::RacewayGeometry;
 use crate::error::Result;
 use crate::laws::elastic::line::{ElasticLine, NormalDamping, effective_modulus};
 use crate::laws::elastic::solid::SolidContact;
@@ -183,25 +182,13 @@ impl<'a> LawBuilder<'a> {
         })
     }
 
-    /// Geometry and laws of the raceways of outer and inner ring, if there are any.
-    pub(crate) fn raceways(&self) -> Result<Option<(RacewayGeometry, [LineContact; 2])>> {
-        let (Some(_), Some(laws)) = (&self.scene.rollers, &self.scene.raceways) else { return Ok(None) };
-        let this = self.at("raceways.contact");
-        let rings = (self.scene.outer_ring.as_ref(), self.scene.inner_ring.as_ref());
-        let outer_ring = needed("outer_ring", rings.0, "raceways")?;
-        let (outer, radius) = (outer_ring.raceway_radius, self.scene.element_radius());
-        let geometry = RacewayGeometry::new(outer, radius, self.scene.radial_clearance());
-        let inner = geometry.inner_radius(outer);
-        let inner_material = rings.1.and_then(|ring| ring.material.as_deref());
-        let inner_material = needed("inner_ring.material", inner_material, "raceways")?;
-        let laws = [
-            this.raceway(laws, &outer_ring.material, 1.0 / (1.0 / radius - 1.0 / outer))?,
-            this.raceway(laws, inner_material, 1.0 / (1.0 / radius + 1.0 / inner))?,
-        ];
-        Ok(Some((geometry, laws)))
-    }
-
-    fn raceway(&self, laws: &scene::Raceways, mate: &str, equivalent_radius: f64) -> Result<LineContact> {
+    /// A contact with a raceway of the given material.
+    pub(crate) fn raceway(
+        &self,
+        laws: &scene::Raceways,
+        mate: &str,
+        equivalent_radius: f64,
+    ) -> Result<LineContact> {
         let mut law = self.line_contact(&laws.contact, mate, equivalent_radius)?;
         if let Some(rolling) = &laws.rolling_resistance {
             let extent = match rolling.extent {

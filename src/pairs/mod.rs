@@ -3,8 +3,8 @@
 //! | pair | file | bodies | force |
 //! |---|---|---|---|
 //! | raceway | `raceway` | roller, outer or inner ring | line contact |
-//! | cylindrical pocket | `pocket_cylinder` | element, cage | line contact, edge |
-//! | plane pocket | `pocket_plane` | element, cage | spring, damper, friction |
+//! | cylindrical pocket | `pocket/cylinder` | element, cage | line contact, edge |
+//! | plane pocket | `pocket/plane` | element, cage | spring, damper, friction |
 //! | guide | `guide` | cage, outer or inner ring | films, solid contact |
 //!
 //! A pair of elements finds its touching contacts and hands motion and [`Grip`] of each to [`Contacts`]. Wrenches, powers,
@@ -15,15 +15,9 @@
 mod contacts;
 pub(crate) mod grip;
 pub mod guide;
-mod law_columns;
-mod law_slopes;
 pub(crate) mod line_laws;
 mod pocket;
-mod pocket_cylinder;
-mod pocket_plane;
-mod pocket_slopes;
 pub(crate) mod raceway;
-mod raceway_slopes;
 mod slope_sums;
 
 pub(crate) use contacts::{Batch, Contacts, Loaded, Search, Site};
@@ -46,12 +40,8 @@ use std::ops::Range;
 /// The pairs of elements of a checked scene, with the lubricant at `viscosity` in Pa s, in the order of force reports.
 pub(crate) fn element_pairs(scene: &Scene, viscosity: Option<f64>) -> Result<Vec<Box<dyn ElementPair>>> {
     let laws = LawBuilder::new(scene, viscosity);
-    let list = [
-        raceway::outer(&laws)?,
-        raceway::inner(&laws)?,
-        pocket_cylinder::new(&laws)?,
-        pocket_plane::new(&laws)?,
-    ];
+    let list =
+        [raceway::outer(&laws)?, raceway::inner(&laws)?, pocket::cylinder(&laws)?, pocket::plane(&laws)?];
     Ok(list.into_iter().flatten().collect())
 }
 

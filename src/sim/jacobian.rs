@@ -2,7 +2,7 @@
 
 use super::{Evaluated, Sim, check_time, wrong_size};
 use crate::error::Result;
-use crate::integrate::linear::arrowhead::Arrowhead;
+use crate::integrate::linear::Arrowhead;
 use crate::integrate::{Linearization, Structure};
 use crate::model::{Fault, Model};
 

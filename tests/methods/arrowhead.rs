@@ -1,6 +1,6 @@
 //! The structured linear solver against an independent dense one.
 
-use cagedyn::integrate::linear::arrowhead::{Arrowhead, Factors, HUB, SPOKE};
+use cagedyn::integrate::linear::{Arrowhead, Factors, HUB, SPOKE};
 use faer::linalg::solvers::Solve;
 use nalgebra::{Complex, SMatrix, SVector};
 

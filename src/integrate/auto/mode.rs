@@ -2,7 +2,7 @@
 //!
 //! Power iteration on -da/dq: of all modes the one with the highest frequency survives.
 
-use crate::integrate::linear::arrowhead::{Arrowhead, HUB, SPOKE};
+use crate::integrate::linear::{Arrowhead, HUB, SPOKE};
 use crate::integrate::{Linearization, Structure};
 use nalgebra::SVector;
 

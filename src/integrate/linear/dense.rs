@@ -1,7 +1,7 @@
 //! Dense elimination with row exchanges over the whole matrix, for the arrowheads that elimination by blocks fails on: a
 //! singular spoke in a regular matrix. Rare, so it takes its memory when it is needed.
 
-use crate::integrate::linear::arrowhead::{Arrowhead, HUB, Number, SPOKE};
+use crate::integrate::linear::{Arrowhead, HUB, Number, SPOKE};
 use nalgebra::{DMatrix, DVector, Dyn, LU, SVector};
 
 /// The factors of an [`Arrowhead`] as a dense matrix, rows and columns scaled to about one.

@@ -1,5 +1,9 @@
 //! Linear systems with the structure of a bearing: a hub and spokes.
 
-pub mod arrowhead;
 mod dense;
+mod factors;
+mod matrix;
 pub(crate) mod shifted;
+
+pub use factors::Factors;
+pub use matrix::{Arrowhead, HUB, Number, SPOKE, Spoke};

@@ -6,7 +6,7 @@
 //! (m I - D - K/m) u_v = r_v + K r_q/m,   u_q = (r_q + u_v)/m,   K = da/dq,  D = da/dv
 //! ```
 
-use crate::integrate::linear::arrowhead::{Arrowhead, Factors, HUB, Number, SPOKE};
+use crate::integrate::linear::{Arrowhead, Factors, HUB, Number, SPOKE};
 use crate::integrate::{Linearization, Structure};
 use nalgebra::{SMatrix, SVector};
 

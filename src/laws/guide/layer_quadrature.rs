@@ -10,7 +10,6 @@
 
 use crate::laws::guide::barus_film::BarusFilm;
 use crate::laws::guide::layer_gap::{Gap, Place, parts};
-use crate::laws::guide::lubricant_layer::{LubricantLayer, PressureShear};
 use crate::scalar::Real;
 use crate::scalar::math;
 use std::f64::consts::PI;
@@ -19,6 +18,36 @@ use std::f64::consts::PI;
 const MILD: f64 = 0.01;
 /// Bisections of one piece; reached only by states that are not finite.
 const DEEPEST: u32 = 14;
+
+/// Part of the pressure gradient in the shear stress.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PressureShear {
+    /// None: the stress of the sliding surfaces alone.
+    Absent,
+    /// The gradient within the wet arcs, but not across the jump of the pressure at their ends.
+    WithinArc,
+    /// The gradient with that jump, and the moment of the pressure on the lobes of a profile. Only then does the film
+    /// dissipate at every motion.
+    WithEdges,
+}
+
+/// Oil and surface of a land.
+#[derive(Clone, Copy)]
+pub(super) struct Land {
+    /// eta_0, Pa s.
+    pub viscosity: f64,
+    /// alpha, 1/Pa.
+    pub pressure_viscosity: f64,
+    /// s_cap.
+    pub cap: f64,
+    /// R, m.
+    pub radius: f64,
+    /// L, m.
+    pub width: f64,
+    pub pressure_shear: PressureShear,
+    /// Whether the pressure on lobes turns the journal.
+    pub turns_lobes: bool,
+}
 
 /// What a film does to the journal, in the axes of the gap.
 pub(super) struct Sums<T> {
@@ -61,9 +90,7 @@ impl Piece {
 
 /// Integrator over the arcs of one state; `gap` and `plain` are the same gap with and without derivatives.
 pub(super) struct Integrator<'a, T, G, P> {
-    pub law: &'a LubricantLayer,
-    /// eta_0, Pa s.
-    pub viscosity: f64,
+    pub land: Land,
     pub gap: &'a G,
     pub plain: &'a P,
     film: BarusFilm,
@@ -75,15 +102,14 @@ pub(super) struct Integrator<'a, T, G, P> {
 
 impl<'a, T: Real, G: Gap<T>, P: Gap<f64>> Integrator<'a, T, G, P> {
     #[inline]
-    pub fn new(law: &'a LubricantLayer, viscosity: f64, gap: &'a G, plain: &'a P) -> Self {
+    pub fn new(land: Land, gap: &'a G, plain: &'a P) -> Self {
         let zero = T::constant(0.0);
         Self {
-            law,
-            viscosity,
+            land,
             gap,
             plain,
-            film: BarusFilm { pressure_viscosity: law.pressure_viscosity, cap: law.cap },
-            peak_scale: 0.75 * viscosity * law.width * law.width,
+            film: BarusFilm { pressure_viscosity: land.pressure_viscosity, cap: land.cap },
+            peak_scale: 0.75 * land.viscosity * land.width * land.width,
             narrowness: plain.narrowness(),
             sums: Sums { pressure: [zero; 2], shear: [zero; 2], moment: zero },
         }
@@ -95,7 +121,7 @@ impl<'a, T: Real, G: Gap<T>, P: Gap<f64>> Integrator<'a, T, G, P> {
     pub fn wet_end(&mut self, gamma: T, side: f64) {
         let place = self.gap.at(gamma);
         let mean = self.film.mean(self.peak(&place));
-        let along = mean.pressure * place.film * (-0.5 * side * self.law.width);
+        let along = mean.pressure * place.film * (-0.5 * side * self.land.width);
         self.add_tangential(&place, along);
     }
 
@@ -125,7 +151,7 @@ impl<'a, T: Real, G: Gap<T>, P: Gap<f64>> Integrator<'a, T, G, P> {
     /// s for q_0 = -G/h^3.
     #[inline]
     fn scale(&self) -> f64 {
-        self.peak_scale * self.law.pressure_viscosity
+        self.peak_scale * self.land.pressure_viscosity
     }
 
     #[inline]
@@ -205,17 +231,17 @@ impl<'a, T: Real, G: Gap<T>, P: Gap<f64>> Integrator<'a, T, G, P> {
     fn node(&mut self, gamma: T, weight: T) {
         let place = self.gap.at(gamma);
         let weight = weight * place.arc;
-        let law = self.law;
-        let mut along = place.sliding * place.inverse_film * (-law.radius * self.viscosity * law.width);
+        let land = self.land;
+        let mut along = place.sliding * place.inverse_film * (-land.radius * land.viscosity * land.width);
         if place.opening.value() < 0.0 {
             let mean = self.film.mean(self.peak(&place));
-            let line = mean.pressure * weight * law.width;
+            let line = mean.pressure * weight * land.width;
             along = along * mean.viscosity * weight;
             let [cos, sin] = place.normal;
             let [y, z] = &mut self.sums.pressure;
-            *y -= line * cos * law.radius;
-            *z -= line * sin * law.radius;
-            if law.pressure_shear != PressureShear::Absent {
+            *y -= line * cos * land.radius;
+            *z -= line * sin * land.radius;
+            if land.pressure_shear != PressureShear::Absent {
                 // By parts, d(h t)/dtheta = slope t - h n takes the place of the pressure gradient.
                 along += line * place.slope * 0.5;
                 let inward = line * place.film * 0.5;
@@ -223,8 +249,8 @@ impl<'a, T: Real, G: Gap<T>, P: Gap<f64>> Integrator<'a, T, G, P> {
                 *y -= inward * cos;
                 *z -= inward * sin;
             }
-            if law.turns_lobes() {
-                self.sums.moment -= line * place.lobe_slope * law.radius;
+            if land.turns_lobes {
+                self.sums.moment -= line * place.lobe_slope * land.radius;
             }
         } else {
             along = along * weight;
@@ -238,7 +264,7 @@ impl<'a, T: Real, G: Gap<T>, P: Gap<f64>> Integrator<'a, T, G, P> {
         let [a, b] = &mut self.sums.shear;
         *a -= along * sin;
         *b += along * cos;
-        self.sums.moment += along * self.law.radius;
+        self.sums.moment += along * self.land.radius;
     }
 }
 

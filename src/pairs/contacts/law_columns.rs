@@ -10,7 +10,7 @@ use pulp::{Arch, Simd};
 
 /// The constants of the law of every contact in a batch.
 #[derive(Clone, Debug)]
-pub(super) struct LawColumns {
+pub(in crate::pairs) struct LawColumns {
     /// The first of the laws; all have the same parts.
     first: LineContact,
     /// Constants of each kind, in the order of [`LineContact::map`].
@@ -22,7 +22,7 @@ pub(super) struct LawColumns {
 
 impl LawColumns {
     /// Room for this many contacts of kinds with these laws, which have the same parts; there is at least one.
-    pub(super) fn new(first: LineContact, others: &[LineContact], room: usize) -> Self {
+    pub(in crate::pairs) fn new(first: LineContact, others: &[LineContact], room: usize) -> Self {
         let constants = |law: &LineContact| {
             let mut list = Vec::new();
             law.map(&mut |x| list.push(*x));
@@ -35,7 +35,7 @@ impl LawColumns {
 
     /// Makes contact `i` one of this kind.
     #[inline]
-    pub(super) fn set(&mut self, i: usize, kind: usize) {
+    pub(in crate::pairs) fn set(&mut self, i: usize, kind: usize) {
         if self.kind[i] != kind {
             self.kind[i] = kind;
             for (column, x) in self.columns.iter_mut().zip(&self.table[kind]) {
@@ -46,7 +46,11 @@ impl LawColumns {
 
     /// Laws of the contacts from the first one on, as many as fit.
     #[inline(always)]
-    pub(super) fn load<S: Simd, const K: usize>(&self, simd: S, first: usize) -> LineContact<Pack<S, K>> {
+    pub(in crate::pairs) fn load<S: Simd, const K: usize>(
+        &self,
+        simd: S,
+        first: usize,
+    ) -> LineContact<Pack<S, K>> {
         let mut columns = self.columns.iter();
         self.first.map(&mut |_| match columns.next() {
             Some(column) => Pack::load(simd, &column[first..]),
@@ -55,7 +59,7 @@ impl LawColumns {
     }
 
     /// Evaluates the laws of the first `rows` contacts, with the logarithm `ln_viscosity` of the relative viscosity.
-    pub(super) fn apply(
+    pub(in crate::pairs) fn apply(
         &self,
         rows: usize,
         motion: &ContactMotion<Vec<f64>>,

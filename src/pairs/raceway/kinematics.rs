@@ -15,17 +15,10 @@
 //! Surface speeds are relative to the contact point, which moves with the line of centres:
 //! `u1 = arm_1 (w_b - phi_dot)`, `u2 = -arm_2 (w_r - phi_dot)`, phi_dot the turning rate of that line.
 
-use super::contacts::{Batch, Search};
-use super::line_laws::LawBuilder;
-use super::{ContactLaw, Cost, ElementPair, Grip, Law, MateLever, PairInfo, SlopeSums, raceway_slopes};
-use crate::bodies::{ElementMotion, Fault, ForceSource, INNER_RING, Motions, OUTER_RING, Power};
-use crate::error::Result;
+use crate::bodies::ElementMotion;
 use crate::laws::contact_pair::ContactMotion;
-use crate::laws::line_contact::LineContact;
-use crate::scalar::{Columns, Numeric, Pack, Real, dispatch};
-use crate::space::rotate;
-use pulp::Simd;
-use std::ops::Range;
+use crate::pairs::{Grip, MateLever};
+use crate::scalar::{Numeric, Real};
 
 /// Motion of a ring, its vectors in the local frame of a roller.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -118,128 +111,6 @@ fn shift<T: Numeric>(r: T, d: T, ring: [T; 2]) -> T {
     (ring[0] * ring[0] + ring[1] * ring[1] - r * ring[0] * 2.0) / (d + r)
 }
 
-/// The contacts of all rollers with one ring.
-#[derive(Debug)]
-struct Raceway {
-    geometry: RacewayGeometry,
-    law: LineContact,
-    ring: &'static PairInfo,
-}
-
-static OUTER: PairInfo = PairInfo {
-    mate: OUTER_RING,
-    source: ForceSource::OuterRaceway,
-    contacts: &["outer_raceway"],
-    laws: &[Law::OuterRaceway],
-    powers: [Power::RacewayDamping, Power::RacewayFriction],
-    rolls: true,
-};
-
-static INNER: PairInfo = PairInfo {
-    mate: INNER_RING,
-    source: ForceSource::InnerRaceway,
-    contacts: &["inner_raceway"],
-    laws: &[Law::InnerRaceway],
-    powers: [Power::RacewayDamping, Power::RacewayFriction],
-    rolls: true,
-};
-
-/// The raceway of the outer ring of a scene, if its rollers have laws.
-pub(super) fn outer(laws: &LawBuilder<'_>) -> Result<Option<Box<dyn ElementPair>>> {
-    let Some((geometry, [law, _])) = laws.raceways()? else { return Ok(None) };
-    Ok(Some(Box::new(Raceway { geometry, law, ring: &OUTER })))
-}
-
-/// That of the inner ring.
-pub(super) fn inner(laws: &LawBuilder<'_>) -> Result<Option<Box<dyn ElementPair>>> {
-    let Some((geometry, [_, law])) = laws.raceways()? else { return Ok(None) };
-    Ok(Some(Box::new(Raceway { geometry, law, ring: &INNER })))
-}
-
-impl ElementPair for Raceway {
-    fn info(&self) -> &'static PairInfo {
-        self.ring
-    }
-
-    fn law(&self) -> ContactLaw {
-        ContactLaw::Line(self.law)
-    }
-
-    fn find(&self, motions: &Motions, out: &mut Search<'_>) -> std::result::Result<(), Fault> {
-        let Search { touching, gaps, .. } = out;
-        let geometry = &self.geometry;
-        if self.ring.mate == OUTER_RING {
-            for (j, motion) in motions.elements.iter().enumerate() {
-                if is_touching(motion.radial_offset - geometry.gap) {
-                    let (contact, grip) = geometry.outer(motion);
-                    touching.push(j, 0, grip, 0.0, &contact);
-                }
-            }
-            return Ok(());
-        }
-        let ring = &motions.shared[INNER_RING];
-        let n = motions.elements.len();
-        let approach = &mut gaps[0];
-        dispatch(motions.instructions, Approach { motions, geometry, ring: ring.position, n, approach });
-        for (j, (motion, approach)) in motions.elements.iter().zip(&gaps[0]).enumerate() {
-            if is_touching(*approach) {
-                let frame = motions.frame(j);
-                let (position, velocity) = (frame.to_local(ring.position), frame.to_local(ring.velocity));
-                let seen = RingMotion { position, velocity, speed: ring.speed };
-                let (contact, grip) = geometry.inner(motion, &seen);
-                touching.push(j, 0, grip, 0.0, &contact);
-            }
-        }
-        Ok(())
-    }
-
-    fn add_slopes(&self, batch: &Batch, contacts: Range<usize>, motions: &Motions, sums: &mut SlopeSums<'_>) {
-        for i in contacts {
-            if self.ring.mate == OUTER_RING {
-                raceway_slopes::add_outer(&self.geometry, batch, i, motions, sums);
-            } else {
-                raceway_slopes::add_inner(&self.geometry, batch, i, motions, sums);
-            }
-        }
-    }
-
-    fn cost(&self) -> Cost {
-        Cost { value: 110.0, slopes: 150.0, per_element: true }
-    }
-}
-
-/// A NaN approach counts as contact, so that it reaches the accelerations and is reported.
-#[inline]
-fn is_touching(approach: f64) -> bool {
-    approach > 0.0 || approach.is_nan()
-}
-
-/// Finds the approach of all rollers to the inner raceway.
-struct Approach<'a> {
-    motions: &'a Motions,
-    geometry: &'a RacewayGeometry,
-    ring: [f64; 2],
-    n: usize,
-    approach: &'a mut [f64],
-}
-
-impl Columns for Approach<'_> {
-    fn rows(&self) -> usize {
-        self.n
-    }
-
-    #[inline(always)]
-    fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
-        let places = &self.motions.places;
-        let all = |x: f64| Pack::<S, K>::all(simd, x);
-        let load = |column: &[f64]| Pack::load(simd, &column[first..]);
-        let [sin, cos] = [load(&places.direction[0]), load(&places.direction[1])];
-        let ring = rotate([all(self.ring[0]), all(self.ring[1])], -sin, cos);
-        let approach = self.geometry.inner_approach(load(&places.radial_offset), ring);
-        approach.store(&mut self.approach[first..]);
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -298,7 +169,7 @@ mod tests {
             // The ring vector as seen from the turning local frame.
             let turn = roller.orbit_speed * s;
             let x = [ring.position[0] + ring.velocity[0] * s, ring.position[1] + ring.velocity[1] * s];
-            let x = rotate(x, (-turn).sin(), (-turn).cos());
+            let x = crate::space::rotate(x, (-turn).sin(), (-turn).cos());
             G.inner_approach(roller.radial_offset + roller.radial_speed * s, x)
         };
         let difference = (at(h) - at(-h)) / (2.0 * h);

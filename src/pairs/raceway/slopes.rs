@@ -10,11 +10,10 @@
 //! d(e_r F_r + e_c F_c)/dpsi = e_r (dF_r/dpsi - F_c) + e_c (dF_c/dpsi + F_r)      force on the ring in global axes
 //! ```
 
-use super::contacts::Batch;
-use super::law_slopes::{FORCES, Slopes, VISCOSITY, chain, contact_force};
-use super::raceway::{RacewayGeometry, RingMotion};
-use super::{Grip, MateLever, SlopeSums};
+use super::kinematics::{RacewayGeometry, RingMotion};
 use crate::bodies::{Element, ElementMotion, IN_HUB, INNER_RING, Input, Motions};
+use crate::pairs::contacts::{FORCES, Slopes, VISCOSITY, chain, contact_force};
+use crate::pairs::{Batch, Grip, MateLever, SlopeSums};
 use crate::scalar::{Dual, Real};
 use crate::space::Wrench;
 

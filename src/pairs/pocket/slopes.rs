@@ -1,13 +1,12 @@
 //! Derivatives of the pocket forces, contact by contact: those of the laws, chained with those of the kinematics, by dual
 //! numbers.
 
-use super::contacts::Batch;
-use super::law_slopes::{DIRECTIONS, FORCES, Slopes, VISCOSITY, chain, contact_force};
-use super::pocket::{Pillar, PillarContact, PocketPlace, PocketShape};
-use super::{ContactLaw, SlopeSums};
+use super::kinematics::{Pillar, PillarContact, PocketPlace, PocketShape};
 use crate::bodies::{CAGE, Element, ElementMotion, IN_HUB, Input, Motions};
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
 use crate::laws::elastic::solid::SolidContact;
+use crate::pairs::contacts::{DIRECTIONS, FORCES, Slopes, VISCOSITY, chain, contact_force};
+use crate::pairs::{Batch, ContactLaw, MateLever, SlopeSums};
 use crate::scalar::{Dual, Real};
 use crate::space::{Frame, Motion};
 
@@ -32,8 +31,8 @@ pub(super) fn add_pocket<S: PocketShape>(
     let j = site.element;
     let side = if site.contact == Pillar::Front as usize { Pillar::Front } else { Pillar::Back };
     let lead = match site.grip.mate {
-        super::MateLever::Point(_, lead) => lead,
-        super::MateLever::Centre(_) => return,
+        MateLever::Point(_, lead) => lead,
+        MateLever::Centre(_) => return,
     };
     let pair = Pair::new(&motions.element(j), lead, &motions.shared[CAGE]);
     let law = match law {

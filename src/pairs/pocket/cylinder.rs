@@ -12,13 +12,14 @@
 //!
 //! Local frame: (radial, circumferential) at the pocket centre, turning with the cage.
 
-use super::line_laws::LawBuilder;
-use super::pocket::{Pillar, PillarContact, PocketMotion, PocketPlace, PocketShape, Pockets};
-use super::{ContactLaw, Cost, ElementPair, Law, PairInfo};
+use super::Pockets;
+use super::kinematics::{Pillar, PillarContact, PocketMotion, PocketPlace, PocketShape};
 use crate::bodies::{CAGE, ForceSource, Power};
 use crate::error::Result;
 use crate::laws::line_contact::LineContact;
 use crate::laws::traction::solid_friction::SolidFriction;
+use crate::pairs::line_laws::LawBuilder;
+use crate::pairs::{ContactLaw, Cost, ElementPair, Law, PairInfo};
 use crate::scalar::math;
 use crate::scalar::{Real, smoothstep};
 use crate::scene::{Pocket, needed};
@@ -108,7 +109,7 @@ static INFO: PairInfo = PairInfo {
 };
 
 /// The cylindrical pockets of a scene, if it has any.
-pub(super) fn new(laws: &LawBuilder<'_>) -> Result<Option<Box<dyn ElementPair>>> {
+pub(in crate::pairs) fn new(laws: &LawBuilder<'_>) -> Result<Option<Box<dyn ElementPair>>> {
     let scene = laws.scene();
     let Some(cage) = &scene.cage else { return Ok(None) };
     let Some(Pocket::LubricatedCylinder(pocket)) = &cage.pocket else { return Ok(None) };

@@ -8,13 +8,14 @@
 //! element and both walls together. The walls turn with the cage and are unbounded radially. Source: Takeshima et al.
 //! 2025, section 3.
 
-use super::line_laws::LawBuilder;
-use super::pocket::{Pillar, PillarContact, PocketMotion, PocketPlace, PocketShape, Pockets};
-use super::{Ahead, ContactLaw, Cost, ElementPair, Law, PairInfo};
+use super::Pockets;
+use super::kinematics::{Pillar, PillarContact, PocketMotion, PocketPlace, PocketShape};
 use crate::bodies::{CAGE, ForceSource, Input, Power};
 use crate::error::Result;
 use crate::integrate::Tuning;
 use crate::laws::elastic::solid::SolidContact;
+use crate::pairs::line_laws::LawBuilder;
+use crate::pairs::{Ahead, ContactLaw, Cost, ElementPair, Law, PairInfo};
 use crate::scalar::{Real, math};
 use crate::scene::Pocket;
 use crate::space::rotate;
@@ -64,7 +65,7 @@ static INFO: PairInfo = PairInfo {
 };
 
 /// The plane pockets of a scene, if it has any.
-pub(super) fn new(laws: &LawBuilder<'_>) -> Result<Option<Box<dyn ElementPair>>> {
+pub(in crate::pairs) fn new(laws: &LawBuilder<'_>) -> Result<Option<Box<dyn ElementPair>>> {
     let scene = laws.scene();
     let Some(Pocket::SolidPlane(pocket)) = scene.cage.as_ref().and_then(|cage| cage.pocket.as_ref()) else {
         return Ok(None);
@@ -110,7 +111,7 @@ fn longest_step(shape: &PlanePocket, law: &ContactLaw, ahead: &Ahead<'_>) -> f64
 }
 
 /// How far a step may pass the onset of a solid contact.
-pub(super) struct Passage {
+pub(in crate::pairs) struct Passage {
     /// Share of the time in which it turns a body, s.
     turn: f64,
     /// Share of the depth over which its damper sets in, m.
@@ -119,13 +120,13 @@ pub(super) struct Passage {
 
 impl Passage {
     /// For a body of `mass` kg.
-    pub(super) fn of(contact: &SolidContact, mass: f64, tuning: &Tuning) -> Self {
+    pub(in crate::pairs) fn of(contact: &SolidContact, mass: f64, tuning: &Tuning) -> Self {
         let turn = if contact.stiffness > 0.0 { (mass / contact.stiffness).sqrt() } else { 0.0 };
         Self { turn: tuning.turn_share * turn, depth: tuning.onset_share * contact.softening_depth }
     }
 
     /// In s, at this speed in m/s.
-    pub(super) fn time(&self, speed: f64) -> f64 {
+    pub(in crate::pairs) fn time(&self, speed: f64) -> f64 {
         self.turn.max(self.depth / speed)
     }
 }

@@ -6,28 +6,28 @@ use crate::scalar::{Columns, Dual, Duals, Pack, Real, dispatch};
 use pulp::{Arch, Simd};
 
 /// Directions of the derivatives: approach, approach speed, u1, u2, edge share, logarithm of the viscosity.
-pub(super) const DIRECTIONS: usize = 6;
-pub(super) const EDGE_SHARE: usize = 4;
-pub(super) const VISCOSITY: usize = 5;
+pub(in crate::pairs) const DIRECTIONS: usize = 6;
+pub(in crate::pairs) const EDGE_SHARE: usize = 4;
+pub(in crate::pairs) const VISCOSITY: usize = 5;
 /// Forces that have derivatives: normal force, friction, rolling resistance.
-pub(super) const FORCES: usize = 3;
+pub(in crate::pairs) const FORCES: usize = 3;
 
 /// Derivatives of the forces of one contact.
-pub(super) type Slopes = [[f64; DIRECTIONS]; FORCES];
+pub(in crate::pairs) type Slopes = [[f64; DIRECTIONS]; FORCES];
 
 /// Derivatives in columns, by force and direction.
 #[derive(Clone, Debug, Default)]
-pub(super) struct LawSlopes([[Vec<f64>; DIRECTIONS]; FORCES]);
+pub(in crate::pairs) struct LawSlopes([[Vec<f64>; DIRECTIONS]; FORCES]);
 
 impl LawSlopes {
     /// Room for this many contacts.
-    pub(super) fn new(room: usize) -> Self {
+    pub(in crate::pairs) fn new(room: usize) -> Self {
         Self(std::array::from_fn(|_| std::array::from_fn(|_| vec![0.0; room])))
     }
 
     /// Finds the forces of the first `rows` contacts, for which there must be room, and their derivatives, from their
     /// motions and edge shares, with the logarithm `ln_viscosity` of the relative viscosity.
-    pub(super) fn find(
+    pub(in crate::pairs) fn find(
         &mut self,
         laws: &LawColumns,
         rows: usize,
@@ -42,7 +42,7 @@ impl LawSlopes {
 
     /// Derivatives of the forces of contact `i`.
     #[inline(always)]
-    pub(super) fn of(&self, i: usize) -> Slopes {
+    pub(in crate::pairs) fn of(&self, i: usize) -> Slopes {
         let mut slopes = [[0.0; DIRECTIONS]; FORCES];
         for (row, columns) in slopes.iter_mut().zip(&self.0) {
             for (slope, column) in row.iter_mut().zip(columns) {
@@ -55,7 +55,7 @@ impl LawSlopes {
 
 /// The forces of a contact, with the `slopes` of its law, over the coordinates of its bodies: chain rule.
 #[inline]
-pub(super) fn chain<const N: usize>(
+pub(in crate::pairs) fn chain<const N: usize>(
     forces: &[f64; FORCES],
     slopes: &Slopes,
     motion: &ContactMotion<Dual<N>>,
@@ -76,7 +76,9 @@ pub(super) fn chain<const N: usize>(
 
 /// A contact with this normal force, friction and rolling resistance, N, or their rates; all else is zero.
 #[inline]
-pub(super) fn contact_force<T: Real>([normal, friction, rolling_resistance]: [T; FORCES]) -> ContactForce<T> {
+pub(in crate::pairs) fn contact_force<T: Real>(
+    [normal, friction, rolling_resistance]: [T; FORCES],
+) -> ContactForce<T> {
     ContactForce { normal, friction, rolling_resistance, ..ContactForce::none(T::constant(0.0)) }
 }
 

@@ -1,12 +1,17 @@
 //! Touching contacts in columns: where they are, how they move, what forces they have.
 
-use super::law_columns::LawColumns;
-use super::law_slopes::{FORCES, LawSlopes, Slopes};
+mod law_columns;
+mod law_slopes;
+
+pub(super) use law_slopes::{DIRECTIONS, FORCES, Slopes, VISCOSITY, chain, contact_force};
+
 use super::{ContactLaw, ElementPair, Grip};
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
 use crate::laws::elastic::solid::SolidContact;
 use crate::laws::line_contact::LineContact;
 use crate::scalar::WIDEST;
+use law_columns::LawColumns;
+use law_slopes::LawSlopes;
 use pulp::Arch;
 use std::ops::Range;
 
