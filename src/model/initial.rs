@@ -15,6 +15,8 @@ const MAX_ITERATIONS: usize = 500;
 /// How often the start of a cage in the centre of its ring and that of the ring are found in turn: each time the difference
 /// shrinks by the clearance over the pitch radius.
 const PLACINGS: usize = 4;
+/// Share of the way to the edges of its pockets that a cage starts at most.
+const SHARE_OF_REACH: f64 = 0.9;
 /// Accepted residual force in N, far below any load of interest.
 const NEGLIGIBLE_FORCE: f64 = 1e-9;
 /// Accepted residual force relative to the load.
@@ -67,7 +69,7 @@ impl Model {
             if inner_guide {
                 // A cage that starts in the centre of the ring moves the rollers along, and they the ring, by next to nothing.
                 for _ in 0..if start.cage.is_none() { PLACINGS } else { 0 } {
-                    cage = ring;
+                    cage = self.beside(ring);
                     self.place_cage(cage, q);
                     ring = find(q)?;
                 }
@@ -83,6 +85,13 @@ impl Model {
             }
         }
         Ok(state)
+    }
+
+    /// The centre of a ring at `ring` (m), or a place on the way to it that the pockets let the cage reach.
+    fn beside(&self, ring: [f64; 2]) -> [f64; 2] {
+        let way = math::hypot(ring[0], ring[1]);
+        let reach = SHARE_OF_REACH * self.scene.reach_in_pockets().unwrap_or(f64::INFINITY);
+        if way > reach { ring.map(|x| x * reach / way) } else { ring }
     }
 
     /// Sets the cage centre (m), and the rollers into the middle of their pockets, which lie beside their angles then.

@@ -69,6 +69,19 @@ impl Scene {
         }
     }
 
+    /// How far off the centre of the bearing (m) the cage can start before edges of its pockets reach into the elements, which
+    /// start beside each other in them; `None` where they never do.
+    pub(crate) fn reach_in_pockets(&self) -> Option<f64> {
+        let Some(Pocket::LubricatedCylinder(pocket)) = self.cage.as_ref()?.pocket.as_ref() else {
+            return None;
+        };
+        let element = self.element_radius();
+        let radius = element + pocket.radial_clearance;
+        let edge = radius * math::sin(pocket.half_angle);
+        let discriminant = edge * edge - (radius * radius - element * element);
+        (discriminant > 0.0).then(|| edge - discriminant.sqrt())
+    }
+
     /// Whether the cage may start at `cage` (m), with the ring that guides it at `guide_centre`.
     ///
     /// # Errors
@@ -93,19 +106,12 @@ impl Scene {
             }
         }
         let start = math::hypot(cage[0], cage[1]);
-        if let Some(Pocket::LubricatedCylinder(pocket)) = &body.pocket {
-            // Elements start beside each other in their pockets; radially, the edges must not reach into them.
-            let element = self.element_radius();
-            let radius = element + pocket.radial_clearance;
-            let edge = radius * math::sin(pocket.half_angle);
-            let discriminant = edge * edge - (radius * radius - element * element);
-            if discriminant > 0.0 && start > edge - discriminant.sqrt() {
-                let text = format!(
-                    "the centre {start:?} m off pushes pocket edges into rollers; at most {:e} m",
-                    edge - discriminant.sqrt()
-                );
-                return Err(bad("initial.cage", text));
-            }
+        if let Some(reach) = self.reach_in_pockets()
+            && start > reach
+        {
+            let text =
+                format!("the centre {start:?} m off pushes pocket edges into rollers; at most {reach:e} m");
+            return Err(bad("initial.cage", text));
         }
         if let Some(pocket) = &body.pocket
             && self.kinematic_elements.is_some()

@@ -4,13 +4,15 @@ mod rollers;
 mod series;
 mod whirl;
 
-use crate::run::{self, Request, Run, in_file};
+use crate::CasesArgs;
+use crate::results::files::UNFINISHED;
+use crate::results::finished::Run;
+use crate::results::summary::Summary;
+use crate::results::table::{self, Align, rounded};
+use crate::results::{files, output};
+use crate::run::{self, Request, in_file};
 use crate::starts::Starts;
-use crate::stream::UNFINISHED;
-use crate::summary::Summary;
-use crate::table::{self, Align, rounded};
 use crate::terminal::{self, INTERRUPTED};
-use crate::{CasesArgs, output};
 use cagedyn::model::{HostInputs, Input};
 use cagedyn::scene::{Case, CaseSet};
 use cagedyn::{CageMotion, Result, Scene};
@@ -179,10 +181,10 @@ fn write_comparison(
     done: &[Done<'_>],
 ) -> Result<Vec<&'static str>> {
     let mut files = vec![output::CASES];
-    output::write_csv(&args.out.join(output::CASES), csv_rows(set, comparison, done))?;
+    files::write_csv(&args.out.join(output::CASES), csv_rows(set, comparison, done))?;
     let title = set.title.clone().unwrap_or_else(|| run::stem(&args.file));
     if let Some(picture) = (comparison.picture)(&title, done) {
-        output::write_text(&args.out.join(comparison.picture_name), &picture?)?;
+        files::write_text(&args.out.join(comparison.picture_name), &picture?)?;
         files.push(comparison.picture_name);
     }
     Ok(files)
@@ -232,5 +234,5 @@ fn plain_text(value: &Value) -> String {
 
 /// A number in the file; empty where there is none.
 fn cell(x: Option<f64>) -> String {
-    x.map_or(String::new(), output::plain)
+    x.map_or(String::new(), files::plain)
 }

@@ -1,9 +1,9 @@
 //! The command `info`.
 
 use crate::effects::effects;
-use crate::facts;
+use crate::results::facts;
+use crate::results::table::{self, Align, number};
 use crate::run::{in_file, read, stem, table_size};
-use crate::table::{self, Align, number};
 use crate::{InfoArgs, terminal};
 use cagedyn::model::{HostInputs, Input};
 use cagedyn::scene::{ElementMotion, Method, RingMotion};

@@ -2,20 +2,13 @@
 
 mod cases;
 mod effects;
-mod facts;
 mod info;
-mod intervals;
-mod motion;
-mod output;
 mod plots;
-mod report;
+mod results;
 mod run;
 mod schema;
 mod spectrum;
 mod starts;
-mod stream;
-mod summary;
-mod table;
 mod terminal;
 
 use cagedyn::scene::Preset;

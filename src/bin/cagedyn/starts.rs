@@ -1,7 +1,7 @@
 //! The same scene from slightly different starts: which kinds of motion there are, and how often. Where a cage has more than
 //! one, a single start says nothing about the bearing.
 
-use crate::motion::{CHANNELS, whirl};
+use crate::results::motion::{CHANNELS, whirl};
 use crate::terminal;
 use cagedyn::scene::Record;
 use cagedyn::{CageMotion, Error, Model, Recording, Result, Scene, Sim, Status, WhirlSummary};

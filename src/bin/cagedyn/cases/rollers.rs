@@ -3,7 +3,7 @@
 use super::series::series;
 use super::{Comparison, Done, Known, cell};
 use crate::plots::{self, Point};
-use crate::summary::Summary;
+use crate::results::summary::Summary;
 use cagedyn::Result;
 
 /// The comparison.

@@ -3,8 +3,8 @@
 use super::series::series;
 use super::{Comparison, Done, Known, cell};
 use crate::plots::{self, WhirlPoint};
-use crate::summary::{Summary, Whirl};
-use crate::table::rounded;
+use crate::results::summary::{Summary, Whirl};
+use crate::results::table::rounded;
 use cagedyn::Result;
 
 /// The comparison.

@@ -15,8 +15,8 @@ mod whirl_speed;
 pub use cage_positions::{Point, cage_positions};
 pub use whirl_speed::{WhirlPoint, whirl_speed};
 
-use crate::run::Run;
-use crate::summary::Summary;
+use crate::results::finished::Run;
+use crate::results::summary::Summary;
 use cagedyn::Result;
 use style::{Marker, Paint, SERIES};
 

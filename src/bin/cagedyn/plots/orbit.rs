@@ -3,8 +3,8 @@
 use super::axis::{Axis, minus};
 use super::panel::{Place, panel};
 use super::style::{self, BLUE, CURVE, FAINT, GREEN, INK, MUTED, Marker, RED, Symbol, THIN, line};
-use crate::run::Run;
-use crate::summary::Summary;
+use crate::results::finished::Run;
+use crate::results::summary::Summary;
 use cagedyn::Result;
 
 /// Diameter of the diagram, px.

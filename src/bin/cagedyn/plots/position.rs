@@ -3,8 +3,8 @@
 use super::axis::Axis;
 use super::panel::{Place, panel};
 use super::style::{self, BLUE, CURVE, ORANGE, Symbol, line};
-use crate::run::Run;
-use crate::summary::Summary;
+use crate::results::finished::Run;
+use crate::results::summary::Summary;
 use cagedyn::Result;
 
 /// The picture, if there is a cage.

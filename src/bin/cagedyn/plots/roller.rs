@@ -2,8 +2,8 @@
 
 use super::strips::{self, ENVELOPE, Strip, Texts};
 use super::style::{BLUE, GREEN, MUTED, ORANGE, PURPLE, Symbol};
-use crate::intervals::positive_intervals;
-use crate::run::Run;
+use crate::results::finished::Run;
+use crate::results::intervals::positive_intervals;
 use cagedyn::Result;
 
 /// Length of the time shown, s.

@@ -3,10 +3,10 @@
 use super::axis::Axis;
 use super::panel::{Place, panel};
 use super::style::{self, BLUE, INK, MUTED, Marker, RED, Symbol, TEXT, THIN, line, px, text};
-use crate::run::Run;
+use crate::results::finished::Run;
+use crate::results::summary::Summary;
+use crate::results::table::{number, rounded};
 use crate::spectrum::{Spectrum, amplitude_spectrum};
-use crate::summary::Summary;
-use crate::table::{number, rounded};
 use cagedyn::Result;
 use plotters::prelude::Text;
 use plotters::style::text_anchor::{HPos, VPos};

@@ -2,8 +2,8 @@
 
 use super::strips::{self, Strip, Texts};
 use super::style::{BLUE, GREEN, MUTED, ORANGE, PURPLE, Paint, RED, Symbol, TEAL};
-use crate::run::Run;
-use crate::summary::Summary;
+use crate::results::finished::Run;
+use crate::results::summary::Summary;
 use cagedyn::sim::SMALLEST_WHIRL_RADIUS;
 use cagedyn::{Result, Spread};
 

@@ -3,18 +3,14 @@
 //! Until the run has ended the table has a name that says so. Only whole rows are written, each once: a program that is
 //! killed and a disk that is full leave a table that ends with a record.
 
-use crate::output::{file_error, plain};
-use crate::table::rounded;
+use crate::results::files::{SERIES, UNFINISHED, file_error, plain};
+use crate::results::table::rounded;
 use cagedyn::model::Channel;
 use cagedyn::{Interval, Recording, Result};
 use std::fs::{self, File};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-
-/// Name of the table, and until it is complete.
-pub const SERIES: &str = "timeseries.csv";
-pub const UNFINISHED: &str = "timeseries.unfinished.csv";
 
 /// Rows are written when there are so many bytes of them, or after this time.
 const FULL: usize = 1 << 16;

@@ -1,6 +1,6 @@
 //! What pictures and tables say of a bearing below their title: taken from the model, so that it is true of every run.
 
-use crate::table::number;
+use crate::results::table::number;
 use cagedyn::Model;
 use cagedyn::scene::{ElementMotion, RingMotion, Signal};
 use std::f64::consts::TAU;

@@ -1,8 +1,8 @@
 //! The summary that `run` prints.
 
-use crate::run::Run;
-use crate::summary::{Balance, Statistics, Summary, Whirl};
-use crate::table::{self, Align, grouped, number, rounded};
+use crate::results::finished::Run;
+use crate::results::summary::{Balance, Statistics, Summary, Whirl};
+use crate::results::table::{self, Align, grouped, number, rounded};
 use std::path::Path;
 
 /// Rows of the table: name, value, deviation, unit, remark.

@@ -2,10 +2,10 @@
 //! one run only.
 
 use crate::plots;
-use crate::run::Run;
-use crate::stream::{SERIES, UNFINISHED};
-use crate::summary::Summary;
-use cagedyn::{Error, Result, Status};
+use crate::results::files::{SERIES, UNFINISHED, file_error, write_json, write_text};
+use crate::results::finished::Run;
+use crate::results::summary::Summary;
+use cagedyn::Result;
 use serde::Serialize;
 use serde_json::Value;
 use std::fs::{self, File, TryLockError};
@@ -119,45 +119,4 @@ pub fn write(run: &Run, summary: &mut Summary, folder: &Path, draw: bool) -> Res
         summary.files.push(name.to_owned());
     }
     write_json(&folder.join(SUMMARY), summary)
-}
-
-/// Writes a text file, which has its name only when it is complete.
-///
-/// # Errors
-/// [`Status::File`].
-pub fn write_text(path: &Path, text: &str) -> Result<()> {
-    let unfinished = path.with_extension("unfinished");
-    let written = fs::write(&unfinished, text).and_then(|()| fs::rename(&unfinished, path));
-    written.map_err(|e| {
-        fs::remove_file(&unfinished).ok();
-        file_error(path, e)
-    })
-}
-
-fn write_json(path: &Path, value: &impl Serialize) -> Result<()> {
-    let text = serde_json::to_string_pretty(value).map_err(|e| file_error(path, e))?;
-    write_text(path, &(text + "\n"))
-}
-
-/// Writes a table of comma-separated values.
-///
-/// # Errors
-/// [`Status::File`].
-pub fn write_csv(path: &Path, rows: impl IntoIterator<Item = Vec<String>>) -> Result<()> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for row in rows {
-        writer.write_record(&row).map_err(|e| file_error(path, e))?;
-    }
-    let bytes = writer.into_inner().map_err(|e| file_error(path, e))?;
-    write_text(path, &String::from_utf8_lossy(&bytes))
-}
-
-/// The shortest text that reads back as the same number.
-pub fn plain(x: f64) -> String {
-    format!("{x:?}")
-}
-
-/// What is wrong with a file.
-pub fn file_error(path: &Path, e: impl std::fmt::Display) -> Error {
-    Error::new(Status::File, format!("{}: {e}", path.display()))
 }

@@ -1,9 +1,9 @@
 //! Results of a run in numbers, as written to `summary.json`.
 
-use crate::motion::whirl;
-use crate::run::Run;
+use crate::results::files::{SERIES, UNFINISHED};
+use crate::results::finished::Run;
+use crate::results::motion::whirl;
 use crate::starts::Starts;
-use crate::stream::{SERIES, UNFINISHED};
 use cagedyn::model::{Channel, FAULTS, LAWS, PARTS, POWERS};
 use cagedyn::scene::Method;
 use cagedyn::sim::PowerBalance;

@@ -1,0 +1,51 @@
+//! Files of results: their names, and how they are written.
+
+use cagedyn::{Error, Result, Status};
+use serde::Serialize;
+use std::fs;
+use std::path::Path;
+
+/// Name of the table, and until it is complete.
+pub const SERIES: &str = "timeseries.csv";
+pub const UNFINISHED: &str = "timeseries.unfinished.csv";
+
+/// Writes a text file, which has its name only when it is complete.
+///
+/// # Errors
+/// [`Status::File`].
+pub fn write_text(path: &Path, text: &str) -> Result<()> {
+    let unfinished = path.with_extension("unfinished");
+    let written = fs::write(&unfinished, text).and_then(|()| fs::rename(&unfinished, path));
+    written.map_err(|e| {
+        fs::remove_file(&unfinished).ok();
+        file_error(path, e)
+    })
+}
+
+pub fn write_json(path: &Path, value: &impl Serialize) -> Result<()> {
+    let text = serde_json::to_string_pretty(value).map_err(|e| file_error(path, e))?;
+    write_text(path, &(text + "\n"))
+}
+
+/// Writes a table of comma-separated values.
+///
+/// # Errors
+/// [`Status::File`].
+pub fn write_csv(path: &Path, rows: impl IntoIterator<Item = Vec<String>>) -> Result<()> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for row in rows {
+        writer.write_record(&row).map_err(|e| file_error(path, e))?;
+    }
+    let bytes = writer.into_inner().map_err(|e| file_error(path, e))?;
+    write_text(path, &String::from_utf8_lossy(&bytes))
+}
+
+/// The shortest text that reads back as the same number.
+pub fn plain(x: f64) -> String {
+    format!("{x:?}")
+}
+
+/// What is wrong with a file.
+pub fn file_error(path: &Path, e: impl std::fmt::Display) -> Error {
+    Error::new(Status::File, format!("{}: {e}", path.display()))
+}

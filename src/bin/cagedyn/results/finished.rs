@@ -1,0 +1,109 @@
+//! A run that has come to its end, and what is asked of it.
+
+use cagedyn::model::{Channel, PartTimes};
+use cagedyn::sim::{PowerBalance, RunStatistics};
+use cagedyn::{Error, Interval, Model, Recording, Result, Status};
+use std::sync::Arc;
+
+/// Length of the window over which results are averaged and details are shown, s.
+const WINDOW: f64 = 0.1;
+/// Share of the run that the window covers at most: what comes before is the start.
+const LARGEST_WINDOW_SHARE: f64 = 1.0 / 3.0;
+
+/// A run that has ended: by itself, by Ctrl-C or by a failure.
+pub struct Run {
+    /// Title for tables and pictures.
+    pub title: String,
+    /// Speed, load and clearances of the model.
+    pub facts: String,
+    /// The compiled scene.
+    pub model: Arc<Model>,
+    /// What was recorded.
+    pub recording: Recording,
+    /// The columns of the recording.
+    pub channels: Vec<Channel>,
+    /// Wall time of the parts of one force evaluation, s.
+    pub parts: PartTimes,
+    /// Counts.
+    pub statistics: RunStatistics,
+    /// Works and energies, if forces are defined at the end.
+    pub balance: Option<PowerBalance>,
+    /// What speaks against trusting the run.
+    pub doubts: Vec<String>,
+    /// What the integration did and why.
+    pub report: String,
+    /// Simulated time, s.
+    pub time: f64,
+    /// Wall time of the simulation, s.
+    pub wall: f64,
+    /// Whether the table was written to its end.
+    pub written: bool,
+    /// Whether Ctrl-C ended it.
+    pub interrupted: bool,
+    /// The failure that ended it.
+    pub failure: Option<Error>,
+}
+
+impl Run {
+    /// An error with all doubts, if there are any.
+    pub fn trust(&self) -> Result<()> {
+        if self.doubts.is_empty() {
+            return Ok(());
+        }
+        let text = format!("{}: not to be trusted: {}", self.title, self.doubts.join("; "));
+        Err(Error::new(Status::Untrusted, text))
+    }
+
+    /// Values of a channel, if the scene has it.
+    pub fn column(&self, name: &str) -> Option<&[f64]> {
+        let index = self.channels.iter().position(|c| c.name == name)?;
+        Some(self.recording.columns.get(index)?.as_slice())
+    }
+
+    /// What a watched channel did between records, one interval per record, if the scene watches it.
+    pub fn intervals(&self, name: &str) -> Option<&[Interval]> {
+        Some(self.recording.intervals.get(self.watched(name)?)?.as_slice())
+    }
+
+    /// What a watched channel did from time `from` (s) on.
+    pub fn interval_from(&self, name: &str, from: f64) -> Option<Interval> {
+        self.recording.interval(self.watched(name)?, from)
+    }
+
+    fn watched(&self, name: &str) -> Option<usize> {
+        let all = self.model.channels();
+        self.model.watched().iter().position(|i| all[*i].name == name)
+    }
+
+    /// Line below the title of a picture of something.
+    pub fn subtitle(&self, what: &str) -> String {
+        format!("{what}; {}", self.facts)
+    }
+
+    /// Start of the averaging window, s: that of the scene, the last 0.1 s, or the last third of a shorter run.
+    pub fn window_start(&self) -> f64 {
+        // At least two records: what is followed in every step is known from one to the next.
+        let usual = WINDOW.min(LARGEST_WINDOW_SHARE * self.end()).max(self.interval());
+        self.last(self.model.scene().record.window.map_or(usual, |window| window.min(self.end())))
+    }
+
+    /// Start of the last `length` seconds, at least zero. A little earlier, so that round-off loses no record.
+    pub fn last(&self, length: f64) -> f64 {
+        (self.end() - length - 1e-6 * self.interval()).max(0.0)
+    }
+
+    /// Time between records, s.
+    pub fn interval(&self) -> f64 {
+        self.model.scene().record.interval
+    }
+
+    /// Time of the last record, s.
+    pub fn end(&self) -> f64 {
+        self.recording.times.last().copied().unwrap_or(0.0)
+    }
+
+    /// Number of rollers with a motion of their own.
+    pub fn roller_count(&self) -> usize {
+        self.model.layout().count
+    }
+}

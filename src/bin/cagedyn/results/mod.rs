@@ -1,0 +1,12 @@
+//! What comes out of a run: tables, texts and files.
+
+pub mod facts;
+pub mod files;
+pub mod finished;
+pub mod intervals;
+pub mod motion;
+pub mod output;
+pub mod report;
+pub mod stream;
+pub mod summary;
+pub mod table;
