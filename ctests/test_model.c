@@ -39,6 +39,9 @@ static void check_introspection(const cagedyn_model *m)
     check_list(m, cagedyn_model_body_count(m), cagedyn_model_body_name, NULL, NULL, cagedyn_model_find_body);
     check_list(m, cagedyn_model_force_source_count(m), cagedyn_model_force_source_name, NULL, NULL,
                cagedyn_model_find_force_source);
+    check_list(m, cagedyn_model_force_component_count(m), cagedyn_model_force_component_name,
+               cagedyn_model_force_component_unit, cagedyn_model_force_component_description,
+               cagedyn_model_find_force_component);
 }
 
 static void check_counts(const cagedyn_model *m)

@@ -101,17 +101,20 @@ static void check_jacobian(const cagedyn_model *m)
 static void check_forces(const cagedyn_model *m)
 {
     int64_t bodies = cagedyn_model_body_count(m), sources = cagedyn_model_force_source_count(m);
+    int64_t components = cagedyn_model_force_component_count(m);
+    int64_t z = cagedyn_model_find_force_component(m, "force_z");
     int64_t contacts = cagedyn_model_contact_count(m), columns = cagedyn_model_contact_quantity_count(m);
-    double *force = numbers(bodies * sources * 3), *contact = numbers(contacts * columns);
+    double *force = numbers(bodies * sources * components), *contact = numbers(contacts * columns);
     cagedyn_sim *sim = cagedyn_sim_new(m);
-    CHECK(cagedyn_sim_body_forces(sim, force, bodies * sources * 3) == CAGEDYN_OK);
+    CHECK(cagedyn_sim_body_forces(sim, force, bodies * sources * components) == CAGEDYN_OK);
     CHECK(cagedyn_sim_contact_forces(sim, contact, contacts * columns) == CAGEDYN_OK);
 
     /* At the static start the raceways carry load and weight of the ring. */
     int64_t ring = cagedyn_model_find_body(m, "inner_ring");
     int64_t raceway = cagedyn_model_find_force_source(m, "inner_raceway");
     int64_t load = cagedyn_model_find_force_source(m, "load");
-    double up = force[(ring * sources + raceway) * 3 + 1], down = force[(ring * sources + load) * 3 + 1];
+    double up = force[(ring * sources + raceway) * components + z],
+           down = force[(ring * sources + load) * components + z];
     CHECK(down == -4900.0);
     CHECK(fabs(up - (4900.0 + 3.0 * 9.80665)) < 60.0);
 

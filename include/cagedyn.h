@@ -139,6 +139,68 @@ const char *cagedyn_error_message(void);
 // Static text, never NULL.
 const char *cagedyn_status_name(int32_t status);
 
+// Number of contacts: rows of cagedyn_sim_contact_forces(). Negative status code on failure.
+int64_t cagedyn_model_contact_count(const cagedyn_model *model);
+
+// Name of a contact that can exist; "" on failure. Lives as long as the model.
+const char *cagedyn_model_contact_name(const cagedyn_model *model, int64_t index);
+
+// Index of the contact that can exist of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
+int64_t cagedyn_model_find_contact(const cagedyn_model *model,
+                                   const char *name);
+
+// Number of contact quantities: columns of cagedyn_sim_contact_forces(). Negative status code on failure.
+int64_t cagedyn_model_contact_quantity_count(const cagedyn_model *model);
+
+// Name of a contact quantity; "" on failure. Lives as long as the model.
+const char *cagedyn_model_contact_quantity_name(const cagedyn_model *model, int64_t index);
+
+// SI unit ("1" for ratios) of a contact quantity; "" on failure. Lives as long as the model.
+const char *cagedyn_model_contact_quantity_unit(const cagedyn_model *model, int64_t index);
+
+// Meaning of a contact quantity; "" on failure. Lives as long as the model.
+const char *cagedyn_model_contact_quantity_description(const cagedyn_model *model, int64_t index);
+
+// Index of the contact quantity of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
+int64_t cagedyn_model_find_contact_quantity(const cagedyn_model *model,
+                                            const char *name);
+
+// Number of bodies: blocks of cagedyn_sim_body_forces(). Negative status code on failure.
+int64_t cagedyn_model_body_count(const cagedyn_model *model);
+
+// Name of a body; "" on failure. Lives as long as the model.
+const char *cagedyn_model_body_name(const cagedyn_model *model, int64_t index);
+
+// Index of the body of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
+int64_t cagedyn_model_find_body(const cagedyn_model *model, const char *name);
+
+// Number of force sources: rows of a block of cagedyn_sim_body_forces(). Negative status code on failure.
+int64_t cagedyn_model_force_source_count(const cagedyn_model *model);
+
+// Name of a force source; "" on failure. Lives as long as the model.
+const char *cagedyn_model_force_source_name(const cagedyn_model *model, int64_t index);
+
+// Index of the force source of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
+int64_t cagedyn_model_find_force_source(const cagedyn_model *model,
+                                        const char *name);
+
+// Number of components of a force on a body: columns of a block of cagedyn_sim_body_forces(). Ask for it: it depends on the
+// directions in which the bodies of the model can move. Negative status code on failure.
+int64_t cagedyn_model_force_component_count(const cagedyn_model *model);
+
+// Name of a component of a force; "" on failure. Lives as long as the model.
+const char *cagedyn_model_force_component_name(const cagedyn_model *model, int64_t index);
+
+// SI unit of a component of a force; "" on failure. Lives as long as the model.
+const char *cagedyn_model_force_component_unit(const cagedyn_model *model, int64_t index);
+
+// Meaning of a component of a force; "" on failure. Lives as long as the model.
+const char *cagedyn_model_force_component_description(const cagedyn_model *model, int64_t index);
+
+// Index of the component of a force of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
+int64_t cagedyn_model_find_force_component(const cagedyn_model *model,
+                                           const char *name);
+
 // Number of outputs that are watched in every step: those that the scene names in record.extremes. Negative status code on
 // failure.
 int64_t cagedyn_model_watched_count(const cagedyn_model *model);
@@ -258,51 +320,6 @@ const char *cagedyn_model_output_description(const cagedyn_model *model, int64_t
 // Index of the output of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
 int64_t cagedyn_model_find_output(const cagedyn_model *model, const char *name);
 
-// Number of contacts: rows of cagedyn_sim_contact_forces(). Negative status code on failure.
-int64_t cagedyn_model_contact_count(const cagedyn_model *model);
-
-// Name of a contact that can exist; "" on failure. Lives as long as the model.
-const char *cagedyn_model_contact_name(const cagedyn_model *model, int64_t index);
-
-// Index of the contact that can exist of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
-int64_t cagedyn_model_find_contact(const cagedyn_model *model,
-                                   const char *name);
-
-// Number of contact quantities: columns of cagedyn_sim_contact_forces(). Negative status code on failure.
-int64_t cagedyn_model_contact_quantity_count(const cagedyn_model *model);
-
-// Name of a contact quantity; "" on failure. Lives as long as the model.
-const char *cagedyn_model_contact_quantity_name(const cagedyn_model *model, int64_t index);
-
-// SI unit ("1" for ratios) of a contact quantity; "" on failure. Lives as long as the model.
-const char *cagedyn_model_contact_quantity_unit(const cagedyn_model *model, int64_t index);
-
-// Meaning of a contact quantity; "" on failure. Lives as long as the model.
-const char *cagedyn_model_contact_quantity_description(const cagedyn_model *model, int64_t index);
-
-// Index of the contact quantity of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
-int64_t cagedyn_model_find_contact_quantity(const cagedyn_model *model,
-                                            const char *name);
-
-// Number of bodies: blocks of cagedyn_sim_body_forces(). Negative status code on failure.
-int64_t cagedyn_model_body_count(const cagedyn_model *model);
-
-// Name of a body; "" on failure. Lives as long as the model.
-const char *cagedyn_model_body_name(const cagedyn_model *model, int64_t index);
-
-// Index of the body of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
-int64_t cagedyn_model_find_body(const cagedyn_model *model, const char *name);
-
-// Number of force sources: rows of a block of cagedyn_sim_body_forces(). Negative status code on failure.
-int64_t cagedyn_model_force_source_count(const cagedyn_model *model);
-
-// Name of a force source; "" on failure. Lives as long as the model.
-const char *cagedyn_model_force_source_name(const cagedyn_model *model, int64_t index);
-
-// Index of the force source of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
-int64_t cagedyn_model_find_force_source(const cagedyn_model *model,
-                                        const char *name);
-
 // Creates a simulation at the start of the model's scene. It keeps what it needs of the model. Returns NULL on
 // failure; with a model of NULL an error of the call before, such as that which made no model, stays the stored one. Free it
 // with cagedyn_sim_free().
@@ -383,8 +400,8 @@ int32_t cagedyn_sim_contact_forces(cagedyn_sim *sim,
                                    int64_t length);
 
 // Writes the forces on all bodies by source at the present state: for every body a block with one row per force
-// source of (force to the right in N, force upwards in N, moment about the body's centre in N m) (length: body
-// count times force source count times 3).
+// source and one column per force component (length: body count times force source count times force component
+// count).
 int32_t cagedyn_sim_body_forces(cagedyn_sim *sim,
                                 double *out,
                                 int64_t length);

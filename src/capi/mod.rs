@@ -5,6 +5,7 @@
 
 #![allow(unsafe_code)]
 
+pub mod forces;
 mod guard;
 pub mod interval;
 pub mod limits;

@@ -2,7 +2,7 @@
 
 use super::guard::{EMPTY, count, free, guard, index, shared, text, to_c_string};
 use crate::error::{Error, Result, Status};
-use crate::model::{CONTACT_QUANTITIES, FORCE_SOURCES, Model};
+use crate::model::{CONTACT_QUANTITIES, FORCE_COMPONENTS, FORCE_SOURCES, Model};
 use crate::scene::Scene;
 use std::ffi::{CString, c_char};
 use std::sync::Arc;
@@ -15,18 +15,19 @@ pub struct cagedyn_model {
     states: Vec<Item>,
     inputs: Vec<Item>,
     outputs: Vec<Item>,
-    contacts: Vec<Item>,
-    bodies: Vec<Item>,
-    quantities: Vec<Item>,
-    sources: Vec<Item>,
+    pub(super) contacts: Vec<Item>,
+    pub(super) bodies: Vec<Item>,
+    pub(super) quantities: Vec<Item>,
+    pub(super) sources: Vec<Item>,
+    pub(super) components: Vec<Item>,
     warnings: Vec<Item>,
 }
 
 /// Texts of a named item.
-struct Item {
-    name: CString,
-    unit: CString,
-    description: CString,
+pub(super) struct Item {
+    pub(super) name: CString,
+    pub(super) unit: CString,
+    pub(super) description: CString,
 }
 
 impl Item {
@@ -49,6 +50,7 @@ impl cagedyn_model {
             bodies: plain(model.body_names()),
             quantities: CONTACT_QUANTITIES.iter().map(|q| Item::new(q.name, q.unit, q.description)).collect(),
             sources: FORCE_SOURCES.iter().map(|s| Item::new(s, "", "")).collect(),
+            components: FORCE_COMPONENTS.iter().map(|q| Item::new(q.name, q.unit, q.description)).collect(),
             warnings: plain(model.scene().warnings()),
             model: Arc::new(model),
         }
@@ -64,7 +66,10 @@ fn create(build: impl FnOnce() -> Result<Model>) -> *mut cagedyn_model {
 ///
 /// # Safety
 /// `model` is NULL or a live handle.
-unsafe fn length(model: *const cagedyn_model, list: impl FnOnce(&cagedyn_model) -> &Vec<Item>) -> i64 {
+pub(super) unsafe fn length(
+    model: *const cagedyn_model,
+    list: impl FnOnce(&cagedyn_model) -> &Vec<Item>,
+) -> i64 {
     // SAFETY: see above.
     count(|| unsafe { shared("model", model) }.map(|m| list(m).len()))
 }
@@ -73,7 +78,7 @@ unsafe fn length(model: *const cagedyn_model, list: impl FnOnce(&cagedyn_model) 
 ///
 /// # Safety
 /// `model` is NULL or a live handle.
-unsafe fn item(
+pub(super) unsafe fn item(
     model: *const cagedyn_model,
     i: i64,
     list: impl FnOnce(&cagedyn_model) -> &Vec<Item>,
@@ -94,7 +99,7 @@ unsafe fn item(
 ///
 /// # Safety
 /// `model` is NULL or a live handle, `name` NULL or a NUL-terminated text.
-unsafe fn find(
+pub(super) unsafe fn find(
     model: *const cagedyn_model,
     name: *const c_char,
     list: impl FnOnce(&cagedyn_model) -> &Vec<Item>,
@@ -375,165 +380,4 @@ pub unsafe extern "C" fn cagedyn_model_output_description(
 pub unsafe extern "C" fn cagedyn_model_find_output(model: *const cagedyn_model, name: *const c_char) -> i64 {
     // SAFETY: see above.
     unsafe { find(model, name, |m| &m.outputs) }
-}
-
-/// Number of contacts: rows of cagedyn_sim_contact_forces(). Negative status code on failure.
-///
-/// # Safety
-/// `model` is NULL or a live handle.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cagedyn_model_contact_count(model: *const cagedyn_model) -> i64 {
-    // SAFETY: see above.
-    unsafe { length(model, |m| &m.contacts) }
-}
-
-/// Name of a contact that can exist; "" on failure. Lives as long as the model.
-///
-/// # Safety
-/// `model` is NULL or a live handle.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cagedyn_model_contact_name(
-    model: *const cagedyn_model,
-    index: i64,
-) -> *const c_char {
-    // SAFETY: see above.
-    unsafe { item(model, index, |m| &m.contacts, |item| &item.name) }
-}
-
-/// Index of the contact that can exist of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
-///
-/// # Safety
-/// `model` is NULL or a live handle, `name` NULL or a NUL-terminated text.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cagedyn_model_find_contact(model: *const cagedyn_model, name: *const c_char) -> i64 {
-    // SAFETY: see above.
-    unsafe { find(model, name, |m| &m.contacts) }
-}
-
-/// Number of contact quantities: columns of cagedyn_sim_contact_forces(). Negative status code on failure.
-///
-/// # Safety
-/// `model` is NULL or a live handle.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cagedyn_model_contact_quantity_count(model: *const cagedyn_model) -> i64 {
-    // SAFETY: see above.
-    unsafe { length(model, |m| &m.quantities) }
-}
-
-/// Name of a contact quantity; "" on failure. Lives as long as the model.
-///
-/// # Safety
-/// `model` is NULL or a live handle.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cagedyn_model_contact_quantity_name(
-    model: *const cagedyn_model,
-    index: i64,
-) -> *const c_char {
-    // SAFETY: see above.
-    unsafe { item(model, index, |m| &m.quantities, |item| &item.name) }
-}
-
-/// SI unit ("1" for ratios) of a contact quantity; "" on failure. Lives as long as the model.
-///
-/// # Safety
-/// `model` is NULL or a live handle.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cagedyn_model_contact_quantity_unit(
-    model: *const cagedyn_model,
-    index: i64,
-) -> *const c_char {
-    // SAFETY: see above.
-    unsafe { item(model, index, |m| &m.quantities, |item| &item.unit) }
-}
-
-/// Meaning of a contact quantity; "" on failure. Lives as long as the model.
-///
-/// # Safety
-/// `model` is NULL or a live handle.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cagedyn_model_contact_quantity_description(
-    model: *const cagedyn_model,
-    index: i64,
-) -> *const c_char {
-    // SAFETY: see above.
-    unsafe { item(model, index, |m| &m.quantities, |item| &item.description) }
-}
-
-/// Index of the contact quantity of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
-///
-/// # Safety
-/// `model` is NULL or a live handle, `name` NULL or a NUL-terminated text.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cagedyn_model_find_contact_quantity(
-    model: *const cagedyn_model,
-    name: *const c_char,
-) -> i64 {
-    // SAFETY: see above.
-    unsafe { find(model, name, |m| &m.quantities) }
-}
-
-/// Number of bodies: blocks of cagedyn_sim_body_forces(). Negative status code on failure.
-///
-/// # Safety
-/// `model` is NULL or a live handle.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cagedyn_model_body_count(model: *const cagedyn_model) -> i64 {
-    // SAFETY: see above.
-    unsafe { length(model, |m| &m.bodies) }
-}
-
-/// Name of a body; "" on failure. Lives as long as the model.
-///
-/// # Safety
-/// `model` is NULL or a live handle.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cagedyn_model_body_name(model: *const cagedyn_model, index: i64) -> *const c_char {
-    // SAFETY: see above.
-    unsafe { item(model, index, |m| &m.bodies, |item| &item.name) }
-}
-
-/// Index of the body of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
-///
-/// # Safety
-/// `model` is NULL or a live handle, `name` NULL or a NUL-terminated text.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cagedyn_model_find_body(model: *const cagedyn_model, name: *const c_char) -> i64 {
-    // SAFETY: see above.
-    unsafe { find(model, name, |m| &m.bodies) }
-}
-
-/// Number of force sources: rows of a block of cagedyn_sim_body_forces(). Negative status code on failure.
-///
-/// # Safety
-/// `model` is NULL or a live handle.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cagedyn_model_force_source_count(model: *const cagedyn_model) -> i64 {
-    // SAFETY: see above.
-    unsafe { length(model, |m| &m.sources) }
-}
-
-/// Name of a force source; "" on failure. Lives as long as the model.
-///
-/// # Safety
-/// `model` is NULL or a live handle.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cagedyn_model_force_source_name(
-    model: *const cagedyn_model,
-    index: i64,
-) -> *const c_char {
-    // SAFETY: see above.
-    unsafe { item(model, index, |m| &m.sources, |item| &item.name) }
-}
-
-/// Index of the force source of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
-///
-/// # Safety
-/// `model` is NULL or a live handle, `name` NULL or a NUL-terminated text.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cagedyn_model_find_force_source(
-    model: *const cagedyn_model,
-    name: *const c_char,
-) -> i64 {
-    // SAFETY: see above.
-    unsafe { find(model, name, |m| &m.sources) }
 }

@@ -308,8 +308,8 @@ pub unsafe extern "C" fn cagedyn_sim_contact_forces(
 }
 
 /// Writes the forces on all bodies by source at the present state: for every body a block with one row per force
-/// source of (force to the right in N, force upwards in N, moment about the body's centre in N m) (length: body
-/// count times force source count times 3).
+/// source and one column per force component (length: body count times force source count times force component
+/// count).
 ///
 /// # Safety
 /// `sim` is NULL or a live handle, `out` NULL or an array of `length` numbers.

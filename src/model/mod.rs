@@ -15,16 +15,12 @@
 //! | `report/` | names, force reports, channels, what is followed in every step |
 
 mod compile;
-mod costs;
-mod damping;
 mod evaluate;
 mod initial;
+mod integration;
 mod linearize;
-mod onsets;
 mod report;
-mod scales;
 mod signals;
-mod step_forces;
 mod works;
 mod workspace;
 
@@ -33,8 +29,10 @@ pub use crate::bodies::{
     POWERS,
 };
 pub use crate::pairs::{LAWS, LawCounts};
-pub use costs::{PARTS, PartTimes};
-pub use report::{CONTACT_QUANTITIES, Channel, ContactForces, Forces, GuideReport, Quantity, StateInfo};
+pub use integration::costs::{PARTS, PartTimes};
+pub use report::{
+    CONTACT_QUANTITIES, Channel, ContactForces, FORCE_COMPONENTS, Forces, GuideReport, Quantity, StateInfo,
+};
 pub(crate) use works::AT_FLOOR;
 pub use works::Energy;
 pub use workspace::Workspace;

@@ -12,7 +12,7 @@
 //! the power that the bearing takes from the shaft.
 
 use super::Model;
-use super::step_forces::Changes;
+use super::integration::step_forces::Changes;
 use super::workspace::Workspace;
 use crate::bodies::{CAGE, INNER_RING, Input, POWERS, Power};
 use crate::integrate::{Quadratures, SemiImplicit, WORKS};

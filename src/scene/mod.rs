@@ -10,12 +10,10 @@ mod contact_laws;
 mod elements;
 mod json;
 mod lubricant;
-mod plausible;
 mod rings;
 mod run;
 mod signal;
 mod validate;
-mod validate_cage;
 
 pub use cage::{
     Cage, CageLoad, CylinderPocket, FilmShare, Friction, Guide, GuideFilm, GuideRing, GuideSolid, LayerFilm,
@@ -33,8 +31,7 @@ pub use lubricant::{Lubricant, Temperature, Viscosity, ViscosityPoint, WaltherVi
 pub use rings::{FreeRing, InnerRing, Load, OuterRing, RingMotion};
 pub use run::{Auto, ErrorControl, Initial, Leapfrog, Method, Preset, Record, RingStart, Solver};
 pub use signal::{Signal, SignalIntegral, interpolate, slope};
-pub(crate) use validate::{FORCE, SPEED, TEMPERATURE, VISCOSITY};
-pub(crate) use validate_cage::TORQUE;
+pub(crate) use validate::{FORCE, SPEED, TEMPERATURE, TORQUE, VISCOSITY};
 
 use crate::error::{Error, Result, Status};
 use cases::CASES_NAME;

@@ -16,7 +16,7 @@ pub struct Initial {
     #[cfg_attr(feature = "schema", schemars(range(min = -1000.0, max = 1000.0)))]
     pub first_roller_angle: f64,
     /// Centre of the cage, m, seen from the centre of the outer ring. Absent: the centre of the ring that guides it, where
-    /// that ring starts.
+    /// that ring starts, or as near to it as pockets let the cage come.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cage: Option<PlaneVector>,
     /// Velocity of the cage centre, m/s.

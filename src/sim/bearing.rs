@@ -1,7 +1,7 @@
 //! The model as the integrator sees it: with its workspace, inputs and counts.
 
-use super::jacobian::Slopes;
 use super::limits::RunLimits;
+use super::linear::jacobian::Slopes;
 use crate::integrate::{
     Applied, GroupDamping, Interruption, Linearization, Linearized, Observed, Quadratures, SemiImplicit,
     Split, Structure, System, Tuning, Vibration,

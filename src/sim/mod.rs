@@ -2,35 +2,29 @@
 
 mod audit;
 mod bearing;
-mod interval;
-mod jacobian;
 mod limits;
+mod linear;
 mod method;
-mod newton;
 mod preset;
-mod recording;
-mod sample;
+mod results;
 mod snapshot;
-mod statistics;
-mod trust;
-mod whirl;
 
 pub use audit::PowerBalance;
-pub use interval::Interval;
 pub use limits::Canceller;
-pub use recording::{Recording, Spread};
-pub use sample::{LEVEL, Sample, Verdict, student};
-pub use statistics::{RunStatistics, STATISTICS};
-pub use trust::Doubt;
-pub use whirl::{CageMotion, SMALLEST_WHIRL_RADIUS, WhirlRecord, WhirlSummary};
+pub use results::interval::Interval;
+pub use results::recording::{Recording, Spread};
+pub use results::sample::{LEVEL, Sample, Verdict, student};
+pub use results::statistics::{RunStatistics, STATISTICS};
+pub use results::trust::Doubt;
+pub use results::whirl::{CageMotion, SMALLEST_WHIRL_RADIUS, WhirlRecord, WhirlSummary};
 
 use crate::error::{Error, Result, Status};
 use crate::integrate::{Driver, Failure, Interruption, Tuning};
 use crate::model::{Channel, FAULTS, Fault, Forces, Input, Model, PartTimes};
 use crate::scene::{Preset, Solver};
 use bearing::Bearing;
-use jacobian::Slopes;
-use newton::Newton;
+use linear::jacobian::Slopes;
+use linear::newton::Newton;
 use std::sync::Arc;
 
 /// Largest simulated time, s: beyond it a step of a nanosecond is lost in round-off.
@@ -430,7 +424,7 @@ impl Sim {
         }
         let doubts = self.doubts();
         if !doubts.is_empty() {
-            text += &format!("; not to be trusted: {}", trust::in_words(&doubts));
+            text += &format!("; not to be trusted: {}", results::trust::in_words(&doubts));
         }
         text
     }

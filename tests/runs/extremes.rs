@@ -213,6 +213,25 @@ fn cages_start_in_the_centre_of_their_guide_and_are_checked_against_it() {
     assert!(start(&set).is_ok());
 }
 
+#[test]
+fn a_cage_starts_no_nearer_to_its_ring_than_its_pockets_let_it() {
+    let mut set = on_inner_ring();
+    // Edges that reach into the rollers when the cage is more than 25 um off the centre of the bearing.
+    let pocket = "cage.pocket.lubricated_cylinder";
+    let (clearance, half_angle) = (format!("{pocket}.radial_clearance"), format!("{pocket}.half_angle"));
+    set.push((clearance.as_str(), json!(10e-6)));
+    set.push((half_angle.as_str(), json!(0.5)));
+    let state = model(&set).unwrap().initial_state().unwrap();
+    let (ring, cage) = ([state[0], state[1]], [state[2], state[3]]);
+    let (far, near) = (ring[0].hypot(ring[1]), cage[0].hypot(cage[1]));
+    assert!(far > 60e-6 && near < 25e-6 && near > 10e-6, "{ring:?} {cage:?}");
+    assert!((ring[0] * cage[1] - ring[1] * cage[0]).abs() < 1e-9 * far * near);
+    // The same place is refused where it is asked for.
+    set.push(("initial.cage", json!({"y": ring[0], "z": ring[1]})));
+    let e = model(&set).and_then(|model| model.initial_state()).unwrap_err();
+    assert!(e.message.contains("pocket edges"), "{e}");
+}
+
 /// What is left out of records unless it is named: stress and losses of every raceway contact.
 #[test]
 fn contacts_show_traction_pressure_and_sliding_power() {

@@ -53,6 +53,13 @@ pub(super) const SLIP_SPEED: usize = 10;
 /// Index of the film thickness in [`ContactForces`].
 pub(super) const FILM_THICKNESS: usize = 2;
 
+/// Components of a force on a body, in [`BodyForces`].
+pub const FORCE_COMPONENTS: [Quantity; 3] = [
+    quantity("force_y", "N", "force to the right"),
+    quantity("force_z", "N", "force upwards"),
+    quantity("moment_x", "N m", "moment about the centre of the body, positive counter-clockwise"),
+];
+
 /// All forces at one state.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Forces {

@@ -8,6 +8,6 @@ mod selection;
 mod watch;
 
 pub use channels::Channel;
-pub use forces::{CONTACT_QUANTITIES, ContactForces, Forces, GuideReport, Quantity};
+pub use forces::{CONTACT_QUANTITIES, ContactForces, FORCE_COMPONENTS, Forces, GuideReport, Quantity};
 pub use names::StateInfo;
 pub(super) use selection::Selection;

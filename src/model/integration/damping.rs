@@ -6,10 +6,10 @@
 //!
 //! and of a shared body the guide, exact by dual numbers, and the contacts with elements of prescribed motion.
 
-use super::Model;
-use super::workspace::Workspace;
 use crate::bodies::{CAGE, OF_ELEMENT};
 use crate::integrate::{DampingBlock, GroupDamping, implicit_share};
+use crate::model::Model;
+use crate::model::workspace::Workspace;
 use crate::scalar::{Columns, Pack, dispatch};
 use nalgebra::{Matrix3, Vector3};
 use pulp::Simd;
@@ -84,7 +84,7 @@ impl Model {
 
     /// Share of the change of slip in a step of size `h` (s) at which friction of slope `secant` (N s/m) acts.
     #[inline]
-    pub(super) fn friction_share(&self, h: f64, secant: f64) -> f64 {
+    pub(in crate::model) fn friction_share(&self, h: f64, secant: f64) -> f64 {
         implicit_share(h * secant * self.mobility)
     }
 }

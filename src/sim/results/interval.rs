@@ -1,8 +1,8 @@
 //! Extremes and integrals of watched channels between two times, from every step and not from records.
 
-use super::{Sim, bad_index};
 use crate::error::{Error, Result, Status};
 use crate::integrate::Total;
+use crate::sim::{Sim, bad_index};
 use serde::Serialize;
 
 /// A watched channel over an interval of time. Steps count in it by the share of their time, in the extremes whole. Forces
@@ -70,7 +70,7 @@ impl Sim {
     }
 
     /// As [`Sim::interval`], by the place among [`Sim::watched`].
-    pub(super) fn interval_of(&mut self, place: usize) -> Result<Interval> {
+    pub(in crate::sim) fn interval_of(&mut self, place: usize) -> Result<Interval> {
         let to = self.time;
         let (from, total) = self.driver.total_at(to, place);
         let Some(Total { min, max, integral, positive }) = total else {

@@ -1,8 +1,8 @@
 //! Lengths, frequencies and rates that describe a model as a whole: what errors are measured by, and what limits the
 //! steps.
 
-use super::{Input, Layout, Model};
 use crate::bodies::{CAGE, INNER_RING, Moves};
+use crate::model::{Input, Layout, Model};
 use crate::pairs::ContactLaw;
 use crate::scalar::math;
 

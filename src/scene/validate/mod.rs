@@ -3,28 +3,33 @@
 //! The ranges are wide for engineering and narrow for unit slips. What a law needs from other parts of the scene is
 //! checked where the law is built, in the model.
 
-use super::check::{Range, bad, number, optional, range, shown, slip_hint};
-use super::*;
+mod cage;
+mod plausible;
+
+pub(crate) use cage::TORQUE;
+
 use crate::scalar::math;
+use crate::scene::check::{Range, bad, number, optional, range, shown, slip_hint};
+use crate::scene::*;
 use std::f64::consts::PI;
 
-pub(super) const RADIUS: Range = range(1e-4, 5.0, "m");
-pub(super) const WIDTH: Range = range(1e-5, 5.0, "m");
+pub(in crate::scene) const RADIUS: Range = range(1e-4, 5.0, "m");
+pub(in crate::scene) const WIDTH: Range = range(1e-5, 5.0, "m");
 /// Largest step of the leapfrog, s.
 const LARGEST_LEAPFROG_STEP: f64 = 1e-3;
 const ROLLER_CLEARANCE: Range = range(-2e-4, 2e-3, "m");
-pub(super) const POSITION: Range = range(-1e-2, 1e-2, "m");
-pub(super) const MASS: Range = range(1e-7, 1e6, "kg");
-pub(super) const INERTIA: Range = range(1e-15, 1e6, "kg m^2");
+pub(in crate::scene) const POSITION: Range = range(-1e-2, 1e-2, "m");
+pub(in crate::scene) const MASS: Range = range(1e-7, 1e6, "kg");
+pub(in crate::scene) const INERTIA: Range = range(1e-15, 1e6, "kg m^2");
 pub(crate) const SPEED: Range = range(-1e5, 1e5, "rad/s");
 pub(crate) const VISCOSITY: Range = range(1e-5, 1e3, "Pa s");
 pub(crate) const FORCE: Range = range(-1e9, 1e9, "N");
 const GRAVITY: Range = range(-1e4, 1e4, "m/s^2");
 const SUPPORT_DAMPING: Range = range(0.0, 1e9, "N s/m");
-pub(super) const ANGLE: Range = range(-1e3, 1e3, "rad");
+pub(in crate::scene) const ANGLE: Range = range(-1e3, 1e3, "rad");
 const TIME: Range = range(0.0, 1e6, "s");
-pub(super) const COEFFICIENT: Range = range(0.0, 2.0, "");
-pub(super) const TRANSITION_SPEED: Range = range(1e-6, 10.0, "m/s");
+pub(in crate::scene) const COEFFICIENT: Range = range(0.0, 2.0, "");
+pub(in crate::scene) const TRANSITION_SPEED: Range = range(1e-6, 10.0, "m/s");
 pub(crate) const TEMPERATURE: Range = range(150.0, 1000.0, "K");
 const MAX_ELEMENTS: u32 = 1000;
 const MAX_POINTS: usize = 1_000_000;
@@ -195,7 +200,7 @@ impl Scene {
     }
 
     /// Distance between neighbouring centres must exceed twice `radius`.
-    pub(super) fn neighbours_apart(&self, path: &str, radius: f64, what: &str) -> Result<()> {
+    pub(in crate::scene) fn neighbours_apart(&self, path: &str, radius: f64, what: &str) -> Result<()> {
         let count = self.element_count();
         let spacing = 2.0 * self.pitch_radius() * math::sin(PI / f64::from(count));
         if count > 1 && spacing <= 2.0 * radius {
@@ -294,7 +299,7 @@ impl Scene {
         Ok(())
     }
 
-    pub(super) fn material_exists(&self, path: &str, name: &str) -> Result<()> {
+    pub(in crate::scene) fn material_exists(&self, path: &str, name: &str) -> Result<()> {
         if self.materials.contains_key(name) {
             return Ok(());
         }
@@ -305,7 +310,7 @@ impl Scene {
 }
 
 /// A mass in grams makes an inertia in kg m^2 look far too small.
-pub(super) fn fitting_mass(path: &str, mass: f64, inertia: f64, allowed: [f64; 2]) -> Result<()> {
+pub(in crate::scene) fn fitting_mass(path: &str, mass: f64, inertia: f64, allowed: [f64; 2]) -> Result<()> {
     let [min, max] = allowed.map(|inertia| 1e-3 * inertia);
     if inertia >= 1e3 * min || inertia < min || inertia > max {
         return Ok(());
@@ -382,7 +387,7 @@ impl WaltherViscosity {
 }
 
 /// Checks both components of a vector.
-pub(super) fn vector(path: &str, v: &PlaneVector, allowed: Range) -> Result<()> {
+pub(in crate::scene) fn vector(path: &str, v: &PlaneVector, allowed: Range) -> Result<()> {
     number(&format!("{path}.y"), v.y, allowed)?;
     number(&format!("{path}.z"), v.z, allowed)
 }
@@ -395,7 +400,7 @@ fn count(path: &str, n: u32) -> Result<()> {
 }
 
 /// Checks the optional laws of a line contact.
-pub(super) fn contact(path: &str, laws: &ContactLaws) -> Result<()> {
+pub(in crate::scene) fn contact(path: &str, laws: &ContactLaws) -> Result<()> {
     let at = |field: &str| format!("{path}.{field}");
     if let Some(d) = &laws.damping {
         number(&at("damping.relaxation_time"), d.relaxation_time, range(1e-12, 1e-3, "s"))?;
@@ -423,7 +428,7 @@ pub(super) fn contact(path: &str, laws: &ContactLaws) -> Result<()> {
 }
 
 /// Checks a function of time whose values must lie in `allowed`.
-pub(super) fn signal(path: &str, s: &Signal, allowed: Range) -> Result<()> {
+pub(in crate::scene) fn signal(path: &str, s: &Signal, allowed: Range) -> Result<()> {
     let at = |field: &str| format!("{path}.{field}");
     match s {
         Signal::Constant(value) => number(&at("constant"), *value, allowed),

@@ -1,8 +1,8 @@
 //! Where the time of a force evaluation goes, and what its derivatives take.
 
-use super::{Fault, InputValues, Model, Workspace};
 use crate::bodies::{INNER_RING, OUTER_RING};
 use crate::laws::guide::GuideFilm;
+use crate::model::{Fault, InputValues, Model, Workspace};
 use crate::pairs::Cost;
 use std::hint::black_box;
 use std::time::Instant;

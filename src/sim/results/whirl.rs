@@ -14,8 +14,8 @@
 //!
 //! Without a clearance, the largest distance of the centre from the guide centre in the window stands in for it.
 
-use super::Spread;
 use crate::scalar::math;
+use crate::sim::Spread;
 use serde::Serialize;
 use std::f64::consts::{PI, TAU};
 

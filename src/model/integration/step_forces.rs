@@ -7,20 +7,20 @@
 //!
 //! v* velocities of the evaluation, c normal damping, s secant slope of friction; by the motion of the elements.
 
-use super::Model;
-use super::workspace::Workspace;
 use crate::bodies::{Motions, OF_ELEMENT, SHARED};
 use crate::integrate::SemiImplicit;
 use crate::laws::contact_pair::ContactForce;
+use crate::model::Model;
+use crate::model::workspace::Workspace;
 use crate::pairs::{Batch, Site};
 use crate::space::Wrench;
 
 /// Changes of the speeds of one contact, m/s: mean over the step, and slip at which friction acts.
 #[derive(Default)]
-pub(super) struct Changes {
-    pub(super) approach_speed: f64,
-    pub(super) slip: f64,
-    pub(super) acting_slip: f64,
+pub(in crate::model) struct Changes {
+    pub(in crate::model) approach_speed: f64,
+    pub(in crate::model) slip: f64,
+    pub(in crate::model) acting_slip: f64,
 }
 
 impl Model {
@@ -72,7 +72,7 @@ impl Model {
     /// How the speeds of a contact whose friction has the slope `secant` change from the evaluated velocities `v` to those of
     /// the step, by the motion of its element; not at all where that is prescribed.
     #[inline]
-    pub(super) fn step_changes(
+    pub(in crate::model) fn step_changes(
         &self,
         site: &Site,
         secant: f64,
@@ -105,7 +105,7 @@ impl Model {
 
     /// Force of contact `i` of a batch, or what a semi-implicit step has made of it.
     #[inline]
-    pub(super) fn force_in_step(
+    pub(in crate::model) fn force_in_step(
         &self,
         batch: &Batch,
         i: usize,

@@ -5,11 +5,11 @@
 //! law needs to become itself; within a gap it uses up at most a share of what is left. So no law is passed between two
 //! states that both are outside of it. Signals bound the step, too: see [`InputSignals::shortest_period`].
 //!
-//! [`InputSignals::shortest_period`]: super::signals::InputSignals::shortest_period
+//! [`InputSignals::shortest_period`]: crate::model::signals::InputSignals::shortest_period
 
-use super::{HostInputs, InputValues, Model};
 use crate::bodies::{CAGE, OUTER_RING, SHARED};
 use crate::integrate::Tuning;
+use crate::model::{HostInputs, InputValues, Model};
 use crate::pairs::Ahead;
 use crate::space::Motion;
 

@@ -1,7 +1,7 @@
 //! Outputs recorded on a fixed time grid, and their statistics.
 
-use super::{Interval, Sample, Sim};
 use crate::error::{Error, Result, Status};
+use crate::sim::{Interval, Sample, Sim};
 use serde::Serialize;
 
 /// Largest number of records of one run.

@@ -1,26 +1,26 @@
 //! The Jacobian of the rates of a state, for hosts with their own implicit integrator.
 
-use super::{Evaluated, Sim, check_time, wrong_size};
 use crate::error::Result;
 use crate::integrate::linear::Arrowhead;
 use crate::integrate::{Linearization, Structure};
 use crate::model::{Fault, Model};
+use crate::sim::{Evaluated, Sim, check_time, wrong_size};
 
 /// Memory for derivatives of the accelerations.
-pub(super) struct Slopes {
-    pub(super) structure: Structure,
-    pub(super) linearization: Linearization,
+pub(in crate::sim) struct Slopes {
+    pub(in crate::sim) structure: Structure,
+    pub(in crate::sim) linearization: Linearization,
 }
 
 impl Slopes {
-    pub(super) fn new(model: &Model) -> Self {
+    pub(in crate::sim) fn new(model: &Model) -> Self {
         let structure = model.structure();
         let linearization = Linearization::new(&structure, model.layout().velocities());
         Self { structure, linearization }
     }
 
     /// The fault of the first acceleration without finite derivatives.
-    pub(super) fn check(&self) -> std::result::Result<(), Fault> {
+    pub(in crate::sim) fn check(&self) -> std::result::Result<(), Fault> {
         let Linearization { over_positions, over_velocities, .. } = &self.linearization;
         for part in [over_positions, over_velocities] {
             // A sum over everything is quick, and not finite if anything in it is not.
@@ -115,7 +115,7 @@ mod tests {
 
     #[test]
     fn what_is_not_finite_is_found_and_named() {
-        let model = Model::from_json(include_str!("../../scenes/nu2310.json")).unwrap();
+        let model = Model::from_json(include_str!("../../../scenes/nu2310.json")).unwrap();
         let mut slopes = Slopes::new(&model);
         assert_eq!(slopes.check(), Ok(()));
         slopes.linearization.over_velocities.spokes[3].to_hub[(4, 1)] = f64::NAN;

@@ -1,8 +1,8 @@
 //! What a scene may say and rarely means.
 
-use super::check::{Range, range, shown, slip_hint};
-use super::{RingMotion, Scene, Viscosity};
 use crate::scalar::math;
+use crate::scene::check::{Range, range, shown, slip_hint};
+use crate::scene::{RingMotion, Scene, Viscosity};
 use std::f64::consts::TAU;
 
 /// Speed times pitch diameter above which only special bearings run, m/min: a million mm/min.
@@ -91,7 +91,7 @@ mod tests {
 
     #[test]
     fn unlikely_values_are_named_with_the_unit_that_was_meant() {
-        let text = include_str!("../../scenes/nu2310.json");
+        let text = include_str!("../../../scenes/nu2310.json");
         let warnings = |set: &[(&str, &str)]| {
             Scene::from_json_with(text, set.iter().copied()).unwrap_or_else(|e| panic!("{e}")).warnings()
         };

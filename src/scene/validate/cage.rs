@@ -1,9 +1,9 @@
 //! Checks of the cage: its masses, its pockets and its guide.
 
-use super::check::{Range, bad, number, optional, range, shown};
-use super::validate::*;
-use super::*;
 use crate::scalar::math;
+use crate::scene::check::{Range, bad, number, optional, range, shown};
+use crate::scene::validate::*;
+use crate::scene::*;
 use std::f64::consts::FRAC_PI_2;
 
 const POCKET_CLEARANCE: Range = range(1e-7, 1e-2, "m");
@@ -14,7 +14,7 @@ const MAX_HARMONICS: usize = 64;
 const MAX_ORDER: u32 = 200;
 
 impl Scene {
-    pub(super) fn validate_cage(&self, cage: &Cage) -> Result<()> {
+    pub(in crate::scene) fn validate_cage(&self, cage: &Cage) -> Result<()> {
         number("cage.mass", cage.mass, MASS)?;
         number("cage.inertia", cage.inertia, INERTIA)?;
         let ring = cage.mass * self.pitch_radius().powi(2);

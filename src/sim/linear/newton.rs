@@ -1,14 +1,14 @@
 //! The linear systems of implicit integrators, `(I - gamma J) x = b`, for hosts that bring their own: solved through the
 //! structure of J, in time and memory proportional to the number of rollers.
 
-use super::jacobian::Slopes;
-use super::{Evaluated, Sim, check_time, wrong_size};
 use crate::error::{Error, Result, Status};
 use crate::integrate::linear::shifted::Shifted;
 use crate::model::Model;
+use crate::sim::linear::jacobian::Slopes;
+use crate::sim::{Evaluated, Sim, check_time, wrong_size};
 
 /// Derivatives and factors that are kept from call to call.
-pub(super) struct Newton {
+pub(in crate::sim) struct Newton {
     slopes: Slopes,
     linearized: bool,
     shifted: Shifted<f64>,

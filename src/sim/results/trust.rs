@@ -1,9 +1,9 @@
 //! Whether a run kept what its preset promises, and if not, why.
 
-use super::preset::numbers;
-use super::{PowerBalance, Sim};
 use crate::error::{Error, Result, Status};
 use crate::scene::Method;
+use crate::sim::preset::numbers;
+use crate::sim::{PowerBalance, Sim};
 use std::fmt;
 
 /// Less than this share of the stored energy is round-off of a run.
@@ -121,6 +121,6 @@ impl Sim {
 }
 
 /// All doubts in one line.
-pub(super) fn in_words(doubts: &[Doubt]) -> String {
+pub(in crate::sim) fn in_words(doubts: &[Doubt]) -> String {
     doubts.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
 }

@@ -1,0 +1,4 @@
+//! Derivatives and linear systems for hosts with their own integrator.
+
+pub(in crate::sim) mod jacobian;
+pub(in crate::sim) mod newton;
