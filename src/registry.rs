@@ -20,6 +20,11 @@ macro_rules! registry {
             /// All of them, in order.
             $vis const ALL: [Self; $list.len()] = [$(Self::$variant),+];
 
+            #[allow(dead_code, reason = "not every list is one of the C ABI")]
+            /// Their names in C.
+            pub(crate) const C_NAMES: [&std::ffi::CStr; $list.len()] =
+                [$($crate::registry::c_name(concat!($name, "\0"))),+];
+
             #[allow(dead_code, reason = "not every list needs it")]
             /// Its name.
             $vis const fn name(self) -> &'static str {
@@ -27,6 +32,14 @@ macro_rules! registry {
             }
         }
     };
+}
+
+/// A text that ends with NUL and has no other.
+pub(crate) const fn c_name(text: &str) -> &std::ffi::CStr {
+    match std::ffi::CStr::from_bytes_with_nul(text.as_bytes()) {
+        Ok(name) => name,
+        Err(_) => c"",
+    }
 }
 
 pub(crate) use registry;

@@ -21,6 +21,7 @@ mod places;
 mod ring;
 mod rollers;
 
+pub(crate) use fault::FaultKind;
 pub use fault::{FAULTS, Fault, FaultCounts};
 pub use inputs::{HostInputs, INPUTS, Input, InputValues};
 pub use layout::Layout;

@@ -73,6 +73,12 @@ pub fn last_status() -> i32 {
 /// The empty string that stands for "no name".
 pub const EMPTY: &CStr = c"";
 
+/// One of these names, "" for other numbers.
+pub fn static_name(names: &'static [&'static CStr], index: i64) -> *const c_char {
+    let name = usize::try_from(index).ok().and_then(|i| names.get(i));
+    name.map_or(EMPTY, |name| *name).as_ptr()
+}
+
 fn store(status: i32, message: CString) {
     // A thread that is being torn down has no error memory left; its calls still return their status.
     let _ = LAST_ERROR.try_with(|e| e.try_borrow_mut().map(|mut e| *e = (status, message)));

@@ -1,6 +1,6 @@
 //! Extremes and integrals of watched outputs in C.
 
-use super::guard::{EMPTY, check_array, count, exclusive, index, shared, status, write_array};
+use super::guard::{check_array, count, exclusive, index, shared, static_name, status, write_array};
 use super::model::cagedyn_model;
 use super::sim::cagedyn_sim;
 use std::ffi::{CStr, c_char};
@@ -46,8 +46,7 @@ pub extern "C" fn cagedyn_interval_count() -> i64 {
 /// - mean: over time; integral: over time, in that unit times s; positive_integral: of the values above zero.
 #[unsafe(no_mangle)]
 pub extern "C" fn cagedyn_interval_name(index: i64) -> *const c_char {
-    let name = usize::try_from(index).ok().and_then(|i| INTERVAL_NAMES.get(i));
-    name.map_or(EMPTY, |name| name).as_ptr()
+    static_name(&INTERVAL_NAMES, index)
 }
 
 /// Begins at the present time the interval of cagedyn_sim_get_interval(). So do setting a state, a reset and restoring.

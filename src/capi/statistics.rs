@@ -1,54 +1,12 @@
 //! Counts, numbers of health and reports of simulations in C.
 
-use super::guard::{EMPTY, check_array, exclusive, guard, shared, status, to_c_string, write_array};
+use super::guard::{
+    EMPTY, check_array, exclusive, guard, shared, static_name, status, to_c_string, write_array,
+};
 use super::sim::cagedyn_sim;
-use crate::model::{LAWS, POWERS};
-use crate::sim::STATISTICS;
-use std::ffi::{CStr, c_char};
-
-/// Names of [`STATISTICS`], NUL-terminated.
-const STATISTIC_NAMES: [&CStr; STATISTICS.len()] = [
-    c"steps",
-    c"rejected_steps",
-    c"failed_steps",
-    c"evaluations",
-    c"events",
-    c"smallest_step",
-    c"largest_step",
-    c"raceway_vibration_rms",
-    c"leapfrog_steps",
-    c"dormand_prince_steps",
-    c"rosenbrock_steps",
-    c"method_changes",
-    c"highest_frequency",
-    c"failed_no_guide_film",
-    c"failed_no_viscosity",
-    c"failed_lost_roller",
-    c"failed_lost_ring",
-    c"failed_lost_cage",
-    c"failed_not_finite",
-    c"failed_no_slope",
-    c"jacobians",
-    c"undone_steps",
-    c"failed_out_of_pocket",
-];
-
-/// Names of [`LAWS`], NUL-terminated.
-const LAW_NAMES: [&CStr; LAWS.len()] = [
-    c"outer_raceway",
-    c"inner_raceway",
-    c"pocket_wall",
-    c"pocket_edge",
-    c"pocket_plane",
-    c"film_thickness",
-    c"traction",
-    c"self_heating",
-    c"lubrication_regime",
-    c"rolling_resistance",
-    c"guide_film",
-    c"guide_solid",
-    c"viscosity_temperature",
-];
+use crate::model::{LAWS, Law, POWERS, Power};
+use crate::sim::{BALANCE_ITEMS, BalanceItem, STATISTICS, Statistic};
+use std::ffi::c_char;
 
 /// Number of statistics.
 #[unsafe(no_mangle)]
@@ -69,8 +27,7 @@ pub extern "C" fn cagedyn_statistic_count() -> i64 {
 /// - jacobians: derivatives of all forces; undone_steps: steps that "auto" took back because they missed energy.
 #[unsafe(no_mangle)]
 pub extern "C" fn cagedyn_statistic_name(index: i64) -> *const c_char {
-    let name = usize::try_from(index).ok().and_then(|i| STATISTIC_NAMES.get(i));
-    name.map_or(EMPTY, |name| name).as_ptr()
+    static_name(&Statistic::C_NAMES, index)
 }
 
 /// Writes the statistics since creation or reset; a restored simulation goes on from the saved ones (length: statistic
@@ -125,7 +82,7 @@ pub extern "C" fn cagedyn_law_count() -> i64 {
 /// Name of a force law, for example "guide_film"; "" for other numbers. Static text.
 #[unsafe(no_mangle)]
 pub extern "C" fn cagedyn_law_name(index: i64) -> *const c_char {
-    usize::try_from(index).ok().and_then(|i| LAW_NAMES.get(i)).map_or(EMPTY, |name| name).as_ptr()
+    static_name(&Law::C_NAMES, index)
 }
 
 /// Writes how often each force law was evaluated, once per contact, by the integration since creation or reset (length:
@@ -147,32 +104,10 @@ pub unsafe extern "C" fn cagedyn_sim_law_evaluations(
     })
 }
 
-/// Names of the power balance: of [`POWERS`], then of the energies and what follows from them. NUL-terminated.
-const BALANCE_NAMES: [&CStr; POWERS.len() + 7] = [
-    c"loads",
-    c"ring_drive",
-    c"element_drive",
-    c"ring_support",
-    c"raceway_damping",
-    c"raceway_friction",
-    c"rolling_resistance",
-    c"pocket_damping",
-    c"pocket_friction",
-    c"guide_film",
-    c"guide_solid",
-    c"kinetic_energy_gain",
-    c"elastic_energy_gain",
-    c"potential_energy_gain",
-    c"residual",
-    c"relative_residual",
-    c"from",
-    c"to",
-];
-
 /// Number of items of a power balance.
 #[unsafe(no_mangle)]
 pub extern "C" fn cagedyn_balance_count() -> i64 {
-    BALANCE_NAMES.len() as i64
+    (POWERS.len() + BALANCE_ITEMS.len()) as i64
 }
 
 /// Name of an item of a power balance; "" for other numbers. Static text.
@@ -186,8 +121,12 @@ pub extern "C" fn cagedyn_balance_count() -> i64 {
 /// - from, to: the time that the balance is over, s.
 #[unsafe(no_mangle)]
 pub extern "C" fn cagedyn_balance_name(index: i64) -> *const c_char {
-    let name = usize::try_from(index).ok().and_then(|i| BALANCE_NAMES.get(i));
-    name.map_or(EMPTY, |name| name).as_ptr()
+    let works = POWERS.len() as i64;
+    if index < works {
+        static_name(&Power::C_NAMES, index)
+    } else {
+        static_name(&BalanceItem::C_NAMES, index - works)
+    }
 }
 
 /// Writes the power balance since the start of the scene or the last cagedyn_sim_set_state() (length: balance count).
@@ -197,37 +136,12 @@ pub extern "C" fn cagedyn_balance_name(index: i64) -> *const c_char {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_sim_power_balance(sim: *mut cagedyn_sim, out: *mut f64, length: i64) -> i32 {
     status(|| {
-        check_array("out", out.is_null(), length, BALANCE_NAMES.len())?;
+        check_array("out", out.is_null(), length, POWERS.len() + BALANCE_ITEMS.len())?;
         // SAFETY: see above.
         let balance = unsafe { exclusive("sim", sim) }?.sim.power_balance()?;
-        let mut values = [0.0; BALANCE_NAMES.len()];
-        let (works, rest) = values.split_at_mut(POWERS.len());
-        works.copy_from_slice(&balance.work);
-        rest[..3].copy_from_slice(&balance.gain());
-        let residuals = [balance.residual(), balance.relative_residual()];
-        rest[3..].copy_from_slice(&[residuals[0], residuals[1], balance.from, balance.to]);
+        let items = BalanceItem::ALL.map(|item| balance.value(item));
+        let values: Vec<f64> = balance.work.into_iter().chain(items).collect();
         // SAFETY: see above.
         unsafe { write_array("out", &values, out, length) }
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn law_names_match_the_library() {
-        assert_eq!(LAW_NAMES.map(|name| name.to_str().unwrap_or("")), LAWS);
-    }
-
-    #[test]
-    fn names_of_the_balance_match_the_library() {
-        let names = BALANCE_NAMES.map(|name| name.to_str().unwrap_or(""));
-        assert_eq!(names[..POWERS.len()], POWERS);
-    }
-
-    #[test]
-    fn statistic_names_match_the_library() {
-        assert_eq!(STATISTIC_NAMES.map(|name| name.to_str().unwrap_or("")), STATISTICS);
-    }
 }

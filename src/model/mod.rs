@@ -28,6 +28,8 @@ pub use crate::bodies::{
     BodyForces, FAULTS, FORCE_SOURCES, Fault, FaultCounts, HostInputs, INPUTS, Input, InputValues, Layout,
     POWERS,
 };
+pub(crate) use crate::bodies::{FaultKind, Power};
+pub(crate) use crate::pairs::Law;
 pub use crate::pairs::{LAWS, LawCounts};
 pub use integration::costs::{PARTS, PartTimes};
 pub use report::{
@@ -41,7 +43,7 @@ use crate::bodies::{CAGE, Elements, INNER_RING, SHARED, SharedBodies};
 use crate::error::{Error, Result, Status};
 use crate::pairs::guide::Guide;
 use crate::pairs::raceway::RacewayGeometry;
-use crate::pairs::{ContactLaw, ElementPair, Law, PairInfo};
+use crate::pairs::{ContactLaw, ElementPair, PairInfo};
 use crate::scene::{FORCE, SPEED, Scene, TEMPERATURE, TORQUE, VISCOSITY};
 use crate::space::Motion;
 use report::Selection;

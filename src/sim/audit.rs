@@ -4,6 +4,7 @@ use super::{Evaluated, Sim};
 use crate::error::Result;
 use crate::integrate::{Reader, throughput};
 use crate::model::{AT_FLOOR, Energy, POWERS};
+use crate::registry::registry;
 
 /// Round-off of the stored energy, relative; and an energy that is none, J: less than a nanonewton does over a picometre.
 const ROUNDING: f64 = 1e-14;
@@ -30,11 +31,41 @@ pub struct PowerBalance {
     pub energy: [Energy; 2],
 }
 
+registry! {
+    /// A number of a power balance beside the works.
+    pub(crate) enum BalanceItem,
+    /// Names of what follows the works in a power balance: gains of energy and the residual in J, the relative residual,
+    /// times in s.
+    pub const BALANCE_ITEMS {
+        KineticEnergyGain = "kinetic_energy_gain",
+        ElasticEnergyGain = "elastic_energy_gain",
+        PotentialEnergyGain = "potential_energy_gain",
+        Residual = "residual",
+        RelativeResidual = "relative_residual",
+        From = "from",
+        To = "to",
+    }
+}
+
 impl PowerBalance {
     /// Gain of kinetic, elastic and potential energy, J.
     pub fn gain(&self) -> [f64; 3] {
         let [before, after] = &self.energy;
         [after.kinetic - before.kinetic, after.elastic - before.elastic, after.potential - before.potential]
+    }
+
+    /// One of [`BALANCE_ITEMS`].
+    pub(crate) fn value(&self, item: BalanceItem) -> f64 {
+        let [kinetic, elastic, potential] = self.gain();
+        match item {
+            BalanceItem::KineticEnergyGain => kinetic,
+            BalanceItem::ElasticEnergyGain => elastic,
+            BalanceItem::PotentialEnergyGain => potential,
+            BalanceItem::Residual => self.residual(),
+            BalanceItem::RelativeResidual => self.relative_residual(),
+            BalanceItem::From => self.from,
+            BalanceItem::To => self.to,
+        }
     }
 
     /// Work that is found nowhere, J: the error of the integration and of the sums.

@@ -2,6 +2,7 @@
 
 mod audit;
 mod bearing;
+mod errors;
 mod limits;
 mod linear;
 mod method;
@@ -9,20 +10,23 @@ mod preset;
 mod results;
 mod snapshot;
 
-pub use audit::PowerBalance;
+pub(crate) use audit::BalanceItem;
+pub use audit::{BALANCE_ITEMS, PowerBalance};
 pub use limits::Canceller;
 pub use results::interval::Interval;
 pub use results::recording::{Recording, Spread};
 pub use results::sample::{LEVEL, Sample, Verdict, student};
+pub(crate) use results::statistics::Statistic;
 pub use results::statistics::{RunStatistics, STATISTICS};
 pub use results::trust::Doubt;
 pub use results::whirl::{CageMotion, SMALLEST_WHIRL_RADIUS, WhirlRecord, WhirlSummary};
 
 use crate::error::{Error, Result, Status};
-use crate::integrate::{Driver, Failure, Interruption, Tuning};
-use crate::model::{Channel, FAULTS, Fault, Forces, Input, Model, PartTimes};
+use crate::integrate::{Driver, Failure, Tuning};
+use crate::model::{Channel, FAULTS, Forces, Input, Model, PartTimes};
 use crate::scene::{Preset, Solver};
 use bearing::Bearing;
+use errors::{bad_index, check_time, wrong_size};
 use linear::jacobian::Slopes;
 use linear::newton::Newton;
 use std::sync::Arc;
@@ -456,51 +460,4 @@ impl Sim {
             }
         }
     }
-
-    fn bad_state(&self, time: f64, fault: Fault) -> Error {
-        Error::new(Status::BadState, format!("at t = {time:?} s: {}", self.model().describe(fault)))
-    }
-
-    fn failure(&self, failure: Failure<Fault>) -> Error {
-        match failure {
-            Failure::AtStart { time, fault } => self.bad_state(time, fault),
-            Failure::StepTooSmall { time, step, fault, group } => {
-                let why = match (fault, group.and_then(|group| self.bearing.group_name(group))) {
-                    (Some(fault), _) => self.model().describe(fault),
-                    (None, Some(body)) => format!("the error of {body} stays above the tolerance"),
-                    (None, None) => "the error stays above the tolerance".to_owned(),
-                };
-                let text = format!(
-                    "at t = {time:?} s: a step of {step:e} s would be needed, which is too small: {why}"
-                );
-                Error::new(Status::StepTooSmall, text)
-            }
-            Failure::TooManySteps { time, limit } => {
-                let text = format!("at t = {time:?} s: {limit} steps in one advance (solver.max_steps)");
-                Error::new(Status::TooManySteps, text)
-            }
-            Failure::Interrupted { time, why: Interruption::Cancelled } => {
-                Error::new(Status::Cancelled, format!("at t = {time:?} s: stopped on request"))
-            }
-            Failure::Interrupted { time, why: Interruption::OutOfTime } => Error::new(
-                Status::OutOfTime,
-                format!("at t = {time:?} s: the limit on the wall time is reached"),
-            ),
-        }
-    }
-}
-
-fn check_time(what: &str, t: f64) -> Result<()> {
-    if (0.0..=MAX_TIME).contains(&t) {
-        return Ok(());
-    }
-    Err(Error::new(Status::BadValue, format!("{what}: {t} s is not within 0 to {MAX_TIME:e} s")))
-}
-
-fn wrong_size(what: &str, given: usize, expected: usize) -> Error {
-    Error::new(Status::WrongSize, format!("{what}: length {given}, must be {expected}"))
-}
-
-fn bad_index(what: &str, index: usize, count: usize) -> Error {
-    Error::new(Status::BadIndex, format!("{what}: index {index}, there are {count}"))
 }
