@@ -48,7 +48,7 @@ fn cost(of: &Total, usual: &Total) -> [f64; 2] {
 pub fn page(numbers: Range<u64>, options: &Options) -> String {
     format!(
         "# What the constants of the default method do\n\n\
-         `make tuning` prints this page. [model.md](../model.md#auto) has the reason of each constant of `Tuning`. Random \
+         `make tuning` prints this page. [model.md](../model/integration.md#auto) has the reason of each constant of `Tuning`. Random \
          scenes\n{} to {} of `make judge` run at `engineering` for {} ms with half and with twice of it. Evaluations are \
          those of all runs\ntogether in units of those with the constants as they are, and of the one run that suffers \
          most. Missing is the largest share of\nenergy that a trusted run misses, of 1e-3 that are promised; bad are runs \

@@ -8,7 +8,7 @@ use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-const SCENE_PAGE: &str = "docs/scene.md";
+const SCENE_PAGE: &str = "docs/scene.md and the pages in docs/scene";
 
 /// Types that `docs/scene.md` describes once, under these names.
 const SHARED: [(&str, &str); 5] = [
@@ -18,6 +18,12 @@ const SHARED: [(&str, &str); 5] = [
     ("SolidContact", "<solid>"),
     ("Friction", "<friction>"),
 ];
+
+/// The page on scenes with those that it leads to.
+fn scene_page() -> String {
+    let parts = pages().into_iter().filter(|page| page == "docs/scene.md" || page.starts_with("docs/scene/"));
+    parts.map(|page| read(&page)).collect::<Vec<_>>().join("\n")
+}
 
 /// Contents of the fenced blocks of one language.
 fn fenced(page: &str, language: &str) -> Vec<String> {
@@ -63,7 +69,7 @@ fn code_spans(line: &str) -> impl Iterator<Item = &str> {
 
 /// The JSON blocks of the scene page that are whole documents: scenes and case sets.
 fn documents() -> (Vec<String>, Vec<String>) {
-    let whole = fenced(&read(SCENE_PAGE), "json").into_iter().filter(|text| text.contains("\"schema\""));
+    let whole = fenced(&scene_page(), "json").into_iter().filter(|text| text.contains("\"schema\""));
     whole.partition(|text| text.contains("cagedyn.scene/"))
 }
 
@@ -108,7 +114,7 @@ fn every_json_block_is_json() {
 fn error_messages_of_the_page_are_real() {
     let base = &documents().0[0];
     let mut shown = 0;
-    for block in fenced(&read(SCENE_PAGE), "text") {
+    for block in fenced(&scene_page(), "text") {
         let lines: Vec<&str> = block.lines().filter(|line| !line.is_empty()).collect();
         if !lines.first().is_some_and(|line| line.starts_with("--set ")) {
             continue;
@@ -130,7 +136,7 @@ fn error_messages_of_the_page_are_real() {
 fn overrides_of_the_page_work() {
     let base = read("scenes/nu2310.json");
     let mut shown = 0;
-    for block in fenced(&read(SCENE_PAGE), "sh") {
+    for block in fenced(&scene_page(), "sh") {
         for change in block.lines().filter_map(|line| line.strip_prefix("--set ")) {
             let (path, value) = change.split_once('=').expect("path=value");
             let scene = Scene::from_json_with(&base, [(path, value.trim_matches('\''))]);
@@ -217,7 +223,7 @@ fn described(page: &str) -> BTreeMap<String, String> {
 
 #[test]
 fn the_page_describes_every_field_and_no_other() {
-    let page = read(SCENE_PAGE);
+    let page = scene_page();
     let spans: BTreeSet<&str> = prose(&page).into_iter().flat_map(code_spans).collect();
     let mut paths = BTreeMap::new();
     for (schema, root) in [(Scene::JSON_SCHEMA, ""), (CaseSet::JSON_SCHEMA, "<cases>")] {
@@ -264,13 +270,21 @@ fn every_dependency_has_its_reason() {
     assert_eq!(rows, names.len(), "docs/dependencies.md lists something that Cargo.toml does not");
 }
 
-/// README and the pages in `docs/`, relative to the repository.
+/// README and its kin and the pages in `docs/` and below, relative to the repository.
 fn pages() -> Vec<String> {
-    let entries = std::fs::read_dir(repository("docs")).expect("the repository has docs");
-    let names = entries.map(|entry| entry.expect("readable").file_name().into_string().expect("UTF-8"));
     let mut pages: Vec<String> =
-        names.filter(|name| name.ends_with(".md")).map(|name| format!("docs/{name}")).collect();
-    pages.push("README.md".to_owned());
+        ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md"].map(ToOwned::to_owned).into();
+    let mut folders = vec!["docs".to_owned()];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(repository(&folder)).expect("the repository has docs").flatten() {
+            let name = format!("{folder}/{}", entry.file_name().to_str().expect("UTF-8"));
+            if entry.path().is_dir() {
+                folders.push(name);
+            } else if name.ends_with(".md") {
+                pages.push(name);
+            }
+        }
+    }
     pages.sort();
     pages
 }

@@ -18,11 +18,14 @@ fn the_page_has_the_constants_of_the_choice() {
             constant.reason.trim()
         );
     }
-    let path = repository("docs/model.md");
+    let path = repository("docs/model/integration.md");
     if std::env::var_os("CAGEDYN_BLESS").is_some() {
         replace_between(&path, "<!-- tuning -->", &table);
     }
-    assert!(read("docs/model.md").contains(&table), "CAGEDYN_BLESS=1 writes the table of constants");
+    assert!(
+        read("docs/model/integration.md").contains(&table),
+        "CAGEDYN_BLESS=1 writes the table of constants"
+    );
     let mut tuning = Tuning::default();
     for (i, constant) in Tuning::TABLE.iter().enumerate() {
         assert_eq!(tuning.values()[i], constant.value, "{}", constant.name);
