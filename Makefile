@@ -4,14 +4,14 @@
 # make cases     the twelve NU2310 cases, the grease guide over speed, its variants and without grease, results in out/cases/
 # make example   the C example, compiled and run, table in out/
 # make pictures  the pictures of the README
-# make effects   cost of every effect and what it changes: docs/effects.md
-# make verify    errors of the integration methods against CVODE: docs/verification.md
-# make hard     hard cases with every method and preset: docs/hard-cases.md
+# make effects   cost of every effect and what it changes: docs/results/effects.md
+# make verify    errors of the integration methods against CVODE: docs/results/verification.md
+# make hard     hard cases with every method and preset: docs/results/hard-cases.md
 # make judge     the presets on random scenes that nothing was tuned to, from SEED on, N of them
 # make tuning    what each constant of the default method does: docs/results/tuning.md
 # make random   forty thousand random scenes; about an hour
-# make statistics  long runs of all methods in their statistics: docs/statistics.md
-# make accuracy  what accuracy costs in time, beside other solvers: docs/accuracy.md
+# make statistics  long runs of all methods in their statistics: docs/results/statistics.md
+# make accuracy  what accuracy costs in time, beside other solvers: docs/results/accuracy.md
 # make bench     time of a force evaluation and of a step
 # make build-times  what building and testing takes: docs/building.md; half an hour
 # make header    writes include/cagedyn.h and schemas/ anew after a change

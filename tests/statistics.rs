@@ -1,4 +1,4 @@
-//! The quick part of what `docs/statistics.md` tells: the statistics behind its bands, and one short comparison.
+//! The quick part of what `docs/results/statistics.md` tells: the statistics behind its bands, and one short comparison.
 
 #![allow(dead_code)] // the modules of the example are used in part
 

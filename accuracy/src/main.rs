@@ -1,7 +1,7 @@
 //! What accuracy costs in time: `make accuracy`.
 //!
 //! Runs the library and other solvers on the same derivatives, in one process; prints tables, writes them as CSV files and
-//! diagrams, and with `--docs` also `docs/accuracy.md` and its pictures.
+//! diagrams, and with `--docs` also `docs/results/accuracy.md` and its pictures.
 
 mod curves;
 #[allow(dead_code)] // shared with the tests
@@ -38,7 +38,7 @@ struct Arguments {
     /// Folder of tables and diagrams.
     #[arg(long, default_value = "out/accuracy")]
     out: PathBuf,
-    /// Also write docs/accuracy.md and docs/performance.md, with tables and pictures: all from one run.
+    /// Also write docs/results/accuracy.md and docs/results/performance.md, with tables and pictures: all from one run.
     #[arg(long, conflicts_with = "only")]
     docs: bool,
     /// Only this comparison, or `size`, `costs` or `goals`; can be given more than once.
@@ -102,8 +102,8 @@ fn main() -> Result<()> {
         texts.push(("machine".to_owned(), format!("{machine}.")));
         let shown = tables.iter().filter(|table| !comparisons.iter().any(|c| c.name == table.name));
         texts.extend(shown.map(|table| (table.name.clone(), table.text())));
-        report::write_pages(&["docs/accuracy.md", "docs/performance.md"].map(Path::new), &texts)?;
-        let data = Path::new("docs/accuracy");
+        report::write_pages(&["docs/results/accuracy.md", "docs/results/performance.md"].map(Path::new), &texts)?;
+        let data = Path::new("docs/results/accuracy");
         make_folder(data)?;
         tables.iter().try_for_each(|table| table.save(data))?;
     }

@@ -1,6 +1,6 @@
 //! What every optional effect of the two example scenes costs and what it changes: `make effects`.
 //!
-//! Prints tables and writes `out/effects/*.csv`; with `--docs` also the tables of `docs/effects.md` and its picture.
+//! Prints tables and writes `out/effects/*.csv`; with `--docs` also the tables of `docs/results/effects.md` and its picture.
 
 mod bar;
 mod count;
@@ -27,7 +27,7 @@ struct Arguments {
     /// Folder of the tables.
     #[arg(long, default_value = "out/effects")]
     out: PathBuf,
-    /// Also write the tables into docs/effects.md and draw docs/images/effects.svg.
+    /// Also write the tables into docs/results/effects.md and draw docs/images/effects.svg.
     #[arg(long)]
     docs: bool,
     /// Only evaluate the forces of this scene; callgrind runs the program so.
@@ -63,7 +63,7 @@ fn main() -> Result<()> {
         reports.push(report);
     }
     if arguments.docs {
-        report::write_page(Path::new("docs/effects.md"), &reports)?;
+        report::write_page(Path::new("docs/results/effects.md"), &reports)?;
         let path = Path::new("docs/images/effects.svg");
         std::fs::write(path, picture::effects(&reports)?).map_err(|e| file(path, e))?;
     }

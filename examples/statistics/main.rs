@@ -1,6 +1,6 @@
 //! Whether the integration methods give the right statistics of long, chaotic runs: `make statistics`.
 //!
-//! Prints tables and writes `out/statistics/*.csv`; with `--docs` also the tables of `docs/statistics.md`.
+//! Prints tables and writes `out/statistics/*.csv`; with `--docs` also the tables of `docs/results/statistics.md`.
 
 mod cases;
 #[allow(dead_code)] // shared with the tests, which also use its other method
@@ -28,7 +28,7 @@ struct Arguments {
     /// Folder of the tables.
     #[arg(long, default_value = "out/statistics")]
     out: PathBuf,
-    /// Also write the tables into docs/statistics.md.
+    /// Also write the tables into docs/results/statistics.md.
     #[arg(long)]
     docs: bool,
     /// Only this case; can be given more than once.
@@ -57,7 +57,7 @@ fn main() -> Result<()> {
     std::fs::create_dir_all(&arguments.out).map_err(|e| file(&arguments.out, e))?;
     tables.iter().try_for_each(|table| table.save(&arguments.out))?;
     if arguments.docs {
-        report::write_page(Path::new("docs/statistics.md"), &tables)?;
+        report::write_page(Path::new("docs/results/statistics.md"), &tables)?;
     }
     Ok(())
 }

@@ -42,7 +42,7 @@ pub enum RingStart {
 }
 
 /// How accurate a run is to be, by its purpose. Fills in every step and tolerance that the method leaves open;
-/// docs/accuracy.md has the measured error and cost.
+/// docs/results/accuracy.md has the measured error and cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]

@@ -1,6 +1,6 @@
 //! What the presets of a scene stand for, in numbers.
 //!
-//! Chosen from the work-precision diagrams of docs/accuracy.md, which has the error and the cost of each.
+//! Chosen from the work-precision diagrams of docs/results/accuracy.md, which has the error and the cost of each.
 
 use crate::scene::Preset;
 

@@ -1,5 +1,5 @@
 //! The library's methods against CVODE of SUNDIALS, which integrates [`cagedyn::Sim::derivative`]. Errors are differences
-//! of positions in units of the guide clearance. What is found is told in `docs/verification.md`.
+//! of positions in units of the guide clearance. What is found is told in `docs/results/verification.md`.
 
 #[path = "../common/mod.rs"]
 mod common;

@@ -97,7 +97,7 @@ fn tables() {
     println!("{table}\n{whirl}");
     if std::env::var_os("CAGEDYN_BLESS").is_some() {
         for (marker, text) in [("<!-- errors -->", table), ("<!-- whirl -->", whirl)] {
-            replace_between(&repository("docs/verification.md"), marker, &text);
+            replace_between(&repository("docs/results/verification.md"), marker, &text);
         }
     }
 }

@@ -1,5 +1,5 @@
 //! Hard cases: each runs with `auto` at `engineering` within a budget, keeps its energy and balances its forces. `make hard`
-//! runs all of them with every method and preset and with CVODE, and writes docs/hard-cases.md.
+//! runs all of them with every method and preset and with CVODE, and writes docs/results/hard-cases.md.
 
 #![allow(dead_code)] // shared modules are used in part
 

@@ -164,7 +164,7 @@ fn table() {
     }
     println!("{all}{agreement}{overview}");
     if std::env::var_os("CAGEDYN_BLESS").is_some() {
-        let path = repository("docs/hard-cases.md");
+        let path = repository("docs/results/hard-cases.md");
         let blocks = [("auto", &detail), ("agreement", &agreement), ("overview", &overview), ("all", &all)];
         for (name, text) in blocks {
             replace_between(&path, &format!("<!-- {name} -->"), text);

@@ -407,6 +407,6 @@ fn table() {
     }
     println!("{table}");
     if std::env::var_os("CAGEDYN_BLESS").is_some() {
-        crate::common::replace_between(&repository("docs/verification.md"), "<!-- hard -->", &table);
+        crate::common::replace_between(&repository("docs/results/verification.md"), "<!-- hard -->", &table);
     }
 }
