@@ -102,7 +102,10 @@ fn main() -> Result<()> {
         texts.push(("machine".to_owned(), format!("{machine}.")));
         let shown = tables.iter().filter(|table| !comparisons.iter().any(|c| c.name == table.name));
         texts.extend(shown.map(|table| (table.name.clone(), table.text())));
-        report::write_pages(&["docs/results/accuracy.md", "docs/results/performance.md"].map(Path::new), &texts)?;
+        report::write_pages(
+            &["docs/results/accuracy.md", "docs/results/performance.md"].map(Path::new),
+            &texts,
+        )?;
         let data = Path::new("docs/results/accuracy");
         make_folder(data)?;
         tables.iter().try_for_each(|table| table.save(data))?;

@@ -30,7 +30,7 @@ const COLUMNS: [&str; 15] = [
     "smallest_step_s",
     "evaluations",
     "energy_residual",
-    "momentum_residual",
+    "unexplained_force",
     "mean_y",
     "mean_z",
     "mean_speed_or_torque",
@@ -87,7 +87,7 @@ impl Score {
 fn write_line(file: &mut csv::Writer<File>, case: &Case, setting: &Setting, o: &Outcome, agrees: bool) {
     let ended = o.error.as_ref().map_or("finished", |e| e.status.name());
     let numbers = [o.steps as f64, o.rejected as f64, o.smallest_step, o.evaluations as f64];
-    let numbers = numbers.into_iter().chain([o.residual, o.momentum]).chain(o.means);
+    let numbers = numbers.into_iter().chain([o.residual, o.unexplained]).chain(o.means);
     let mut line = vec![case.name.to_owned(), setting.method.to_owned(), setting.preset.to_owned()];
     line.push(ended.to_owned());
     line.extend(numbers.map(|x| format!("{x:e}")));
@@ -112,7 +112,7 @@ fn table() {
         .flat_map(|&(method, name)| PRESETS.map(|preset| Setting { method, name, preset }))
         .collect();
     let mut detail =
-        "| case | why it is hard | steps | rejected | smallest step, s | evaluations | energy | momentum | \
+        "| case | why it is hard | steps | rejected | smallest step, s | evaluations | energy | unexplained force | \
                       from CVODE | cage |\n|---|---|---:|---:|---:|---:|---:|---:|---|---|\n"
             .to_owned();
     let columns: Vec<String> = settings.iter().map(|s| format!("{} {}", s.name, s.preset)).collect();
@@ -146,7 +146,7 @@ fn table() {
                     short(o.smallest_step),
                     o.evaluations,
                     short(o.residual.abs()),
-                    short(o.momentum),
+                    short(o.unexplained),
                     o.class
                 );
                 print!("{row}");

@@ -128,4 +128,14 @@ mod tests {
         assert!(law.force(1f64.ln(), &e) < 0.5 * loaded.force(1f64.ln(), &e));
         assert_eq!(law.none().force(light.ln(), &e), 0.0);
     }
+
+    /// An unloaded roller of the example: 20 N of centrifugal force on the outer raceway at 6 m/s.
+    #[test]
+    fn unloaded_rollers_feel_about_the_same_by_both_laws() {
+        let line = ElasticLine::new(2.263736e11, 1.0 / (1.0 / 7.5e-3 - 1.0 / 47.5e-3), 0.0204);
+        let film = RollingFilm { line: &line, viscosity: 0.06, pressure_viscosity: 2e-8 };
+        let (e, ln_q) = (Entrainment::new(6.0, 6.0, 0.0), 20f64.ln());
+        let forces = [RigidLimit::new(&film).force(ln_q, &e), ZhouHoeprich::new(&film).force(ln_q, &e)];
+        assert!((forces[0] - 0.80).abs() < 0.005 && (forces[1] - 0.84).abs() < 0.005, "{forces:?}");
+    }
 }
