@@ -1,6 +1,6 @@
 //! Faults in words.
 
-use crate::Model;
+use crate::model::Model;
 use crate::bodies::Fault;
 
 impl Model {

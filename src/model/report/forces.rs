@@ -1,6 +1,6 @@
 //! Force report: every contact and every contribution to every body at one state.
 
-use crate::Model;
+use crate::model::Model;
 use crate::bodies::{BodyForces, CAGE, ForceSource, OUTER_RING};
 use crate::model::Workspace;
 use crate::pairs::Loaded;

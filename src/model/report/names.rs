@@ -1,6 +1,6 @@
 //! Names of bodies, states, inputs and contacts.
 
-use crate::Model;
+use crate::model::Model;
 use crate::bodies::{Layout, State};
 use crate::pairs::{Law, Site};
 

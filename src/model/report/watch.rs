@@ -4,7 +4,7 @@
 //! the guide is what is left of the momentum of the cage after all others.
 
 use super::channels::{Channel, GuidePart, Source, along, radius};
-use crate::Model;
+use crate::model::Model;
 use crate::bodies::{CAGE, INNER_RING, OUTER_RING, SHARED};
 use crate::integrate::SemiImplicit;
 use crate::laws::guide::GuideForce;
