@@ -94,7 +94,7 @@ example:
 	./out/nu2310 scenes/nu2310.json out/nu2310.csv
 
 effects: tools
-	$(CARGO) run --release --locked --example effects -- --docs
+	$(CARGO) run --release --locked --package cagedyn-studies --bin effects -- --docs
 
 verify: tools
 	CAGEDYN_BLESS=1 $(CARGO) test $(FLAGS) --test cvode --test methods -- --ignored --nocapture --test-threads 1 table
@@ -106,19 +106,19 @@ SEED ?= 1000
 N ?= 200
 
 judge:
-	$(CARGO) run --release --locked --example judge -- --seed $(SEED) --n $(N) $(ARGS)
+	$(CARGO) run --release --locked --package cagedyn-studies --bin judge -- --seed $(SEED) --n $(N) $(ARGS)
 
 # Some ten minutes.
 tuning:
 	mkdir -p docs/results
-	$(CARGO) run --release --locked --example judge -- --seed 0 --n 20 --tuning > docs/results/tuning.md
+	$(CARGO) run --release --locked --package cagedyn-studies --bin judge -- --seed 0 --n 20 --tuning > docs/results/tuning.md
 
 # Twenty times as many random scenes as every test run has; about an hour.
 random:
 	PROPTEST_CASES=20000 $(CARGO) test --release --locked --test random_scenes scenes_run_or -- --nocapture
 
 statistics: tools
-	$(CARGO) run --release --locked --example statistics -- --docs
+	$(CARGO) run --release --locked --package cagedyn-studies --bin statistics -- --docs
 
 accuracy: tools
 	tools/fetch_peers.sh out/peers

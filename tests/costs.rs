@@ -1,15 +1,10 @@
 //! What a scene does not ask for costs nothing: no evaluations, no states, no instructions. Instructions are counted
 //! with Valgrind where it is installed (`CAGEDYN_REQUIRE_VALGRIND=1` makes a missing Valgrind a failure).
 
-#[path = "../examples/effects/bar.rs"]
-mod bar;
 mod common;
-#[path = "../examples/effects/count.rs"]
-mod count;
-#[path = "../examples/effects/rows.rs"]
-mod rows;
 
 use cagedyn::{Model, Scene, Sim};
+use cagedyn_studies::effects::{bar, count, rows};
 use common::read;
 use count::{States, evaluate_states, instructions};
 use rows::{Kind, Row, STUDIES, Study};

@@ -1,22 +1,10 @@
 //! The quick part of what `docs/results/statistics.md` tells: the statistics behind its bands, and one short comparison.
 
-#![allow(dead_code)] // the modules of the example are used in part
-
-#[path = "../examples/statistics/cases.rs"]
-mod cases;
 mod common;
-#[path = "common/cvode/mod.rs"]
-mod cvode;
-#[path = "../examples/statistics/methods.rs"]
-mod methods;
-#[path = "../examples/statistics/readings.rs"]
-mod readings;
-#[path = "../src/bin/cagedyn/spectrum.rs"]
-mod spectrum;
-#[path = "../examples/statistics/study.rs"]
-mod study;
 
 use cagedyn::sim::{LEVEL, Sample, Verdict, student};
+use cagedyn_studies::cvode;
+use cagedyn_studies::statistics::{cases, methods, readings, study};
 use cases::{Case, NU2310};
 use common::{Random, repository};
 use methods::Solver;

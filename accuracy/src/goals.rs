@@ -4,8 +4,8 @@ use crate::curves::Comparison;
 use crate::kernel::{self, Costs};
 use crate::report::{empty, time};
 use crate::scenes;
-use crate::table::Table;
 use cagedyn::Result;
+use cagedyn_studies::statistics::table::Table;
 
 /// A figure, what is wanted and what was found.
 fn line(what: &str, goal: &str, found: String) -> Vec<String> {

@@ -4,9 +4,6 @@
 //! diagrams, and with `--docs` also `docs/results/accuracy.md` and its pictures.
 
 mod curves;
-#[allow(dead_code)] // shared with the tests
-#[path = "../../tests/common/cvode/mod.rs"]
-mod cvode;
 mod goals;
 mod kernel;
 mod memory;
@@ -14,21 +11,13 @@ mod peers;
 mod plots;
 mod pointwise;
 mod problem;
-#[allow(dead_code)] // shared with the study of statistics
-#[path = "../../examples/statistics/readings.rs"]
-mod readings;
 mod report;
 mod scenes;
 mod size;
 mod solvers;
-#[allow(dead_code)]
-#[path = "../../src/bin/cagedyn/spectrum.rs"]
-mod spectrum;
 mod statistics;
-#[path = "../../examples/statistics/table.rs"]
-mod table;
 
-use cagedyn::{Error, Result, Status};
+use cagedyn::Result;
 use clap::Parser;
 use std::path::{Path, PathBuf};
 
@@ -129,14 +118,9 @@ fn machine() -> String {
 }
 
 fn make_folder(path: &Path) -> Result<()> {
-    std::fs::create_dir_all(path).map_err(|e| file(path, e))
+    std::fs::create_dir_all(path).map_err(|e| cagedyn_studies::file_error(path, e))
 }
 
 fn write(path: &Path, text: &str) -> Result<()> {
-    std::fs::write(path, text).map_err(|e| file(path, e))
-}
-
-/// An error with a path.
-fn file(path: &Path, e: impl std::fmt::Display) -> Error {
-    Error::new(Status::File, format!("{}: {e}", path.display()))
+    std::fs::write(path, text).map_err(|e| cagedyn_studies::file_error(path, e))
 }

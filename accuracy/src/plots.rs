@@ -1,19 +1,10 @@
 //! Work-precision diagrams: wall time over error, both logarithmic, one line per solver over its settings.
 
-#[allow(dead_code)] // shared with the command line tool, which uses more of it
-#[path = "../../src/bin/cagedyn/plots/axis.rs"]
-mod axis;
-#[allow(dead_code)]
-#[path = "../../src/bin/cagedyn/plots/panel.rs"]
-mod panel;
-#[allow(dead_code)]
-#[path = "../../src/bin/cagedyn/plots/style.rs"]
-mod style;
-
 use crate::curves::{Comparison, Curve};
 use crate::solvers::Way;
 use axis::Axis;
 use cagedyn::Result;
+use cagedyn_studies::plots::{axis, panel, style};
 use panel::{Place, X_LABELS, Y_LABELS, panel};
 use style::{
     CURVE, Canvas, Drawn, LEFT, MUTED, Marker, Paint, SERIES, Symbol, THIN, legend_entry, line, marker,

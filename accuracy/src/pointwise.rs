@@ -1,12 +1,12 @@
 //! Errors of states against a reference, at many times of a short run.
 
 use crate::curves::{Comparison, Curve, settings, tolerances};
-use crate::cvode;
 use crate::problem::Problem;
 use crate::scenes;
 use crate::solvers::{Matrix, SOLVERS, Solver, Way};
 use cagedyn::scene::Method;
 use cagedyn::{Error, Result, Status};
+use cagedyn_studies::cvode;
 
 /// Tolerance of the reference and of the other method that checks it.
 const TIGHT: f64 = 1e-12;

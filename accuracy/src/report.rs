@@ -2,8 +2,8 @@
 
 use crate::curves::Comparison;
 use crate::solvers::Way;
-use crate::table::Table;
 use cagedyn::{Error, Result, Status};
+use cagedyn_studies::statistics::table::Table;
 use std::path::Path;
 
 /// All runs of a comparison.

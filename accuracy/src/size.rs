@@ -5,9 +5,9 @@ use crate::problem::Problem;
 use crate::report::empty;
 use crate::scenes;
 use crate::solvers::Solver;
-use crate::table::Table;
 use cagedyn::scene::Preset;
 use cagedyn::{Error, Model, Result, Sim, Status};
+use cagedyn_studies::statistics::table::Table;
 use std::sync::Arc;
 
 /// Numbers of rollers.

@@ -1,10 +1,10 @@
 //! The solvers that are compared: methods of the library, and others on the same derivatives.
 
-use crate::cvode::{self, Derivatives};
 use crate::peers::{self, Task};
 use crate::problem::Problem;
 use cagedyn::scene::{Auto, ErrorControl, Leapfrog, Method, Preset};
 use cagedyn::{Error, Sim};
+use cagedyn_studies::cvode::{self, Derivatives};
 use std::time::Instant;
 
 /// Runs are repeated until they have taken this time together, s, or were made this often; the fastest counts.

@@ -1,13 +1,13 @@
 //! Errors of the statistics of long runs, in units of their scatter from run to run.
 
 use crate::curves::{Comparison, Curve, settings, tolerances};
-use crate::cvode;
 use crate::problem::Problem;
-use crate::readings::{QUANTITIES, Record};
 use crate::scenes;
 use crate::solvers::{Matrix, Solution, Solver, Way};
 use cagedyn::scene::{Auto, Method};
 use cagedyn::{Error, Result, Scene, Sim, Status};
+use cagedyn_studies::cvode;
+use cagedyn_studies::statistics::readings::{QUANTITIES, Record};
 
 /// Time between records, s.
 const INTERVAL: f64 = 1e-4;

@@ -11,7 +11,7 @@ use crate::laws::line_contact::tests::raceway;
 use crate::laws::traction::solid_friction::SolidFriction;
 
 #[allow(dead_code)] // used in part
-#[path = "../../tests/common/random.rs"]
+#[path = "../../studies/src/random.rs"]
 mod random;
 
 use random::Random;

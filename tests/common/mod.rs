@@ -7,11 +7,10 @@
 pub mod bench;
 pub mod palmgren;
 pub mod parts;
-mod random;
 pub mod reports;
 pub mod systems;
 
-pub use random::Random;
+pub use cagedyn_studies::random::Random;
 
 use serde_json::Value;
 use std::path::{Path, PathBuf};

@@ -1,13 +1,13 @@
 //! Scenes, the library's methods and CVODE on them, and the distance of their ends.
 
 use crate::common::{example, read, with};
-use crate::cvode::{self, Derivatives, Method, Options};
 use cagedyn::integrate::{
     DormandPrince, Driver, Limits, Linearization, Linearized, Observed, Rosenbrock, Stepper, Structure,
     System,
 };
 use cagedyn::model::{Fault, HostInputs, Workspace};
 use cagedyn::{Model, Sim};
+use cagedyn_studies::cvode::{self, Derivatives, Method, Options};
 use serde_json::{Value, json};
 use std::sync::Arc;
 

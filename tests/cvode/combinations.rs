@@ -3,8 +3,8 @@
 use crate::cases::Case;
 use crate::common::parts::{all, scene};
 use crate::common::{example, example_with};
-use crate::cvode::Method;
 use cagedyn::Model;
+use cagedyn_studies::cvode::Method;
 use serde_json::Value;
 
 const TOLERANCE: f64 = 1e-8;

@@ -1,8 +1,8 @@
 //! CVODE itself on systems with known solutions.
 
 use crate::common::example;
-use crate::cvode::{self, Derivatives, Function, Method, Newton, Options};
 use cagedyn::{Model, Sim};
+use cagedyn_studies::cvode::{self, Derivatives, Function, Method, Newton, Options};
 use nalgebra::{SMatrix, SVector};
 use std::sync::Arc;
 

@@ -3,8 +3,6 @@
 
 #[path = "../common/mod.rs"]
 mod common;
-#[path = "../common/cvode/mod.rs"]
-mod cvode;
 
 mod cases;
 mod combinations;
@@ -12,8 +10,8 @@ mod driver;
 mod tables;
 mod whirl;
 
+use cagedyn_studies::cvode::Method;
 use cases::{DRY, contacts, pressed, smooth, thick};
-use cvode::Method;
 use serde_json::json;
 
 /// Tolerances at which methods with error control are compared.

@@ -2,9 +2,9 @@
 
 use crate::cases::{Case, End, Reference, contacts, pressed, smooth, thick};
 use crate::common::{replace_between, repository};
-use crate::cvode::Method;
 use crate::whirl::{mean, whirls};
 use crate::{FIXED_SHARES, LEVELS, METHODS, orders};
+use cagedyn_studies::cvode::Method;
 use serde_json::json;
 
 /// Rows of one scene.

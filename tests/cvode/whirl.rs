@@ -1,8 +1,8 @@
 //! Mean whirl speed on the greased guide, over starts that differ by next to nothing.
 
 use crate::cases::{Case, GREASE, scene};
-use crate::cvode::{self, Derivatives, Method, Options};
 use cagedyn::Sim;
+use cagedyn_studies::cvode::{self, Derivatives, Method, Options};
 use serde_json::{Value, json};
 
 /// Mean whirl speed over the second half of 0.1 s on the greased guide.

@@ -1,10 +1,10 @@
 //! `auto` against CVODE: means over the second half of runs that start a little differently.
 
-use crate::cvode::{self, Derivatives, Method, Options};
 use crate::motion::{Path, Readings};
 use crate::{Case, RECORDS};
 use cagedyn::Sim;
 use cagedyn::sim::{LEVEL, Sample, Verdict, student};
+use cagedyn_studies::cvode::{self, Derivatives, Method, Options};
 use serde_json::{Value, json};
 
 /// Runs of each, and by how much their starts differ from one to the next: the angle of the first element in rad, and the

@@ -5,20 +5,8 @@
 
 #[path = "../common/mod.rs"]
 mod common;
-#[path = "../common/cvode/mod.rs"]
-mod cvode;
 
 /// Where the judged scenes expect them.
-mod random {
-    pub use crate::common::Random;
-}
-#[path = "../../examples/judge/run.rs"]
-mod run;
-#[path = "../../examples/judge/scenes.rs"]
-mod scenes;
-#[path = "../../examples/judge/summary.rs"]
-mod summary;
-
 mod agreement;
 mod bearing;
 mod guide;
@@ -31,6 +19,7 @@ use cagedyn::integrate::auto::Kind;
 use cagedyn::scene::RingMotion;
 use cagedyn::sim::{LEVEL, Sample};
 use cagedyn::{Error, Model, Sim};
+use cagedyn_studies::judge;
 use motion::{Class, Path, Readings};
 use serde_json::{Value, json};
 use std::sync::Arc;
@@ -293,17 +282,17 @@ fn a_minute_of_simulated_time() {
 fn judge_scenes(numbers: std::ops::Range<u64>, presets: &[&str], means: bool) -> [usize; 2] {
     let presets = presets.iter().map(|preset| (*preset).to_owned()).collect();
     let options =
-        run::Options { duration: 0.03, means, presets, wall_time: 600.0, tuning: Tuning::default() };
-    let outcomes = run::judge_all(numbers, &options, |outcome| {
-        if let Some(line) = summary::line(outcome) {
+        judge::run::Options { duration: 0.03, means, presets, wall_time: 600.0, tuning: Tuning::default() };
+    let outcomes = judge::run::judge_all(numbers, &options, |outcome| {
+        if let Some(line) = judge::summary::line(outcome) {
             println!("{line}");
         }
     });
-    println!("{}", summary::table(&outcomes));
+    println!("{}", judge::summary::table(&outcomes));
     let [mut bad, mut broken] = [0; 2];
     for outcome in &outcomes {
         match &outcome.verdict {
-            run::Verdict::Ran { trusted: true, residual, apart, .. } => {
+            judge::run::Verdict::Ran { trusted: true, residual, apart, .. } => {
                 let kept = residual.abs() <= outcome.promise && apart.is_none_or(|apart| !apart.in_mean);
                 broken += usize::from(!kept);
             }

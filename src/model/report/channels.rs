@@ -1,9 +1,9 @@
 //! Output channels: the named quantities that a run records.
 
 use super::forces::{FILM_THICKNESS, FRICTION, Forces, GuideReport, NORMAL_FORCE, SLIP_SPEED};
-use crate::model::Model;
 use crate::bodies::{CAGE, ForceSource, INNER_RING, Input, InputValues, OUTER_RING};
 use crate::laws::guide::GuideFilm;
+use crate::model::Model;
 use crate::model::Workspace;
 use crate::pairs::{ContactLaw, ElementPlace};
 use crate::scalar::math;

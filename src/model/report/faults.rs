@@ -1,7 +1,7 @@
 //! Faults in words.
 
-use crate::model::Model;
 use crate::bodies::Fault;
+use crate::model::Model;
 
 impl Model {
     /// A fault in words.

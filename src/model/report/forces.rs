@@ -1,7 +1,7 @@
 //! Force report: every contact and every contribution to every body at one state.
 
-use crate::model::Model;
 use crate::bodies::{BodyForces, CAGE, ForceSource, OUTER_RING};
+use crate::model::Model;
 use crate::model::Workspace;
 use crate::pairs::Loaded;
 use crate::space::Wrench;

@@ -1,7 +1,7 @@
 //! Names of bodies, states, inputs and contacts.
 
-use crate::model::Model;
 use crate::bodies::{Layout, State};
+use crate::model::Model;
 use crate::pairs::{Law, Site};
 
 /// Name, unit and meaning of a state or an input.

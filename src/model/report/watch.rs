@@ -4,10 +4,10 @@
 //! the guide is what is left of the momentum of the cage after all others.
 
 use super::channels::{Channel, GuidePart, Source, along, radius};
-use crate::model::Model;
 use crate::bodies::{CAGE, INNER_RING, OUTER_RING, SHARED};
 use crate::integrate::SemiImplicit;
 use crate::laws::guide::GuideForce;
+use crate::model::Model;
 use crate::model::Workspace;
 use crate::space::{Motion, Wrench};
 

@@ -1,9 +1,9 @@
 //! Cost of force evaluations: instructions, and time relative to the unchanged scene.
 
-use crate::count::{States, evaluate_states, instructions};
-use crate::rows::Row;
 use crate::study::Outcome;
 use cagedyn::{Error, Model, Result, Scene, Sim, Status};
+use cagedyn_studies::effects::count::{States, evaluate_states, instructions};
+use cagedyn_studies::effects::rows::Row;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;

@@ -2,18 +2,12 @@
 //!
 //! Prints tables and writes `out/effects/*.csv`; with `--docs` also the tables of `docs/results/effects.md` and its picture.
 
-mod bar;
-mod count;
 mod measure;
 mod picture;
 mod report;
-mod rows;
 mod study;
-#[allow(dead_code)] // shared with the command line tool, which draws more
-#[path = "../../src/bin/cagedyn/plots/style.rs"]
-mod style;
-
-use cagedyn::{Error, Result, Status};
+use cagedyn::Result;
+use cagedyn_studies::effects::rows;
 use clap::Parser;
 use report::Report;
 use std::path::{Path, PathBuf};
@@ -48,7 +42,7 @@ fn main() -> Result<()> {
             arguments.set.iter().filter_map(|change| change.split_once('=')).collect();
         return measure::evaluate(scene, &changes, states, arguments.passes);
     }
-    std::fs::create_dir_all(&arguments.out).map_err(|e| file(&arguments.out, e))?;
+    std::fs::create_dir_all(&arguments.out).map_err(|e| cagedyn_studies::file_error(&arguments.out, e))?;
     let mut reports = Vec::new();
     for study in &rows::STUDIES {
         let scene = arguments.scenes.join(format!("{}.json", study.name));
@@ -65,12 +59,8 @@ fn main() -> Result<()> {
     if arguments.docs {
         report::write_page(Path::new("docs/results/effects.md"), &reports)?;
         let path = Path::new("docs/images/effects.svg");
-        std::fs::write(path, picture::effects(&reports)?).map_err(|e| file(path, e))?;
+        std::fs::write(path, picture::effects(&reports)?)
+            .map_err(|e| cagedyn_studies::file_error(path, e))?;
     }
     Ok(())
-}
-
-/// An error with a path.
-fn file(path: &Path, e: impl std::fmt::Display) -> Error {
-    Error::new(Status::File, format!("{}: {e}", path.display()))
 }

@@ -1,10 +1,10 @@
 //! Tables of the study, and their place in the documentation.
 
-use crate::readings::QUANTITIES;
-use crate::study::{Outcome, Outcomes};
-use crate::table::Table;
 use cagedyn::sim::Verdict;
 use cagedyn::{Error, Result, Status};
+use cagedyn_studies::statistics::readings::QUANTITIES;
+use cagedyn_studies::statistics::study::{Outcome, Outcomes};
+use cagedyn_studies::statistics::table::Table;
 use std::path::Path;
 
 /// Significant digits of values.
@@ -200,7 +200,7 @@ fn number(x: f64) -> String {
 /// [`Status::File`], also when the page has no place for a table.
 pub fn write_page(path: &Path, tables: &[Table]) -> Result<()> {
     const END: &str = "<!-- end -->";
-    let mut page = std::fs::read_to_string(path).map_err(|e| crate::file(path, e))?;
+    let mut page = std::fs::read_to_string(path).map_err(|e| cagedyn_studies::file_error(path, e))?;
     for table in tables {
         let marker = format!("<!-- {} -->\n", table.name);
         let start = page.find(&marker).map(|at| at + marker.len());
@@ -209,5 +209,5 @@ pub fn write_page(path: &Path, tables: &[Table]) -> Result<()> {
             .ok_or_else(|| Error::new(Status::File, format!("{}: no place for {marker}", path.display())))?;
         page.replace_range(place, &format!("\n{}\n", table.text()));
     }
-    std::fs::write(path, page).map_err(|e| crate::file(path, e))
+    std::fs::write(path, page).map_err(|e| cagedyn_studies::file_error(path, e))
 }

@@ -1,6 +1,6 @@
 //! One random scene with every preset.
 
-use crate::scenes;
+use crate::judge::scenes;
 use cagedyn::integrate::Tuning;
 use cagedyn::sim::{LEVEL, Sample};
 use cagedyn::{Error, Model, Sim, Status};

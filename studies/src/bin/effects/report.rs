@@ -1,10 +1,10 @@
 //! Tables of the study: as text, as CSV files and in the documentation.
 
 use crate::measure::Cost;
-use crate::rows::{Kind, Study};
 use crate::study::{Change, Outcome, Readings};
 use cagedyn::model::LAWS;
 use cagedyn::{Error, Result, Status};
+use cagedyn_studies::effects::rows::{Kind, Study};
 use std::path::Path;
 
 /// What was found for one scene.
@@ -85,7 +85,7 @@ impl Report {
                 lines.into_iter().try_for_each(|line| writer.write_record(line))?;
                 Ok(writer.flush()?)
             };
-            write().map_err(|e: csv::Error| crate::file(&path, e))?;
+            write().map_err(|e: csv::Error| cagedyn_studies::file_error(&path, e))?;
         }
         Ok(())
     }
@@ -211,7 +211,7 @@ impl Table {
 /// [`Status::File`], also when the page has no place for a table.
 pub fn write_page(path: &Path, reports: &[Report]) -> Result<()> {
     const END: &str = "<!-- end -->";
-    let mut page = std::fs::read_to_string(path).map_err(|e| crate::file(path, e))?;
+    let mut page = std::fs::read_to_string(path).map_err(|e| cagedyn_studies::file_error(path, e))?;
     for report in reports {
         for table in report.tables() {
             let marker = format!("<!-- {} {} -->\n", report.study.name, table.name);
@@ -223,5 +223,5 @@ pub fn write_page(path: &Path, reports: &[Report]) -> Result<()> {
             page.replace_range(place, &format!("\n{}\n", table.text()));
         }
     }
-    std::fs::write(path, page).map_err(|e| crate::file(path, e))
+    std::fs::write(path, page).map_err(|e| cagedyn_studies::file_error(path, e))
 }

@@ -33,6 +33,6 @@ impl Table {
             std::iter::once(&self.head).chain(&self.lines).try_for_each(|line| writer.write_record(line))?;
             Ok(writer.flush()?)
         };
-        write().map_err(|e: csv::Error| crate::file(&path, e))
+        write().map_err(|e: csv::Error| crate::file_error(&path, e))
     }
 }

@@ -1,13 +1,13 @@
 //! The picture of the study: cost of every effect beside the change of every result.
 
-use crate::bar::Bar;
 use crate::report::Report;
-use crate::rows::Kind;
-use crate::style::{
+use cagedyn::Result;
+use cagedyn_studies::effects::bar::Bar;
+use cagedyn_studies::effects::rows::Kind;
+use cagedyn_studies::plots::style::{
     self, BLUE, Canvas, Drawn, FAINT, GRID, INK, LEFT, MUTED, ORANGE, PAPER, Paint, TEXT, line, px, text,
     text_width,
 };
-use cagedyn::Result;
 use plotters::element::{PathElement, Rectangle, Text};
 use plotters::style::Color;
 use plotters::style::text_anchor::{HPos, VPos};

@@ -17,7 +17,7 @@ impl States {
     pub fn save(&self, path: &Path) -> Result<()> {
         let numbers = self.0.iter().flat_map(|(t, state)| std::iter::once(t).chain(state));
         let bytes: Vec<u8> = numbers.flat_map(|x| x.to_le_bytes()).collect();
-        std::fs::write(path, bytes).map_err(|e| file(path, e))
+        std::fs::write(path, bytes).map_err(|e| crate::file_error(path, e))
     }
 
     /// Reads states of `length` numbers.
@@ -25,7 +25,7 @@ impl States {
     /// # Errors
     /// [`Status::File`].
     pub fn load(path: &Path, length: usize) -> Result<Self> {
-        let bytes = std::fs::read(path).map_err(|e| file(path, e))?;
+        let bytes = std::fs::read(path).map_err(|e| crate::file_error(path, e))?;
         let (chunks, _) = bytes.as_chunks();
         let numbers: Vec<f64> = chunks.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect();
         Ok(Self(numbers.chunks_exact(length + 1).map(|row| (row[0], row[1..].to_vec())).collect()))
@@ -67,15 +67,11 @@ pub fn instructions(program: &Path, arguments: &[&str], variables: &[(&str, &str
         .args(arguments)
         .envs(variables.iter().copied())
         .output()
-        .map_err(|e| file(Path::new("valgrind"), e))?;
+        .map_err(|e| crate::file_error(Path::new("valgrind"), e))?;
     let text = String::from_utf8_lossy(&output.stderr);
     let counted = text.lines().find_map(|line| line.split_once("Collected :")?.1.trim().parse().ok());
     match counted {
         Some(count) if output.status.success() && count > 0 => Ok(count),
         _ => Err(Error::new(Status::File, format!("callgrind: {}\n{text}", output.status))),
     }
-}
-
-fn file(path: &Path, e: std::io::Error) -> Error {
-    Error::new(Status::File, format!("{}: {e}", path.display()))
 }

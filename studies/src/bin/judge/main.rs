@@ -4,15 +4,10 @@
 //! and those whose missing energy is more than the preset promises although they are trusted. `--means` compares the means of
 //! the cage's place and speed with two runs of `reference` that start 1e-9 of a clearance apart.
 
-#[allow(dead_code)] // shared with the tests
-#[path = "../../tests/common/random.rs"]
-mod random;
-mod run;
-mod scenes;
-mod summary;
 mod tuning;
 
 use cagedyn::integrate::Tuning;
+use cagedyn_studies::judge::{run, scenes, summary};
 use clap::Parser;
 
 #[derive(Parser)]

@@ -1,7 +1,7 @@
 //! What each constant of `auto` does: scenes at `engineering` with half and with twice of it.
 
-use crate::run::{Options, Verdict, judge_all};
 use cagedyn::integrate::Tuning;
+use cagedyn_studies::judge::run::{Options, Verdict, judge_all};
 use std::ops::Range;
 
 /// What many runs came to.

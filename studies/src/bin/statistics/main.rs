@@ -2,20 +2,9 @@
 //!
 //! Prints tables and writes `out/statistics/*.csv`; with `--docs` also the tables of `docs/results/statistics.md`.
 
-mod cases;
-#[allow(dead_code)] // shared with the tests, which also use its other method
-#[path = "../../tests/common/cvode/mod.rs"]
-mod cvode;
-mod methods;
-mod readings;
 mod report;
-#[allow(dead_code)] // shared with the command line tool, which also looks for peaks
-#[path = "../../src/bin/cagedyn/spectrum.rs"]
-mod spectrum;
-mod study;
-mod table;
-
-use cagedyn::{Error, Result, Status};
+use cagedyn::Result;
+use cagedyn_studies::statistics::{cases, study, table};
 use clap::Parser;
 use std::path::{Path, PathBuf};
 
@@ -54,7 +43,7 @@ fn main() -> Result<()> {
     overview.iter().for_each(print);
     let mut tables: Vec<_> = overview.into_iter().collect();
     tables.extend(all.iter().flat_map(report::of_case));
-    std::fs::create_dir_all(&arguments.out).map_err(|e| file(&arguments.out, e))?;
+    std::fs::create_dir_all(&arguments.out).map_err(|e| cagedyn_studies::file_error(&arguments.out, e))?;
     tables.iter().try_for_each(|table| table.save(&arguments.out))?;
     if arguments.docs {
         report::write_page(Path::new("docs/results/statistics.md"), &tables)?;
@@ -64,9 +53,4 @@ fn main() -> Result<()> {
 
 fn print(table: &table::Table) {
     println!("{}\n\n{}", table.name, table.text());
-}
-
-/// An error with a path.
-fn file(path: &Path, e: impl std::fmt::Display) -> Error {
-    Error::new(Status::File, format!("{}: {e}", path.display()))
 }

@@ -1,6 +1,6 @@
 //! Scenes of the study, with what is changed in them and how long they are followed.
 
-use crate::methods::{Method, leapfrog, library};
+use crate::statistics::methods::{Method, leapfrog, library};
 use cagedyn::{Error, Model, Result, Scene, Sim, Status};
 use serde_json::{Value, json};
 use std::path::Path;

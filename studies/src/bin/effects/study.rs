@@ -1,9 +1,9 @@
 //! Runs of the scenes of the study and what they show.
 
-use crate::count::States;
-use crate::rows::Row;
 use cagedyn::sim::RunStatistics;
 use cagedyn::{Error, Model, Recording, Result, Scene, Sim, Status};
+use cagedyn_studies::effects::count::States;
+use cagedyn_studies::effects::rows::Row;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::Mutex;

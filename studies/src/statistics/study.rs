@@ -1,9 +1,9 @@
 //! Runs of all cases with all methods, and how far each is from the reference.
 
-use crate::cases::Case;
 use crate::cvode::{self, Derivatives};
-use crate::methods::{METHODS, Method, Solver};
-use crate::readings::{QUANTITIES, Record};
+use crate::statistics::cases::Case;
+use crate::statistics::methods::{METHODS, Method, Solver};
+use crate::statistics::readings::{QUANTITIES, Record};
 use cagedyn::sim::{LEVEL, Sample, Verdict};
 use cagedyn::{Error, Result, Sim, Status};
 use serde_json::json;

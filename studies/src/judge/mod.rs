@@ -1,0 +1,5 @@
+//! Presets on random scenes that nothing was tuned to.
+
+pub mod run;
+pub mod scenes;
+pub mod summary;
