@@ -99,23 +99,61 @@ impl Default for Solver {
     }
 }
 
-/// Integration method.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum Method {
-    /// Chooses method and step from the scene and from what it measures while running.
-    Auto(Auto),
-    /// Semi-implicit leapfrog of fixed step: one force evaluation per step; the choice for statistics of long runs.
-    Leapfrog(Leapfrog),
+/// Defines [`Method`] with all methods that have error control, each with its name in scenes and its usual name.
+macro_rules! methods {
+    ($($(#[$doc:meta])* $variant:ident = $name:literal, $title:literal;)+) => {
+        /// Integration method.
+        #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+        #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+        #[serde(rename_all = "snake_case", deny_unknown_fields)]
+        pub enum Method {
+            /// Chooses method and step from the scene and from what it measures while running.
+            Auto(Auto),
+            /// Semi-implicit leapfrog of fixed step: one force evaluation per step; the choice for statistics of long runs.
+            Leapfrog(Leapfrog),
+            $($(#[$doc])* #[serde(rename = $name)] $variant(ErrorControl),)+
+        }
+
+        impl Method {
+            /// Name, as in scenes.
+            pub fn name(&self) -> &'static str {
+                match self {
+                    Self::Auto(_) => "auto",
+                    Self::Leapfrog(_) => "leapfrog",
+                    $(Self::$variant(_) => $name,)+
+                }
+            }
+
+            /// Its usual name, or what it does.
+            pub fn title(&self) -> &'static str {
+                match self {
+                    Self::Auto(_) => "chosen while running",
+                    Self::Leapfrog(_) => "leapfrog",
+                    $(Self::$variant(_) => $title,)+
+                }
+            }
+
+            /// The tolerance that the scene gives it, if it does.
+            pub fn tolerance(&self) -> Option<f64> {
+                match self {
+                    Self::Auto(auto) => auto.tolerance,
+                    Self::Leapfrog(_) => None,
+                    $(Self::$variant(control) => control.tolerance,)+
+                }
+            }
+        }
+    };
+}
+
+methods! {
     /// Dormand-Prince 5(4) with error control: the choice for accurate trajectories.
-    DormandPrince(ErrorControl),
+    DormandPrince = "dormand_prince", "Dormand-Prince 5(4)";
     /// Rosenbrock method of order 4(3) on the exact derivatives, with error control: the choice for accurate
     /// trajectories of stiff scenes, such as thin films and heavy loads.
-    Rosenbrock(ErrorControl),
+    Rosenbrock = "rosenbrock", "Rosenbrock 4(3)";
     /// Radau IIA method of order 5 on the exact derivatives, with error control: the choice for extreme accuracy where
     /// films are stiff and nothing else touches.
-    Radau(ErrorControl),
+    Radau = "radau", "Radau IIA 5";
 }
 
 /// Parameters of the choice.

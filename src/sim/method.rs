@@ -20,15 +20,14 @@ const FIRST_STEP: f64 = 0.1;
 
 /// The method that is asked for.
 pub(super) fn stepper(model: &Model, solver: &Solver, bearing: &Bearing) -> Box<dyn Stepper<Bearing> + Send> {
-    let units = model.state_scales();
-    let usual = numbers(solver.preset).tolerance;
-    let tolerance = |t: Option<f64>| units.iter().map(|unit| t.unwrap_or(usual) * unit).collect::<Vec<_>>();
+    let tolerance = solver.method.tolerance().unwrap_or(numbers(solver.preset).tolerance);
+    let tolerances: Vec<f64> = model.state_scales().iter().map(|unit| tolerance * unit).collect();
     match &solver.method {
         Method::Auto(_) => Box::new(Auto::new(bearing, aim(model, solver, bearing.tuning()))),
         Method::Leapfrog(_) => Box::new(Leapfrog::new(bearing)),
-        Method::DormandPrince(m) => Box::new(DormandPrince::new(bearing, &tolerance(m.tolerance))),
-        Method::Rosenbrock(m) => Box::new(Rosenbrock::new(bearing, &tolerance(m.tolerance))),
-        Method::Radau(m) => Box::new(Radau::new(bearing, &tolerance(m.tolerance))),
+        Method::DormandPrince(_) => Box::new(DormandPrince::new(bearing, &tolerances)),
+        Method::Rosenbrock(_) => Box::new(Rosenbrock::new(bearing, &tolerances)),
+        Method::Radau(_) => Box::new(Radau::new(bearing, &tolerances)),
     }
 }
 
@@ -41,7 +40,7 @@ pub(super) fn limits(model: &Model, solver: &Solver) -> Limits {
             let share = if model.damped() { damped } else { UNDAMPED_SHARE * damped };
             (share / model.highest_frequency()).min(MAX_NOMINAL_STEP)
         }),
-        Method::DormandPrince(_) | Method::Rosenbrock(_) | Method::Radau(_) => first_step(model, solver),
+        _ => first_step(model, solver),
     };
     Limits {
         nominal_step: nominal_step.min(bound(solver)).max(solver.min_step),
@@ -72,10 +71,7 @@ fn first_step(model: &Model, solver: &Solver) -> f64 {
 /// Rollers between raceways vibrate most of the time and make the motion chaotic within milliseconds, so their statistics
 /// are what can be had at little cost; everything else is smooth between contacts.
 fn aim(model: &Model, solver: &Solver, tuning: Tuning) -> Aim {
-    let asked = match &solver.method {
-        Method::Auto(auto) => auto.tolerance,
-        _ => None,
-    };
+    let asked = solver.method.tolerance();
     let Numbers { statistics, leapfrog_step, tolerance, affordable, missing_energy } = numbers(solver.preset);
     let statistics = statistics && model.has_rollers() && asked.is_none();
     let units = model.state_scales();
@@ -102,17 +98,6 @@ pub(super) fn name(kind: Kind) -> &'static str {
         Kind::Leapfrog => "leapfrog",
         Kind::DormandPrince => "dormand_prince",
         Kind::Rosenbrock => "rosenbrock",
-    }
-}
-
-/// The scene's method.
-pub(super) fn named(method: &Method) -> &'static str {
-    match method {
-        Method::Auto(_) => "auto",
-        Method::Leapfrog(_) => name(Kind::Leapfrog),
-        Method::DormandPrince(_) => name(Kind::DormandPrince),
-        Method::Rosenbrock(_) => name(Kind::Rosenbrock),
-        Method::Radau(_) => "radau",
     }
 }
 

@@ -408,7 +408,7 @@ impl Sim {
     pub fn report(&mut self) -> String {
         let mut text = match self.driver.choice() {
             Some(choice) => method::describe(&choice),
-            None => method::named(&self.solver.method).to_owned(),
+            None => self.solver.method.name().to_owned(),
         };
         let rms = self.driver.statistics().vibration.rms();
         if rms > 0.0 {

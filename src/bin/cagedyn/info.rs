@@ -178,14 +178,12 @@ fn geometry(model: &Model) -> Vec<Vec<String>> {
 fn integration(model: Arc<Model>) -> Vec<Vec<String>> {
     let solver = model.scene().solver.clone();
     let record = model.scene().record.clone();
-    let tolerance = |t: Option<f64>| t.map_or(String::new(), |t| format!(", tolerance {t}"));
-    let (method, kind) = match &solver.method {
-        Method::Auto(m) => (format!("chosen while running{}", tolerance(m.tolerance)), "first step"),
-        Method::Leapfrog(m) if m.step.is_some() => ("leapfrog".to_owned(), "step, set by the scene"),
-        Method::Leapfrog(_) => ("leapfrog".to_owned(), "step, from the highest contact frequency"),
-        Method::DormandPrince(m) => (format!("Dormand-Prince 5(4){}", tolerance(m.tolerance)), "first step"),
-        Method::Radau(m) => (format!("Radau IIA 5{}", tolerance(m.tolerance)), "first step"),
-        Method::Rosenbrock(m) => (format!("Rosenbrock 4(3){}", tolerance(m.tolerance)), "first step"),
+    let tolerance = solver.method.tolerance().map_or(String::new(), |t| format!(", tolerance {t}"));
+    let method = format!("{}{tolerance}", solver.method.title());
+    let kind = match &solver.method {
+        Method::Leapfrog(m) if m.step.is_some() => "step, set by the scene",
+        Method::Leapfrog(_) => "step, from the highest contact frequency",
+        _ => "first step",
     };
     let step =
         first_step(model).map_or_else(|e| format!("no step possible: {e}"), |s| format!("{} s", number(s)));

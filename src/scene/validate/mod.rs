@@ -254,25 +254,15 @@ impl Scene {
         }
         number("initial.first_roller_angle", self.initial.first_roller_angle, ANGLE)?;
         number("solver.min_step", self.solver.min_step, range(1e-18, 1e-6, "s"))?;
-        let tolerance = || range(1e-13, 1e-1, "");
         optional("solver.max_step", self.solver.max_step, range(self.solver.min_step, 1e-2, "s"))?;
-        match &self.solver.method {
-            Method::Auto(m) => optional("solver.method.auto.tolerance", m.tolerance, tolerance())?,
-            Method::Leapfrog(m) => {
-                let largest = self.solver.max_step.unwrap_or(LARGEST_LEAPFROG_STEP);
-                let largest = largest.min(LARGEST_LEAPFROG_STEP);
-                let allowed = range(self.solver.min_step.max(1e-10).min(largest), largest, "s");
-                optional("solver.method.leapfrog.step", m.step, allowed)?;
-            }
-            Method::Rosenbrock(m) => {
-                optional("solver.method.rosenbrock.tolerance", m.tolerance, tolerance())?;
-            }
-            Method::Radau(m) => {
-                optional("solver.method.radau.tolerance", m.tolerance, tolerance())?;
-            }
-            Method::DormandPrince(m) => {
-                optional("solver.method.dormand_prince.tolerance", m.tolerance, tolerance())?;
-            }
+        let method = &self.solver.method;
+        let path = format!("solver.method.{}.tolerance", method.name());
+        optional(&path, method.tolerance(), range(1e-13, 1e-1, ""))?;
+        if let Method::Leapfrog(m) = method {
+            let largest = self.solver.max_step.unwrap_or(LARGEST_LEAPFROG_STEP);
+            let largest = largest.min(LARGEST_LEAPFROG_STEP);
+            let allowed = range(self.solver.min_step.max(1e-10).min(largest), largest, "s");
+            optional("solver.method.leapfrog.step", m.step, allowed)?;
         }
         if self.solver.max_steps == 0 {
             return Err(bad("solver.max_steps", "0 is not allowed; at least 1"));

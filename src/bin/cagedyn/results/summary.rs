@@ -5,7 +5,6 @@ use crate::results::finished::Run;
 use crate::results::motion::whirl;
 use crate::starts::Starts;
 use cagedyn::model::{Channel, FAULTS, LAWS, PARTS, POWERS};
-use cagedyn::scene::Method;
 use cagedyn::sim::PowerBalance;
 use cagedyn::{CageMotion, Interval, Recording, Spread, WhirlSummary};
 use serde::{Serialize, Serializer};
@@ -324,16 +323,9 @@ fn balance(b: &PowerBalance) -> Balance {
 
 fn integration(run: &Run) -> Integration {
     let driver = &run.statistics.driver;
-    let method = match run.model.scene().solver.method {
-        Method::Auto(_) => "auto",
-        Method::Leapfrog(_) => "leapfrog",
-        Method::DormandPrince(_) => "dormand_prince",
-        Method::Rosenbrock(_) => "rosenbrock",
-        Method::Radau(_) => "radau",
-    };
     Integration {
         preset: run.model.scene().solver.preset.name(),
-        method,
+        method: run.model.scene().solver.method.name(),
         report: run.report.clone(),
         steps: driver.steps,
         rejected: driver.rejected,
