@@ -4,6 +4,7 @@ use super::{
     BodyEnergy, BodyForces, Coordinate, Element, ElementMotion, ElementSet, Elements, Fault, Inertia, Input,
     InputValues, Layout, Motions, OF_ELEMENT,
 };
+use crate::integrate::GroupDamping;
 use crate::integrate::linear::Spoke;
 use crate::scene::Scene;
 use crate::space::Wrench;
@@ -79,6 +80,8 @@ impl Elements for KinematicElements {
     ) -> [f64; OF_ELEMENT] {
         [0.0; OF_ELEMENT]
     }
+
+    fn accelerations_of(&self, _motions: &Motions, _damping: &mut GroupDamping) {}
 
     fn energy(&self, _element: &Element, _gravity: [f64; 2]) -> BodyEnergy {
         BodyEnergy::default()

@@ -11,7 +11,7 @@
 //! The travel of a roller and the angle of the cage both count from the start, so the place of a roller in its pocket
 //! is their difference and does not depend on where in the bearing it is.
 
-use super::{CAGE, Coordinate, Elements, INNER_RING, SHARED, SharedBodies};
+use super::{CAGE, INNER_RING, SHARED};
 use crate::integrate::Structure;
 use crate::integrate::linear::HUB;
 
@@ -32,17 +32,15 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// The layout of these bodies.
-    pub(crate) fn new(bodies: &SharedBodies, elements: &dyn Elements) -> Self {
-        let widths = bodies.each_ref().map(|body| body.as_ref().map_or(0, |b| b.coordinates().len()));
+    /// The layout of shared bodies with so many coordinates each and so many free rollers.
+    pub(crate) fn new(widths: [usize; SHARED], count: usize) -> Self {
         let mut next = 0;
         let shared = widths.map(|width| {
             let first = next;
             next += width;
             (width > 0).then_some(first)
         });
-        let free = !elements.coordinates().is_empty();
-        Self { shared, widths, rollers: next, count: if free { elements.set().count } else { 0 } }
+        Self { shared, widths, rollers: next, count }
     }
 
     /// First coordinate of the inner ring, if it is free.
@@ -136,42 +134,3 @@ impl Layout {
 
 /// First place of each shared body in the hub of the linear systems. The outer ring has none.
 pub(crate) const IN_HUB: [usize; SHARED] = [HUB, 0, 2];
-
-/// What a state of a coordinate is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum State {
-    Position,
-    Rate,
-}
-
-impl State {
-    pub(crate) fn is_rate(self) -> bool {
-        self == Self::Rate
-    }
-}
-
-impl Layout {
-    /// All states in order: what they are, their body and their coordinate.
-    pub(crate) fn states_of<'a>(
-        bodies: &'a SharedBodies,
-        elements: &'a dyn Elements,
-    ) -> impl Iterator<Item = (State, String, &'static Coordinate)> + 'a {
-        let (kind, count) = (elements.kind(), elements.set().count);
-        let coordinates = move |states: &'static [State], with_position: bool| {
-            let of_shared = bodies.iter().flatten().flat_map(|body| {
-                body.coordinates().iter().map(|coordinate| (body.name().to_owned(), coordinate))
-            });
-            let of_elements = (0..count).flat_map(move |j| {
-                elements.coordinates().iter().map(move |coordinate| (format!("{kind}[{j}]"), coordinate))
-            });
-            let chosen =
-                of_shared.chain(of_elements).filter(move |(_, c)| c.position.is_some() == with_position);
-            chosen.flat_map(|(body, coordinate)| {
-                states.iter().map(move |state| (*state, body.clone(), coordinate))
-            })
-        };
-        // Rates follow in the order of the positions, then those of coordinates without position.
-        let positions = coordinates(&[State::Position], true);
-        positions.chain(coordinates(&[State::Rate], true)).chain(coordinates(&[State::Rate], false))
-    }
-}

@@ -12,22 +12,28 @@
 //! [`elements`].
 
 mod cage;
+mod element_set;
 mod elements;
 mod fault;
 mod inputs;
 mod kinematic;
 mod layout;
+mod motions;
 mod places;
 mod ring;
 mod rollers;
+mod states;
 
 pub(crate) use fault::FaultKind;
 pub use fault::{FAULTS, Fault, FaultCounts};
 pub use inputs::{HostInputs, INPUTS, Input, InputValues};
 pub use layout::Layout;
 
-pub(crate) use elements::{Element, ElementMotion, ElementSet, Elements, Inertia, Motions, scale_rows};
-pub(crate) use layout::{IN_HUB, OF_ELEMENT, State};
+pub(crate) use element_set::ElementSet;
+pub(crate) use elements::{Elements, Inertia, UPPER, scale_rows};
+pub(crate) use layout::{IN_HUB, OF_ELEMENT};
+pub(crate) use motions::{Element, ElementMotion, Motions};
+pub(crate) use states::{State, layout_of, states_of};
 
 use crate::registry::registry;
 use crate::scene::Scene;
@@ -161,10 +167,10 @@ pub(crate) trait SharedBody: Debug + Send + Sync {
     /// Accelerations of its coordinates by a wrench alone, at the angle `angle` (rad).
     fn response(&self, on_body: &Wrench<f64>, angle: f64) -> [f64; 3];
 
-    /// Accelerations `a` of its coordinates by all forces on it but the weight.
+    /// Accelerations `a` of its coordinates by all other forces on it and its weight.
     fn accelerate(&self, on_body: &Wrench<f64>, motion: &Motion<f64>, gravity: [f64; 2], a: &mut [f64]);
 
-    /// The wrench that makes these accelerations, without the weight: what [`SharedBody::accelerate`] turns round.
+    /// The wrench beside the weight that makes these accelerations: what [`SharedBody::accelerate`] turns round.
     fn wrench_for(&self, a: [f64; 3], motion: &Motion<f64>, gravity: [f64; 2]) -> Wrench<f64>;
 
     /// Rows of (force, moment) as rows of accelerations, at the angle `angle` (rad).

@@ -6,14 +6,17 @@
 //!
 //! The travel counts from the centred place of the pocket at the start; the spin angle enters no force.
 
-use super::elements::scale_rows;
+use super::elements::{UPPER, scale_rows};
 use super::{
     BodyEnergy, BodyForces, Coordinate, Element, ElementMotion, ElementSet, Elements, Fault, ForceSource,
     Inertia, Input, InputValues, Layout, Motions, Moves, OF_ELEMENT, weight,
 };
+use crate::integrate::GroupDamping;
 use crate::integrate::linear::Spoke;
+use crate::scalar::{Columns, Pack, dispatch};
 use crate::scene::Scene;
 use crate::space::Wrench;
+use pulp::Simd;
 
 /// A roller this far from the pitch circle, in pitch radii, has left the bearing.
 const LOST_ROLLER: f64 = 0.25;
@@ -182,6 +185,17 @@ impl Elements for Rollers {
         inverse
     }
 
+    fn accelerations_of(&self, motions: &Motions, damping: &mut GroupDamping) {
+        let divide = Divide {
+            inertia: self.inertia,
+            pitch_radius: self.set.pitch_radius,
+            rows: self.set.count,
+            radial_offset: &motions.places.radial_offset,
+            damping,
+        };
+        dispatch(motions.instructions, divide);
+    }
+
     fn energy(&self, element: &Element, gravity: [f64; 2]) -> BodyEnergy {
         let Inertia { mass, moment } = self.inertia;
         let m = &element.motion;
@@ -196,5 +210,43 @@ impl Elements for Rollers {
 
     fn report(&self, gravity: [f64; 2], out: &mut BodyForces) {
         out[ForceSource::Gravity as usize] = weight(self.inertia.mass, gravity);
+    }
+}
+
+/// From force over speed in the local frame to acceleration over rate of the coordinates.
+struct Divide<'a> {
+    inertia: Inertia,
+    pitch_radius: f64,
+    rows: usize,
+    radial_offset: &'a [f64],
+    damping: &'a mut GroupDamping,
+}
+
+impl Columns for Divide<'_> {
+    const PAIRED: bool = false;
+
+    fn rows(&self) -> usize {
+        self.rows
+    }
+
+    #[inline(always)]
+    #[expect(clippy::needless_range_loop, reason = "iterators might not be inlined")]
+    fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
+        let Self { inertia, pitch_radius, radial_offset, damping, .. } = self;
+        let Inertia { mass, moment } = *inertia;
+        let all = |x: f64| Pack::<S, K>::all(simd, x);
+        let r = Pack::load(simd, &radial_offset[first..]) + *pitch_radius;
+        let speed = [all(1.0), r, all(1.0)];
+        let inverse: [_; OF_ELEMENT] = [all(1.0 / mass), all(1.0 / mass) / r, all(1.0 / moment)];
+        for at in 0..UPPER.len() {
+            let (i, k) = UPPER[at];
+            let full = Pack::load(simd, &damping.full[i][k][first..]);
+            let implicit = Pack::load(simd, &damping.implicit[i][k][first..]);
+            let (here, mirrored) = (inverse[i] * speed[k], inverse[k] * speed[i]);
+            (full * here).store(&mut damping.full[i][k][first..]);
+            (full * mirrored).store(&mut damping.full[k][i][first..]);
+            (implicit * here).store(&mut damping.implicit[i][k][first..]);
+            (implicit * mirrored).store(&mut damping.implicit[k][i][first..]);
+        }
     }
 }

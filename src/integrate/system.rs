@@ -115,10 +115,11 @@ pub enum Interruption {
     OutOfTime,
 }
 
-/// Quantities that are integrated over time beside the state, or their integrals: powers or works first, then others.
+/// Quantities that are integrated over time beside the state, or their integrals: powers or works first, zeros where a system
+/// has fewer, and behind them one of another kind.
 pub type Quadratures = [f64; WORKS + 1];
-/// Number of the powers among them.
-pub const WORKS: usize = 11;
+/// Room for powers among them.
+pub const WORKS: usize = 15;
 
 /// A semi-implicit step, whose forces F are linear from those at the evaluated velocities v* on: F(v*) - D (v - v*) with the
 /// share of the change of the step that [`super::implicit_share`] says, and do their work at the mean velocities.

@@ -2,7 +2,7 @@
 
 use super::report::Selection;
 use super::signals::{InputSignals, InputSource, Oil, Orbit};
-use super::{Input, Layout, Model};
+use super::{Input, Model};
 use crate::bodies;
 use crate::error::Result;
 use crate::laws::fluid::walther::Walther;
@@ -21,7 +21,7 @@ pub(super) fn compile(scene: Scene) -> Result<Model> {
     let pairs = pairs::element_pairs(&scene, viscosity)?;
     let radius = elements.set().radius;
     let mut model = Model {
-        layout: Layout::new(&shared, &*elements),
+        layout: bodies::layout_of(&shared, &*elements),
         gravity: scene.gravity.map_or([0.0; 2], |g| [g.y, g.z]),
         shared,
         mobility: elements.inertia().map_or(0.0, |i| 1.0 / i.mass + radius * radius / i.moment),
@@ -35,7 +35,8 @@ pub(super) fn compile(scene: Scene) -> Result<Model> {
         selection: Selection::default(),
         scene,
     };
-    model.selection = Selection::new(&model.scene.record, &model.channels(), model.element_count())?;
+    model.selection =
+        Selection::new(&model.scene.record, &model.channels(), &model.infos, model.element_count())?;
     Ok(model)
 }
 

@@ -8,9 +8,8 @@
 //! | `compile`, `signals` | from the scene to bodies, pairs and inputs |
 //! | `evaluate`, `workspace` | forces and accelerations |
 //! | `linearize` | their exact derivatives |
-//! | `damping`, `step_forces` | what a semi-implicit step needs |
+//! | `integration/` | what integrators need: damping, forces of a semi-implicit step, onsets, units of errors, costs |
 //! | `works` | energies, powers |
-//! | `onsets`, `scales`, `costs` | how long steps may be, units of errors |
 //! | `initial` | start of a run |
 //! | `report/` | names, force reports, channels, what is followed in every step |
 
@@ -215,7 +214,7 @@ impl Model {
         self.shared[CAGE].is_some()
     }
 
-    /// Place of a pair with this force source in the list, if there is one.
+    /// Whether elements touch the cage.
     fn has_pockets(&self) -> bool {
         self.infos.iter().any(|info| info.mate == CAGE)
     }

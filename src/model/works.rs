@@ -21,8 +21,8 @@ use crate::pairs::{Batch, Site};
 use crate::space::Wrench;
 
 /// Behind the powers: 1 while a law between rollers and raceways is at a floor, else 0.
-pub(crate) const AT_FLOOR: usize = POWERS.len();
-const _: () = assert!(POWERS.len() == WORKS);
+pub(crate) const AT_FLOOR: usize = WORKS;
+const _: () = assert!(POWERS.len() <= WORKS, "integrate/system.rs has room for fewer powers");
 
 /// Energy of a state, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -43,8 +43,8 @@ impl Energy {
 }
 
 impl Model {
-    /// Powers at the last evaluated state of `ws`, whose velocities are `v`, W, in the order of [`POWERS`], and whether a law is
-    /// at a floor (1 or 0). With a semi-implicit step those of its forces, which differ from the evaluated ones.
+    /// Powers at the last evaluated state of `ws`, whose velocities are `v`, W, in the order of [`POWERS`], then zeros, and last whether
+    /// a law is at a floor (1 or 0). With a semi-implicit step those of its forces, which differ from the evaluated ones.
     pub fn powers(&self, v: &[f64], step: Option<&SemiImplicit<'_>>, ws: &Workspace) -> Quadratures {
         let mut p = Quadratures::default();
         let motions = &ws.motions;
@@ -95,10 +95,7 @@ impl Model {
     /// Power of contact forces on elements whose motion is prescribed, W.
     fn power_on_elements(&self, ws: &Workspace) -> f64 {
         let on_element = |(site, force): (&Site, ContactForce<f64>)| {
-            let element = ws.motions.element(site.element);
-            let [wrench, _] = site.grip.wrenches(&force);
-            wrench.force[1] * element.radius * element.motion.orbit_speed
-                + wrench.moment * element.motion.spin_speed
+            ws.motions.element(site.element).power(&site.grip.wrenches(&force)[0])
         };
         ws.contacts.batches.iter().flat_map(|batch| batch.forces()).map(on_element).sum()
     }

@@ -37,7 +37,7 @@ impl Workspace {
     /// Memory for evaluations of `model`.
     pub fn new(model: &Model) -> Self {
         Self {
-            motions: Motions::new(&*model.elements),
+            motions: Motions::new(model.elements.set()),
             contacts: Contacts::new(&model.pairs, model.element_count()),
             infos: model.infos.clone(),
             guide: None,
@@ -56,13 +56,6 @@ impl Workspace {
     fn rolling(&self) -> impl Iterator<Item = (&Batch, std::ops::Range<usize>)> {
         let pairs = self.infos.iter().enumerate().filter(|(_, info)| info.rolls);
         pairs.map(|(pair, _)| self.contacts.range(pair))
-    }
-
-    /// Number of contacts that touched in the last evaluation: raceways, pockets.
-    pub fn active_contacts(&self) -> [usize; 2] {
-        let raceways: usize = self.rolling().map(|(_, range)| range.len()).sum();
-        let all: usize = self.contacts.batches.iter().map(Batch::len).sum();
-        [raceways, all - raceways]
     }
 
     /// Normal speeds of the touching raceway contacts at the last evaluated state.

@@ -5,7 +5,7 @@
 
 use super::SlopeSums;
 use super::line_laws::LawBuilder;
-use super::pocket::Passage;
+use super::passage::Passage;
 use crate::bodies::{CAGE, Fault, IN_HUB, INNER_RING, Input, Motions, OUTER_RING, SHARED};
 use crate::error::Result;
 use crate::integrate::Tuning;

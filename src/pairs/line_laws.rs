@@ -20,7 +20,7 @@ pub(crate) struct LawBuilder<'a> {
     viscosity: Option<f64>,
 }
 
-/// One of the two bodies of a line contact.
+/// What the elements of a line contact are made of.
 struct Element<'a> {
     path: &'a str,
     material: &'a str,

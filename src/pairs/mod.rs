@@ -9,13 +9,14 @@
 //!
 //! A pair of elements finds its touching contacts and hands motion and [`Grip`] of each to [`Contacts`]. Wrenches, powers,
 //! damping, the change of forces in a step and the reaction follow from these by the same code for all pairs
-//! (`model/evaluate`, `model/works`, `model/damping`, `model/step_forces`). A new pair is a file with the trait
-//! [`ElementPair`] and a line in [`element_pairs`].
+//! (`model/evaluate`, `model/works`, `model/integration`). A new pair is a file with the trait [`ElementPair`] and a line in
+//! [`element_pairs`]. The guide is no pair of elements: the model has at most one, and asks it by name.
 
 mod contacts;
 pub(crate) mod grip;
 pub mod guide;
 pub(crate) mod line_laws;
+mod passage;
 mod pocket;
 pub(crate) mod raceway;
 mod slope_sums;
@@ -24,7 +25,7 @@ pub(crate) use contacts::{Batch, Contacts, Loaded, Search, Site};
 pub(crate) use grip::{Grip, MateLever};
 pub(crate) use slope_sums::SlopeSums;
 
-use crate::bodies::{Elements, Fault, ForceSource, InputValues, Layout, Motions, Power};
+use crate::bodies::{Elements, Fault, ForceSource, InputValues, Layout, Motions, Power, SHARED};
 use crate::error::Result;
 use crate::integrate::Tuning;
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
@@ -78,11 +79,12 @@ pub(crate) struct PairInfo {
     pub(crate) source: ForceSource,
     /// Names of the contacts that an element can have with it.
     pub(crate) contacts: &'static [&'static str],
-    /// Laws that its contacts are counted by: of walls, of edges.
+    /// Laws that its contacts are counted by, at most [`contacts::LAWS_OF_PAIR`]: of walls, of edges.
     pub(crate) laws: &'static [Law],
     /// Powers that its damping and its friction belong to.
     pub(crate) powers: [Power; 2],
-    /// Whether elements roll on it under load: its vibration is that of the bearing, and its laws have floors.
+    /// Whether elements roll on it under load. Then its vibration is that of the bearing, rolling resistance has a power of its
+    /// own, and floors of its laws are watched.
     pub(crate) rolls: bool,
 }
 
@@ -167,11 +169,18 @@ pub(crate) struct Ahead<'a> {
     pub(crate) q: &'a [f64],
     pub(crate) v: &'a [f64],
     pub(crate) inputs: &'a InputValues,
-    /// Smaller of the masses of the cage and of a free element, kg.
-    pub(crate) lightest: f64,
+    /// Masses of the shared bodies, kg; infinite where one is not free.
+    pub(crate) masses: [f64; SHARED],
     /// Step that is wanted, s.
     pub(crate) wanted: f64,
     pub(crate) tuning: &'a Tuning,
+}
+
+impl Ahead<'_> {
+    /// Smaller of the masses of this shared body and of a free element, kg.
+    pub(crate) fn lightest(&self, mate: usize) -> f64 {
+        self.elements.inertia().map_or(self.masses[mate], |inertia| inertia.mass.min(self.masses[mate]))
+    }
 }
 
 /// Contacts of all elements with one shared body.
@@ -191,6 +200,11 @@ pub(crate) trait ElementPair: Debug + Send + Sync {
     /// Adds the derivatives of the forces of these contacts of a batch over the coordinates of both bodies.
     fn add_slopes(&self, batch: &Batch, contacts: Range<usize>, motions: &Motions, sums: &mut SlopeSums<'_>);
 
+    /// Whether its law sets in so abruptly that steps must be chosen by it.
+    fn has_onset(&self) -> bool {
+        false
+    }
+
     /// The longest step (s) that passes no onset of its law unseen; infinite where the law sets in smoothly.
     fn longest_step(&self, _ahead: &Ahead<'_>) -> f64 {
         f64::INFINITY
@@ -201,14 +215,12 @@ pub(crate) trait ElementPair: Debug + Send + Sync {
         None
     }
 
-    /// Offset of an element in the direction of rotation from the place where the pair holds it, m: with the radial offset and
-    /// the travel of element `j`, and the mate where it is.
-    fn offset(&self, _motion: &ElementPlace) -> Option<f64> {
+    /// Counter-clockwise offset of an element at this place from where the pair holds it, m; `None` where it holds nothing.
+    fn offset(&self, _at: &ElementPlace) -> Option<f64> {
         None
     }
 
-    /// Time of a contact and of its derivatives beside that of finding it, ns, and how many of the contacts of an element are
-    /// to be expected: see [`crate::Model::jacobian_cost`].
+    /// Time of finding its contacts and of their forces, and of the derivatives: see [`crate::Model::jacobian_cost`].
     fn cost(&self) -> Cost;
 }
 

@@ -12,7 +12,7 @@
 //!
 //! The paper applies its law to unloaded contacts too and finds the result too large; [`Extent::Loaded`] leaves it out there.
 //!
-//! A new law is a file with [`RollingLaw`] and its name in `rolling_laws!`.
+//! A new law is a file with `new`, `none`, `map` and `force`, and its name in `rolling_laws!`.
 
 mod rigid_limit;
 mod zhou_hoeprich;
@@ -36,13 +36,8 @@ pub struct RollingFilm<'a> {
     pub pressure_viscosity: f64,
 }
 
-/// A law of isothermal rolling resistance: constants of the surfaces, and F_iso.
-pub trait RollingLaw {
-    /// The same law without force anywhere.
-    fn none(&self) -> Self;
-}
-
-/// Defines the choice among the laws, each of which has `new`, `map` and `force`.
+/// Defines the choice among the laws, each of which has `none` (the same law without force anywhere), `map` over its constants
+/// and `force`, F_iso in N.
 macro_rules! rolling_laws {
     ($($law:ident),+) => {
         /// One of the laws of this folder.

@@ -14,7 +14,7 @@
 //! own constants for line contacts are not used here; its exponent 2 is an assumption. Valid from no load on, below the speeds
 //! at which the film is starved.
 
-use super::{RollingFilm, RollingLaw, ZhouHoeprich};
+use super::{RollingFilm, ZhouHoeprich};
 use crate::laws::film::thickness::Entrainment;
 use crate::scalar::{Base, Of, math};
 
@@ -47,10 +47,9 @@ impl RigidLimit {
             ln_passage: math::ln(passage),
         }
     }
-}
 
-impl RollingLaw for RigidLimit {
-    fn none(&self) -> Self {
+    /// The same law without force anywhere.
+    pub(super) fn none(&self) -> Self {
         Self { loaded: self.loaded.none(), rigid: 0.0, ..*self }
     }
 }

@@ -8,7 +8,7 @@
 //! Fitted to tapered roller bearings under load. At low load it falls slower than the film theory of rigid surfaces does.
 //! Source: NTN Eq. 11.
 
-use super::{RollingFilm, RollingLaw};
+use super::RollingFilm;
 use crate::laws::film::thickness::Entrainment;
 use crate::scalar::{Base, Of, math};
 
@@ -31,10 +31,9 @@ impl ZhouHoeprich {
                 * math::powf(w, 0.246),
         }
     }
-}
 
-impl RollingLaw for ZhouHoeprich {
-    fn none(&self) -> Self {
+    /// The same law without force anywhere.
+    pub(super) fn none(&self) -> Self {
         Self { scale: 0.0 }
     }
 }

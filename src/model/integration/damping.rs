@@ -6,13 +6,11 @@
 //!
 //! and of a shared body the guide, exact by dual numbers, and the contacts with elements of prescribed motion.
 
-use crate::bodies::{CAGE, OF_ELEMENT};
+use crate::bodies::{CAGE, UPPER};
 use crate::integrate::{DampingBlock, GroupDamping, implicit_share};
 use crate::model::Model;
 use crate::model::workspace::Workspace;
-use crate::scalar::{Columns, Pack, dispatch};
 use nalgebra::{Matrix3, Vector3};
-use pulp::Simd;
 
 impl Model {
     /// Damping of every group for a step of size `h` (s).
@@ -47,7 +45,9 @@ impl Model {
     /// That of each element over (radial speed, orbit speed, spin speed): contact damping, half of it implicit, and the secant
     /// slope of friction.
     fn element_damping(&self, h: f64, ws: &Workspace, out: &mut GroupDamping) {
-        let Some(inertia) = self.elements.inertia() else { return };
+        if self.elements.inertia().is_none() {
+            return;
+        }
         for (i, k) in UPPER {
             out.full[i][k].fill(0.0);
             out.implicit[i][k].fill(0.0);
@@ -65,14 +65,7 @@ impl Model {
                 }
             }
         }
-        let divide = Divide {
-            inertia: [inertia.mass, inertia.moment],
-            pitch_radius: self.pitch_radius(),
-            rows: self.layout.count,
-            radial_offset: &ws.motions.places.radial_offset,
-            damping: out,
-        };
-        dispatch(ws.motions.instructions, divide);
+        self.elements.accelerations_of(&ws.motions, out);
     }
 
     /// Share of a guide's damping to take at the end of a step. Where both bodies move, each takes the other's
@@ -102,46 +95,4 @@ fn contact_damping(body: usize, ws: &Workspace) -> Matrix3<f64> {
         }
     }
     slope
-}
-
-/// Places of the upper triangle of a matrix.
-const UPPER: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
-
-/// From force over speed in the local frame to acceleration over rate of the coordinates.
-struct Divide<'a> {
-    /// Mass, kg, and moment of inertia, kg m^2.
-    inertia: [f64; 2],
-    pitch_radius: f64,
-    rows: usize,
-    radial_offset: &'a [f64],
-    damping: &'a mut GroupDamping,
-}
-
-impl Columns for Divide<'_> {
-    const PAIRED: bool = false;
-
-    fn rows(&self) -> usize {
-        self.rows
-    }
-
-    #[inline(always)]
-    #[expect(clippy::needless_range_loop, reason = "iterators might not be inlined")]
-    fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
-        let Self { inertia, pitch_radius, radial_offset, damping, .. } = self;
-        let [mass, moment] = *inertia;
-        let all = |x: f64| Pack::<S, K>::all(simd, x);
-        let r = Pack::load(simd, &radial_offset[first..]) + *pitch_radius;
-        let speed = [all(1.0), r, all(1.0)];
-        let inverse: [_; OF_ELEMENT] = [all(1.0 / mass), all(1.0 / mass) / r, all(1.0 / moment)];
-        for at in 0..UPPER.len() {
-            let (i, k) = UPPER[at];
-            let full = Pack::load(simd, &damping.full[i][k][first..]);
-            let implicit = Pack::load(simd, &damping.implicit[i][k][first..]);
-            let (here, mirrored) = (inverse[i] * speed[k], inverse[k] * speed[i]);
-            (full * here).store(&mut damping.full[i][k][first..]);
-            (full * mirrored).store(&mut damping.full[k][i][first..]);
-            (implicit * here).store(&mut damping.implicit[i][k][first..]);
-            (implicit * mirrored).store(&mut damping.implicit[k][i][first..]);
-        }
-    }
 }

@@ -25,33 +25,33 @@ impl Model {
         tuning: &Tuning,
     ) -> f64 {
         let mut longest = self.inputs.shortest_period(host) / tuning.steps_per_period;
-        let Some(mass) = self.shared[CAGE].as_ref().and_then(|cage| cage.mass()) else { return longest };
-        let prescribed = self.elements.inertia().is_none();
-        // Inputs matter where a ring that turns guides the cage, or elements move by them.
-        let moved = self.guide.as_ref().is_some_and(|guide| guide.ring != OUTER_RING) || prescribed;
-        let inputs = if moved { self.inputs_at(t, host) } else { InputValues::default() };
+        let onsets = self.pairs.iter().any(|pair| pair.has_onset());
+        // A ring that stands guides at no input.
+        let moved = self.guide.as_ref().is_some_and(|guide| guide.ring != OUTER_RING);
+        let inputs = if moved || onsets { self.inputs_at(t, host) } else { InputValues::default() };
+        let mass = |body: usize| self.shared[body].as_ref().and_then(|body| body.mass());
         let mut shared = [Motion::default(); SHARED];
-        shared[CAGE] = self.motion_of(CAGE, q, v, &inputs);
         if let Some(guide) = &self.guide {
-            shared[guide.ring] = self.motion_of(guide.ring, q, v, &inputs);
-            longest = longest.min(guide.longest_step(&shared, mass, tuning));
+            for body in [CAGE, guide.ring] {
+                shared[body] = self.motion_of(body, q, v, &inputs);
+            }
+            longest = longest.min(guide.longest_step(&shared, mass(CAGE).unwrap_or(0.0), tuning));
         }
-        let lightest = self.elements.inertia().map_or(mass, |inertia| inertia.mass.min(mass));
+        if !onsets {
+            return longest;
+        }
         let ahead = Ahead {
-            shared: &shared,
+            shared: &std::array::from_fn::<_, SHARED, _>(|body| self.motion_of(body, q, v, &inputs)),
             elements: &*self.elements,
             layout: &self.layout,
             q,
             v,
             inputs: &inputs,
-            lightest,
+            masses: std::array::from_fn(|body| mass(body).unwrap_or(f64::INFINITY)),
             wanted,
             tuning,
         };
-        for pair in &self.pairs {
-            longest = longest.min(pair.longest_step(&ahead));
-        }
-        longest
+        self.pairs.iter().map(|pair| pair.longest_step(&ahead)).fold(longest, f64::min)
     }
 }
 

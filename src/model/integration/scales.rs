@@ -1,8 +1,8 @@
 //! Lengths, frequencies and rates that describe a model as a whole: what errors are measured by, and what limits the
 //! steps.
 
-use crate::bodies::{CAGE, INNER_RING, Moves};
-use crate::model::{Input, Layout, Model};
+use crate::bodies::{CAGE, ForceSource, INNER_RING, Moves, states_of};
+use crate::model::{Input, Model};
 use crate::pairs::ContactLaw;
 use crate::scalar::math;
 
@@ -33,7 +33,7 @@ impl Model {
     pub fn highest_frequency(&self) -> f64 {
         let (rollers, pocket_load) = self.roller_frequencies().unwrap_or((0.0, 1.0));
         let cage = self.shared[CAGE].as_ref().map_or(0.0, |cage| {
-            let pockets = self.laws_on(CAGE).next().map_or(0.0, |law| law.stiffness_at_load(pocket_load));
+            let pockets: f64 = self.laws_on(CAGE).map(|law| law.stiffness_at_load(pocket_load)).sum();
             let solid = self.guide.as_ref().and_then(|guide| guide.law().solid);
             let guide = solid.map_or(0.0, |solid| solid.contact.stiffness);
             cage.frequency_on(guide, pockets * self.element_count() as f64, self.pitch_radius())
@@ -50,7 +50,7 @@ impl Model {
     fn roller_frequencies(&self) -> Option<(f64, f64)> {
         let inertia = self.elements.inertia()?;
         let rolling = || self.infos.iter().zip(&self.laws).filter(|(info, _)| info.rolls).map(|(_, law)| law);
-        let inner = self.laws_on(INNER_RING).next()?;
+        let inner = self.law_of(ForceSource::InnerRaceway)?;
         let largest = |input| self.inputs.largest(input);
         let (ring, count) = (self.shared[INNER_RING].as_ref(), self.layout.count as f64);
         let ring_mass = ring.and_then(|ring| ring.mass());
@@ -70,7 +70,7 @@ impl Model {
 
     /// Whether the contacts that set the highest frequency are damped.
     pub fn damped(&self) -> bool {
-        let raceway = self.laws_on(INNER_RING).next();
+        let raceway = self.law_of(ForceSource::InnerRaceway);
         raceway.or_else(|| self.laws_on(CAGE).next()).is_none_or(ContactLaw::damped)
     }
 
@@ -79,7 +79,7 @@ impl Model {
     pub fn state_scales(&self) -> Vec<f64> {
         let length = self.reference_length();
         let (pitch, radius) = (self.pitch_radius(), self.elements.set().radius);
-        let scales = Layout::states_of(&self.shared, &*self.elements).map(|(state, _, coordinate)| {
+        let scales = states_of(&self.shared, &*self.elements).map(|(state, _, coordinate)| {
             let unit = match coordinate.moves {
                 Moves::Itself => length,
                 Moves::PitchCircle => length / pitch,

@@ -85,11 +85,9 @@ impl Model {
         }
         let [nr, nc] = site.grip.normal_on_element();
         let places = self.layout.of_element(site.element);
-        let r = motions.element(site.element).radius;
-        let change = |to: &[f64]| -> [f64; OF_ELEMENT] {
-            let [j, orbit, spin] = places;
-            [to[j] - v[j], r * (to[orbit] - v[orbit]), to[spin] - v[spin]]
-        };
+        let element = motions.element(site.element);
+        let change =
+            |to: &[f64]| -> [f64; OF_ELEMENT] { element.local_speeds(places.map(|at| to[at] - v[at])) };
         let slip = |[radial, across, turning]: [f64; OF_ELEMENT]| {
             nr * across - nc * radial + site.grip.arm * turning
         };

@@ -176,7 +176,8 @@ impl Model {
         if self.has_raceways() {
             add("inner_force", "N", "normal force on the inner raceway", Source::InnerForce(j));
             add("outer_force", "N", "normal force on the outer raceway", Source::OuterForce(j));
-            if self.laws[0].line().is_some_and(|law| law.film.is_some()) {
+            let law = self.law_of(ForceSource::OuterRaceway).and_then(ContactLaw::line);
+            if law.is_some_and(|law| law.film.is_some()) {
                 add("inner_film", "m", "central film thickness on the inner raceway", Source::InnerFilm(j));
                 add("outer_film", "m", "central film thickness on the outer raceway", Source::OuterFilm(j));
             }
@@ -214,7 +215,11 @@ impl Model {
         let clearance = self.guide_clearance().unwrap_or(f64::INFINITY);
         let on = |body: usize, source: ForceSource| forces.bodies[body][source as usize];
         let guide = |k: usize| on(CAGE, ForceSource::Guide)[k];
+        let moment = |body: usize| forces.bodies[body].iter().map(|force| force[2]).sum::<f64>();
         let contact = |j: usize, k: usize| &forces.contacts[self.contacts_per_element() * j + k];
+        let raceway = |j: usize, source: ForceSource, quantity: usize| {
+            self.first_contact_of(source).map_or(0.0, |k| contact(j, k)[quantity])
+        };
         // Without rotation there is no kinematic speed to compare with, and slip is reported as zero.
         let slip = |speed: f64, without_slip: f64| {
             if turning.abs() < STANDSTILL { 0.0 } else { 1.0 - speed / without_slip }
@@ -251,14 +256,9 @@ impl Model {
             Source::Viscosity => self.viscosity(inputs).unwrap_or(f64::NAN),
             Source::RingY => self.motion_of(INNER_RING, q, v, inputs).position[0],
             Source::RingZ => self.motion_of(INNER_RING, q, v, inputs).position[1],
-            Source::DragTorque => {
-                let moments =
-                    [ForceSource::InnerRaceway, ForceSource::Guide].map(|source| on(INNER_RING, source)[2]);
-                -direction * (moments[0] + moments[1])
-            }
-            Source::OuterRingTorque => {
-                on(OUTER_RING, ForceSource::OuterRaceway)[2] + on(OUTER_RING, ForceSource::Guide)[2]
-            }
+            // Weight and load have no moment about the centre of a ring.
+            Source::DragTorque => -direction * moment(INNER_RING),
+            Source::OuterRingTorque => moment(OUTER_RING),
             Source::OrbitAngle(j) => self.elements.azimuth(&self.layout, q, inputs, j),
             Source::RollerSlip(j) => slip(v[self.layout.spin(j)], spin),
             Source::PocketPosition(j) => direction * self.pocket_position(q, v, inputs, j),
@@ -266,10 +266,10 @@ impl Model {
                 let [y, z, _] = on(self.element_body(j), ForceSource::Pocket);
                 -direction * ws.motions.frame(j).to_local([y, z])[1]
             }
-            Source::InnerForce(j) => contact(j, 1)[NORMAL_FORCE],
-            Source::OuterForce(j) => contact(j, 0)[NORMAL_FORCE],
-            Source::InnerFilm(j) => contact(j, 1)[FILM_THICKNESS],
-            Source::OuterFilm(j) => contact(j, 0)[FILM_THICKNESS],
+            Source::InnerForce(j) => raceway(j, ForceSource::InnerRaceway, NORMAL_FORCE),
+            Source::OuterForce(j) => raceway(j, ForceSource::OuterRaceway, NORMAL_FORCE),
+            Source::InnerFilm(j) => raceway(j, ForceSource::InnerRaceway, FILM_THICKNESS),
+            Source::OuterFilm(j) => raceway(j, ForceSource::OuterRaceway, FILM_THICKNESS),
             Source::CageAngle => cage(2),
             Source::Traction(ring, j) => contact(j, ring)[FRICTION],
             Source::HertzPressure(ring, j) => {

@@ -133,7 +133,9 @@ impl Model {
             out.guide.offset = std::array::from_fn(|k| body.position[k] - ring.position[k]);
             out.guide.velocity = std::array::from_fn(|k| body.velocity[k] - ring.velocity[k]);
         }
-        for ((body, motion), out) in self.shared.iter().flatten().zip(&shared).zip(&mut out.bodies) {
+        let present =
+            self.shared.iter().zip(&shared).filter_map(|(body, motion)| Some((body.as_ref()?, motion)));
+        for ((body, motion), out) in present.zip(&mut out.bodies) {
             body.report(motion, &ws.inputs, self.gravity, out);
         }
         let first = self.element_body(0);

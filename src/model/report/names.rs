@@ -1,8 +1,8 @@
 //! Names of bodies, states, inputs and contacts.
 
-use crate::bodies::{Layout, State};
+use crate::bodies::{ForceSource, State, states_of};
 use crate::model::Model;
-use crate::pairs::{Law, Site};
+use crate::pairs::{ContactLaw, Law, Site};
 
 /// Name, unit and meaning of a state or an input.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -49,7 +49,7 @@ impl Model {
 
     /// The state vector: positions, then velocities.
     pub fn state_infos(&self) -> Vec<StateInfo> {
-        let states = Layout::states_of(&self.shared, &*self.elements);
+        let states = states_of(&self.shared, &*self.elements);
         let named = states.map(|(state, body, coordinate)| {
             let [name, unit, description] = match (state, coordinate.position) {
                 (State::Position, Some(position)) => position,
@@ -77,6 +77,16 @@ impl Model {
     /// Place of the first contact of a pair among those of an element.
     fn first_contact(&self, pair: usize) -> usize {
         self.infos[..pair].iter().map(|info| info.contacts.len()).sum()
+    }
+
+    /// Place of the first contact of the pair with this force source among those of an element.
+    pub(super) fn first_contact_of(&self, source: ForceSource) -> Option<usize> {
+        self.infos.iter().position(|info| info.source == source).map(|pair| self.first_contact(pair))
+    }
+
+    /// Law of the pair with this force source.
+    pub(in crate::model) fn law_of(&self, source: ForceSource) -> Option<&ContactLaw> {
+        self.infos.iter().zip(&self.laws).find(|(info, _)| info.source == source).map(|(_, law)| law)
     }
 
     /// Place of a contact in [`Model::contact_names`].

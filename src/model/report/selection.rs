@@ -3,6 +3,7 @@
 use super::channels::Channel;
 use super::watch::Watch;
 use crate::error::Result;
+use crate::pairs::PairInfo;
 use crate::scene::{Record, bad_scene};
 
 /// What is followed in every step where the scene does not say it: engineers size cages on peaks of these.
@@ -16,8 +17,13 @@ pub(in crate::model) struct Selection {
 }
 
 impl Selection {
-    /// What `record` asks for among all `channels` of a bearing with so many elements.
-    pub(in crate::model) fn new(record: &Record, channels: &[Channel], elements: usize) -> Result<Self> {
+    /// What `record` asks for among all `channels` of a bearing with these pairs and so many elements.
+    pub(in crate::model) fn new(
+        record: &Record,
+        channels: &[Channel],
+        pairs: &[&'static PairInfo],
+        elements: usize,
+    ) -> Result<Self> {
         let recorded = match &record.channels {
             Some(patterns) => matching("record.channels", patterns, channels, |_| true)?,
             None => (0..channels.len()).filter(|place| !channels[*place].detail).collect(),
@@ -26,7 +32,7 @@ impl Selection {
             Some(patterns) => matching("record.extremes", patterns, channels, Channel::can_be_watched)?,
             None => places(USUALLY_WATCHED, channels).collect(),
         };
-        Ok(Self { recorded, watch: Watch::new(watched, channels, elements) })
+        Ok(Self { recorded, watch: Watch::new(watched, channels, pairs, elements) })
     }
 }
 

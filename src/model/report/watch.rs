@@ -4,11 +4,12 @@
 //! the guide is what is left of the momentum of the cage after all others.
 
 use super::channels::{Channel, GuidePart, Source, along, radius};
-use crate::bodies::{CAGE, INNER_RING, OUTER_RING, SHARED};
+use crate::bodies::{CAGE, ForceSource, INNER_RING, OUTER_RING, SHARED};
 use crate::integrate::SemiImplicit;
 use crate::laws::guide::GuideForce;
 use crate::model::Model;
 use crate::model::Workspace;
+use crate::pairs::PairInfo;
 use crate::space::{Motion, Wrench};
 
 /// What is followed.
@@ -16,8 +17,8 @@ use crate::space::{Motion, Wrench};
 pub(super) struct Watch {
     /// Places of the channels among all.
     channels: Vec<usize>,
-    /// Places among the watched channels of the forces of each element on the shared bodies.
-    contacts: Vec<[Option<usize>; SHARED]>,
+    /// Places among the watched channels of the force of every pair on every element: pairs, then elements.
+    contacts: Vec<Vec<Option<usize>>>,
     /// Places of the others, and what they show.
     others: Vec<(usize, Source)>,
     /// Whether contacts with raceways, and their moments, matter.
@@ -27,24 +28,37 @@ pub(super) struct Watch {
 }
 
 impl Watch {
-    /// Of these places among all `channels` of a bearing with so many elements; all of them can be watched.
-    pub(super) fn new(places: Vec<usize>, channels: &[Channel], elements: usize) -> Self {
-        let mut watch = Self { contacts: vec![[None; SHARED]; elements], ..Self::default() };
+    /// Of these places among all `channels` of a bearing with these pairs and so many elements; all of them can be watched.
+    pub(super) fn new(
+        places: Vec<usize>,
+        channels: &[Channel],
+        pairs: &[&'static PairInfo],
+        elements: usize,
+    ) -> Self {
+        let mut watch = Self { contacts: vec![vec![None; elements]; pairs.len()], ..Self::default() };
         for (i, place) in places.iter().enumerate() {
             let source = channels[*place].source;
-            match source {
-                Source::OuterForce(j) => watch.contacts[j][OUTER_RING] = Some(i),
-                Source::InnerForce(j) => watch.contacts[j][INNER_RING] = Some(i),
-                Source::PocketForce(j) => watch.contacts[j][CAGE] = Some(i),
-                _ => watch.others.push((i, source)),
+            let of_element = match source {
+                Source::OuterForce(j) => Some((ForceSource::OuterRaceway, j)),
+                Source::InnerForce(j) => Some((ForceSource::InnerRaceway, j)),
+                Source::PocketForce(j) => Some((ForceSource::Pocket, j)),
+                _ => None,
+            };
+            match of_element {
+                None => watch.others.push((i, source)),
+                Some((source, j)) => {
+                    for (pair, _) in pairs.iter().enumerate().filter(|(_, info)| info.source == source) {
+                        watch.contacts[pair][j] = Some(i);
+                        watch.raceways |= source != ForceSource::Pocket;
+                    }
+                }
             }
         }
         let any = |wanted: fn(&Source) -> bool| watch.others.iter().any(|(_, source)| wanted(source));
         let torques = any(|s| matches!(s, Source::DragTorque | Source::OuterRingTorque));
         let guide = torques || any(|s| matches!(s, Source::GuideY | Source::GuideZ | Source::GuideMoment));
         (watch.torques, watch.guide) = (torques, guide);
-        watch.raceways =
-            torques || watch.contacts.iter().any(|c| c[OUTER_RING].is_some() || c[INNER_RING].is_some());
+        watch.raceways |= torques;
         watch.channels = places;
         watch
     }
@@ -95,7 +109,7 @@ impl Model {
             for i in contacts {
                 let site = &batch.sites[i];
                 let force = self.force_in_step(batch, i, v, step, motions);
-                let place = watch.contacts[site.element][info.mate];
+                let place = watch.contacts[pair][site.element];
                 if on_cage {
                     let [on_element, on_mate] = site.grip.wrenches(&force);
                     if let Some(place) = place {

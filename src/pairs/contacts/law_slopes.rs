@@ -1,7 +1,8 @@
-//! Derivatives of line contact forces over what their law sees, for a whole batch at once.
+//! Derivatives of contact forces over what their law sees, for a whole batch at once.
 
 use super::law_columns::LawColumns;
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
+use crate::laws::elastic::solid::SolidContact;
 use crate::scalar::{Columns, Dual, Duals, Pack, Real, dispatch};
 use pulp::{Arch, Simd};
 
@@ -38,6 +39,30 @@ impl LawSlopes {
     ) {
         let slopes = &mut self.0;
         dispatch(instructions, Differentiate { laws, motion, edge_share, force, slopes, rows, ln_viscosity });
+    }
+
+    /// Derivatives alone of the forces of solid contacts, which know neither edges nor a lubricant.
+    pub(in crate::pairs) fn find_solid(
+        &mut self,
+        law: &SolidContact,
+        rows: usize,
+        motion: &ContactMotion<Vec<f64>>,
+    ) {
+        for i in 0..rows {
+            let variable = |column: &[f64], direction| Dual::<DIRECTIONS>::variable(column[i], direction);
+            let force = law.force(&ContactMotion {
+                delta: variable(&motion.delta, 0),
+                delta_dot: variable(&motion.delta_dot, 1),
+                u1: variable(&motion.u1, 2),
+                u2: variable(&motion.u2, 3),
+            });
+            let forces = [force.normal, force.friction, force.rolling_resistance];
+            for (columns, of_force) in self.0.iter_mut().zip(forces) {
+                for (column, slope) in columns.iter_mut().zip(of_force.eps) {
+                    column[i] = slope;
+                }
+            }
+        }
     }
 
     /// Derivatives of the forces of contact `i`.

@@ -3,7 +3,7 @@
 mod law_columns;
 mod law_slopes;
 
-pub(super) use law_slopes::{DIRECTIONS, FORCES, Slopes, VISCOSITY, chain, contact_force};
+pub(super) use law_slopes::{FORCES, Slopes, VISCOSITY, chain, contact_force};
 
 use super::{ContactLaw, ElementPair, Grip};
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
@@ -41,7 +41,7 @@ pub(crate) struct Batch {
     edge_share: Vec<f64>,
     pub(crate) force: ContactForce<Vec<f64>>,
     laws: BatchLaws,
-    /// Derivatives of the forces, where they are found by the batch.
+    /// Derivatives of the forces.
     slopes: LawSlopes,
     /// Whether they belong to the last evaluation.
     differentiated: bool,
@@ -59,11 +59,9 @@ impl Batch {
     fn new(n: usize, laws: &[ContactLaw]) -> Self {
         let room = n.next_multiple_of(WIDEST);
         let lines: Vec<LineContact> = laws.iter().filter_map(ContactLaw::line).copied().collect();
-        let (laws, slopes) = match (lines.split_first(), laws.first()) {
-            (None, Some(ContactLaw::Solid(law))) => (BatchLaws::Solid(*law), LawSlopes::default()),
-            (Some((first, others)), _) => {
-                (BatchLaws::Lines(LawColumns::new(*first, others, room)), LawSlopes::new(room))
-            }
+        let laws = match (lines.split_first(), laws.first()) {
+            (None, Some(ContactLaw::Solid(law))) => BatchLaws::Solid(*law),
+            (Some((first, others)), _) => BatchLaws::Lines(LawColumns::new(*first, others, room)),
             (None, _) => unreachable!("a batch has at least one law"),
         };
         Self {
@@ -72,7 +70,7 @@ impl Batch {
             edge_share: vec![0.0; room],
             force: ContactForce::none(0.0).map(|x: &f64| vec![*x; room]),
             laws,
-            slopes,
+            slopes: LawSlopes::new(room),
             differentiated: false,
         }
     }
@@ -108,40 +106,41 @@ impl Batch {
 
     /// Evaluates the laws, with the logarithm `ln_viscosity` of the relative viscosity.
     pub(crate) fn apply(&mut self, ln_viscosity: f64, instructions: Arch) {
-        let rows = self.len();
         self.differentiated = false;
+        if matches!(self.laws, BatchLaws::Lines(_)) {
+            self.pad();
+        }
+        let rows = self.len();
         match &self.laws {
-            BatchLaws::Lines(_) => self.pad(),
+            BatchLaws::Lines(laws) => {
+                laws.apply(rows, &self.motion, &self.edge_share, ln_viscosity, &mut self.force, instructions);
+            }
             BatchLaws::Solid(law) => {
                 for i in 0..rows {
                     let force = law.force(&self.motion.map(|x| x[i]));
                     self.force.set(i, &force);
                 }
-                return;
             }
-        }
-        if let BatchLaws::Lines(laws) = &self.laws {
-            laws.apply(rows, &self.motion, &self.edge_share, ln_viscosity, &mut self.force, instructions);
         }
     }
 
-    /// Evaluates the laws with the derivatives of line contacts, unless the last evaluation has done so.
+    /// Evaluates the laws with their derivatives, unless the last evaluation has done so.
     pub(crate) fn differentiate(&mut self, ln_viscosity: f64, instructions: Arch) {
         if self.differentiated {
             return;
         }
-        if let BatchLaws::Solid(_) = self.laws {
+        if let BatchLaws::Solid(law) = self.laws {
             self.apply(ln_viscosity, instructions);
-            self.differentiated = true;
-            return;
+            self.slopes.find_solid(&law, self.len(), &self.motion);
+        } else {
+            self.pad();
         }
-        self.pad();
-        self.differentiated = true;
-        let rows = self.len();
         if let BatchLaws::Lines(laws) = &self.laws {
             let seen = (&self.motion, &self.edge_share[..]);
+            let rows = self.sites.len();
             self.slopes.find(laws, rows, seen, ln_viscosity, &mut self.force, instructions);
         }
+        self.differentiated = true;
     }
 
     /// Every contact with its normal force, friction and rolling resistance, N.
@@ -227,6 +226,7 @@ impl Contacts {
                 }
             }
         }
+        debug_assert!(pairs.iter().all(|pair| pair.info().laws.len() <= LAWS_OF_PAIR));
         let room = elements.next_multiple_of(WIDEST);
         Self {
             batches: groups.iter().map(|(n, laws)| Batch::new(*n, laws)).collect(),

@@ -125,7 +125,7 @@ pub(in crate::pairs) fn new(laws: &LawBuilder<'_>) -> Result<Option<Box<dyn Elem
     let law = ContactLaw::Line(LineContact { edge_friction: Some(edge_friction), ..wall });
     // A contact with them costs as much as one with a raceway, but few are touched.
     let cost = Cost { value: 0.0, slopes: 0.0, per_element: false };
-    Ok(Some(Box::new(Pockets { shape, law, info: &INFO, cost, longest_step: |_, _, _| f64::INFINITY })))
+    Ok(Some(Box::new(Pockets { shape, law, info: &INFO, cost, longest_step: None })))
 }
 
 #[cfg(test)]

@@ -6,7 +6,6 @@ mod plane;
 mod slopes;
 
 pub(super) use cylinder::new as cylinder;
-pub(super) use plane::Passage;
 pub(super) use plane::new as plane;
 
 use crate::bodies::{CAGE, Fault, Motions};
@@ -29,8 +28,8 @@ pub(super) struct Pockets<S> {
     pub(super) law: ContactLaw,
     pub(super) info: &'static PairInfo,
     pub(super) cost: Cost,
-    /// The longest step that passes no wall unseen.
-    pub(super) longest_step: fn(&S, &ContactLaw, &Ahead<'_>) -> f64,
+    /// The longest step that passes no wall unseen, where the law sets in abruptly.
+    pub(super) longest_step: Option<fn(&S, &ContactLaw, &Ahead<'_>) -> f64>,
 }
 
 impl<S: PocketShape> ElementPair for Pockets<S> {
@@ -90,12 +89,16 @@ impl<S: PocketShape> ElementPair for Pockets<S> {
 
     fn add_slopes(&self, batch: &Batch, contacts: Range<usize>, motions: &Motions, sums: &mut SlopeSums<'_>) {
         for i in contacts {
-            add_pocket(&self.shape, &self.law, batch, i, motions, sums);
+            add_pocket(&self.shape, batch, i, motions, sums);
         }
     }
 
+    fn has_onset(&self) -> bool {
+        self.longest_step.is_some()
+    }
+
     fn longest_step(&self, ahead: &Ahead<'_>) -> f64 {
-        (self.longest_step)(&self.shape, &self.law, ahead)
+        self.longest_step.map_or(f64::INFINITY, |longest| longest(&self.shape, &self.law, ahead))
     }
 
     fn clearance(&self) -> Option<f64> {

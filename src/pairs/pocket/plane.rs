@@ -12,9 +12,9 @@ use super::Pockets;
 use super::kinematics::{Pillar, PillarContact, PocketMotion, PocketPlace, PocketShape};
 use crate::bodies::{CAGE, ForceSource, Input, Power};
 use crate::error::Result;
-use crate::integrate::Tuning;
 use crate::laws::elastic::solid::SolidContact;
 use crate::pairs::line_laws::LawBuilder;
+use crate::pairs::passage::Passage;
 use crate::pairs::{Ahead, ContactLaw, Cost, ElementPair, Law, PairInfo};
 use crate::scalar::{Real, math};
 use crate::scene::Pocket;
@@ -75,7 +75,7 @@ pub(in crate::pairs) fn new(laws: &LawBuilder<'_>) -> Result<Option<Box<dyn Elem
     let law = ContactLaw::Solid(SolidContact::from(&pocket.contact));
     // Of all planes, mostly one is touched.
     let cost = Cost { value: 50.0, slopes: 600.0, per_element: false };
-    Ok(Some(Box::new(Pockets { shape, law, info: &INFO, cost, longest_step })))
+    Ok(Some(Box::new(Pockets { shape, law, info: &INFO, cost, longest_step: Some(longest_step) })))
 }
 
 /// The longest step that meets every wall in time: it ends no further behind the wall than a share of what the law needs to
@@ -90,7 +90,7 @@ fn longest_step(shape: &PlanePocket, law: &ContactLaw, ahead: &Ahead<'_>) -> f64
     let prescribed = [ahead.inputs.orbit_travel, ahead.inputs.of(Input::OrbitSpeed)];
     let free = ahead.elements.inertia().is_some();
     let pitch = set.pitch_radius;
-    let pass = Passage::of(contact, ahead.lightest, ahead.tuning);
+    let pass = Passage::of(contact, ahead.lightest(CAGE), ahead.tuning);
     let mut longest = f64::INFINITY;
     let [sines, cosines] = &set.directions;
     for (j, (x, y)) in cosines.iter().zip(sines).take(set.count).enumerate() {
@@ -108,27 +108,6 @@ fn longest_step(shape: &PlanePocket, law: &ContactLaw, ahead: &Ahead<'_>) -> f64
         }
     }
     longest
-}
-
-/// How far a step may pass the onset of a solid contact.
-pub(in crate::pairs) struct Passage {
-    /// Share of the time in which it turns a body, s.
-    turn: f64,
-    /// Share of the depth over which its damper sets in, m.
-    depth: f64,
-}
-
-impl Passage {
-    /// For a body of `mass` kg.
-    pub(in crate::pairs) fn of(contact: &SolidContact, mass: f64, tuning: &Tuning) -> Self {
-        let turn = if contact.stiffness > 0.0 { (mass / contact.stiffness).sqrt() } else { 0.0 };
-        Self { turn: tuning.turn_share * turn, depth: tuning.onset_share * contact.softening_depth }
-    }
-
-    /// In s, at this speed in m/s.
-    pub(in crate::pairs) fn time(&self, speed: f64) -> f64 {
-        self.turn.max(self.depth / speed)
-    }
 }
 
 #[cfg(test)]

@@ -3,15 +3,12 @@
 
 use super::kinematics::{Pillar, PillarContact, PocketPlace, PocketShape};
 use crate::bodies::{CAGE, Element, ElementMotion, IN_HUB, Input, Motions};
-use crate::laws::contact_pair::{ContactForce, ContactMotion};
-use crate::laws::elastic::solid::SolidContact;
-use crate::pairs::contacts::{DIRECTIONS, FORCES, Slopes, VISCOSITY, chain, contact_force};
-use crate::pairs::{Batch, ContactLaw, MateLever, SlopeSums};
+use crate::laws::contact_pair::ContactForce;
+use crate::pairs::contacts::{FORCES, Slopes, VISCOSITY, chain, contact_force};
+use crate::pairs::{Batch, MateLever, SlopeSums};
 use crate::scalar::{Dual, Real};
 use crate::space::{Frame, Motion};
 
-/// A number with derivatives over what a contact law sees.
-type LawDual = Dual<DIRECTIONS>;
 /// A number with derivatives over the coordinates of a contact: element (rho, travel), their rates, spin; position of the
 /// cage, its velocity.
 type PairDual = Dual<11>;
@@ -21,7 +18,6 @@ const VELOCITY: usize = 8;
 /// Adds those of contact `i` of a batch.
 pub(super) fn add_pocket<S: PocketShape>(
     shape: &S,
-    law: &ContactLaw,
     batch: &Batch,
     i: usize,
     motions: &Motions,
@@ -35,21 +31,9 @@ pub(super) fn add_pocket<S: PocketShape>(
         MateLever::Centre(_) => return,
     };
     let pair = Pair::new(&motions.element(j), lead, &motions.shared[CAGE]);
-    let law = match law {
-        ContactLaw::Line(_) => Law::Known(batch.slopes(i)),
-        ContactLaw::Solid(law) => Law::Solid(law),
-    };
-    if let Some(force) = pair.pocket(shape, &law, side, sums.ln_viscosity_rate) {
+    if let Some(force) = pair.pocket(shape, &batch.slopes(i), side, sums.ln_viscosity_rate) {
         add_pair(j, &force, sums);
     }
-}
-
-/// Forces of a contact and their derivatives over what its law sees.
-enum Law<'a> {
-    /// Found by the batch.
-    Known(([f64; FORCES], Slopes)),
-    /// To be found.
-    Solid(&'a SolidContact),
 }
 
 /// Forces on the element of a pair (radial, circumferential, moment) and on the cage (y, z, moment), with their
@@ -128,12 +112,12 @@ impl Pair {
         Self { motion, frame, lead, cage }
     }
 
-    /// The contact with one pillar, while the logarithm of the viscosity changes at the rate `ln_viscosity_rate` (1/s). `None` when
+    /// The contact with one pillar, with its forces and their derivatives over what its law sees, while the logarithm of the viscosity changes at the rate `ln_viscosity_rate` (1/s). `None` when
     /// they are apart.
     fn pocket<S: PocketShape>(
         &self,
         shape: &S,
-        law: &Law<'_>,
+        (forces, slopes): &([f64; FORCES], Slopes),
         side: Pillar,
         ln_viscosity_rate: f64,
     ) -> Option<PairForce> {
@@ -143,11 +127,7 @@ impl Pair {
         let velocity = self.lead.to_global(self.frame.to_local(cage.velocity));
         let relative = place.relative_motion(offset, &self.motion, self.lead, velocity, cage.speed);
         let contact = shape.pillar(side, &relative)?;
-        let (forces, slopes) = match law {
-            Law::Known(known) => *known,
-            Law::Solid(law) => solid_slopes(law, &contact.motion),
-        };
-        let force = chain(&forces, &slopes, &contact.motion, Some(contact.edge_share));
+        let force = chain(forces, slopes, &contact.motion, Some(contact.edge_share));
         let [own, on_cage] = self.bodies(&place, &offset, &contact, &force);
         let mut warming = [[0.0; 3]; 2];
         if ln_viscosity_rate != 0.0 {
@@ -172,16 +152,4 @@ impl Pair {
         let [y, z] = self.frame.to_global(reaction.force);
         [own.components(), [y, z, reaction.moment]]
     }
-}
-
-/// Forces of a solid contact and their slopes.
-fn solid_slopes(law: &SolidContact, motion: &ContactMotion<PairDual>) -> ([f64; FORCES], Slopes) {
-    let force = law.force(&ContactMotion {
-        delta: LawDual::variable(motion.delta.re, 0),
-        delta_dot: LawDual::variable(motion.delta_dot.re, 1),
-        u1: LawDual::variable(motion.u1.re, 2),
-        u2: LawDual::variable(motion.u2.re, 3),
-    });
-    let all = [force.normal, force.friction, force.rolling_resistance];
-    (all.map(|f| f.re), all.map(|f| f.eps))
 }

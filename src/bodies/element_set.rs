@@ -1,0 +1,36 @@
+//! Number, size and places of the rolling elements.
+
+use crate::scalar::{WIDEST, math};
+use crate::scene::Scene;
+use std::f64::consts::TAU;
+
+/// Number, size and places of the elements.
+#[derive(Clone, Debug)]
+pub(crate) struct ElementSet {
+    pub(crate) count: usize,
+    /// Radius of one, m.
+    pub(crate) radius: f64,
+    /// Radius of the circle of their centres, m.
+    pub(crate) pitch_radius: f64,
+    /// Angle from which the travel of each element counts, and of its pocket in the cage, rad.
+    pub(crate) reference_angles: Vec<f64>,
+    /// Their sines and cosines, in columns as long as whole groups of vector instructions need.
+    pub(crate) directions: [Vec<f64>; 2],
+}
+
+impl ElementSet {
+    /// Those of a scene.
+    pub(super) fn new(scene: &Scene) -> Self {
+        let count = scene.element_count() as usize;
+        let reference_angles: Vec<f64> =
+            (0..count).map(|j| scene.initial.first_roller_angle + TAU * j as f64 / count as f64).collect();
+        let column = |f: fn(f64) -> f64| {
+            let mut column: Vec<f64> = reference_angles.iter().map(|angle| f(*angle)).collect();
+            column.resize(count.next_multiple_of(WIDEST), 0.0);
+            column
+        };
+        let directions = [column(math::sin), column(math::cos)];
+        let (radius, pitch_radius) = (scene.element_radius(), scene.pitch_radius());
+        Self { count, radius, pitch_radius, reference_angles, directions }
+    }
+}

@@ -1,0 +1,45 @@
+//! What is in the state vector, by the coordinates of the bodies, and where.
+
+use super::{Coordinate, Elements, Layout, SharedBodies};
+
+/// The layout of these bodies.
+pub(crate) fn layout_of(bodies: &SharedBodies, elements: &dyn Elements) -> Layout {
+    let widths = bodies.each_ref().map(|body| body.as_ref().map_or(0, |b| b.coordinates().len()));
+    let free = !elements.coordinates().is_empty();
+    Layout::new(widths, if free { elements.set().count } else { 0 })
+}
+
+/// What a state of a coordinate is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum State {
+    Position,
+    Rate,
+}
+
+impl State {
+    pub(crate) fn is_rate(self) -> bool {
+        self == Self::Rate
+    }
+}
+
+/// All states in order: what they are, their body and their coordinate.
+pub(crate) fn states_of<'a>(
+    bodies: &'a SharedBodies,
+    elements: &'a dyn Elements,
+) -> impl Iterator<Item = (State, String, &'static Coordinate)> + 'a {
+    let (kind, count) = (elements.kind(), elements.set().count);
+    let coordinates = move |states: &'static [State], with_position: bool| {
+        let of_shared = bodies.iter().flatten().flat_map(|body| {
+            body.coordinates().iter().map(|coordinate| (body.name().to_owned(), coordinate))
+        });
+        let of_elements = (0..count).flat_map(move |j| {
+            elements.coordinates().iter().map(move |coordinate| (format!("{kind}[{j}]"), coordinate))
+        });
+        let chosen = of_shared.chain(of_elements).filter(move |(_, c)| c.position.is_some() == with_position);
+        chosen
+            .flat_map(|(body, coordinate)| states.iter().map(move |state| (*state, body.clone(), coordinate)))
+    };
+    // Rates follow in the order of the positions, then those of coordinates without position.
+    let positions = coordinates(&[State::Position], true);
+    positions.chain(coordinates(&[State::Rate], true)).chain(coordinates(&[State::Rate], false))
+}
