@@ -15,20 +15,29 @@
 //!     Ok(())
 //! }
 //! ```
+//!
+//! What these pages show is the Rust API. The rooms behind it can be reached by the tests and studies of this repository; they are
+//! hidden here, and change without notice.
 
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 mod bodies;
+#[doc(hidden)]
 pub mod capi;
 mod error;
+#[doc(hidden)]
 pub mod integrate;
+#[doc(hidden)]
 pub mod laws;
 pub mod model;
+#[doc(hidden)]
 pub mod pairs;
 mod registry;
+#[doc(hidden)]
 pub mod scalar;
 pub mod scene;
 pub mod sim;
+#[doc(hidden)]
 pub mod space;
 
 pub use error::{Error, Result, Status};

@@ -9,7 +9,7 @@
 //!
 //! Rings and cage are shared: there is one of each, and every element can touch it. Pairs of bodies see [`Motions`] only and
 //! act on bodies by wrenches only. A new body is a file with one of the two traits and a line in [`shared_bodies`] or
-//! [`elements`].
+//! [`elements()`].
 
 mod cage;
 mod element_set;

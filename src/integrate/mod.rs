@@ -18,7 +18,7 @@ mod methods;
 mod stepper;
 mod system;
 
-pub use auto::ledger::throughput;
+pub use auto::balance::throughput;
 pub use auto::tuning::{Constant, Tuning};
 pub use driver::watch::{Samples, Total};
 pub use driver::{Driver, Failure, Limits, Statistics, control};
@@ -30,8 +30,8 @@ pub use methods::radau::Radau;
 pub use methods::rosenbrock::Rosenbrock;
 pub use stepper::{Applied, Stepper};
 pub use system::{
-    Interruption, Linearization, Linearized, Observed, Quadratures, SemiImplicit, Split, Structure, System,
-    Vibration, WORKS,
+    Interruption, Linearization, Linearized, MOST_POWERS, Observed, Powers, SemiImplicit, Split, Structure,
+    System, Vibration,
 };
 
 pub(crate) use system::add_weighted;

@@ -4,7 +4,7 @@ use super::auto::Choice;
 use super::driver::control::{Estimate, Law};
 use super::driver::watch::Samples;
 use super::methods::pack::Reader;
-use super::system::{Quadratures, System};
+use super::system::{Powers, System};
 
 /// The evaluation that a semi-implicit step was made with: positions `start.q + h/2 start.v`, velocities `predicted`. The
 /// forces it applied lie between those of the states on both sides; where friction is steep neither of them has their mean.
@@ -44,8 +44,8 @@ pub trait Stepper<S: System> {
     fn attempt(&mut self, system: &mut S, t: f64, h: f64, t_last: f64) -> Result<Option<Estimate>, S::Fault>;
     /// Makes the last attempt the current state.
     fn accept(&mut self);
-    /// Integrals of [`super::Observed::quadratures`] over the last attempt.
-    fn integrals(&self) -> &Quadratures;
+    /// Works of [`super::Observed::powers`] over the last attempt.
+    fn works(&self) -> &Powers;
     /// What the host watches, in the last attempt.
     fn samples(&self) -> &Samples;
     /// What the last accepted step was made with, for methods whose forces are those of steps and not of states.

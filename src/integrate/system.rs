@@ -78,11 +78,11 @@ pub trait Split: System {
 
 /// What the owner of a system wants to know of a run, and says to it. Nothing by default.
 pub trait Observed: System {
-    /// What is integrated over time beside the state, at the last evaluated state (`q`, `v`), or for a step from there.
-    fn quadratures(&self, _q: &[f64], _v: &[f64], _step: Option<&SemiImplicit<'_>>) -> Quadratures {
-        Quadratures::default()
+    /// Powers that are integrated over time beside the state, at the last evaluated state (`q`, `v`), or for a step from there.
+    fn powers(&self, _q: &[f64], _v: &[f64], _step: Option<&SemiImplicit<'_>>) -> Powers {
+        Powers::default()
     }
-    /// Kinds of energy stored at the last evaluated state (`q`, `v`), J. Their rate is the sum of the quadratures.
+    /// Kinds of energy stored at the last evaluated state (`q`, `v`), J. Their rate is the sum of the powers.
     fn energy(&self, _q: &[f64], _v: &[f64]) -> [f64; 3] {
         [0.0; 3]
     }
@@ -94,7 +94,7 @@ pub trait Observed: System {
     fn watched(&self) -> usize {
         0
     }
-    /// Their values, as those of [`Observed::quadratures`].
+    /// Their values, as those of [`Observed::powers`].
     fn watch(&self, _q: &[f64], _v: &[f64], _step: Option<&SemiImplicit<'_>>, _out: &mut [f64]) {}
     /// Whether the host wants the run to stop; asked before every attempt.
     fn interruption(&mut self) -> Option<Interruption> {
@@ -115,11 +115,10 @@ pub enum Interruption {
     OutOfTime,
 }
 
-/// Quantities that are integrated over time beside the state, or their integrals: powers or works first, zeros where a system
-/// has fewer, and behind them one of another kind.
-pub type Quadratures = [f64; WORKS + 1];
-/// Room for powers among them.
-pub const WORKS: usize = 15;
+/// Powers of a system in W, zeros behind those that it has, and last one rate of another kind; or their works in J.
+pub type Powers = [f64; MOST_POWERS + 1];
+/// Room for powers.
+pub const MOST_POWERS: usize = 15;
 
 /// A semi-implicit step, whose forces F are linear from those at the evaluated velocities v* on: F(v*) - D (v - v*) with the
 /// share of the change of the step that [`super::implicit_share`] says, and do their work at the mean velocities.
@@ -134,7 +133,7 @@ pub struct SemiImplicit<'a> {
 }
 
 /// `sum` + `weight` `x`, in place.
-pub(crate) fn add_weighted(sum: &mut Quadratures, weight: f64, x: &Quadratures) {
+pub(crate) fn add_weighted(sum: &mut Powers, weight: f64, x: &Powers) {
     for (sum, x) in sum.iter_mut().zip(x) {
         *sum += weight * x;
     }

@@ -23,6 +23,7 @@ impl Model {
     ///
     /// # Panics
     /// When a slice is shorter than its shape, or `ws` was made for another model.
+    #[doc(hidden)]
     pub fn accelerations(
         &self,
         inputs: &InputValues,

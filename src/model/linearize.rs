@@ -16,6 +16,7 @@ use nalgebra::{Matrix3, Matrix5, Vector5};
 
 impl Model {
     /// Which velocities are coupled: shared bodies are the hub, rollers the spokes.
+    #[doc(hidden)]
     pub fn structure(&self) -> Structure {
         self.layout.structure()
     }
@@ -25,6 +26,7 @@ impl Model {
     ///
     /// # Panics
     /// When `ws` or `out` was made for another model.
+    #[doc(hidden)]
     pub fn linearize(&self, ws: &mut Workspace, rates: &InputValues, out: &mut Linearization) {
         out.clear();
         for batch in &mut ws.contacts.batches {

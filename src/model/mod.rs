@@ -23,19 +23,20 @@ mod signals;
 mod works;
 mod workspace;
 
-pub use crate::bodies::{
-    BodyForces, FAULTS, FORCE_SOURCES, Fault, FaultCounts, HostInputs, INPUTS, Input, InputValues, Layout,
-    POWERS,
-};
+pub use crate::bodies::{BodyForces, FAULTS, FORCE_SOURCES, Fault, FaultCounts, INPUTS, Input, POWERS};
 pub(crate) use crate::bodies::{FaultKind, Power};
+#[doc(hidden)]
+pub use crate::bodies::{HostInputs, InputValues, Layout};
 pub(crate) use crate::pairs::Law;
 pub use crate::pairs::{LAWS, LawCounts};
+#[doc(hidden)]
 pub use integration::costs::{PARTS, PartTimes};
 pub use report::{
     CONTACT_QUANTITIES, Channel, ContactForces, FORCE_COMPONENTS, Forces, GuideReport, Quantity, StateInfo,
 };
 pub(crate) use works::AT_FLOOR;
 pub use works::Energy;
+#[doc(hidden)]
 pub use workspace::Workspace;
 
 use crate::bodies::{CAGE, Elements, INNER_RING, SHARED, SharedBodies};
@@ -98,6 +99,7 @@ impl Model {
     }
 
     /// Order of the coordinates in the state vector.
+    #[doc(hidden)]
     pub fn layout(&self) -> &Layout {
         &self.layout
     }
@@ -113,16 +115,19 @@ impl Model {
     }
 
     /// Values of the inputs at time `t` in s.
+    #[doc(hidden)]
     pub fn inputs_at(&self, t: f64, host: &HostInputs) -> InputValues {
         self.inputs.at(t, host)
     }
 
     /// Rates of the inputs at time `t` in s, per second; of `orbit_travel` too. At a jump or kink they are those after it.
+    #[doc(hidden)]
     pub fn input_rates_at(&self, t: f64, host: &HostInputs) -> InputValues {
         self.inputs.rates_at(t, host)
     }
 
     /// Sets an input at time `t` (s) to `value`, or lets it follow the scene again with `None`.
+    #[doc(hidden)]
     pub fn set_input(&self, host: &mut HostInputs, t: f64, input: Input, value: Option<f64>) {
         self.inputs.set(host, t, input, value);
     }
@@ -150,6 +155,7 @@ impl Model {
     }
 
     /// The first jump or kink of an input after `t`, s; infinity if there is none.
+    #[doc(hidden)]
     pub fn next_event(&self, t: f64, host: &HostInputs) -> f64 {
         self.inputs.next_event(t, host)
     }
@@ -185,6 +191,7 @@ impl Model {
 
     /// Orbit and spin speed of the elements without slip at these inputs, rad/s: of rollers that touch both raceways,
     /// or as prescribed.
+    #[doc(hidden)]
     pub fn kinematic_speeds(&self, inputs: &InputValues) -> [f64; 2] {
         self.elements.kinematic_speeds(inputs)
     }

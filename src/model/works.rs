@@ -15,14 +15,14 @@ use super::Model;
 use super::integration::step_forces::Changes;
 use super::workspace::Workspace;
 use crate::bodies::{CAGE, INNER_RING, Input, POWERS, Power};
-use crate::integrate::{Quadratures, SemiImplicit, WORKS};
+use crate::integrate::{MOST_POWERS, Powers, SemiImplicit};
 use crate::laws::contact_pair::ContactForce;
 use crate::pairs::{Batch, Site};
 use crate::space::Wrench;
 
 /// Behind the powers: 1 while a law between rollers and raceways is at a floor, else 0.
-pub(crate) const AT_FLOOR: usize = WORKS;
-const _: () = assert!(POWERS.len() <= WORKS, "integrate/system.rs has room for fewer powers");
+pub(crate) const AT_FLOOR: usize = MOST_POWERS;
+const _: () = assert!(POWERS.len() <= MOST_POWERS, "integrate/system.rs has room for fewer powers");
 
 /// Energy of a state, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -45,8 +45,9 @@ impl Energy {
 impl Model {
     /// Powers at the last evaluated state of `ws`, whose velocities are `v`, W, in the order of [`POWERS`], then zeros, and last whether
     /// a law is at a floor (1 or 0). With a semi-implicit step those of its forces, which differ from the evaluated ones.
-    pub fn powers(&self, v: &[f64], step: Option<&SemiImplicit<'_>>, ws: &Workspace) -> Quadratures {
-        let mut p = Quadratures::default();
+    #[doc(hidden)]
+    pub fn powers(&self, v: &[f64], step: Option<&SemiImplicit<'_>>, ws: &Workspace) -> Powers {
+        let mut p = Powers::default();
         let motions = &ws.motions;
         // Moment on the inner ring, which its drive holds up.
         let mut on_ring = 0.0;
@@ -133,6 +134,7 @@ impl Model {
     }
 
     /// Energy of the last evaluated state of `ws`.
+    #[doc(hidden)]
     pub fn energy(&self, ws: &Workspace) -> Energy {
         let mut e = Energy::default();
         let of_shared = self

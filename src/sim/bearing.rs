@@ -3,8 +3,8 @@
 use super::limits::RunLimits;
 use super::linear::jacobian::Slopes;
 use crate::integrate::{
-    Applied, GroupDamping, Interruption, Linearization, Linearized, Observed, Quadratures, SemiImplicit,
-    Split, Structure, System, Tuning, Vibration,
+    Applied, GroupDamping, Interruption, Linearization, Linearized, Observed, Powers, SemiImplicit, Split,
+    Structure, System, Tuning, Vibration,
 };
 use crate::model::{
     Channel, Energy, Fault, FaultCounts, Forces, HostInputs, Input, LawCounts, Model, PartTimes, Workspace,
@@ -323,7 +323,7 @@ impl Observed for Bearing {
         self.workspace.vibration()
     }
 
-    fn quadratures(&self, _q: &[f64], v: &[f64], step: Option<&SemiImplicit<'_>>) -> Quadratures {
+    fn powers(&self, _q: &[f64], v: &[f64], step: Option<&SemiImplicit<'_>>) -> Powers {
         self.model.powers(v, step, &self.workspace)
     }
 

@@ -1,6 +1,6 @@
 //! A running simulation: state, integrator and outputs of one model. Mutable, one per thread.
 
-mod audit;
+mod balance;
 mod bearing;
 mod errors;
 mod limits;
@@ -10,8 +10,9 @@ mod preset;
 mod results;
 mod snapshot;
 
-pub(crate) use audit::BalanceItem;
-pub use audit::{BALANCE_ITEMS, PowerBalance};
+pub use crate::integrate::Statistics as DriverStatistics;
+pub(crate) use balance::BalanceItem;
+pub use balance::{BALANCE_ITEMS, PowerBalance};
 pub use limits::Canceller;
 pub use results::interval::Interval;
 pub use results::recording::{Recording, Spread};
@@ -69,7 +70,7 @@ pub struct Sim {
     /// What the workspace, and with it `forces` or `output_forces`, belongs to.
     evaluated: Evaluated,
     fingerprint: [f64; 2],
-    audit: audit::Start,
+    balance: balance::Start,
 }
 
 impl Sim {
@@ -96,6 +97,7 @@ impl Sim {
     ///
     /// # Errors
     /// As [`Sim::new`].
+    #[doc(hidden)]
     pub fn with_tuning(model: Arc<Model>, tuning: Tuning) -> Result<Self> {
         let solver = model.scene().solver.clone();
         Self::with_solver(model, solver, tuning)
@@ -119,12 +121,12 @@ impl Sim {
             slopes: None,
             newton: None,
             evaluated: Evaluated::Other,
-            audit: audit::Start::default(),
+            balance: balance::Start::default(),
         };
         sim.restart();
         sim.forces()?;
         sim.output_forces.clone_from(&sim.forces);
-        sim.start_audit();
+        sim.start_balance();
         Ok(sim)
     }
 
@@ -164,7 +166,7 @@ impl Sim {
         self.driver.forget();
         self.restart();
         self.begin_interval();
-        self.start_audit();
+        self.start_balance();
         Ok(())
     }
 
@@ -265,7 +267,7 @@ impl Sim {
         self.restart();
         self.begin_interval();
         self.forces()?;
-        self.start_audit();
+        self.start_balance();
         Ok(())
     }
 
@@ -378,6 +380,7 @@ impl Sim {
 
     /// Whether force evaluations use the widest vector instructions of the machine, as they do at first, or none. Results
     /// have the same bits.
+    #[doc(hidden)]
     pub fn set_vector_instructions(&mut self, vector: bool) {
         self.bearing.set_vector_instructions(vector);
     }
@@ -388,6 +391,7 @@ impl Sim {
     ///
     /// # Errors
     /// As [`Sim::derivative`].
+    #[doc(hidden)]
     pub fn time_parts(&mut self, states: &[(f64, Vec<f64>)], repeats: u32) -> Result<PartTimes> {
         let mut mean = PartTimes::default();
         for (t, state) in states {

@@ -1,6 +1,6 @@
 //! Saving and restoring a simulation as a flat array of numbers, with bit-identical continuation.
 
-use super::audit::Start;
+use super::balance::Start;
 use super::{Evaluated, Sim};
 use crate::error::{Error, Result, Status};
 use crate::integrate::{Reader, Tuning};
@@ -31,7 +31,7 @@ impl Sim {
         }
         out.extend(host.anchor);
         out.extend_from_slice(&self.state);
-        self.audit.save(&mut out);
+        self.balance.save(&mut out);
         self.driver.save(&mut out);
         let checksum = checksum(&out[HEAD..]);
         out[HEAD - checksum.len()..HEAD].copy_from_slice(&checksum);
@@ -96,7 +96,7 @@ impl Sim {
         from.fill(&mut host.anchor)?;
         let mut state = vec![0.0; self.state.len()];
         from.fill(&mut state)?;
-        let audit = Start::load(&mut from)?;
+        let balance = Start::load(&mut from)?;
         self.driver.load(&mut from)?;
         from.finished().then_some(())?;
         *self.bearing.host_mut() = host;
@@ -111,7 +111,7 @@ impl Sim {
             return None;
         }
         self.time = time;
-        self.audit = audit;
+        self.balance = balance;
         self.bearing.set_counts(counts, law_counts);
         self.bearing.rejections_mut().copy_from_slice(&rejections);
         self.bearing.set_fault_counts(fault_counts);

@@ -27,7 +27,7 @@ macro_rules! active {
     };
 }
 
-pub mod ledger;
+pub mod balance;
 pub mod mode;
 mod selection;
 pub mod stability;
@@ -35,7 +35,7 @@ mod stepper;
 pub mod tuning;
 
 use crate::integrate::{DormandPrince, Leapfrog, Linearized, Observed, Rosenbrock, Split, Stepper, Tuning};
-use ledger::Ledger;
+use balance::Balance;
 use selection::Selection;
 use stability::{Expectation, StabilityMonitor, Verdict};
 
@@ -135,7 +135,7 @@ pub struct Auto {
     implicit: Rosenbrock,
     monitor: StabilityMonitor,
     selection: Selection,
-    ledger: Ledger,
+    balance: Balance,
     active: Kind,
     reason: Reason,
     /// Step that each method with error control took last, s.
@@ -185,7 +185,7 @@ impl Auto {
             implicit: Rosenbrock::new(system, &tolerance),
             monitor: StabilityMonitor::new(system, aim.expected, &aim.units, aim.tuning),
             selection: Selection::new(EXPLICIT, aim.tuning),
-            ledger: Ledger::new(system.velocities(), aim.missing_energy, aim.tuning),
+            balance: Balance::new(system.velocities(), aim.missing_energy, aim.tuning),
             active: Kind::DormandPrince,
             reason: Reason::Trajectory,
             last_steps: [aim.first_step; 2],
@@ -217,7 +217,7 @@ impl Auto {
 
     fn start_over(&mut self) {
         self.monitor.forget();
-        self.ledger.forget();
+        self.balance.forget();
         self.last_steps = [self.aim.first_step; 2];
         (self.attempts, self.gave_way) = (0, 0);
         (self.judged, self.advanced, self.cost) = (false, 0.0, 0.0);
@@ -388,7 +388,7 @@ impl Auto {
         state.copy_from_slice(Stepper::<S>::state(self));
         Stepper::<S>::set_state(&mut self.leapfrog, &state);
         self.state = state;
-        self.ledger.can_spare()
+        self.balance.can_spare()
             && self.leapfrog.refresh(system, t).is_ok()
             && self.monitor.allows(system, &self.leapfrog, t)
     }

@@ -2,11 +2,11 @@
 
 use super::{Auto, Choice, EXPLICIT, IMPLICIT, KINDS, Kind, Reason};
 use crate::integrate::driver::control::{Estimate, Law};
-use crate::integrate::{Applied, Linearized, Observed, Quadratures, Reader, Samples, Split, Stepper};
+use crate::integrate::{Applied, Linearized, Observed, Powers, Reader, Samples, Split, Stepper};
 
 impl<S: Linearized + Split + Observed> Stepper<S> for Auto {
     fn set_state(&mut self, state: &[f64]) {
-        self.ledger.close();
+        self.balance.close();
         self.placed = true;
         active!(self, S, set_state(state));
     }
@@ -19,9 +19,9 @@ impl<S: Linearized + Split + Observed> Stepper<S> for Auto {
     }
 
     fn review(&mut self, system: &mut S, t: f64) -> Option<f64> {
-        if !self.ledger.is_open() {
+        if !self.balance.is_open() {
             // A failure is the run's own in a moment.
-            self.ledger.open(system, t, active!(self, ref S, state())).ok();
+            self.balance.open(system, t, active!(self, ref S, state())).ok();
         }
         match self.active {
             Kind::Leapfrog => self.review_leapfrog(system, t),
@@ -49,7 +49,7 @@ impl<S: Linearized + Split + Observed> Stepper<S> for Auto {
     }
 
     fn accept(&mut self) {
-        self.ledger.add(active!(self, ref S, integrals()));
+        self.balance.add(active!(self, ref S, works()));
         active!(self, S, accept());
         self.steps[self.active as usize] += 1;
         (self.attempts, self.gave_way) = (0, 0);
@@ -75,7 +75,7 @@ impl<S: Linearized + Split + Observed> Stepper<S> for Auto {
 
     fn judge(&mut self, system: &mut S, t: f64) -> bool {
         // The leapfrog does not evaluate where it arrives; with error control a failure is the run's own in a moment.
-        let settled = self.ledger.settle(system, t, active!(self, ref S, state()));
+        let settled = self.balance.settle(system, t, active!(self, ref S, state()));
         let right = settled.unwrap_or(self.active != Kind::Leapfrog);
         self.judged = true;
         self.wrong = self.active;
@@ -116,8 +116,8 @@ impl<S: Linearized + Split + Observed> Stepper<S> for Auto {
         }
     }
 
-    fn integrals(&self) -> &Quadratures {
-        active!(self, ref S, integrals())
+    fn works(&self) -> &Powers {
+        active!(self, ref S, works())
     }
 
     fn samples(&self) -> &Samples {
@@ -164,7 +164,7 @@ impl<S: Linearized + Split + Observed> Stepper<S> for Auto {
         out.push(self.changes as f64);
         self.monitor.save(out);
         self.selection.save(out);
-        self.ledger.save(out);
+        self.balance.save(out);
         Stepper::<S>::save(&self.leapfrog, out);
         Stepper::<S>::save(&self.explicit, out);
         Stepper::<S>::save(&self.implicit, out);
@@ -206,7 +206,7 @@ impl<S: Linearized + Split + Observed> Stepper<S> for Auto {
         self.changes = from.count()?;
         self.monitor.load(from)?;
         self.selection.load(from)?;
-        self.ledger.load(from)?;
+        self.balance.load(from)?;
         Stepper::<S>::load(&mut self.leapfrog, from)?;
         Stepper::<S>::load(&mut self.explicit, from)?;
         Stepper::<S>::load(&mut self.implicit, from)

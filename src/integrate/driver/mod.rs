@@ -15,9 +15,7 @@ pub mod watch;
 pub use outcome::{Failure, Limits, Statistics};
 
 use crate::integrate::auto::Choice;
-use crate::integrate::{
-    Applied, Observed, Quadratures, Reader, Samples, Stepper, Total, Vibration, add_weighted,
-};
+use crate::integrate::{Applied, Observed, Powers, Reader, Samples, Stepper, Total, Vibration, add_weighted};
 use control::{Controller, Estimate, RECOVERY_GROWTH};
 use watch::Tally;
 
@@ -39,8 +37,8 @@ pub struct Driver<S: Observed> {
     control: Controller,
     needs_refresh: bool,
     statistics: Statistics,
-    /// Integrals of the system's quadratures up to `from`, and over the last step.
-    integrals: [Quadratures; 2],
+    /// Works of the system's powers up to `from`, and over the last step.
+    works: [Powers; 2],
     /// Of what the host watches.
     tally: Tally,
     /// Number of steps of the next stretch.
@@ -60,8 +58,8 @@ struct Step {
     /// Its time, s.
     from: f64,
     to: f64,
-    /// Integrals up to `from`, and over the step.
-    integrals: [Quadratures; 2],
+    /// Works up to `from`, and over the step.
+    works: [Powers; 2],
     samples: Samples,
     /// What the stepper keeps of it.
     kept: Vec<f64>,
@@ -90,7 +88,7 @@ impl<S: Observed> Driver<S> {
             control: Controller::default(),
             needs_refresh: true,
             statistics: Statistics::default(),
-            integrals: Default::default(),
+            works: Default::default(),
             tally: Tally::new(watched),
             length: 1,
             stretch: Vec::new(),
@@ -112,10 +110,10 @@ impl<S: Observed> Driver<S> {
         driver
     }
 
-    /// Starts at time `t` from `state`. Counts go on, and so do integrals if `t` is within the last step.
+    /// Starts at time `t` from `state`. Counts go on, and so do works if `t` is within the last step.
     pub fn start(&mut self, t: f64, state: &[f64]) {
         self.tally_to(t);
-        self.integrals = [self.integrals_at(t), Quadratures::default()];
+        self.works = [self.works_at(t), Powers::default()];
         self.stepper.set_state(state);
         (self.from, self.to) = (t, t);
         self.next_step = self.nominal_step;
@@ -223,7 +221,7 @@ impl<S: Observed> Driver<S> {
     /// Keeps the last step for questions about it.
     fn keep_step(&mut self) {
         let step = &mut self.stretch[self.made];
-        (step.from, step.to, step.integrals) = (self.from, self.to, self.integrals);
+        (step.from, step.to, step.works) = (self.from, self.to, self.works);
         step.kept.clear();
         self.stepper.keep(&mut step.kept);
         step.samples.copy(self.stepper.samples());
@@ -270,11 +268,11 @@ impl<S: Observed> Driver<S> {
         (self.to > self.from).then(|| self.stepper.applied()).flatten().map(|step| (self.from, step))
     }
 
-    /// Integrals of the system's quadratures since they were forgotten, up to time `t` (s) within the last step or stretch.
-    pub fn integrals_at(&self, t: f64) -> Quadratures {
+    /// Works of the system's powers since they were forgotten, up to time `t` (s) within the last step or stretch.
+    pub fn works_at(&self, t: f64) -> Powers {
         let (from, to, [mut sum, last]) = match self.step_at(t) {
-            Some(step) => (step.from, step.to, step.integrals),
-            None => (self.from, self.to, self.integrals),
+            Some(step) => (step.from, step.to, step.works),
+            None => (self.from, self.to, self.works),
         };
         let step = to - from;
         add_weighted(&mut sum, if step > 0.0 { ((t - from) / step).clamp(0.0, 1.0) } else { 1.0 }, &last);
@@ -307,9 +305,9 @@ impl<S: Observed> Driver<S> {
         }
     }
 
-    /// Sets the integrals to zero; comes after [`Driver::start`].
-    pub fn forget_integrals(&mut self) {
-        self.integrals = Default::default();
+    /// Sets the works to zero; comes after [`Driver::start`].
+    pub fn forget_works(&mut self) {
+        self.works = Default::default();
     }
 
     /// Goes on with this step (s), and without memory of errors.
@@ -389,9 +387,9 @@ impl<S: Observed> Driver<S> {
     }
 
     fn accept(&mut self, system: &S, plan: &Plan) {
-        let [sum, last] = &mut self.integrals;
+        let [sum, last] = &mut self.works;
         add_weighted(sum, 1.0, last);
-        *last = *self.stepper.integrals();
+        *last = *self.stepper.works();
         self.stepper.accept();
         (self.from, self.to) = (self.to, plan.end);
         self.needs_refresh = plan.on_event;
@@ -439,7 +437,7 @@ impl<S: Observed> Driver<S> {
         out.push(self.length as f64);
         out.extend([s.steps, s.rejected, s.faults, s.events, s.undone].map(|n| n as f64));
         out.extend([s.smallest_step, s.largest_step, s.vibration.squares, s.vibration.count]);
-        out.extend(self.integrals.iter().flatten());
+        out.extend(self.works.iter().flatten());
         self.stepper.save(out);
     }
 
@@ -470,7 +468,7 @@ impl<S: Observed> Driver<S> {
                 count: from.number().filter(|x| *x >= 0.0)?,
             },
         };
-        for part in &mut self.integrals {
+        for part in &mut self.works {
             from.fill(part)?;
         }
         self.stepper.load(from)

@@ -5,7 +5,7 @@
 
 use crate::integrate::driver::control::{ErrorNorm, Estimate, Law};
 use crate::integrate::methods::pack::{keep_parts, kept_parts};
-use crate::integrate::{Observed, Quadratures, Reader, Samples, Stepper, add_weighted};
+use crate::integrate::{Observed, Powers, Reader, Samples, Stepper, add_weighted};
 
 const C: [f64; 7] = [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0];
 const A: [[f64; 6]; 7] = [
@@ -46,9 +46,9 @@ pub struct DormandPrince {
     /// Rates at the seven stages; the first is that of `state`.
     k: [Vec<f64>; 7],
     a: Vec<f64>,
-    /// Quadratures at the stages, and their integrals.
-    quadratures: [Quadratures; 7],
-    integrals: Quadratures,
+    /// Powers at the stages, and their works.
+    powers: [Powers; 7],
+    works: Powers,
     samples: Samples,
     /// Polynomials of the last accepted step and of the attempt.
     dense: [Vec<f64>; 5],
@@ -67,8 +67,8 @@ impl DormandPrince {
             trial: zeros(),
             k: std::array::from_fn(|_| zeros()),
             a: vec![0.0; system.velocities()],
-            quadratures: Default::default(),
-            integrals: Quadratures::default(),
+            powers: Default::default(),
+            works: Powers::default(),
             samples: Samples::new(system.watched(), SAMPLED.len()),
             dense: std::array::from_fn(|_| zeros()),
             trial_dense: std::array::from_fn(|_| zeros()),
@@ -82,12 +82,12 @@ impl DormandPrince {
         state: &[f64],
         a: &mut [f64],
         rate: &mut [f64],
-    ) -> Result<Quadratures, S::Fault> {
+    ) -> Result<Powers, S::Fault> {
         let (q, v) = state.split_at(positions);
         system.accelerations(t, q, v, a)?;
         rate[..positions].copy_from_slice(&v[..positions]);
         rate[positions..].copy_from_slice(a);
-        Ok(system.quadratures(q, v, None))
+        Ok(system.powers(q, v, None))
     }
 }
 
@@ -110,8 +110,7 @@ impl<S: Observed> Stepper<S> for DormandPrince {
     }
 
     fn refresh(&mut self, system: &mut S, t: f64) -> Result<(), S::Fault> {
-        self.quadratures[0] =
-            Self::rate(system, t, self.positions, &self.state, &mut self.a, &mut self.k[0])?;
+        self.powers[0] = Self::rate(system, t, self.positions, &self.state, &mut self.a, &mut self.k[0])?;
         Ok(())
     }
 
@@ -124,7 +123,7 @@ impl<S: Observed> Stepper<S> for DormandPrince {
                 self.trial[i] = self.state[i] + h * sum;
             }
             let time = (t + C[stage] * h).min(t_last);
-            self.quadratures[stage] =
+            self.powers[stage] =
                 Self::rate(system, time, self.positions, &self.trial, &mut self.a, &mut rest[0])?;
             if let Some(place) = SAMPLED.iter().position(|s| *s == stage)
                 && let Some(row) = self.samples.row(place)
@@ -134,9 +133,9 @@ impl<S: Observed> Stepper<S> for DormandPrince {
             }
         }
         self.samples.weigh(&SAMPLE_WEIGHTS);
-        self.integrals = Quadratures::default();
-        for (x, weight) in self.quadratures.iter().zip(A[6]) {
-            add_weighted(&mut self.integrals, h * weight, x);
+        self.works = Powers::default();
+        for (x, weight) in self.powers.iter().zip(A[6]) {
+            add_weighted(&mut self.works, h * weight, x);
         }
         for i in 0..n {
             let weighted = |w: &[f64; 7]| -> f64 { self.k.iter().zip(w).map(|(k, w)| w * k[i]).sum() };
@@ -157,11 +156,11 @@ impl<S: Observed> Stepper<S> for DormandPrince {
         std::mem::swap(&mut self.state, &mut self.trial);
         std::mem::swap(&mut self.dense, &mut self.trial_dense);
         self.k.swap(0, 6);
-        self.quadratures.swap(0, 6);
+        self.powers.swap(0, 6);
     }
 
-    fn integrals(&self) -> &Quadratures {
-        &self.integrals
+    fn works(&self) -> &Powers {
+        &self.works
     }
 
     fn samples(&self) -> &Samples {
@@ -191,7 +190,7 @@ impl<S: Observed> Stepper<S> for DormandPrince {
     fn save(&self, out: &mut Vec<f64>) {
         out.extend_from_slice(&self.state);
         out.extend_from_slice(&self.k[0]);
-        out.extend_from_slice(&self.quadratures[0]);
+        out.extend_from_slice(&self.powers[0]);
         for part in &self.dense {
             out.extend_from_slice(part);
         }
@@ -200,7 +199,7 @@ impl<S: Observed> Stepper<S> for DormandPrince {
     fn load(&mut self, from: &mut Reader<'_>) -> Option<()> {
         from.fill(&mut self.state)?;
         from.fill(&mut self.k[0])?;
-        from.fill(&mut self.quadratures[0])?;
+        from.fill(&mut self.powers[0])?;
         self.dense.iter_mut().try_for_each(|part| from.fill(part))
     }
 }

@@ -8,8 +8,10 @@
 //! v_new  = v + dv,   q_new = q_half + h/2 v_new
 //! ```
 //!
-//! Groups that follow others ([`System::leaders`]) take in their `a` what the forces between them have become by the step of
-//! the others, so that momentum passes whole.
+//! Groups that follow others ([`leaders`]) take in their `a` what the forces between them have become by the step of the others,
+//! so that momentum passes whole.
+//!
+//! [`leaders`]: crate::integrate::Split::leaders
 //!
 //! Second order where rates are below 1/h: D_i is D/2 there, and the predictor removes the first-order bias of
 //! velocity-dependent forces also where D is known roughly. Forces may decay far faster than the step. Stable up to
@@ -18,7 +20,7 @@
 use crate::integrate::driver::control::{Estimate, Law};
 use crate::integrate::methods::damping::{VectorColumns, zero_vectors};
 use crate::integrate::{
-    Applied, GroupDamping, Observed, Quadratures, Reader, Samples, SemiImplicit, Split, Stepper,
+    Applied, GroupDamping, Observed, Powers, Reader, Samples, SemiImplicit, Split, Stepper,
 };
 use pulp::Arch;
 
@@ -44,7 +46,7 @@ pub struct Leapfrog {
     /// Accelerations and predicted changes of velocity by group.
     by_group: [VectorColumns; 2],
     instructions: Arch,
-    integrals: Quadratures,
+    works: Powers,
     samples: Samples,
 }
 
@@ -70,7 +72,7 @@ impl Leapfrog {
             groups: (0..groups).map(|i| system.group(i)).collect(),
             by_group: [zero_vectors(groups), zero_vectors(groups)],
             instructions: Arch::new(),
-            integrals: Quadratures::default(),
+            works: Powers::default(),
             samples: Samples::new(system.watched(), 1),
         }
     }
@@ -176,7 +178,7 @@ impl<S: Split + Observed> Stepper<S> for Leapfrog {
             }
         }
         let step = SemiImplicit { mean: &self.mean_v, end: v_trial, h };
-        self.integrals = system.quadratures(q_trial, &self.predicted, Some(&step)).map(|x| h * x);
+        self.works = system.powers(q_trial, &self.predicted, Some(&step)).map(|x| h * x);
         if let Some(row) = self.samples.row(0) {
             system.watch(q_trial, &self.predicted, Some(&step), row);
             self.samples.weigh(&[1.0]);
@@ -195,8 +197,8 @@ impl<S: Split + Observed> Stepper<S> for Leapfrog {
         std::mem::swap(&mut self.applied, &mut self.predicted);
     }
 
-    fn integrals(&self) -> &Quadratures {
-        &self.integrals
+    fn works(&self) -> &Powers {
+        &self.works
     }
 
     fn applied(&self) -> Option<Applied<'_>> {

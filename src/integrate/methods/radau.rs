@@ -27,14 +27,14 @@
 use crate::integrate::driver::control::{ErrorNorm, Estimate, Law};
 use crate::integrate::linear::shifted::Shifted;
 use crate::integrate::{
-    Linearization, Linearized, Observed, Quadratures, Reader, Samples, Stepper, Structure, add_weighted,
+    Linearization, Linearized, Observed, Powers, Reader, Samples, Stepper, Structure, add_weighted,
 };
 use crate::scalar::math;
 use nalgebra::Complex;
 
 /// Times of the stages in units of the step.
 const TIMES: [f64; 3] = [0.155_051_025_721_682_2, 0.644_948_974_278_317_8, 1.0];
-/// Weights of the stages in integrals.
+/// Weights of the stages in works.
 const WEIGHTS: [f64; 3] = [0.376_403_062_700_467_3, 0.512_485_826_188_421_6, 1.0 / 9.0];
 /// Real and complex eigenvalue of the inverse of the matrix a_ij.
 const GAMMA: f64 = 3.637_834_252_744_496;
@@ -83,9 +83,9 @@ pub struct Radau {
     stages: [Vec<f64>; 3],
     transformed: [Vec<f64>; 3],
     a: [Vec<f64>; 3],
-    /// Quadratures at the stages, and their integrals.
-    quadratures: [Quadratures; 3],
-    integrals: Quadratures,
+    /// Powers at the stages, and their works.
+    powers: [Powers; 3],
+    works: Powers,
     samples: Samples,
     /// What one iteration may leave in each state.
     allowed: Vec<f64>,
@@ -136,8 +136,8 @@ impl Radau {
             stages: three(),
             transformed: three(),
             a: std::array::from_fn(|_| vec![0.0; nv]),
-            quadratures: Default::default(),
-            integrals: Quadratures::default(),
+            powers: Default::default(),
+            works: Powers::default(),
             samples: Samples::new(system.watched(), 3),
             allowed: zeros(),
             real: Shifted::new(spokes),
@@ -183,14 +183,14 @@ impl Radau {
         self.contraction = math::powf(self.contraction.max(f64::EPSILON), 0.8);
         let (mut last_size, mut last_ratio) = (0.0, 0.0);
         for iteration in 1..=MAX_ITERATIONS {
-            let stages = self.stages.iter().zip(&mut self.a).zip(&mut self.quadratures).zip(TIMES);
-            for (place, (((z, a), quadratures), c)) in stages.enumerate() {
+            let stages = self.stages.iter().zip(&mut self.a).zip(&mut self.powers).zip(TIMES);
+            for (place, (((z, a), powers), c)) in stages.enumerate() {
                 for ((trial, y), z) in self.trial.iter_mut().zip(&self.state).zip(z) {
                     *trial = y + z;
                 }
                 let (q, v) = self.trial.split_at(nq);
                 system.accelerations((t + c * h).min(t_last), q, v, a)?;
-                *quadratures = system.quadratures(q, v, None);
+                *powers = system.powers(q, v, None);
                 if let Some(row) = self.samples.row(place) {
                     system.watch(q, v, None, row);
                 }
@@ -312,9 +312,9 @@ impl<S: Linearized + Observed> Stepper<S> for Radau {
         }
         self.trial_step = h;
         self.samples.weigh(&WEIGHTS);
-        self.integrals = Quadratures::default();
-        for (x, weight) in self.quadratures.iter().zip(WEIGHTS) {
-            add_weighted(&mut self.integrals, h * weight, x);
+        self.works = Powers::default();
+        for (x, weight) in self.powers.iter().zip(WEIGHTS) {
+            add_weighted(&mut self.works, h * weight, x);
         }
         let [c1, c2, _] = TIMES;
         for k in 0..self.state.len() {
@@ -340,8 +340,8 @@ impl<S: Linearized + Observed> Stepper<S> for Radau {
         (self.linearized, self.retried, self.smooth) = (false, false, true);
     }
 
-    fn integrals(&self) -> &Quadratures {
-        &self.integrals
+    fn works(&self) -> &Powers {
+        &self.works
     }
 
     fn samples(&self) -> &Samples {

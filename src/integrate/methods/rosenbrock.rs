@@ -6,7 +6,7 @@
 //! y_new = y + Sum_j m_j u_j,   error = u_6
 //! ```
 //!
-//! Integrals beside the state follow by Simpson's rule from the ends and the middle, where one more evaluation is made.
+//! Works follow by Simpson's rule from the ends and the middle, where one more evaluation is made.
 //!
 //! Seven evaluations and one derivative per step, six solves and one factorisation per attempt. Source: Hairer and
 //! Wanner, Solving Ordinary Differential Equations II, section IV.7 and the program RODAS (method 1).
@@ -15,7 +15,7 @@ use crate::integrate::driver::control::{ErrorNorm, Estimate, Law};
 use crate::integrate::linear::shifted::Shifted;
 use crate::integrate::methods::pack::{keep_parts, kept_parts};
 use crate::integrate::{
-    Linearization, Linearized, Observed, Quadratures, Reader, Samples, Stepper, Structure, add_weighted,
+    Linearization, Linearized, Observed, Powers, Reader, Samples, Stepper, Structure, add_weighted,
 };
 
 const GAMMA: f64 = 0.25;
@@ -77,9 +77,9 @@ pub struct Rosenbrock {
     /// Accelerations at the start of the step; with `slope` they serve every attempt from there.
     start_a: Vec<f64>,
     linearized: bool,
-    /// Quadratures there, and their integrals over the attempt.
-    start_quadratures: Quadratures,
-    integrals: Quadratures,
+    /// Powers there, and their works over the attempt.
+    start_powers: Powers,
+    works: Powers,
     /// At the start, at the end and in the middle.
     samples: Samples,
     /// u_1 to u_6 over the whole state.
@@ -106,8 +106,8 @@ impl Rosenbrock {
             a: vec![0.0; nv],
             start_a: vec![0.0; nv],
             linearized: false,
-            start_quadratures: Quadratures::default(),
-            integrals: Quadratures::default(),
+            start_powers: Powers::default(),
+            works: Powers::default(),
             samples: Samples::new(system.watched(), 3),
             stages: std::array::from_fn(|_| zeros()),
             slope: Linearization::new(&structure, nv),
@@ -121,11 +121,11 @@ impl Rosenbrock {
 
 impl Rosenbrock {
     /// Integrates over the attempt by Simpson's rule. The last stage was evaluated within its error of the end, whose
-    /// quadratures `end` are; the middle comes from the dense output.
+    /// powers `end` are; the middle comes from the dense output.
     fn integrate<S: Linearized + Observed>(
         &mut self,
         system: &mut S,
-        end: &Quadratures,
+        end: &Powers,
         t: f64,
         h: f64,
         t_last: f64,
@@ -135,17 +135,17 @@ impl Rosenbrock {
             *x = 0.5 * (start[k] + last[k] + 0.5 * (bend[k] + 0.5 * twist[k]));
         }
         let (q, v) = self.middle.split_at(self.positions);
-        self.integrals = Quadratures::default();
+        self.works = Powers::default();
         // Where nothing is defined between the ends, they alone must do: sums must not stop a step.
         let defined = system.accelerations((t + 0.5 * h).min(t_last), q, v, &mut self.a).is_ok();
-        let middle = if defined { system.quadratures(q, v, None) } else { Quadratures::default() };
+        let middle = if defined { system.powers(q, v, None) } else { Powers::default() };
         let weights = if defined { [1.0, 4.0, 1.0] } else { [3.0, 0.0, 3.0] };
         if let Some(row) = self.samples.row(2).filter(|_| defined) {
             system.watch(q, v, None, row);
         }
         self.samples.weigh(if defined { &[1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0] } else { &[0.5, 0.5] });
-        for (x, weight) in [&self.start_quadratures, &middle, end].into_iter().zip(weights) {
-            add_weighted(&mut self.integrals, weight * h / 6.0, x);
+        for (x, weight) in [&self.start_powers, &middle, end].into_iter().zip(weights) {
+            add_weighted(&mut self.works, weight * h / 6.0, x);
         }
     }
 }
@@ -183,7 +183,7 @@ impl<S: Linearized + Observed> Stepper<S> for Rosenbrock {
         let (q, v) = self.state.split_at(self.positions);
         self.linearized = false;
         system.linearize(t, q, v, &mut self.start_a, &mut self.slope)?;
-        self.start_quadratures = system.quadratures(q, v, None);
+        self.start_powers = system.powers(q, v, None);
         if let Some(row) = self.samples.row(0) {
             system.watch(q, v, None, row);
         }
@@ -200,7 +200,7 @@ impl<S: Linearized + Observed> Stepper<S> for Rosenbrock {
             return Err(system.not_finite(0));
         }
         self.trial.copy_from_slice(&self.state);
-        let mut end_quadratures = Quadratures::default();
+        let mut end_powers = Powers::default();
         for i in 0..6 {
             weighted_sum(&mut self.trial, &self.stages[..i], &A[i]);
             for (x, start) in self.trial.iter_mut().zip(&self.state) {
@@ -213,7 +213,7 @@ impl<S: Linearized + Observed> Stepper<S> for Rosenbrock {
                 system.accelerations((t + TIMES[i] * h).min(t_last), q, v, &mut self.a)?;
             }
             if i == 5 {
-                end_quadratures = system.quadratures(q, v, None);
+                end_powers = system.powers(q, v, None);
                 if let Some(row) = self.samples.row(1) {
                     system.watch(q, v, None, row);
                 }
@@ -242,7 +242,7 @@ impl<S: Linearized + Observed> Stepper<S> for Rosenbrock {
         weighted_sum(twist, &self.stages[..5], &DENSE[1]);
         let estimate = self.norm.of(|k| last[k]);
         if estimate.error <= 1.0 {
-            self.integrate(system, &end_quadratures, t, h, t_last);
+            self.integrate(system, &end_powers, t, h, t_last);
         }
         Ok(Some(estimate))
     }
@@ -253,8 +253,8 @@ impl<S: Linearized + Observed> Stepper<S> for Rosenbrock {
         self.linearized = false;
     }
 
-    fn integrals(&self) -> &Quadratures {
-        &self.integrals
+    fn works(&self) -> &Powers {
+        &self.works
     }
 
     fn samples(&self) -> &Samples {

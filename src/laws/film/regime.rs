@@ -8,7 +8,7 @@
 //! ```
 //!
 //! Source: NTN Eq. 9 and 10. The boundary coefficient falls to zero with the slip speed
-//! ([`super::solid_friction`]); that smoothing is an assumption of this library.
+//! ([`crate::laws::traction::solid_friction`]); that smoothing is an assumption of this library.
 
 use crate::laws::traction::solid_friction::SolidFriction;
 use crate::scalar::{Base, Of};

@@ -23,6 +23,7 @@ const LAYER: Cost = Cost { value: 200.0, slopes: 400.0, per_element: false };
 impl Model {
     /// Time that the derivatives of the forces take beside their values, in force evaluations, counted from elements, contacts
     /// and films. Never clocked, so that equal runs choose equally.
+    #[doc(hidden)]
     pub fn jacobian_cost(&self) -> f64 {
         let film = self.guide.as_ref().and_then(|guide| guide.law().film.as_ref()).map(|film| match film {
             GuideFilm::ShortBearing(_) => SHORT_BEARING,
@@ -46,6 +47,7 @@ impl Model {
     ///
     /// # Panics
     /// As [`Model::accelerations`].
+    #[doc(hidden)]
     pub fn time_parts(
         &self,
         inputs: &InputValues,

@@ -16,6 +16,7 @@ use crate::space::Motion;
 impl Model {
     /// The longest step (s) from the state (q, v) at time `t` that passes no narrow law unseen, or any longer one than
     /// `wanted`.
+    #[doc(hidden)]
     pub fn longest_step(
         &self,
         t: f64,

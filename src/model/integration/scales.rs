@@ -69,6 +69,7 @@ impl Model {
     }
 
     /// Whether the contacts that set the highest frequency are damped.
+    #[doc(hidden)]
     pub fn damped(&self) -> bool {
         let raceway = self.law_of(ForceSource::InnerRaceway);
         raceway.or_else(|| self.laws_on(CAGE).next()).is_none_or(ContactLaw::damped)
@@ -76,6 +77,7 @@ impl Model {
 
     /// What counts as one unit of error for every state: the reference length for positions, divided by a radius
     /// for angles, times 1e4 1/s for velocities.
+    #[doc(hidden)]
     pub fn state_scales(&self) -> Vec<f64> {
         let length = self.reference_length();
         let (pitch, radius) = (self.pitch_radius(), self.elements.set().radius);

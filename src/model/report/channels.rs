@@ -306,6 +306,7 @@ impl Model {
     }
 
     /// Viscosity of the lubricant in Pa s at these inputs, if it follows the temperature.
+    #[doc(hidden)]
     pub fn viscosity(&self, inputs: &InputValues) -> Option<f64> {
         self.inputs.oil.map(|oil| oil.law.viscosity(inputs.of(Input::Temperature)))
     }

@@ -5,6 +5,7 @@ use crate::model::Model;
 
 impl Model {
     /// A fault in words.
+    #[doc(hidden)]
     pub fn describe(&self, fault: Fault) -> String {
         match fault {
             Fault::NoGuideFilm { minimum_film } => {

@@ -90,6 +90,7 @@ impl Channel {
 
 impl Model {
     /// Places of the watched channels among [`Model::channels`].
+    #[doc(hidden)]
     pub fn watched(&self) -> &[usize] {
         &self.selection.watch.channels
     }

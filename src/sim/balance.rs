@@ -101,8 +101,8 @@ impl Sim {
         self.driver.state_at(to, &mut state);
         let energy = self.energy_at(to, &state)?;
         let mut work = [0.0; POWERS.len()];
-        work.copy_from_slice(&self.driver.integrals_at(to)[..POWERS.len()]);
-        let Start { time, energy: start } = self.audit;
+        work.copy_from_slice(&self.driver.works_at(to)[..POWERS.len()]);
+        let Start { time, energy: start } = self.balance;
         Ok(PowerBalance { from: time, to, work, energy: [start, energy] })
     }
 
@@ -110,8 +110,8 @@ impl Sim {
     pub(super) fn share_at_floor(&self) -> f64 {
         let to = self.driver.reached();
         // Some weights of methods are negative.
-        let time = self.driver.integrals_at(to)[AT_FLOOR].abs();
-        if time > 0.0 { time / (to - self.audit.time) } else { 0.0 }
+        let time = self.driver.works_at(to)[AT_FLOOR].abs();
+        if time > 0.0 { time / (to - self.balance.time) } else { 0.0 }
     }
 
     /// Energy of a state at time `t` (s).
@@ -123,9 +123,9 @@ impl Sim {
     }
 
     /// Starts the balance at the last evaluated state, which must be the present one.
-    pub(super) fn start_audit(&mut self) {
-        self.audit = Start { time: self.time, energy: self.bearing.energy() };
-        self.driver.forget_integrals();
+    pub(super) fn start_balance(&mut self) {
+        self.balance = Start { time: self.time, energy: self.bearing.energy() };
+        self.driver.forget_works();
     }
 }
 

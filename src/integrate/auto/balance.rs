@@ -1,9 +1,9 @@
-//! Keeps account of the energy of a run, stretch by stretch, and tells which of them missed too much of it.
+//! The power balance of a run, stretch by stretch: which of them missed too much energy.
 //!
-//! The works of all forces ([`System::quadratures`]) less the gain of stored energy ([`System::energy`]) are zero for an exact
+//! The works of all forces ([`Observed::powers`]) less the gain of stored energy ([`Observed::energy`]) are zero for an exact
 //! solution. What is missing, as a share of what passed through, is an error of all of the integration.
 
-use crate::integrate::{Observed, Quadratures, Reader, Tuning, WORKS, add_weighted};
+use crate::integrate::{MOST_POWERS, Observed, Powers, Reader, Tuning, add_weighted};
 
 /// Energy that passed through a system, J: all that came in by work, or was stored before and is no longer.
 pub fn throughput(works: impl IntoIterator<Item = f64>, gains: impl IntoIterator<Item = f64>) -> f64 {
@@ -18,7 +18,7 @@ pub fn throughput(works: impl IntoIterator<Item = f64>, gains: impl IntoIterator
 /// Works and gains of stored energy over some time, J.
 #[derive(Clone, Copy, Debug, Default)]
 struct Turnover {
-    works: Quadratures,
+    works: Powers,
     gains: [f64; 3],
 }
 
@@ -31,20 +31,20 @@ impl Turnover {
     }
 
     fn missing(&self) -> f64 {
-        self.works[..WORKS].iter().sum::<f64>() - self.gains.iter().sum::<f64>()
+        self.works[..MOST_POWERS].iter().sum::<f64>() - self.gains.iter().sum::<f64>()
     }
 
     /// What is missing as a share of what passed through; zero where nothing passed.
     fn missing_share(&self) -> f64 {
         let missing = self.missing();
-        let passed = throughput(self.works.into_iter().take(WORKS), self.gains);
+        let passed = throughput(self.works.into_iter().take(MOST_POWERS), self.gains);
         if missing == 0.0 { 0.0 } else { (missing / passed).abs() }
     }
 }
 
-/// The account.
+/// The balance.
 #[derive(Clone, Debug)]
-pub struct Ledger {
+pub struct Balance {
     tuning: Tuning,
     /// Share that a run may miss.
     allowed: f64,
@@ -57,8 +57,8 @@ pub struct Ledger {
     a: Vec<f64>,
 }
 
-impl Ledger {
-    /// An empty account of a system with this many velocities, whose runs may miss this share of their energy.
+impl Balance {
+    /// An empty balance of a system with this many velocities, whose runs may miss this share of their energy.
     pub fn new(velocities: usize, allowed: f64, tuning: Tuning) -> Self {
         Self {
             tuning,
@@ -71,7 +71,7 @@ impl Ledger {
         }
     }
 
-    /// Forgets everything: the next stretch opens the account.
+    /// Forgets everything: the next stretch opens the balance.
     pub fn forget(&mut self) {
         self.close();
         self.before = Turnover::default();
@@ -99,7 +99,7 @@ impl Ledger {
     }
 
     /// Adds the works of a step.
-    pub fn add(&mut self, works: &Quadratures) {
+    pub fn add(&mut self, works: &Powers) {
         add_weighted(&mut self.stretch.works, 1.0, works);
     }
 
@@ -147,7 +147,7 @@ impl Ledger {
         }
     }
 
-    /// Takes back what [`Ledger::save`] wrote; `None` if it does not fit.
+    /// Takes back what [`Balance::save`] wrote; `None` if it does not fit.
     pub fn load(&mut self, from: &mut Reader<'_>) -> Option<()> {
         self.open = from.flag()?;
         from.fill(&mut self.energy)?;
