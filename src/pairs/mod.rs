@@ -7,10 +7,10 @@
 //! | plane pocket | `pocket/plane` | element, cage | spring, damper, friction |
 //! | guide | `guide` | cage, outer or inner ring | films, solid contact |
 //!
-//! A pair of elements finds its touching contacts and hands motion and [`Grip`] of each to [`Contacts`]. Wrenches, powers,
+//! A pair of elements finds its touching contacts and hands motion and `Grip` of each to `Contacts`. Wrenches, powers,
 //! damping, the change of forces in a step and the reaction follow from these by the same code for all pairs
-//! (`model/evaluate`, `model/works`, `model/integration`). A new pair is a file with the trait [`ElementPair`] and a line in
-//! [`element_pairs`]. The guide is no pair of elements: the model has at most one, and asks it by name.
+//! (`model/evaluate`, `model/works`, `model/integration`). A new pair is a file with the trait `ElementPair` and a line in
+//! `element_pairs`. The guide is no pair of elements: the model has at most one, and asks it by name.
 
 mod contacts;
 pub(crate) mod grip;
