@@ -4,24 +4,20 @@
 //! |---|---|---|
 //! | rings | `ring` | centre (y, z), or none for one that is held |
 //! | cage | `cage` | centre (y, z), angle |
-//! | rollers | `rollers` | radial offset and orbit angle, spin speed |
-//! | elements of prescribed motion | `kinematic` | none |
+//! | rollers | `elements/rollers` | radial offset and orbit angle, spin speed |
+//! | elements of prescribed motion | `elements/kinematic` | none |
 //!
 //! Rings and cage are shared: there is one of each, and every element can touch it. Pairs of bodies see [`Motions`] only and
 //! act on bodies by wrenches only. A new body is a file with one of the two traits and a line in [`shared_bodies`] or
 //! [`elements()`].
 
 mod cage;
-mod element_set;
 mod elements;
 mod fault;
 mod inputs;
-mod kinematic;
 mod layout;
 mod motions;
-mod places;
 mod ring;
-mod rollers;
 mod states;
 
 pub(crate) use fault::FaultKind;
@@ -29,20 +25,18 @@ pub use fault::{FAULTS, Fault, FaultCounts};
 pub use inputs::{HostInputs, INPUTS, Input, InputValues};
 pub use layout::Layout;
 
-pub(crate) use element_set::ElementSet;
 pub(crate) use elements::{Elements, Inertia, UPPER, scale_rows};
 pub(crate) use layout::{IN_HUB, OF_ELEMENT};
-pub(crate) use motions::{Element, ElementMotion, Motions};
+pub(crate) use motions::{Element, ElementMotion, ElementSet, Motions};
 pub(crate) use states::{State, layout_of, states_of};
 
 use crate::registry::registry;
 use crate::scene::Scene;
 use crate::space::{Motion, Wrench};
 use cage::Cage;
-use kinematic::KinematicElements;
+use elements::{KinematicElements, Rollers};
 use nalgebra::Matrix3;
 use ring::Ring;
-use rollers::Rollers;
 use std::fmt::Debug;
 
 /// Places of the shared bodies.

@@ -1,6 +1,6 @@
 //! Rolling elements whose orbit and spin are prescribed: they roll on, whatever the cage does to them.
 
-use super::{
+use crate::bodies::{
     BodyEnergy, BodyForces, Coordinate, Element, ElementMotion, ElementSet, Elements, Fault, Inertia, Input,
     InputValues, Layout, Motions, OF_ELEMENT,
 };
@@ -11,13 +11,13 @@ use crate::space::Wrench;
 
 /// Elements of prescribed motion, at equal distances on the pitch circle.
 #[derive(Debug)]
-pub(super) struct KinematicElements {
+pub(in crate::bodies) struct KinematicElements {
     set: ElementSet,
 }
 
 impl KinematicElements {
     /// Those of a scene.
-    pub(super) fn new(scene: &Scene) -> Self {
+    pub(in crate::bodies) fn new(scene: &Scene) -> Self {
         Self { set: ElementSet::new(scene) }
     }
 }

@@ -1,9 +1,14 @@
 //! Motion of all bodies at one state: what pairs see of them.
 
+mod element_set;
+mod places;
+
+pub(crate) use element_set::ElementSet;
+
+use super::SHARED;
 use super::layout::OF_ELEMENT;
-use super::places::Places;
-use super::{ElementSet, SHARED};
 use crate::space::{Frame, Motion, Wrench};
+use places::Places;
 use pulp::Arch;
 
 /// Motion of one element in cylindrical coordinates about the centre of the bearing.

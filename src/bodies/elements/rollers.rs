@@ -6,8 +6,8 @@
 //!
 //! The travel counts from the centred place of the pocket at the start; the spin angle enters no force.
 
-use super::elements::{UPPER, scale_rows};
-use super::{
+use super::{UPPER, scale_rows};
+use crate::bodies::{
     BodyEnergy, BodyForces, Coordinate, Element, ElementMotion, ElementSet, Elements, Fault, ForceSource,
     Inertia, Input, InputValues, Layout, Motions, Moves, OF_ELEMENT, weight,
 };
@@ -23,7 +23,7 @@ const LOST_ROLLER: f64 = 0.25;
 
 /// Rollers with states of their own.
 #[derive(Debug)]
-pub(super) struct Rollers {
+pub(in crate::bodies) struct Rollers {
     set: ElementSet,
     inertia: Inertia,
     /// Gap of a roller on the pitch circle to either raceway with the inner ring centred, m.
@@ -54,7 +54,7 @@ const COORDINATES: [Coordinate; OF_ELEMENT] = [
 
 impl Rollers {
     /// The rollers of a scene, if it has any.
-    pub(super) fn new(scene: &Scene) -> Option<Self> {
+    pub(in crate::bodies) fn new(scene: &Scene) -> Option<Self> {
         let rollers = scene.rollers.as_ref()?;
         Some(Self {
             set: ElementSet::new(scene),

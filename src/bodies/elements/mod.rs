@@ -1,6 +1,12 @@
 //! Rolling elements: what all kinds of them have in common.
 
-use super::{
+mod kinematic;
+mod rollers;
+
+pub(super) use kinematic::KinematicElements;
+pub(super) use rollers::Rollers;
+
+use crate::bodies::{
     BodyEnergy, BodyForces, Coordinate, Element, ElementSet, Fault, InputValues, Layout, Motions, OF_ELEMENT,
 };
 use crate::integrate::GroupDamping;

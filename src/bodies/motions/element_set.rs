@@ -20,7 +20,7 @@ pub(crate) struct ElementSet {
 
 impl ElementSet {
     /// Those of a scene.
-    pub(super) fn new(scene: &Scene) -> Self {
+    pub(in crate::bodies) fn new(scene: &Scene) -> Self {
         let count = scene.element_count() as usize;
         let reference_angles: Vec<f64> =
             (0..count).map(|j| scene.initial.first_roller_angle + TAU * j as f64 / count as f64).collect();
