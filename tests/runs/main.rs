@@ -9,3 +9,5 @@ mod limits;
 mod nu2310;
 mod promises;
 mod sim;
+mod snapshots;
+mod started;

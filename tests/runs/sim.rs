@@ -1,36 +1,12 @@
 //! Simulations: determinism, saving, threads, inputs, events, failures, odd but valid scenes.
 
 use crate::common::{example_text, example_with, read};
+use crate::started::{ACCURATE, CHOSEN, STIFF, bits, model, sim, state_at};
 use cagedyn::model::PARTS;
 use cagedyn::sim::STATISTICS;
-use cagedyn::{Model, Scene, Sim, Status};
+use cagedyn::{Model, Sim, Status};
 use serde_json::{Value, json};
 use std::sync::Arc;
-
-const STIFF: (&str, &str) = ("solver", r#"{"method": {"rosenbrock": {"tolerance": 1e-5}}}"#);
-const CHOSEN: (&str, &str) = ("solver", r#"{"method": {"auto": {"tolerance": 1e-5}}}"#);
-const ACCURATE: (&str, &str) = ("solver", r#"{"method": {"dormand_prince": {"tolerance": 1e-7}}}"#);
-
-fn model(overrides: &[(&str, &str)]) -> Arc<Model> {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/nu2310.json");
-    let text = std::fs::read_to_string(path).unwrap();
-    let scene = Scene::from_json_with(&text, overrides.iter().copied()).unwrap_or_else(|e| panic!("{e}"));
-    Arc::new(Model::new(scene).unwrap_or_else(|e| panic!("{e}")))
-}
-
-fn sim(overrides: &[(&str, &str)]) -> Sim {
-    Sim::new(model(overrides)).unwrap_or_else(|e| panic!("{e}"))
-}
-
-fn state_at(overrides: &[(&str, &str)], t: f64) -> Vec<f64> {
-    let mut s = sim(overrides);
-    s.advance_to(t).unwrap_or_else(|e| panic!("{e}"));
-    s.state().to_vec()
-}
-
-fn bits(state: &[f64]) -> Vec<u64> {
-    state.iter().map(|x| x.to_bits()).collect()
-}
 
 #[test]
 fn the_same_scene_gives_the_same_bits() {
@@ -55,46 +31,6 @@ fn threads_do_not_affect_each_other() {
     });
     assert_eq!(alone, together);
     assert_ne!(alone[0], alone[1]);
-}
-
-#[test]
-fn saving_and_restoring_continues_with_the_same_bits() {
-    for method in [&[][..], &[CHOSEN][..], &[ACCURATE][..], &[STIFF][..]] {
-        let mut first = sim(method);
-        first.set_input(2, -3000.0).unwrap();
-        first.advance_to(0.7e-3).unwrap();
-        let saved = first.save();
-        assert_eq!(saved.len(), first.save_len());
-        let mut second = sim(method);
-        second.advance_to(0.1e-3).unwrap();
-        second.restore(&saved).unwrap();
-        assert_eq!((second.time(), second.input(2)), (first.time(), Ok(-3000.0)));
-        first.advance_to(1.5e-3).unwrap();
-        second.advance_to(1.5e-3).unwrap();
-        assert_eq!(bits(first.state()), bits(second.state()));
-        assert_eq!(first.statistics(), second.statistics());
-    }
-}
-
-#[test]
-fn damaged_and_foreign_snapshots_are_refused_and_change_nothing() {
-    let mut s = sim(&[]);
-    s.advance_to(0.3e-3).unwrap();
-    let good = s.save();
-    let before = bits(s.state());
-    let other = sim(&[("inner_ring.radial_clearance", "5e-6")]).save();
-    let mut cases = vec![vec![], good[1..].to_vec(), other];
-    for (i, value) in [(0, 1.0), (3, -1.0), (3, f64::NAN), (4, 0.5), (20, f64::INFINITY)] {
-        let mut damaged = good.clone();
-        damaged[i] = value;
-        cases.push(damaged);
-    }
-    for (i, snapshot) in cases.iter().enumerate() {
-        assert_eq!(s.restore(snapshot).map_err(|e| e.status), Err(Status::BadSnapshot), "case {i}");
-        assert_eq!(bits(s.state()), before, "case {i}");
-    }
-    s.restore(&good).unwrap();
-    s.advance_to(0.4e-3).unwrap();
 }
 
 #[test]
@@ -356,32 +292,6 @@ fn a_refused_state_leaves_the_outputs_alone() {
     }
 }
 
-/// What the future does not depend on may differ.
-#[test]
-fn snapshots_are_good_for_other_titles_and_records() {
-    let mut s = sim(&[]);
-    s.advance_to(1e-3).unwrap();
-    let saved = s.save();
-    s.advance_to(2e-3).unwrap();
-    for same in [
-        &[("title", "another"), ("record.interval", "1e-3")][..],
-        &[("record.extremes", r#"["guide.*"]"#), ("record.channels", r#"["cage.y"]"#)],
-        &[("comment", "text")],
-    ] {
-        let mut other = sim(same);
-        other.restore(&saved).unwrap_or_else(|e| panic!("{same:?}: {e}"));
-        other.advance_to(2e-3).unwrap();
-        assert_eq!(bits(other.state()), bits(s.state()), "{same:?}");
-    }
-    for (path, value) in [
-        ("solver", r#"{"preset": "draft"}"#),
-        ("rollers.mass", "0.0305"),
-        ("solver", r#"{"max_steps": 1000}"#),
-    ] {
-        assert_eq!(sim(&[(path, value)]).restore(&saved).unwrap_err().status, Status::BadSnapshot, "{path}");
-    }
-}
-
 /// The value that an input has already, and one that the scene gives, change nothing.
 #[test]
 fn inputs_that_are_set_to_what_they_are_cost_nothing() {
@@ -420,22 +330,6 @@ fn inputs_have_the_ranges_of_scenes() {
     assert!(e.status == Status::BadValue && e.message.contains("at 160.0 K the viscosity"), "{e}");
 }
 
-#[test]
-fn states_that_could_not_be_saved_are_refused() {
-    let mut s = sim(&[]);
-    for value in [1e160, -1e13, f64::INFINITY] {
-        let mut state = s.state().to_vec();
-        *state.last_mut().unwrap() = value;
-        assert_eq!(s.set_state(0.0, &state).unwrap_err().status, Status::BadValue, "{value}");
-    }
-    let mut state = s.state().to_vec();
-    *state.last_mut().unwrap() = 1e12;
-    if s.set_state(0.0, &state).is_ok() {
-        let saved = s.save();
-        s.restore(&saved).unwrap();
-    }
-}
-
 /// Where nothing has energy, none is missing.
 #[test]
 fn nothing_is_missing_of_nothing() {
@@ -454,36 +348,6 @@ fn nothing_is_missing_of_nothing() {
     let state = s.state().to_vec();
     s.set_state(5e-324, &state).unwrap();
     s.step(1e-6).unwrap();
-}
-
-#[test]
-fn every_changed_number_of_a_snapshot_is_noticed() {
-    let methods = [
-        r#""leapfrog": {}"#,
-        r#""dormand_prince": {"tolerance": 1e-5}"#,
-        r#""auto": {}"#,
-        r#""auto": {"tolerance": 1e-5}"#,
-    ];
-    for method in methods {
-        let solver = format!(r#"{{"method": {{{method}}}, "max_steps": 600}}"#);
-        // Few rollers: a restore makes a stretch again, and there are as many as there are numbers.
-        let mut s = sim(&[("solver", &solver), ("rollers.count", "5")]);
-        s.advance_to(0.2e-3).unwrap();
-        let good = s.save();
-        for i in 0..good.len() {
-            for value in [0.0, -1.0, 0.3, 7.0, 1e300, -1e300, 5e-324, good[i] * (1.0 + 1e-15), -good[i]] {
-                let mut damaged = good.clone();
-                damaged[i] = value;
-                if value.to_bits() == good[i].to_bits() {
-                    continue;
-                }
-                let e = s.restore(&damaged).expect_err("a damaged snapshot");
-                assert_eq!(e.status, Status::BadSnapshot, "{method}, {i} = {value}: {e}");
-            }
-        }
-        s.restore(&good).unwrap();
-        s.step(1e-4).unwrap();
-    }
 }
 
 #[test]
