@@ -7,8 +7,8 @@
 //! Coordinates are those of the geometric centre, which turns about s.
 
 use super::{
-    BodyEnergy, BodyForces, Coordinate, Fault, ForceSource, Input, InputValues, Moves, Power, SharedBody,
-    weight,
+    BodyEnergy, BodyForces, CENTRE, Coordinate, Fault, ForceSource, Input, InputValues, Moves, Power,
+    SharedBody, weight,
 };
 use crate::scalar::math;
 use crate::scene::Scene;
@@ -27,16 +27,8 @@ pub(super) struct Cage {
 }
 
 const COORDINATES: [Coordinate; 3] = [
-    Coordinate {
-        position: Some(["y", "m", "centre position to the right"]),
-        rate: ["vy", "m/s", "velocity of the centre to the right"],
-        moves: Moves::Itself,
-    },
-    Coordinate {
-        position: Some(["z", "m", "centre position upwards"]),
-        rate: ["vz", "m/s", "velocity of the centre upwards"],
-        moves: Moves::Itself,
-    },
+    CENTRE[0],
+    CENTRE[1],
     Coordinate {
         position: Some(["angle", "rad", "rotation angle since the start"]),
         rate: ["speed", "rad/s", "rotation speed"],

@@ -65,7 +65,7 @@ pub(crate) fn elements(scene: &Scene) -> Box<dyn Elements> {
 }
 
 /// A coordinate of a body and its rate.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Coordinate {
     /// Name, SI unit and meaning of the position; `None` for one that enters no force, of which only the rate is a state.
     pub(crate) position: Option<[&'static str; 3]>,
@@ -74,6 +74,20 @@ pub(crate) struct Coordinate {
     /// What a change of it moves.
     pub(crate) moves: Moves,
 }
+
+/// The centre of a body.
+const CENTRE: [Coordinate; 2] = [
+    Coordinate {
+        position: Some(["y", "m", "centre position to the right"]),
+        rate: ["vy", "m/s", "velocity of the centre to the right"],
+        moves: Moves::Itself,
+    },
+    Coordinate {
+        position: Some(["z", "m", "centre position upwards"]),
+        rate: ["vz", "m/s", "velocity of the centre upwards"],
+        moves: Moves::Itself,
+    },
+];
 
 /// What a unit of a coordinate moves by how much.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -7,7 +7,7 @@
 //! P load, c damping of the support. What turns the ring is no state: it takes the moment that the speed needs.
 
 use super::{
-    BodyEnergy, BodyForces, Coordinate, Fault, ForceSource, Input, InputValues, Moves, Power, SharedBody,
+    BodyEnergy, BodyForces, CENTRE, Coordinate, Fault, ForceSource, Input, InputValues, Power, SharedBody,
     weight,
 };
 use crate::scene::{RingMotion, Scene};
@@ -30,19 +30,6 @@ enum Held {
     /// Not at all; mass in kg, support damping in N s/m.
     Free { mass: f64, damping: f64 },
 }
-
-const COORDINATES: [Coordinate; 2] = [
-    Coordinate {
-        position: Some(["y", "m", "centre position to the right"]),
-        rate: ["vy", "m/s", "velocity of the centre to the right"],
-        moves: Moves::Itself,
-    },
-    Coordinate {
-        position: Some(["z", "m", "centre position upwards"]),
-        rate: ["vz", "m/s", "velocity of the centre upwards"],
-        moves: Moves::Itself,
-    },
-];
 
 impl Ring {
     /// The outer ring, which stands still.
@@ -71,7 +58,7 @@ impl SharedBody for Ring {
     fn coordinates(&self) -> &'static [Coordinate] {
         match self.held {
             Held::At(_) => &[],
-            Held::Free { .. } => &COORDINATES,
+            Held::Free { .. } => &CENTRE,
         }
     }
 

@@ -49,13 +49,6 @@ fn viscosity_at_start(scene: &Scene, inputs: &InputSignals) -> Option<f64> {
     }
 }
 
-impl Model {
-    /// Viscosity that laws are built with, Pa s.
-    pub(super) fn viscosity_at_start(&self) -> Option<f64> {
-        viscosity_at_start(&self.scene, &self.inputs)
-    }
-}
-
 /// The inputs in the order of [`Input`].
 fn inputs(scene: &Scene) -> Result<InputSignals> {
     let mut list = Vec::new();

@@ -1,11 +1,10 @@
 //! Start of a run: kinematic speeds, and on request the static equilibrium of ring and rollers.
 
 use super::{HostInputs, Input, InputValues, Model};
-use crate::bodies::{ElementMotion, INNER_RING};
+use crate::bodies::{ElementMotion, ForceSource, INNER_RING};
 use crate::error::{Error, Result, Status};
 use crate::laws::line_contact::LineContact;
-use crate::pairs::line_laws::LawBuilder;
-use crate::pairs::raceway::{self, RacewayGeometry, RingMotion};
+use crate::pairs::raceway::{RacewayGeometry, RingMotion};
 use crate::scalar::math;
 use crate::scene::{RingMotion as Held, RingStart};
 use crate::space::Frame;
@@ -54,10 +53,11 @@ impl Model {
         if start.inner_ring == RingStart::Equilibrium
             && let Some(i) = layout.ring()
             && let Some(mass) = self.shared[INNER_RING].as_ref().and_then(|ring| ring.mass())
-            && let Some((geometry, laws)) =
-                raceway::laws_of(&LawBuilder::new(&self.scene, self.viscosity_at_start()))?
+            && let Some(geometry) = self.raceway_geometry()
+            && let [Some(outer), Some(inner)] =
+                [ForceSource::OuterRaceway, ForceSource::InnerRaceway].map(|ring| self.law_of(ring)?.line())
         {
-            let (geometry, laws) = (&geometry, &laws);
+            let laws = [outer, inner];
             let load = [
                 inputs.of(Input::LoadY) + mass * self.gravity[0],
                 inputs.of(Input::LoadZ) + mass * self.gravity[1],
@@ -110,9 +110,9 @@ impl Model {
 /// The rollers of a bearing in which nothing moves but for the centrifugal force.
 struct StillBearing<'a> {
     model: &'a Model,
-    geometry: &'a RacewayGeometry,
+    geometry: RacewayGeometry,
     /// Of outer and inner ring.
-    laws: &'a [LineContact; 2],
+    laws: [&'a LineContact; 2],
     q: &'a [f64],
     /// On each roller, N.
     centrifugal: f64,
@@ -183,7 +183,7 @@ impl StillBearing<'_> {
 
     /// Radial equilibrium of a roller, with the ring centre at `ring` (m) in the roller's local frame.
     fn roller_balance(&self, ring: [f64; 2]) -> RollerBalance {
-        let [outer, inner] = self.laws.each_ref().map(|law| &law.elastic);
+        let [outer, inner] = self.laws.map(|law| &law.elastic);
         let (g, centrifugal) = (self.geometry, self.centrifugal);
         // The outward force of the roller falls with its offset: bisection between resting outside and squeezed in.
         let state = |offset: f64| {

@@ -183,10 +183,15 @@ impl Model {
 
     /// Radius of the inner raceway in m, where there are rollers.
     pub fn inner_raceway_radius(&self) -> Option<f64> {
+        let g = self.raceway_geometry()?;
+        Some(g.pitch_radius - g.roller_radius - g.gap)
+    }
+
+    /// Radii of rollers and raceways, where there are rollers.
+    fn raceway_geometry(&self) -> Option<RacewayGeometry> {
         let rollers = self.scene.rollers.as_ref()?;
         let outer = self.scene.outer_ring.as_ref().map_or(0.0, |ring| ring.raceway_radius);
-        let g = RacewayGeometry::new(outer, rollers.radius, self.scene.radial_clearance());
-        Some(g.pitch_radius - g.roller_radius - g.gap)
+        Some(RacewayGeometry::new(outer, rollers.radius, self.scene.radial_clearance()))
     }
 
     /// Orbit and spin speed of the elements without slip at these inputs, rad/s: of rollers that touch both raceways,

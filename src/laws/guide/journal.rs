@@ -68,3 +68,24 @@ impl<T: Real> FilmForce<T> {
         [self.pressure[0] + self.shear[0], self.pressure[1] + self.shear[1]]
     }
 }
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    /// Of a journal that turns at `speed` (rad/s) in a bush at rest.
+    pub(in crate::laws::guide) fn motion(
+        position: [f64; 2],
+        velocity: [f64; 2],
+        speed: f64,
+    ) -> JournalMotion<f64> {
+        JournalMotion {
+            position,
+            velocity,
+            journal_speed: speed,
+            bush_speed: 0.0,
+            profile_angle: 0.3,
+            profile_speed: speed,
+        }
+    }
+}

@@ -295,4 +295,4 @@ fn eccentricity<T: Real>([y, z]: [T; 2]) -> (T, [T; 2]) {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

@@ -220,23 +220,9 @@ fn from_film<T: Real>(film: FilmForce<T>, share: T) -> GuideForce<T> {
 
 #[cfg(test)]
 mod tests {
+    use super::lubricant_layer::tests::layer;
     use super::*;
     use crate::laws::traction::solid_friction::SolidFriction;
-
-    fn layer() -> GuideFilm {
-        GuideFilm::LubricantLayer(LubricantLayer {
-            viscosity: 0.0924,
-            pressure_viscosity: 2e-8,
-            cap: 0.9,
-            radius: 46.6615e-3,
-            clearance: 0.2135e-3,
-            width: 8e-3,
-            thickness: 80e-6,
-            pressure_shear: PressureShear::WithinArc,
-            roundness: Vec::new(),
-            profile_on_journal: true,
-        })
-    }
 
     fn mixed() -> GuideLaw {
         let friction = Some(SolidFriction { coefficient: 0.1, transition_speed: 0.01 });
@@ -244,7 +230,7 @@ mod tests {
         GuideLaw {
             radius: 46.6615e-3,
             free_clearance: 0.2135e-3,
-            film: Some(layer()),
+            film: Some(GuideFilm::LubricantLayer(layer())),
             solid: Some(GuideSolid { contact, asperity_height: 3e-6 }),
             roughness: 1e-6,
             touching_ratio: 0.1,

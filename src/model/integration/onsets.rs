@@ -7,11 +7,10 @@
 //!
 //! [`InputSignals::shortest_period`]: crate::model::signals::InputSignals::shortest_period
 
-use crate::bodies::{CAGE, OUTER_RING, SHARED};
+use crate::bodies::{CAGE, OUTER_RING};
 use crate::integrate::Tuning;
 use crate::model::{HostInputs, InputValues, Model};
 use crate::pairs::Ahead;
-use crate::space::Motion;
 
 impl Model {
     /// The longest step (s) from the state (q, v) at time `t` that passes no narrow law unseen, or any longer one than
@@ -27,22 +26,22 @@ impl Model {
     ) -> f64 {
         let mut longest = self.inputs.shortest_period(host) / tuning.steps_per_period;
         let onsets = self.pairs.iter().any(|pair| pair.has_onset());
+        if self.guide.is_none() && !onsets {
+            return longest;
+        }
         // A ring that stands guides at no input.
         let moved = self.guide.as_ref().is_some_and(|guide| guide.ring != OUTER_RING);
         let inputs = if moved || onsets { self.inputs_at(t, host) } else { InputValues::default() };
         let mass = |body: usize| self.shared[body].as_ref().and_then(|body| body.mass());
-        let mut shared = [Motion::default(); SHARED];
+        let shared = self.motions_at(q, v, &inputs);
         if let Some(guide) = &self.guide {
-            for body in [CAGE, guide.ring] {
-                shared[body] = self.motion_of(body, q, v, &inputs);
-            }
             longest = longest.min(guide.longest_step(&shared, mass(CAGE).unwrap_or(0.0), tuning));
         }
         if !onsets {
             return longest;
         }
         let ahead = Ahead {
-            shared: &std::array::from_fn::<_, SHARED, _>(|body| self.motion_of(body, q, v, &inputs)),
+            shared: &shared,
             elements: &*self.elements,
             layout: &self.layout,
             q,

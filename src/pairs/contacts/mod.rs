@@ -96,29 +96,19 @@ impl Batch {
         self.sites.push(site);
     }
 
-    /// Makes the places up to the next whole group apart.
-    fn pad(&mut self) {
-        for i in self.len()..self.len().next_multiple_of(WIDEST) {
-            self.motion.set(i, &APART);
-            self.edge_share[i] = 0.0;
-        }
-    }
-
     /// Evaluates the laws, with the logarithm `ln_viscosity` of the relative viscosity.
     pub(crate) fn apply(&mut self, ln_viscosity: f64, instructions: Arch) {
-        self.differentiated = false;
-        if matches!(self.laws, BatchLaws::Lines(_)) {
-            self.pad();
-        }
         let rows = self.len();
+        let Self { motion, edge_share, force, .. } = self;
+        self.differentiated = false;
         match &self.laws {
             BatchLaws::Lines(laws) => {
-                laws.apply(rows, &self.motion, &self.edge_share, ln_viscosity, &mut self.force, instructions);
+                pad(rows, motion, edge_share);
+                laws.apply(rows, motion, edge_share, ln_viscosity, force, instructions);
             }
             BatchLaws::Solid(law) => {
                 for i in 0..rows {
-                    let force = law.force(&self.motion.map(|x| x[i]));
-                    self.force.set(i, &force);
+                    force.set(i, &law.force(&motion.map(|x| x[i])));
                 }
             }
         }
@@ -129,16 +119,15 @@ impl Batch {
         if self.differentiated {
             return;
         }
+        let rows = self.len();
         if let BatchLaws::Solid(law) = self.laws {
             self.apply(ln_viscosity, instructions);
-            self.slopes.find_solid(&law, self.len(), &self.motion);
-        } else {
-            self.pad();
+            self.slopes.find_solid(&law, rows, &self.motion);
         }
+        let Self { motion, edge_share, force, .. } = self;
         if let BatchLaws::Lines(laws) = &self.laws {
-            let seen = (&self.motion, &self.edge_share[..]);
-            let rows = self.sites.len();
-            self.slopes.find(laws, rows, seen, ln_viscosity, &mut self.force, instructions);
+            pad(rows, motion, edge_share);
+            self.slopes.find(laws, rows, (motion, edge_share), ln_viscosity, force, instructions);
         }
         self.differentiated = true;
     }
@@ -176,6 +165,13 @@ impl Batch {
             force: self.force.map(|x| x[i]),
         })
     }
+}
+
+/// Makes the places from the last contact up to the next whole group apart.
+fn pad(rows: usize, motion: &mut ContactMotion<Vec<f64>>, edge_share: &mut [f64]) {
+    let rest = rows..rows.next_multiple_of(WIDEST);
+    edge_share[rest.clone()].fill(0.0);
+    rest.for_each(|i| motion.set(i, &APART));
 }
 
 /// One contact of a batch.

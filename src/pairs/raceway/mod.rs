@@ -43,7 +43,7 @@ static INNER: PairInfo = PairInfo {
 };
 
 /// Geometry and laws of the raceways of outer and inner ring of a scene, if its rollers have laws.
-pub(crate) fn laws_of(builder: &LawBuilder<'_>) -> Result<Option<(RacewayGeometry, [LineContact; 2])>> {
+fn laws_of(builder: &LawBuilder<'_>) -> Result<Option<(RacewayGeometry, [LineContact; 2])>> {
     let scene = builder.scene();
     let (Some(_), Some(laws)) = (&scene.rollers, &scene.raceways) else { return Ok(None) };
     let this = builder.at("raceways.contact");

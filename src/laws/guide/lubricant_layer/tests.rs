@@ -1,10 +1,11 @@
 use super::*;
+use crate::laws::guide::journal::tests::motion;
 use crate::scalar::Dual;
 
 const SHEARS: [PressureShear; 3] =
     [PressureShear::Absent, PressureShear::WithinArc, PressureShear::WithEdges];
 
-fn layer() -> LubricantLayer {
+pub(in crate::laws::guide) fn layer() -> LubricantLayer {
     LubricantLayer {
         viscosity: 0.0924,
         pressure_viscosity: 2e-8,
@@ -16,17 +17,6 @@ fn layer() -> LubricantLayer {
         pressure_shear: PressureShear::WithinArc,
         roundness: Vec::new(),
         profile_on_journal: true,
-    }
-}
-
-fn motion(position: [f64; 2], velocity: [f64; 2], speed: f64) -> JournalMotion<f64> {
-    JournalMotion {
-        position,
-        velocity,
-        journal_speed: speed,
-        bush_speed: 0.0,
-        profile_angle: 0.3,
-        profile_speed: speed,
     }
 }
 

@@ -1,4 +1,5 @@
 use super::*;
+use crate::laws::guide::journal::tests::motion;
 use crate::scalar::Dual;
 
 fn bearing() -> ShortBearing {
@@ -11,17 +12,6 @@ fn bearing() -> ShortBearing {
         pressure_moment: false,
         roundness: Vec::new(),
         profile_on_journal: true,
-    }
-}
-
-fn motion(position: [f64; 2], velocity: [f64; 2], speed: f64) -> JournalMotion<f64> {
-    JournalMotion {
-        position,
-        velocity,
-        journal_speed: speed,
-        bush_speed: 0.0,
-        profile_angle: 0.3,
-        profile_speed: speed,
     }
 }
 
