@@ -2,34 +2,45 @@
 //!
 //! Compare numbers of one run only: machines differ and drift.
 
-use cagedyn::integrate::linear::{Arrowhead, Factors, HUB, SPOKE};
+use cagedyn::integrate::linear;
 use criterion::{Criterion, criterion_group, criterion_main};
 use faer::linalg::solvers::Solve;
-use nalgebra::{SMatrix, SVector};
+use nalgebra::{DMatrix, SMatrix, SVector};
 use std::hint::black_box;
+
+/// Unknowns of a ring and a cage, and of a roller.
+const HUB: usize = 5;
+const SPOKE: usize = 3;
+type Arrowhead = linear::Arrowhead<f64, SPOKE>;
+type Factors = linear::Factors<f64, SPOKE>;
 
 /// Diagonally dominant, with the entries of a fixed pattern.
 fn matrix(spokes: usize) -> Arrowhead {
     let entry = |i: usize, j: usize| ((7 * i + 3 * j) as f64).sin();
-    let mut a = Arrowhead::new(spokes);
-    a.hub = SMatrix::from_fn(entry) + SMatrix::identity() * (10.0 + 3.0 * spokes as f64);
-    for (n, spoke) in a.spokes.iter_mut().enumerate() {
-        spoke.own = SMatrix::from_fn(|i, j| entry(i + n, j)) + SMatrix::identity() * 10.0;
-        spoke.to_hub = SMatrix::from_fn(|i, j| entry(i, j + n));
-        spoke.from_hub = SMatrix::from_fn(|i, j| entry(i + n, j + n));
+    let mut a = Arrowhead::new(HUB, spokes);
+    a.hub = DMatrix::from_fn(HUB, HUB, entry) + DMatrix::identity(HUB, HUB) * (10.0 + 3.0 * spokes as f64);
+    for n in 0..spokes {
+        let own = SMatrix::<f64, SPOKE, SPOKE>::from_fn(|i, j| entry(i + n, j)) + SMatrix::identity() * 10.0;
+        a.own.columns_mut(SPOKE * n, SPOKE).copy_from(&own);
+        a.to_hub
+            .columns_mut(SPOKE * n, SPOKE)
+            .copy_from(&DMatrix::from_fn(HUB, SPOKE, |i, j| entry(i, j + n)));
+        a.from_hub
+            .columns_mut(HUB * n, HUB)
+            .copy_from(&DMatrix::from_fn(SPOKE, HUB, |i, j| entry(i + n, j + n)));
     }
     a
 }
 
 fn dense(a: &Arrowhead) -> faer::Mat<f64> {
-    let size = HUB + SPOKE * a.spokes.len();
+    let size = HUB + SPOKE * a.spokes();
     faer::Mat::from_fn(size, size, |i, j| {
         let spoke = |k: usize| k.checked_sub(HUB).map(|k| (k / SPOKE, k % SPOKE));
         match (spoke(i), spoke(j)) {
             (None, None) => a.hub[(i, j)],
-            (None, Some((n, j))) => a.spokes[n].to_hub[(i, j)],
-            (Some((n, i)), None) => a.spokes[n].from_hub[(i, j)],
-            (Some((n, i)), Some((m, j))) if n == m => a.spokes[n].own[(i, j)],
+            (None, Some((n, j))) => a.to_hub[(i, SPOKE * n + j)],
+            (Some((n, i)), None) => a.from_hub[(i, HUB * n + j)],
+            (Some((n, i)), Some((m, j))) if n == m => a.own[(i, SPOKE * n + j)],
             _ => 0.0,
         }
     })
@@ -38,11 +49,11 @@ fn dense(a: &Arrowhead) -> faer::Mat<f64> {
 fn benches(c: &mut Criterion) {
     for spokes in [1, 12, 50, 200] {
         let a = matrix(spokes);
-        let mut factors = Factors::new(spokes);
+        let mut factors = Factors::new(HUB, spokes);
         c.bench_function(&format!("{spokes} spokes/factorize"), |b| {
             b.iter(|| factors.factorize(black_box(&a)));
         });
-        let (b_hub, b_spokes) = (SVector::repeat(1.0), vec![SVector::repeat(1.0); spokes]);
+        let (b_hub, b_spokes) = ([1.0; HUB], vec![SVector::repeat(1.0); spokes]);
         let mut x_spokes = b_spokes.clone();
         c.bench_function(&format!("{spokes} spokes/solve"), |b| {
             b.iter(|| {

@@ -13,7 +13,7 @@ use super::{
 use crate::scalar::math;
 use crate::scene::Scene;
 use crate::space::{Motion, Wrench, rotate};
-use nalgebra::Matrix3;
+use nalgebra::DMatrixViewMut;
 
 /// The cage.
 #[derive(Debug)]
@@ -109,8 +109,9 @@ impl SharedBody for Cage {
         }
     }
 
-    fn response(&self, on_body: &Wrench<f64>, angle: f64) -> [f64; 3] {
-        self.response_at(on_body, self.mass_offset(angle))
+    fn respond(&self, forces: &mut [f64], angle: f64) {
+        let on_cage = Wrench { force: [forces[0], forces[1]], moment: forces[2] };
+        forces.copy_from_slice(&self.response_at(&on_cage, self.mass_offset(angle)));
     }
 
     fn accelerate(&self, on_body: &Wrench<f64>, motion: &Motion<f64>, gravity: [f64; 2], a: &mut [f64]) {
@@ -125,21 +126,14 @@ impl SharedBody for Cage {
         }
     }
 
-    fn wrench_for(&self, a: [f64; 3], motion: &Motion<f64>, gravity: [f64; 2]) -> Wrench<f64> {
+    fn wrench_for(&self, a: &dyn Fn(usize) -> f64, motion: &Motion<f64>, gravity: [f64; 2]) -> Wrench<f64> {
         let [uy, uz] = self.mass_offset(motion.angle).unwrap_or_default();
-        let ([ay, az, turning], square) = (a, motion.speed * motion.speed);
+        let ([ay, az, turning], square) = ([0, 1, 2].map(a), motion.speed * motion.speed);
         let force = [
             self.mass * (ay - gravity[0] - turning * uz - square * uy),
             self.mass * (az - gravity[1] + turning * uy - square * uz),
         ];
         Wrench { force, moment: self.inertia * turning + uy * force[1] - uz * force[0] }
-    }
-
-    fn accelerations_of(&self, rows: &Matrix3<f64>, angle: f64) -> Matrix3<f64> {
-        let (fy, fz, moment) = (rows.row(0), rows.row(1), rows.row(2));
-        let [uy, uz] = self.mass_offset(angle).unwrap_or_default();
-        let turning = (moment - (fz * uy - fy * uz)) / self.inertia;
-        Matrix3::from_rows(&[fy / self.mass + turning * uz, fz / self.mass - turning * uy, turning])
     }
 
     fn is_balanced(&self) -> bool {
@@ -151,8 +145,8 @@ impl SharedBody for Cage {
         &self,
         on_body: &Wrench<f64>,
         motion: &Motion<f64>,
-        over_position: &mut Matrix3<f64>,
-        over_velocity: &mut Matrix3<f64>,
+        mut over_position: DMatrixViewMut<'_, f64>,
+        mut over_velocity: DMatrixViewMut<'_, f64>,
     ) {
         let Some([uy, uz]) = self.mass_offset(motion.angle) else { return };
         let [fy, fz] = on_body.force;

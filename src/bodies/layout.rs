@@ -1,67 +1,88 @@
 //! Order of the coordinates in the state vector.
 //!
 //! ```text
-//! q = [ring y, z] [cage y, z, angle] [roller 0: rho, travel] [roller 1: rho, travel] ...
-//! v = the rates of q in the same order, then [spin speed of roller 0] [of roller 1] ...
+//! q = [ring y, z] [cage y, z, angle] [element 0: rho, travel] [element 1: rho, travel] ...
+//! v = the rates of q in the same order, then [spin speed of element 0] [of element 1] ...
 //! ```
 //!
 //! Blocks in brackets exist only if the scene has them: a fixed ring and an absent cage add nothing. The spin angle
-//! of a roller enters no force, so only its speed is a state. The rate of position `i` is velocity `i`.
+//! of an element enters no force, so only its speed is a state. The rate of position `i` is velocity `i`.
 //!
-//! The travel of a roller and the angle of the cage both count from the start, so the place of a roller in its pocket
+//! The travel of an element and the angle of the cage both count from the start, so the place of an element in its pocket
 //! is their difference and does not depend on where in the bearing it is.
+//!
+//! In linear systems the shared bodies are the hub, in the same order, and the elements the spokes.
 
 use super::{CAGE, INNER_RING, SHARED};
 use crate::integrate::Structure;
-use crate::integrate::linear::HUB;
+use std::ops::Range;
 
 /// Velocities of a free element.
 pub(crate) const OF_ELEMENT: usize = 3;
+/// Positions of a free element.
+const POSITIONS: usize = 2;
 
 /// Places of the bodies in `q` and `v`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Layout {
-    /// First coordinate of each shared body, if it is free.
-    shared: [Option<usize>; SHARED],
-    /// Number of coordinates of each shared body.
-    widths: [usize; SHARED],
-    /// First coordinate of the first roller.
-    pub rollers: usize,
-    /// Number of rollers.
+    /// First coordinate of each shared body, and how many there are.
+    shared: [(usize, usize); SHARED],
+    /// First coordinate of the first element.
+    pub(in crate::bodies) elements: usize,
+    /// Number of elements that move freely.
     pub count: usize,
 }
 
 impl Layout {
-    /// The layout of shared bodies with so many coordinates each and so many free rollers.
+    /// The layout of shared bodies with so many coordinates each and so many free elements.
     pub(crate) fn new(widths: [usize; SHARED], count: usize) -> Self {
         let mut next = 0;
         let shared = widths.map(|width| {
-            let first = next;
             next += width;
-            (width > 0).then_some(first)
+            (next - width, width)
         });
-        Self { shared, widths, rollers: next, count }
+        Self { shared, elements: next, count }
     }
 
     /// First coordinate of the inner ring, if it is free.
     pub fn ring(&self) -> Option<usize> {
-        self.shared[INNER_RING]
+        self.shared(INNER_RING)
     }
 
     /// First coordinate of the cage, if there is one.
     pub fn cage(&self) -> Option<usize> {
-        self.shared[CAGE]
+        self.shared(CAGE)
     }
 
-    /// First coordinate of a shared body, if it is free.
+    /// First coordinate of a shared body, and its first place in the hub, if it is free.
     #[inline]
     pub(crate) fn shared(&self, body: usize) -> Option<usize> {
-        self.shared[body]
+        let (first, width) = self.shared[body];
+        (width > 0).then_some(first)
+    }
+
+    /// Coordinates of a shared body; none if it is not free.
+    #[inline]
+    pub(crate) fn range(&self, body: usize) -> Range<usize> {
+        let (first, width) = self.shared[body];
+        first..first + width
+    }
+
+    /// Number of places in the hub.
+    #[inline]
+    pub(crate) fn hub(&self) -> usize {
+        self.elements
+    }
+
+    /// The shared bodies that are free.
+    pub(crate) fn free(&self) -> impl Iterator<Item = usize> {
+        let shared = self.shared;
+        (0..SHARED).filter(move |body| shared[*body].1 > 0)
     }
 
     /// Number of positions.
     pub fn positions(&self) -> usize {
-        self.rollers + 2 * self.count
+        self.elements + POSITIONS * self.count
     }
 
     /// Number of velocities.
@@ -74,63 +95,33 @@ impl Layout {
         self.positions() + self.velocities()
     }
 
-    /// Index of rho (and of its rate in `v`) of roller `j`; the travel follows.
-    pub fn roller(&self, j: usize) -> usize {
-        self.rollers + 2 * j
+    /// Index of rho (and of its rate in `v`) of element `j`; the travel follows.
+    pub fn element(&self, j: usize) -> usize {
+        self.elements + POSITIONS * j
     }
 
-    /// Index of the spin speed of roller `j` in `v`.
+    /// Index of the spin speed of element `j` in `v`.
     pub fn spin(&self, j: usize) -> usize {
         self.positions() + j
     }
 
-    /// Velocities of roller `j`.
+    /// Velocities of element `j`.
     #[inline]
     pub(crate) fn of_element(&self, j: usize) -> [usize; OF_ELEMENT] {
-        [self.roller(j), self.roller(j) + 1, self.spin(j)]
+        [self.element(j), self.element(j) + 1, self.spin(j)]
     }
 
-    /// Which velocities are coupled: shared bodies are the hub, rollers the spokes.
-    pub(crate) fn structure(&self) -> Structure {
-        Structure { hub: self.hub(), spokes: (0..self.count).map(|j| self.of_element(j)).collect() }
-    }
-
-    /// Velocity of each place of the hub.
-    pub(crate) fn hub(&self) -> [Option<usize>; HUB] {
-        let mut places = [None; HUB];
-        for ((first, width), at) in self.shared.iter().zip(self.widths).zip(IN_HUB) {
-            if let Some(first) = first {
-                for k in 0..width {
-                    places[at + k] = Some(first + k);
-                }
-            }
+    /// Which velocities are coupled: shared bodies are the hub, elements the spokes.
+    pub(crate) fn structure(&self) -> Structure<OF_ELEMENT> {
+        Structure {
+            hub: (0..self.hub()).collect(),
+            bodies: self.free().map(|body| self.range(body)).collect(),
+            spokes: (0..self.count).map(|j| self.of_element(j)).collect(),
         }
-        places
     }
 
-    /// Number of groups of velocities of one body: rollers, then the shared bodies that are free.
-    pub(crate) fn groups(&self) -> usize {
-        self.count + self.shared.iter().flatten().count()
-    }
-
-    /// The shared body of a group behind the rollers.
-    pub(crate) fn body_of_group(&self, i: usize) -> Option<usize> {
-        let nth = i.checked_sub(self.count)?;
-        (0..SHARED).filter(|&body| self.shared[body].is_some()).nth(nth)
-    }
-
-    /// Velocities of a group.
-    pub(crate) fn group(&self, i: usize) -> [Option<usize>; 3] {
-        if i < self.count {
-            return self.of_element(i).map(Some);
-        }
-        let body = self.body_of_group(i);
-        let first = body.and_then(|body| self.shared[body]);
-        std::array::from_fn(|k| {
-            first.filter(|_| body.is_some_and(|body| k < self.widths[body])).map(|first| first + k)
-        })
+    /// The shared body of a group of velocities (see [`Structure::groups`]) that is not that of an element.
+    pub(crate) fn body_of_group(&self, group: usize) -> Option<usize> {
+        self.free().nth(group.checked_sub(self.count)?)
     }
 }
-
-/// First place of each shared body in the hub of the linear systems. The outer ring has none.
-pub(crate) const IN_HUB: [usize; SHARED] = [HUB, 0, 2];

@@ -25,8 +25,8 @@ pub use fault::{FAULTS, Fault, FaultCounts};
 pub use inputs::{HostInputs, INPUTS, Input, InputValues};
 pub use layout::Layout;
 
-pub(crate) use elements::{Elements, Inertia, UPPER, scale_rows};
-pub(crate) use layout::{IN_HUB, OF_ELEMENT};
+pub(crate) use elements::{Damping, ElementSlopes, Elements, Inertia, UPPER};
+pub(crate) use layout::OF_ELEMENT;
 pub(crate) use motions::{Element, ElementMotion, ElementSet, Motions};
 pub(crate) use states::{State, layout_of, states_of};
 
@@ -35,7 +35,7 @@ use crate::scene::Scene;
 use crate::space::{Motion, Wrench};
 use cage::Cage;
 use elements::{KinematicElements, Rollers};
-use nalgebra::Matrix3;
+use nalgebra::DMatrixViewMut;
 use ring::Ring;
 use std::fmt::Debug;
 
@@ -157,7 +157,7 @@ pub(crate) trait SharedBody: Debug + Send + Sync {
     /// Name of the body.
     fn name(&self) -> &'static str;
 
-    /// Its coordinates; none if it is held.
+    /// Its coordinates; none if it is held. The first are those of its motion, in the order of its wrench.
     fn coordinates(&self) -> &'static [Coordinate];
 
     /// Its motion at these positions, velocities and inputs.
@@ -172,36 +172,32 @@ pub(crate) trait SharedBody: Debug + Send + Sync {
     /// Adds loads and supports to the wrench on it.
     fn add_external(&self, motion: &Motion<f64>, inputs: &InputValues, on_body: &mut Wrench<f64>);
 
-    /// Accelerations of its coordinates by a wrench alone, at the angle `angle` (rad).
-    fn response(&self, on_body: &Wrench<f64>, angle: f64) -> [f64; 3];
+    /// Makes forces over its coordinates, with the body at the angle `angle` (rad), the accelerations that they alone give it.
+    fn respond(&self, forces: &mut [f64], angle: f64);
 
     /// Accelerations `a` of its coordinates by all other forces on it and its weight.
     fn accelerate(&self, on_body: &Wrench<f64>, motion: &Motion<f64>, gravity: [f64; 2], a: &mut [f64]);
 
-    /// The wrench beside the weight that makes these accelerations: what [`SharedBody::accelerate`] turns round.
-    fn wrench_for(&self, a: [f64; 3], motion: &Motion<f64>, gravity: [f64; 2]) -> Wrench<f64>;
-
-    /// Rows of (force, moment) as rows of accelerations, at the angle `angle` (rad).
-    fn accelerations_of(&self, rows: &Matrix3<f64>, angle: f64) -> Matrix3<f64>;
+    /// The wrench beside the weight that makes these accelerations of its coordinates: what [`SharedBody::accelerate`] turns
+    /// round.
+    fn wrench_for(&self, a: &dyn Fn(usize) -> f64, motion: &Motion<f64>, gravity: [f64; 2]) -> Wrench<f64>;
 
     /// Whether forces accelerate each coordinate by itself.
     fn is_balanced(&self) -> bool {
         true
     }
 
-    /// Damping of its own over (y, z), N s/m.
-    fn support_damping(&self) -> f64 {
-        0.0
-    }
+    /// Tells the damping of its own by row and column over its coordinates, N s/m.
+    fn add_damping(&self, _add: &mut dyn FnMut([usize; 2], f64)) {}
 
-    /// How its accelerations change with its position and velocity at these forces, but for the forces themselves; added to
+    /// How its accelerations change with its positions and velocities at these forces, but for the forces themselves; added to
     /// the derivatives over positions and velocities.
     fn add_inertial_slopes(
         &self,
         _on_body: &Wrench<f64>,
         _motion: &Motion<f64>,
-        _over_position: &mut Matrix3<f64>,
-        _over_velocity: &mut Matrix3<f64>,
+        _over_position: DMatrixViewMut<'_, f64>,
+        _over_velocity: DMatrixViewMut<'_, f64>,
     ) {
     }
 

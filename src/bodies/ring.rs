@@ -12,7 +12,6 @@ use super::{
 };
 use crate::scene::{RingMotion, Scene};
 use crate::space::{Motion, Wrench};
-use nalgebra::{Matrix3, RowVector3};
 
 /// A ring.
 #[derive(Debug)]
@@ -35,6 +34,14 @@ impl Ring {
     /// The outer ring, which stands still.
     pub(super) fn outer() -> Self {
         Self { name: "outer_ring", held: Held::At([0.0; 2]), speed: None }
+    }
+
+    /// Of its support, N s/m.
+    fn support_damping(&self) -> f64 {
+        match self.held {
+            Held::At(_) => 0.0,
+            Held::Free { damping, .. } => damping,
+        }
     }
 
     /// The inner ring of a scene.
@@ -89,9 +96,9 @@ impl SharedBody for Ring {
         }
     }
 
-    fn response(&self, on_body: &Wrench<f64>, _angle: f64) -> [f64; 3] {
+    fn respond(&self, forces: &mut [f64], _angle: f64) {
         let mass = self.mass().unwrap_or(f64::INFINITY);
-        [on_body.force[0] / mass, on_body.force[1] / mass, 0.0]
+        forces.iter_mut().for_each(|force| *force /= mass);
     }
 
     fn accelerate(&self, on_body: &Wrench<f64>, _motion: &Motion<f64>, gravity: [f64; 2], a: &mut [f64]) {
@@ -101,20 +108,14 @@ impl SharedBody for Ring {
         }
     }
 
-    fn wrench_for(&self, a: [f64; 3], _motion: &Motion<f64>, gravity: [f64; 2]) -> Wrench<f64> {
+    fn wrench_for(&self, a: &dyn Fn(usize) -> f64, _motion: &Motion<f64>, gravity: [f64; 2]) -> Wrench<f64> {
         let mass = self.mass().unwrap_or(0.0);
-        Wrench { force: [mass * (a[0] - gravity[0]), mass * (a[1] - gravity[1])], moment: 0.0 }
+        Wrench { force: [mass * (a(0) - gravity[0]), mass * (a(1) - gravity[1])], moment: 0.0 }
     }
 
-    fn accelerations_of(&self, rows: &Matrix3<f64>, _angle: f64) -> Matrix3<f64> {
-        let mass = self.mass().unwrap_or(f64::INFINITY);
-        Matrix3::from_rows(&[rows.row(0) / mass, rows.row(1) / mass, RowVector3::zeros()])
-    }
-
-    fn support_damping(&self) -> f64 {
-        match self.held {
-            Held::At(_) => 0.0,
-            Held::Free { damping, .. } => damping,
+    fn add_damping(&self, add: &mut dyn FnMut([usize; 2], f64)) {
+        for k in 0..2 {
+            add([k, k], self.support_damping());
         }
     }
 

@@ -31,7 +31,7 @@ pub use methods::rosenbrock::Rosenbrock;
 pub use stepper::{Applied, Stepper};
 pub use system::{
     Interruption, Linearization, Linearized, MOST_POWERS, Observed, Powers, SemiImplicit, Split, Structure,
-    System, Vibration,
+    Structured, System, Vibration,
 };
 
 pub(crate) use system::add_weighted;

@@ -1,7 +1,8 @@
 //! What methods ask of a system: every one the accelerations, some more.
 
-use super::linear::{Arrowhead, HUB, SPOKE};
+use super::linear::Arrowhead;
 use super::methods::damping::GroupDamping;
+use std::ops::Range;
 
 /// A second-order system `q' = v[..positions]`, `v' = a(t, q, v)`. Velocities beyond the positions have no position.
 ///
@@ -30,20 +31,20 @@ pub trait System {
     fn longest_step(&self, _t: f64, _q: &[f64], _v: &[f64], _wanted: f64) -> f64 {
         f64::INFINITY
     }
-    /// Number of groups of up to three velocities that belong together, as those of one body do.
-    fn groups(&self) -> usize {
-        0
-    }
-    /// Velocity indices of such a group; `None` for an unused place.
-    fn group(&self, _i: usize) -> [Option<usize>; 3] {
-        [None; 3]
+    /// Velocities of each group that belongs together, as those of one body do. Asked once.
+    fn groups(&self) -> Vec<Vec<usize>> {
+        Vec::new()
     }
 }
 
+/// A system that knows how its velocities are coupled: spokes of `N` velocities each to a hub.
+pub trait Structured<const N: usize>: System {
+    /// Which velocities are coupled. Asked once.
+    fn structure(&self) -> Structure<N>;
+}
+
 /// A system that knows the derivatives of its accelerations: what implicit methods need.
-pub trait Linearized: System {
-    /// Which velocities are coupled.
-    fn structure(&self) -> Structure;
+pub trait Linearized<const N: usize>: Structured<N> {
     /// Accelerations `a` at time `t` in s, and their derivatives.
     ///
     /// # Errors
@@ -54,7 +55,7 @@ pub trait Linearized: System {
         q: &[f64],
         v: &[f64],
         a: &mut [f64],
-        out: &mut Linearization,
+        out: &mut Linearization<N>,
     ) -> Result<(), Self::Fault>;
     /// Time that the derivatives take beside the accelerations, in evaluations of these.
     fn linearization_cost(&self) -> f64 {
@@ -63,16 +64,14 @@ pub trait Linearized: System {
 }
 
 /// A system that knows how its forces oppose velocities: what semi-implicit methods split off.
-pub trait Split: System {
-    /// Damping within each of the groups at the last evaluated state (`q`, `v`), for a step of size `h` in s.
-    fn damping(&self, h: f64, q: &[f64], v: &[f64], out: &mut GroupDamping);
-    /// Number of groups whose step is found first. The others follow: what the forces of the first have become in that step
-    /// acts on them too.
-    fn leaders(&self) -> usize {
-        self.groups()
-    }
-    /// Adds to the accelerations `a` of the groups that follow what the forces between them and the leaders have become
-    /// since the last evaluation, at (`q`, `v`), in the `step` of the leaders.
+///
+/// The step of the spokes is found first. The bodies of the hub follow: what the forces between them and the spokes have become
+/// in that step acts on them, too.
+pub trait Split<const N: usize>: Structured<N> {
+    /// Damping of every spoke and every body of the hub at the last evaluated state (`q`, `v`), for a step of size `h` in s.
+    fn damping(&self, h: f64, q: &[f64], v: &[f64], out: &mut GroupDamping<N>);
+    /// Adds to the accelerations `a` of the hub what the forces between it and the spokes have become since the last
+    /// evaluation, at (`q`, `v`), in the `step` of the spokes.
     fn react(&self, _q: &[f64], _v: &[f64], _step: &SemiImplicit<'_>, _a: &mut [f64]) {}
 }
 
@@ -161,31 +160,46 @@ impl Vibration {
     }
 }
 
-/// Velocities by their coupling: a hub, coupled to all, and spokes, coupled to the hub only. Every velocity has one place.
+/// Velocities by their coupling: a hub, coupled to all, and spokes of `N` velocities each, coupled to the hub only. Every
+/// velocity has one place.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Structure {
-    /// Velocity index of each place of the hub; `None` for an unused place.
-    pub hub: [Option<usize>; HUB],
+pub struct Structure<const N: usize> {
+    /// Velocity index of each place of the hub.
+    pub hub: Vec<usize>,
+    /// Places in the hub of each of its bodies.
+    pub bodies: Vec<Range<usize>>,
     /// Velocity indices of each spoke.
-    pub spokes: Vec<[usize; SPOKE]>,
+    pub spokes: Vec<[usize; N]>,
 }
 
-/// Derivatives of the accelerations at one state. Unused places are zero, and so are columns of velocities without
-/// position in the first.
+impl<const N: usize> Structure<N> {
+    /// One body of the first `n` velocities as the hub, with these spokes.
+    pub fn around(n: usize, spokes: Vec<[usize; N]>) -> Self {
+        Self { hub: (0..n).collect(), bodies: std::iter::once(0..n).collect(), spokes }
+    }
+
+    /// Velocities of each spoke, then of each body of the hub.
+    pub fn groups(&self) -> Vec<Vec<usize>> {
+        let of_hub = self.bodies.iter().map(|places| self.hub[places.clone()].to_vec());
+        self.spokes.iter().map(|spoke| spoke.to_vec()).chain(of_hub).collect()
+    }
+}
+
+/// Derivatives of the accelerations at one state. Columns of velocities without position are zero in the first.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Linearization {
+pub struct Linearization<const N: usize> {
     /// da/dq.
-    pub over_positions: Arrowhead,
+    pub over_positions: Arrowhead<f64, N>,
     /// da/dv.
-    pub over_velocities: Arrowhead,
+    pub over_velocities: Arrowhead<f64, N>,
     /// da/dt at constant state.
     pub over_time: Vec<f64>,
 }
 
-impl Linearization {
+impl<const N: usize> Linearization<N> {
     /// Memory for a system of this structure with `velocities` velocities.
-    pub fn new(structure: &Structure, velocities: usize) -> Self {
-        let zero = Arrowhead::new(structure.spokes.len());
+    pub fn new(structure: &Structure<N>, velocities: usize) -> Self {
+        let zero = Arrowhead::new(structure.hub.len(), structure.spokes.len());
         Self { over_positions: zero.clone(), over_velocities: zero, over_time: vec![0.0; velocities] }
     }
 

@@ -47,7 +47,7 @@ impl Model {
         self.place_cage(cage, q);
         let Some(inertia) = self.elements.inertia() else { return Ok(state) };
         for j in 0..layout.count {
-            v[layout.roller(j) + 1] = orbit;
+            v[layout.element(j) + 1] = orbit;
             v[layout.spin(j)] = spin;
         }
         if start.inner_ring == RingStart::Equilibrium
@@ -81,7 +81,7 @@ impl Model {
             q[i] = ring[0];
             q[i + 1] = ring[1];
             for (j, offset) in offsets.into_iter().enumerate() {
-                q[layout.roller(j)] = offset;
+                q[layout.element(j)] = offset;
             }
         }
         Ok(state)
@@ -102,7 +102,7 @@ impl Model {
         for j in 0..self.layout.count {
             let (sin, cos) = math::sin_cos(self.elements.set().reference_angles[j]);
             let beside = cage[1] * cos - cage[0] * sin;
-            q[self.layout.roller(j) + 1] = math::asin(beside / self.pitch_radius());
+            q[self.layout.element(j) + 1] = math::asin(beside / self.pitch_radius());
         }
     }
 }

@@ -8,16 +8,15 @@
 
 use super::workspace::Workspace;
 use super::{Input, InputValues, Model};
-use crate::bodies::{IN_HUB, SharedBody, scale_rows};
-use crate::integrate::linear::HUB;
+use crate::bodies::{ElementSlopes, OF_ELEMENT, SharedBody};
 use crate::integrate::{Linearization, Structure};
 use crate::pairs::SlopeSums;
-use nalgebra::{Matrix3, Matrix5, Vector5};
+use std::ops::Range;
 
 impl Model {
     /// Which velocities are coupled: shared bodies are the hub, rollers the spokes.
     #[doc(hidden)]
-    pub fn structure(&self) -> Structure {
+    pub fn structure(&self) -> Structure<OF_ELEMENT> {
         self.layout.structure()
     }
 
@@ -27,18 +26,16 @@ impl Model {
     /// # Panics
     /// When `ws` or `out` was made for another model.
     #[doc(hidden)]
-    pub fn linearize(&self, ws: &mut Workspace, rates: &InputValues, out: &mut Linearization) {
+    pub fn linearize(&self, ws: &mut Workspace, rates: &InputValues, out: &mut Linearization<OF_ELEMENT>) {
         out.clear();
         for batch in &mut ws.contacts.batches {
             batch.differentiate(ws.fluid.ln_viscosity, ws.motions.instructions);
         }
-        let ws = &*ws;
         let mut sums = SlopeSums {
             layout: &self.layout,
             rates,
             ln_viscosity_rate: self.ln_viscosity_rate(ws, rates),
-            hub_over_time: Vector5::zeros(),
-            out,
+            out: &mut *out,
         };
         for (place, pair) in self.pairs.iter().enumerate() {
             let (batch, contacts) = ws.contacts.range(place);
@@ -47,24 +44,13 @@ impl Model {
         if let Some(guide) = &self.guide {
             guide.add_slopes(&ws.motions, ws.fluid, &mut sums);
         }
-        for (at, body) in IN_HUB.into_iter().zip(&self.shared) {
-            // External loads change by themselves.
-            let Some(body) = body else { continue };
-            for (k, input) in body.load_inputs().into_iter().enumerate().filter(|(k, _)| at + k < HUB) {
-                sums.hub_over_time[at + k] += input.map_or(0.0, |input| rates.of(input));
-            }
-        }
-        let over_time = sums.hub_over_time;
-        self.divide_by_inertias(ws, &over_time, out);
+        self.divide_by_inertias(ws, rates, out);
     }
 
-    /// The shared bodies that move freely: place, body, first place in the hub.
-    fn free_bodies(&self) -> impl Iterator<Item = (usize, &dyn SharedBody, usize)> {
-        let bodies = self.shared.iter().zip(IN_HUB).enumerate();
-        bodies.filter_map(|(place, (body, at))| {
-            let body = body.as_deref().filter(|_| self.layout.shared(place).is_some())?;
-            Some((place, body, at))
-        })
+    /// The shared bodies that move freely: place, body, coordinates.
+    fn free_bodies(&self) -> impl Iterator<Item = (usize, &dyn SharedBody, Range<usize>)> {
+        let free = self.layout.free();
+        free.filter_map(|place| Some((place, self.shared[place].as_deref()?, self.layout.range(place))))
     }
 
     /// Rate of the logarithm of the viscosity, 1/s.
@@ -77,64 +63,100 @@ impl Model {
     }
 
     /// From forces to accelerations, with the terms that are no contact forces.
-    fn divide_by_inertias(&self, ws: &Workspace, hub_over_time: &Vector5<f64>, out: &mut Linearization) {
-        let mut inverse = Matrix5::zeros();
-        let mut balanced = true;
+    fn divide_by_inertias(
+        &self,
+        ws: &mut Workspace,
+        rates: &InputValues,
+        out: &mut Linearization<OF_ELEMENT>,
+    ) {
+        let Linearization { over_positions, over_velocities, over_time } = out;
+        let (inverse, width) = (&mut ws.inverse_inertia, self.layout.hub());
+        inverse.clear();
         for (place, body, at) in self.free_bodies() {
-            let n = body.coordinates().len();
-            for k in 0..2 {
-                out.over_velocities.hub[(at + k, at + k)] -= body.support_damping();
+            // External loads change by themselves.
+            for (rate, input) in over_time[at.clone()].iter_mut().zip(body.load_inputs()) {
+                *rate += input.map_or(0.0, |input| rates.of(input));
             }
-            let corner = body.accelerations_of(&Matrix3::identity(), ws.motions.shared[place].angle);
-            add_corner(&mut inverse, &corner, at, n);
-            balanced &= body.is_balanced();
+            body.add_damping(&mut |[i, k], damping| {
+                over_velocities.hub[(at.start + i, at.start + k)] -= damping;
+            });
+            inverse.add(body, at, ws.motions.shared[place].angle);
         }
-        let diagonal = inverse.diagonal().data.0[0];
-        for part in [&mut out.over_positions, &mut out.over_velocities] {
-            part.hub = inverse * part.hub;
-            for spoke in &mut part.spokes {
-                if balanced {
-                    scale_rows(&mut spoke.to_hub.data.0, &diagonal);
-                } else {
-                    spoke.to_hub = inverse * spoke.to_hub;
-                }
-            }
+        inverse.multiply(&mut over_time[..width]);
+        for part in [&mut *over_positions, &mut *over_velocities] {
+            let [hub, _, to_hub, _] = part.blocks_mut();
+            inverse.multiply(hub);
+            inverse.multiply(to_hub);
         }
-        let rate = inverse * hub_over_time;
-        for (index, rate) in self.layout.hub().into_iter().zip(rate.iter()) {
-            if let Some(index) = index {
-                out.over_time[index] += rate;
-            }
+        for (place, body, at) in self.free_bodies().filter(|(_, body, _)| !body.is_balanced()) {
+            let [k, d] = [&mut *over_positions, &mut *over_velocities]
+                .map(|part| part.hub.view_mut((at.start, at.start), (at.len(), at.len())));
+            body.add_inertial_slopes(&ws.on_shared[place], &ws.motions.shared[place], k, d);
         }
-        self.add_inertial_slopes(ws, out);
         for (j, on_element) in ws.on_elements.iter().enumerate() {
             let element = ws.motions.element(j);
-            let (k, d) = (&mut out.over_positions.spokes[j], &mut out.over_velocities.spokes[j]);
+            let [k, d] = [&mut *over_positions, &mut *over_velocities].map(|part| {
+                let [_, own, _, over_hub] = part.blocks_mut();
+                let own = &mut own.as_chunks_mut().0[j * OF_ELEMENT..(j + 1) * OF_ELEMENT];
+                ElementSlopes { own, over_hub: &mut over_hub.as_chunks_mut().0[j * width..(j + 1) * width] }
+            });
             let inverse = self.elements.slopes(&element, on_element, self.gravity, k, d);
             for (place, factor) in self.layout.of_element(j).into_iter().zip(inverse) {
-                out.over_time[place] *= factor;
-            }
-        }
-    }
-
-    /// How the accelerations of shared bodies change with their own motion at given forces.
-    fn add_inertial_slopes(&self, ws: &Workspace, out: &mut Linearization) {
-        for (place, body, at) in self.free_bodies().filter(|(_, body, _)| !body.is_balanced()) {
-            let n = body.coordinates().len();
-            let (mut k, mut d) = (Matrix3::zeros(), Matrix3::zeros());
-            body.add_inertial_slopes(&ws.on_shared[place], &ws.motions.shared[place], &mut k, &mut d);
-            for (part, own) in [(&mut out.over_positions, k), (&mut out.over_velocities, d)] {
-                add_corner(&mut part.hub, &own, at, n);
+                over_time[place] *= factor;
             }
         }
     }
 }
 
-/// Adds the first `n` rows and columns of a matrix to those of the hub that begin at `at`.
-fn add_corner(hub: &mut Matrix5<f64>, own: &Matrix3<f64>, at: usize, n: usize) {
-    for (sums, column) in hub.data.0[at..at + n].iter_mut().zip(&own.data.0) {
-        for (sum, x) in sums[at..at + n].iter_mut().zip(column) {
-            *sum += x;
+/// Accelerations of the coordinates of all shared bodies by unit forces over them, by columns.
+#[derive(Clone, Debug)]
+pub(super) struct InverseInertia {
+    columns: Vec<f64>,
+    /// Those of forces over their own coordinates.
+    diagonal: Vec<f64>,
+    product: Vec<f64>,
+    /// Whether there are no others.
+    balanced: bool,
+}
+
+impl InverseInertia {
+    /// Memory for so many coordinates of shared bodies.
+    pub(super) fn new(width: usize) -> Self {
+        let zero = vec![0.0; width];
+        Self { columns: vec![0.0; width * width], diagonal: zero.clone(), product: zero, balanced: true }
+    }
+
+    fn clear(&mut self) {
+        self.columns.fill(0.0);
+        self.balanced = true;
+    }
+
+    /// Adds that of a body at the angle `angle` (rad) whose coordinates are these.
+    fn add(&mut self, body: &dyn SharedBody, at: Range<usize>, angle: f64) {
+        let width = self.diagonal.len();
+        self.balanced &= body.is_balanced();
+        for k in at.clone() {
+            let column = &mut self.columns[k * width..(k + 1) * width];
+            column[k] = 1.0;
+            body.respond(&mut column[at.clone()], angle);
+            self.diagonal[k] = column[k];
+        }
+    }
+
+    /// Makes columns of forces columns of accelerations.
+    fn multiply(&mut self, columns: &mut [f64]) {
+        let Self { columns: inverse, diagonal, product, balanced } = self;
+        let width = diagonal.len().max(1);
+        for forces in columns.chunks_exact_mut(width) {
+            if *balanced {
+                forces.iter_mut().zip(diagonal.iter()).for_each(|(x, factor)| *x *= factor);
+                continue;
+            }
+            product.fill(0.0);
+            for (force, column) in forces.iter().zip(inverse.chunks_exact(width)) {
+                product.iter_mut().zip(column).for_each(|(sum, x)| *sum += x * force);
+            }
+            forces.copy_from_slice(product);
         }
     }
 }

@@ -24,7 +24,7 @@ mod works;
 mod workspace;
 
 pub use crate::bodies::{BodyForces, FAULTS, FORCE_SOURCES, Fault, FaultCounts, INPUTS, Input, POWERS};
-pub(crate) use crate::bodies::{FaultKind, Power};
+pub(crate) use crate::bodies::{FaultKind, OF_ELEMENT, Power};
 #[doc(hidden)]
 pub use crate::bodies::{HostInputs, InputValues, Layout};
 pub(crate) use crate::pairs::Law;

@@ -1,5 +1,6 @@
 //! Memory of a force evaluation: motion of the bodies, touching contacts, and all forces.
 
+use super::linearize::InverseInertia;
 use super::{InputValues, Model};
 use crate::bodies::{Motions, SHARED};
 use crate::integrate::Vibration;
@@ -21,6 +22,8 @@ pub struct Workspace {
     pub(super) on_elements: Vec<Wrench<f64>>,
     /// Forces on the shared bodies but their weight, moments about their geometric centres, global frame.
     pub(super) on_shared: [Wrench<f64>; SHARED],
+    /// Memory for derivatives.
+    pub(super) inverse_inertia: InverseInertia,
     /// Evaluations per law.
     pub(super) counts: LawCounts,
     /// Whether evaluations are counted now.
@@ -44,6 +47,7 @@ impl Workspace {
             inputs: InputValues::default(),
             on_elements: vec![Wrench::default(); model.layout.count],
             on_shared: [Wrench::default(); SHARED],
+            inverse_inertia: InverseInertia::new(model.layout.hub()),
             counts: [0; LAWS.len()],
             counting: true,
             differentiating: false,

@@ -3,10 +3,10 @@
 //! Forces act through the centre of the journal; the bush carries in addition the moment of the force about its own
 //! centre, so both wrenches balance.
 
-use super::SlopeSums;
 use super::line_laws::LawBuilder;
 use super::passage::Passage;
-use crate::bodies::{CAGE, Fault, IN_HUB, INNER_RING, Input, Motions, OUTER_RING, SHARED};
+use super::slope_sums::{Slope, SlopeSums};
+use crate::bodies::{CAGE, Fault, INNER_RING, Input, Motions, OUTER_RING, SHARED};
 use crate::error::Result;
 use crate::integrate::Tuning;
 use crate::laws::elastic::solid::SolidContact;
@@ -53,6 +53,20 @@ impl GuideSide {
         }
     }
 
+    /// Derivatives over the motions of cage and ring: y, z and angle, and their rates.
+    #[inline]
+    fn over_bodies(self, row: &JournalDual) -> [Slope<3, 3>; 2] {
+        let [y, z, vy, vz, journal, bush, angle, profile] = row.eps;
+        match self {
+            GuideSide::CageInside => {
+                [([y, z, angle], [vy, vz, journal + profile]), ([-y, -z, 0.0], [-vy, -vz, bush])]
+            }
+            GuideSide::CageOutside => {
+                [([-y, -z, angle], [-vy, -vz, bush + profile]), ([y, z, 0.0], [vy, vz, journal])]
+            }
+        }
+    }
+
     /// The force on the cage, with its moment about the cage centre.
     #[inline]
     pub fn on_cage<T: Real>(self, f: &GuideForce<T>, m: &JournalMotion<T>) -> GuideForce<T> {
@@ -79,6 +93,20 @@ impl GuideSide {
             GuideSide::CageInside => [on_journal, on_bush],
             GuideSide::CageOutside => [on_bush, on_journal],
         }
+    }
+}
+
+/// Every number of a motion as a variable.
+#[inline]
+fn lift(m: &JournalMotion<f64>) -> JournalMotion<JournalDual> {
+    let variable = JournalDual::variable;
+    JournalMotion {
+        position: [variable(m.position[0], 0), variable(m.position[1], 1)],
+        velocity: [variable(m.velocity[0], 2), variable(m.velocity[1], 3)],
+        journal_speed: variable(m.journal_speed, 4),
+        bush_speed: variable(m.bush_speed, 5),
+        profile_angle: variable(m.profile_angle, 6),
+        profile_speed: variable(m.profile_speed, 7),
     }
 }
 
@@ -116,11 +144,8 @@ pub(crate) struct GuideState {
     motion: JournalMotion<f64>,
 }
 
-/// Derivatives of a wrench over the coordinates of ring and cage, their rates, and the speed of the ring.
-type GuideDual = Dual<11>;
-/// First velocity among its directions, and the speed of the ring.
-const VELOCITY: usize = 5;
-const RING_SPEED: usize = 10;
+/// A number with derivatives over what the law sees, in the order of [`JournalMotion`].
+type JournalDual = Dual<8>;
 
 impl Guide {
     /// The guide of a scene, if its cage has one.
@@ -253,43 +278,19 @@ impl Guide {
 
     /// Adds the derivatives of its forces.
     pub(crate) fn add_slopes(&self, motions: &Motions, fluid: Fluid, sums: &mut SlopeSums<'_>) {
-        let bodies = [&motions.shared[CAGE], &motions.shared[self.ring]];
-        // Ring y, z, cage y, z, angle; then their rates.
-        let lift = |body: &Motion<f64>, at: usize, angle: bool, moves: bool| {
-            let variable =
-                |x: f64, i: usize| if moves { GuideDual::variable(x, i) } else { Dual::constant(x) };
-            Motion {
-                position: std::array::from_fn(|k| variable(body.position[k], at + k)),
-                velocity: std::array::from_fn(|k| variable(body.velocity[k], VELOCITY + at + k)),
-                angle: if angle { variable(body.angle, at + 2) } else { Dual::constant(body.angle) },
-                speed: if angle {
-                    variable(body.speed, VELOCITY + at + 2)
-                } else {
-                    Dual::constant(body.speed)
-                },
-            }
-        };
-        let (on_inner, cage_at) = (self.ring == INNER_RING, IN_HUB[CAGE]);
-        let ring_moves = on_inner && sums.layout.shared(self.ring).is_some();
-        let moving = lift(bodies[0], cage_at, true, true);
-        let mut ring = lift(bodies[1], 0, false, ring_moves);
-        if on_inner {
-            ring.speed = Dual::variable(bodies[1].speed, RING_SPEED);
-        }
-        let motion = self.side.journal_motion(&moving, &ring);
+        let [cage, ring] = [&motions.shared[CAGE], &motions.shared[self.ring]];
+        let m = self.side.journal_motion(cage, ring);
+        let motion = lift(&m);
         let Ok(force) = self.law.force(&motion, fluid) else { return };
-        let rows = |[on_cage, on_ring]: [Wrench<GuideDual>; 2]| {
-            let [y, z, moment] = on_cage.components();
-            [on_ring.force[0], on_ring.force[1], y, z, moment]
-        };
-        let first = if ring_moves { 0 } else { cage_at };
-        let all = rows(self.side.wrenches(&force, &motion));
-        for (i, row) in all.into_iter().enumerate().skip(first) {
-            for k in 0..VELOCITY {
-                sums.out.over_positions.hub[(i, k)] += row.eps[k];
-                sums.out.over_velocities.hub[(i, k)] += row.eps[VELOCITY + k];
+        let speeding = if self.ring == INNER_RING { sums.rates.of(Input::RingSpeed) } else { 0.0 };
+        let bodies = [CAGE, self.ring];
+        let wrenches = self.side.wrenches(&force, &motion).map(|on_body| on_body.components());
+        for (body, rows) in bodies.into_iter().zip(wrenches) {
+            for (k, over) in bodies.into_iter().enumerate() {
+                sums.add_mate(body, over, &rows.map(|row| self.side.over_bodies(&row)[k]));
             }
-            sums.hub_over_time[i] += row.eps[RING_SPEED] * sums.rates.of(Input::RingSpeed);
+            let over_ring_speed = rows.map(|row| self.side.over_bodies(&row)[1].1[2]);
+            sums.add_mate_over_time(body, &over_ring_speed.map(|slope| slope * speeding));
         }
         let ln_viscosity_rate = sums.ln_viscosity_rate;
         if ln_viscosity_rate == 0.0 {
@@ -297,14 +298,14 @@ impl Guide {
         }
         // Films know the viscosity only in its products with velocities, so their derivative over its logarithm is the
         // sum of those over each velocity times that velocity.
-        let [cage, ring] = bodies;
-        let moves = if ring_moves { ring.velocity } else { [0.0; 2] };
-        let velocities = [moves[0], moves[1], cage.velocity[0], cage.velocity[1], cage.speed];
-        let film = rows(self.side.wrenches(&force.of_film(), &motion));
-        for (i, row) in film.into_iter().enumerate().skip(first) {
-            let slopes = velocities.iter().zip(&row.eps[VELOCITY..RING_SPEED]);
-            let by_motion: f64 = slopes.map(|(v, slope)| v * slope).sum();
-            sums.hub_over_time[i] += ln_viscosity_rate * (by_motion + ring.speed * row.eps[RING_SPEED]);
+        let by_motion = |row: JournalDual| {
+            let [_, _, vy, vz, journal, bush, _, profile] = row.eps;
+            let by_speeds = journal * m.journal_speed + bush * m.bush_speed + profile * m.profile_speed;
+            ln_viscosity_rate * (vy * m.velocity[0] + vz * m.velocity[1] + by_speeds)
+        };
+        let film = self.side.wrenches(&force.of_film(), &motion).map(|on_body| on_body.components());
+        for (body, rows) in bodies.into_iter().zip(film) {
+            sums.add_mate_over_time(body, &rows.map(by_motion));
         }
     }
 

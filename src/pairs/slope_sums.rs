@@ -3,7 +3,7 @@
 
 use crate::bodies::{InputValues, Layout, OF_ELEMENT};
 use crate::integrate::Linearization;
-use nalgebra::Vector5;
+use crate::integrate::linear::Arrowhead;
 
 /// Sums in the making.
 pub(crate) struct SlopeSums<'a> {
@@ -12,73 +12,91 @@ pub(crate) struct SlopeSums<'a> {
     pub(crate) rates: &'a InputValues,
     /// Rate of the logarithm of the viscosity, 1/s.
     pub(crate) ln_viscosity_rate: f64,
-    /// Rates of the wrenches on the hub at constant state.
-    pub(crate) hub_over_time: Vector5<f64>,
-    pub(crate) out: &'a mut Linearization,
+    pub(crate) out: &'a mut Linearization<OF_ELEMENT>,
+}
+
+/// Derivatives of one component of a wrench over the first positions and velocities of a body, as many as it has.
+pub(crate) type Slope<const P: usize, const V: usize> = ([f64; P], [f64; V]);
+
+/// Columns of a matrix with as many rows as an element has velocities.
+#[inline]
+fn chunks(columns: &mut [f64]) -> &mut [[f64; OF_ELEMENT]] {
+    columns.as_chunks_mut().0
 }
 
 impl SlopeSums<'_> {
-    /// Adds derivatives of the wrench on element `j`, in its local frame, over its own first positions and its velocities.
+    /// Over positions and over velocities.
     #[inline]
-    pub(crate) fn add_own<const P: usize>(&mut self, j: usize, rows: &[([f64; P], [f64; OF_ELEMENT]); 3]) {
-        let k = &mut self.out.over_positions.spokes[j].own;
-        let d = &mut self.out.over_velocities.spokes[j].own;
+    fn parts(&mut self) -> [&mut Arrowhead<f64, OF_ELEMENT>; 2] {
+        [&mut self.out.over_positions, &mut self.out.over_velocities]
+    }
+
+    /// Adds derivatives of the wrench on element `j`, in its local frame, over its own coordinates.
+    #[inline]
+    pub(crate) fn add_own<const P: usize>(&mut self, j: usize, rows: &[Slope<P, OF_ELEMENT>; OF_ELEMENT]) {
+        let columns = j * OF_ELEMENT..(j + 1) * OF_ELEMENT;
+        let [k, d] = self.parts().map(|part| &mut chunks(part.own.as_mut_slice())[columns.clone()]);
         for (i, (position, velocity)) in rows.iter().enumerate() {
             for (c, slope) in position.iter().enumerate() {
-                k[(i, c)] += slope;
+                k[c][i] += slope;
             }
             for (c, slope) in velocity.iter().enumerate() {
-                d[(i, c)] += slope;
+                d[c][i] += slope;
             }
         }
     }
 
-    /// The same over the first positions and velocities of the shared body that begins at `at` in the hub.
+    /// The same over those of a shared body.
     #[inline]
     pub(crate) fn add_own_over_mate<const N: usize>(
         &mut self,
         j: usize,
-        at: usize,
-        rows: &[([f64; N], [f64; N]); 3],
+        mate: usize,
+        rows: &[Slope<N, N>; OF_ELEMENT],
     ) {
-        let k = &mut self.out.over_positions.spokes[j].from_hub;
-        let d = &mut self.out.over_velocities.spokes[j].from_hub;
-        for (i, (position, velocity)) in rows.iter().enumerate() {
-            for c in 0..N {
-                k[(i, at + c)] += position[c];
-                d[(i, at + c)] += velocity[c];
+        let (places, first) = (self.layout.range(mate), j * self.layout.hub());
+        let columns = first + places.start..first + places.end;
+        let [k, d] = self.parts().map(|part| &mut chunks(part.from_hub.as_mut_slice())[columns.clone()]);
+        for (c, (k, d)) in k.iter_mut().zip(d).enumerate().take(N) {
+            for (i, (position, velocity)) in rows.iter().enumerate() {
+                k[i] += position[c];
+                d[i] += velocity[c];
             }
         }
     }
 
-    /// Adds derivatives of the first components of the wrench on that body over the coordinates of element `j`.
+    /// Adds derivatives of the first components of the wrench on a shared body over the coordinates of element `j`.
     #[inline]
     pub(crate) fn add_mate_over_own<const M: usize>(
         &mut self,
         j: usize,
-        at: usize,
-        rows: &[([f64; 2], [f64; OF_ELEMENT]); M],
+        mate: usize,
+        rows: &[Slope<2, OF_ELEMENT>; M],
     ) {
-        let k = &mut self.out.over_positions.spokes[j].to_hub;
-        let d = &mut self.out.over_velocities.spokes[j].to_hub;
-        for (i, (position, velocity)) in rows.iter().enumerate() {
-            for (c, slope) in position.iter().enumerate() {
-                k[(at + i, c)] += slope;
-            }
-            for (c, slope) in velocity.iter().enumerate() {
-                d[(at + i, c)] += slope;
-            }
+        let (places, width) = (self.layout.range(mate), self.layout.hub());
+        let block = j * OF_ELEMENT * width..(j + 1) * OF_ELEMENT * width;
+        let [k, d] = self.parts().map(|part| &mut part.to_hub.as_mut_slice()[block.clone()]);
+        for (c, column) in k.chunks_exact_mut(width).enumerate().take(2) {
+            column[places.clone()].iter_mut().zip(rows).for_each(|(sum, row)| *sum += row.0[c]);
+        }
+        for (c, column) in d.chunks_exact_mut(width).enumerate() {
+            column[places.clone()].iter_mut().zip(rows).for_each(|(sum, row)| *sum += row.1[c]);
         }
     }
 
-    /// The same over the first coordinates of that body.
+    /// The same over those of a shared body, itself or another.
     #[inline]
-    pub(crate) fn add_mate<const N: usize>(&mut self, at: usize, rows: &[([f64; N], [f64; N]); N]) {
+    pub(crate) fn add_mate<const M: usize, const N: usize>(
+        &mut self,
+        mate: usize,
+        over: usize,
+        rows: &[Slope<N, N>; M],
+    ) {
         let (k, d) = (&mut self.out.over_positions.hub, &mut self.out.over_velocities.hub);
-        for (i, (position, velocity)) in rows.iter().enumerate() {
-            for c in 0..N {
-                k[(at + i, at + c)] += position[c];
-                d[(at + i, at + c)] += velocity[c];
+        for (at, (position, velocity)) in self.layout.range(mate).zip(rows) {
+            for (c, column) in self.layout.range(over).enumerate().take(N) {
+                k[(at, column)] += position[c];
+                d[(at, column)] += velocity[c];
             }
         }
     }
@@ -91,11 +109,11 @@ impl SlopeSums<'_> {
         }
     }
 
-    /// Adds rates of the first components of the wrench on the shared body that begins at `at` at constant state.
+    /// Adds rates of the first components of the wrench on a shared body at constant state.
     #[inline]
-    pub(crate) fn add_mate_over_time(&mut self, at: usize, rates: &[f64]) {
-        for (k, rate) in rates.iter().enumerate() {
-            self.hub_over_time[at + k] += rate;
+    pub(crate) fn add_mate_over_time(&mut self, mate: usize, rates: &[f64]) {
+        for (place, rate) in self.layout.range(mate).zip(rates) {
+            self.out.over_time[place] += rate;
         }
     }
 }

@@ -4,10 +4,11 @@ use super::limits::RunLimits;
 use super::linear::jacobian::Slopes;
 use crate::integrate::{
     Applied, GroupDamping, Interruption, Linearization, Linearized, Observed, Powers, SemiImplicit, Split,
-    Structure, System, Tuning, Vibration,
+    Structure, Structured, System, Tuning, Vibration,
 };
 use crate::model::{
-    Channel, Energy, Fault, FaultCounts, Forces, HostInputs, Input, LawCounts, Model, PartTimes, Workspace,
+    Channel, Energy, Fault, FaultCounts, Forces, HostInputs, Input, LawCounts, Model, OF_ELEMENT, PartTimes,
+    Workspace,
 };
 use std::sync::Arc;
 
@@ -39,7 +40,6 @@ impl Bearing {
     pub(super) fn new(model: Arc<Model>, tuning: Tuning) -> Self {
         let workspace = Workspace::new(&model);
         let layout = model.layout();
-        let groups = layout.groups();
         Self {
             workspace,
             host: HostInputs::default(),
@@ -47,7 +47,7 @@ impl Bearing {
             jacobians: 0,
             fault_counts: FaultCounts::default(),
             last_fault: None,
-            rejections: vec![0; groups],
+            rejections: vec![0; model.structure().groups().len()],
             limits: RunLimits::default(),
             tuning,
             memory: StepMemory {
@@ -263,27 +263,25 @@ impl System for Bearing {
     }
 
     /// Rollers, then the ring and the cage, whichever exist.
-    fn groups(&self) -> usize {
-        self.rejections.len()
-    }
-
-    fn group(&self, i: usize) -> [Option<usize>; 3] {
-        self.model.layout().group(i)
+    fn groups(&self) -> Vec<Vec<usize>> {
+        self.structure().groups()
     }
 }
 
-impl Linearized for Bearing {
-    fn structure(&self) -> Structure {
+impl Structured<OF_ELEMENT> for Bearing {
+    fn structure(&self) -> Structure<OF_ELEMENT> {
         self.model.structure()
     }
+}
 
+impl Linearized<OF_ELEMENT> for Bearing {
     fn linearize(
         &mut self,
         t: f64,
         q: &[f64],
         v: &[f64],
         a: &mut [f64],
-        out: &mut Linearization,
+        out: &mut Linearization<OF_ELEMENT>,
     ) -> Result<(), Fault> {
         self.workspace.set_differentiating(true);
         let evaluated = self.accelerations(t, q, v, a);
@@ -300,17 +298,9 @@ impl Linearized for Bearing {
     }
 }
 
-impl Split for Bearing {
-    fn damping(&self, h: f64, _q: &[f64], _v: &[f64], out: &mut GroupDamping) {
+impl Split<OF_ELEMENT> for Bearing {
+    fn damping(&self, h: f64, _q: &[f64], _v: &[f64], out: &mut GroupDamping<OF_ELEMENT>) {
         self.model.damping(h, &self.workspace, out);
-    }
-
-    /// The rollers; ring and cage follow.
-    fn leaders(&self) -> usize {
-        match self.model.layout().count {
-            0 => self.groups(),
-            rollers => rollers,
-        }
     }
 
     fn react(&self, _q: &[f64], v: &[f64], step: &SemiImplicit<'_>, a: &mut [f64]) {

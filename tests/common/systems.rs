@@ -1,10 +1,10 @@
 //! Small systems with known solutions, for tests of integration methods.
 
 use cagedyn::integrate::{
-    DampingBlock, GroupDamping, Linearization, Linearized, Observed, Split, Structure, System, Vibration,
+    GroupDamping, Linearization, Linearized, Observed, Split, Structure, Structured, System, Vibration,
     implicit_share,
 };
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::DMatrix;
 
 /// A damped oscillator, a driven rotor and a speed without position, coupled, with an analytic solution:
 /// x'' = -2 zeta x' - x, y'' = 0, w' = -rate (w - goal), and z'' = 0.
@@ -64,25 +64,25 @@ impl System for Oscillator {
     fn next_event(&self, t: f64) -> f64 {
         if t < self.jump { self.jump } else { f64::INFINITY }
     }
-    fn groups(&self) -> usize {
-        1
-    }
-    fn group(&self, _: usize) -> [Option<usize>; 3] {
-        [Some(0), Some(1), Some(2)]
+    fn groups(&self) -> Vec<Vec<usize>> {
+        self.structure().groups()
     }
 }
 
-impl Linearized for Oscillator {
-    fn structure(&self) -> Structure {
-        Structure { hub: [Some(0), Some(1), Some(2), None, None], spokes: Vec::new() }
+impl Structured<3> for Oscillator {
+    fn structure(&self) -> Structure<3> {
+        Structure::around(3, Vec::new())
     }
+}
+
+impl Linearized<3> for Oscillator {
     fn linearize(
         &mut self,
         t: f64,
         q: &[f64],
         v: &[f64],
         a: &mut [f64],
-        out: &mut Linearization,
+        out: &mut Linearization<3>,
     ) -> Result<(), &'static str> {
         self.accelerations(t, q, v, a)?;
         out.clear();
@@ -93,12 +93,13 @@ impl Linearized for Oscillator {
     }
 }
 
-impl Split for Oscillator {
-    fn damping(&self, h: f64, _: &[f64], _: &[f64], damping: &mut GroupDamping) {
-        let rates = Vector3::new(2.0 * self.zeta, 0.0, self.rate) * self.known;
-        let full = Matrix3::from_diagonal(&rates);
-        let share = implicit_share(h * rates.amax());
-        damping.set(0, &DampingBlock { full, implicit: full * share });
+impl Split<3> for Oscillator {
+    fn damping(&self, h: f64, _: &[f64], _: &[f64], damping: &mut GroupDamping<3>) {
+        let rates = [2.0 * self.zeta, 0.0, self.rate].map(|rate| rate * self.known);
+        let full = DMatrix::from_diagonal(&rates.to_vec().into());
+        let share = implicit_share(h * rates[0].max(rates[2]));
+        damping.bodies[0].implicit = &full * share;
+        damping.bodies[0].full = full;
     }
 }
 
@@ -129,33 +130,36 @@ impl System for Driven {
     }
 }
 
-impl Linearized for Driven {
-    fn structure(&self) -> Structure {
-        Structure { hub: [Some(0), None, None, None, None], spokes: vec![[1, 2, 3]] }
+impl Structured<3> for Driven {
+    fn structure(&self) -> Structure<3> {
+        Structure::around(1, vec![[1, 2, 3]])
     }
+}
+
+impl Linearized<3> for Driven {
     fn linearize(
         &mut self,
         t: f64,
         q: &[f64],
         v: &[f64],
         a: &mut [f64],
-        out: &mut Linearization,
+        out: &mut Linearization<3>,
     ) -> Result<(), &'static str> {
         self.accelerations(t, q, v, a)?;
         out.clear();
         let (k, d) = (&mut out.over_positions, &mut out.over_velocities);
         k.hub[(0, 0)] = -0.3;
-        k.spokes[0].to_hub[(0, 0)] = 0.3;
+        k.to_hub[(0, 0)] = 0.3;
         d.hub[(0, 0)] = -self.rate - v[3];
-        d.spokes[0].to_hub[(0, 2)] = -v[0];
-        k.spokes[0].from_hub[(0, 0)] = 0.5;
-        k.spokes[0].own[(0, 0)] = -3.0 * q[1] * q[1];
-        d.spokes[0].own[(0, 0)] = -0.2 * v[2];
-        d.spokes[0].own[(0, 1)] = -0.2 * v[1];
-        k.spokes[0].own[(1, 0)] = t * (t * q[1]).cos();
-        k.spokes[0].own[(1, 1)] = -4.0;
-        d.spokes[0].from_hub[(2, 0)] = 1.0;
-        d.spokes[0].own[(2, 2)] = -2.0 * v[3];
+        d.to_hub[(0, 2)] = -v[0];
+        k.from_hub[(0, 0)] = 0.5;
+        k.own[(0, 0)] = -3.0 * q[1] * q[1];
+        d.own[(0, 0)] = -0.2 * v[2];
+        d.own[(0, 1)] = -0.2 * v[1];
+        k.own[(1, 0)] = t * (t * q[1]).cos();
+        k.own[(1, 1)] = -4.0;
+        d.from_hub[(2, 0)] = 1.0;
+        d.own[(2, 2)] = -2.0 * v[3];
         out.over_time.copy_from_slice(&[-self.rate * t.sin() - t.cos(), 0.0, q[1] * (t * q[1]).cos(), 0.0]);
         Ok(())
     }
@@ -199,25 +203,25 @@ impl System for Stiffening {
     fn next_event(&self, t: f64) -> f64 {
         self.squares.iter().map(|(from, _)| *from).find(|from| *from > t).unwrap_or(f64::INFINITY)
     }
-    fn groups(&self) -> usize {
-        1
-    }
-    fn group(&self, _: usize) -> [Option<usize>; 3] {
-        [Some(0), None, None]
+    fn groups(&self) -> Vec<Vec<usize>> {
+        self.structure().groups()
     }
 }
 
-impl Linearized for Stiffening {
-    fn structure(&self) -> Structure {
-        Structure { hub: [Some(0), None, None, None, None], spokes: Vec::new() }
+impl Structured<3> for Stiffening {
+    fn structure(&self) -> Structure<3> {
+        Structure::around(1, Vec::new())
     }
+}
+
+impl Linearized<3> for Stiffening {
     fn linearize(
         &mut self,
         t: f64,
         q: &[f64],
         v: &[f64],
         a: &mut [f64],
-        out: &mut Linearization,
+        out: &mut Linearization<3>,
     ) -> Result<(), &'static str> {
         self.accelerations(t, q, v, a)?;
         out.clear();
@@ -226,8 +230,8 @@ impl Linearized for Stiffening {
     }
 }
 
-impl Split for Stiffening {
-    fn damping(&self, _: f64, _: &[f64], _: &[f64], _: &mut GroupDamping) {}
+impl Split<3> for Stiffening {
+    fn damping(&self, _: f64, _: &[f64], _: &[f64], _: &mut GroupDamping<3>) {}
 }
 
 impl Observed for Stiffening {

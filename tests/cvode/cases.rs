@@ -3,7 +3,7 @@
 use crate::common::{example, read, with};
 use cagedyn::integrate::{
     DormandPrince, Driver, Limits, Linearization, Linearized, Observed, Rosenbrock, Stepper, Structure,
-    System,
+    Structured, System,
 };
 use cagedyn::model::{Fault, HostInputs, Workspace};
 use cagedyn::{Model, Sim};
@@ -219,17 +219,20 @@ impl System for Fixed {
     }
 }
 
-impl Linearized for Fixed {
-    fn structure(&self) -> Structure {
+impl Structured<3> for Fixed {
+    fn structure(&self) -> Structure<3> {
         self.model.structure()
     }
+}
+
+impl Linearized<3> for Fixed {
     fn linearize(
         &mut self,
         t: f64,
         q: &[f64],
         v: &[f64],
         a: &mut [f64],
-        out: &mut Linearization,
+        out: &mut Linearization<3>,
     ) -> Result<(), Fault> {
         self.accelerations(t, q, v, a)?;
         let rates = self.model.input_rates_at(t, &HostInputs::default());

@@ -13,15 +13,15 @@ fn limits(step: f64) -> Limits {
 }
 
 /// A chain in the shape of an arrowhead: a hub mass on a spring, and a spoke mass on the hub.
-fn coupled(k: [f64; 2], d: f64) -> (Structure, Linearization) {
-    let structure = Structure { hub: [Some(0), None, None, None, None], spokes: vec![[1, 2, 3]] };
+fn coupled(k: [f64; 2], d: f64) -> (Structure<3>, Linearization<3>) {
+    let structure = Structure::around(1, vec![[1, 2, 3]]);
     let mut slopes = Linearization::new(&structure, 4);
     slopes.clear();
     for (part, k) in [(&mut slopes.over_positions, k), (&mut slopes.over_velocities, k.map(|k| k * d))] {
         part.hub[(0, 0)] = -(k[0] + k[1]);
-        part.spokes[0].to_hub[(0, 0)] = k[1];
-        part.spokes[0].from_hub[(0, 0)] = k[1];
-        part.spokes[0].own[(0, 0)] = -k[1];
+        part.to_hub[(0, 0)] = k[1];
+        part.from_hub[(0, 0)] = k[1];
+        part.own[(0, 0)] = -k[1];
     }
     (structure, slopes)
 }

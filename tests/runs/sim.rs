@@ -235,7 +235,7 @@ fn an_undamped_frictionless_bearing_keeps_its_energy() {
         let ring = 0.5 * 3.0 * (v[0] * v[0] + v[1] * v[1]);
         let rollers: f64 = (0..12)
             .map(|j| {
-                let i = model.layout().roller(j);
+                let i = model.layout().element(j);
                 let r = model.pitch_radius() + q[i];
                 0.5 * 0.0304 * (v[i] * v[i] + (r * v[i + 1]).powi(2))
             })

@@ -17,14 +17,14 @@ const SMOOTH: f64 = 2e-8;
 const TOLERANCE: f64 = 1e-7;
 
 /// Rows: accelerations; columns: positions, velocities, time.
-fn dense(model: &Model, slope: &Linearization) -> Vec<Vec<f64>> {
+fn dense(model: &Model, slope: &Linearization<3>) -> Vec<Vec<f64>> {
     let structure = model.structure();
     let (nq, nv) = (model.layout().positions(), model.layout().velocities());
     let mut out = vec![vec![0.0; nq + nv + 1]; nv];
     for (row, rate) in out.iter_mut().zip(&slope.over_time) {
         row[nq + nv] = *rate;
     }
-    let hub = || structure.hub.iter().enumerate().filter_map(|(k, index)| Some((k, (*index)?)));
+    let hub = || structure.hub.iter().copied().enumerate();
     for (first, columns, part) in [(0, nq, &slope.over_positions), (nq, nv, &slope.over_velocities)] {
         let mut put = |row: usize, column: usize, value: f64| {
             // Spins have no position.
@@ -38,19 +38,19 @@ fn dense(model: &Model, slope: &Linearization) -> Vec<Vec<f64>> {
             for (k, column) in hub() {
                 put(row, column, part.hub[(i, k)]);
             }
-            for (spoke, places) in part.spokes.iter().zip(&structure.spokes) {
+            for (j, places) in structure.spokes.iter().enumerate() {
                 for (k, column) in places.iter().enumerate() {
-                    put(row, *column, spoke.to_hub[(i, k)]);
+                    put(row, *column, part.to_hub[(i, 3 * j + k)]);
                 }
             }
         }
-        for (spoke, places) in part.spokes.iter().zip(&structure.spokes) {
+        for (j, places) in structure.spokes.iter().enumerate() {
             for (i, row) in places.iter().enumerate() {
                 for (k, column) in places.iter().enumerate() {
-                    put(*row, *column, spoke.own[(i, k)]);
+                    put(*row, *column, part.own[(i, 3 * j + k)]);
                 }
                 for (k, column) in hub() {
-                    put(*row, column, spoke.from_hub[(i, k)]);
+                    put(*row, column, part.from_hub[(i, structure.hub.len() * j + k)]);
                 }
             }
         }
@@ -94,7 +94,7 @@ fn difference(model: &Model, t: f64, state: &[f64], column: usize, h: f64) -> Op
 }
 
 /// Derivatives of the accelerations at one state.
-fn linearization(model: &Model, t: f64, state: &[f64]) -> Linearization {
+fn linearization(model: &Model, t: f64, state: &[f64]) -> Linearization<3> {
     let (q, v) = state.split_at(model.layout().positions());
     let mut ws = Workspace::new(model);
     let mut a = vec![0.0; v.len()];

@@ -1,11 +1,10 @@
 //! Rolling elements whose orbit and spin are prescribed: they roll on, whatever the cage does to them.
 
+use super::{Damping, ElementSlopes};
 use crate::bodies::{
     BodyEnergy, BodyForces, Coordinate, Element, ElementMotion, ElementSet, Elements, Fault, Inertia, Input,
     InputValues, Layout, Motions, OF_ELEMENT,
 };
-use crate::integrate::GroupDamping;
-use crate::integrate::linear::Spoke;
 use crate::scene::Scene;
 use crate::space::Wrench;
 
@@ -75,13 +74,13 @@ impl Elements for KinematicElements {
         _element: &Element,
         _on_element: &Wrench<f64>,
         _gravity: [f64; 2],
-        _over_positions: &mut Spoke,
-        _over_velocities: &mut Spoke,
+        _over_positions: ElementSlopes<'_>,
+        _over_velocities: ElementSlopes<'_>,
     ) -> [f64; OF_ELEMENT] {
         [0.0; OF_ELEMENT]
     }
 
-    fn accelerations_of(&self, _motions: &Motions, _damping: &mut GroupDamping) {}
+    fn accelerations_of(&self, _motions: &Motions, _damping: &mut Damping) {}
 
     fn energy(&self, _element: &Element, _gravity: [f64; 2]) -> BodyEnergy {
         BodyEnergy::default()

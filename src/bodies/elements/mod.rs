@@ -10,10 +10,19 @@ use crate::bodies::{
     BodyEnergy, BodyForces, Coordinate, Element, ElementSet, Fault, InputValues, Layout, Motions, OF_ELEMENT,
 };
 use crate::integrate::GroupDamping;
-use crate::integrate::linear::Spoke;
 use crate::scalar::math;
 use crate::space::{Frame, Wrench};
 use std::fmt::Debug;
+
+/// Derivatives of the wrench on one element, or of its accelerations, by columns: over its own coordinates and over those of
+/// the hub.
+pub(crate) struct ElementSlopes<'a> {
+    pub(crate) own: &'a mut [[f64; OF_ELEMENT]],
+    pub(crate) over_hub: &'a mut [[f64; OF_ELEMENT]],
+}
+
+/// Damping of all elements and shared bodies.
+pub(crate) type Damping = GroupDamping<OF_ELEMENT>;
 
 /// Mass in kg and moment of inertia in kg m^2 of an element.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,13 +84,13 @@ pub(crate) trait Elements: Debug + Send + Sync {
         element: &Element,
         on_element: &Wrench<f64>,
         gravity: [f64; 2],
-        over_positions: &mut Spoke,
-        over_velocities: &mut Spoke,
+        over_positions: ElementSlopes<'_>,
+        over_velocities: ElementSlopes<'_>,
     ) -> [f64; OF_ELEMENT];
 
     /// Makes `damping` over the speeds in the local frames, in N s/m and given by its upper triangles, that of the accelerations
     /// over the rates of the coordinates, 1/s.
-    fn accelerations_of(&self, motions: &Motions, damping: &mut GroupDamping);
+    fn accelerations_of(&self, motions: &Motions, damping: &mut Damping);
 
     /// Energy of the motion and the weight of one element, if it moves freely.
     fn energy(&self, element: &Element, gravity: [f64; 2]) -> BodyEnergy;
@@ -106,7 +115,7 @@ pub(crate) const UPPER: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (
 
 /// Multiplies the rows of a matrix, given by its columns, by these factors.
 #[inline]
-pub(crate) fn scale_rows<const N: usize>(columns: &mut [[f64; N]], factors: &[f64; N]) {
+fn scale_rows<const N: usize>(columns: &mut [[f64; N]], factors: &[f64; N]) {
     for column in columns {
         for (x, factor) in column.iter_mut().zip(factors) {
             *x *= factor;

@@ -6,13 +6,11 @@
 //!
 //! The travel counts from the centred place of the pocket at the start; the spin angle enters no force.
 
-use super::{UPPER, scale_rows};
+use super::{Damping, ElementSlopes, UPPER, scale_rows};
 use crate::bodies::{
     BodyEnergy, BodyForces, Coordinate, Element, ElementMotion, ElementSet, Elements, Fault, ForceSource,
     Inertia, Input, InputValues, Layout, Motions, Moves, OF_ELEMENT, weight,
 };
-use crate::integrate::GroupDamping;
-use crate::integrate::linear::Spoke;
 use crate::scalar::{Columns, Pack, dispatch};
 use crate::scene::Scene;
 use crate::space::Wrench;
@@ -107,7 +105,7 @@ impl Elements for Rollers {
     ) -> Result<(), Fault> {
         let n = layout.count;
         let Motions { elements, places, instructions, .. } = out;
-        let states = q[layout.rollers..].chunks_exact(2).zip(&self.set.reference_angles);
+        let states = q[layout.elements..].chunks_exact(2).zip(&self.set.reference_angles);
         let columns = places.radial_offset.iter_mut().zip(&mut places.azimuth).zip(&mut places.travel);
         for (j, (((radial_offset, azimuth), travel), (state, reference))) in columns.zip(states).enumerate() {
             (*radial_offset, *azimuth, *travel) = (state[0], reference + state[1], state[1]);
@@ -116,7 +114,7 @@ impl Elements for Rollers {
             }
         }
         places.find_directions(n, *instructions);
-        let (rates, spins) = v[layout.rollers..].split_at(2 * n);
+        let (rates, spins) = v[layout.elements..].split_at(2 * n);
         let rates = rates.chunks_exact(2).zip(spins);
         for ((motion, (rates, spin)), radial_offset) in
             elements.iter_mut().zip(rates).zip(&places.radial_offset)
@@ -132,7 +130,7 @@ impl Elements for Rollers {
     }
 
     fn travel(&self, layout: &Layout, q: &[f64], _inputs: &InputValues, j: usize) -> [f64; 2] {
-        let i = layout.roller(j);
+        let i = layout.element(j);
         [q[i + 1], q[i]]
     }
 
@@ -145,7 +143,7 @@ impl Elements for Rollers {
         a: &mut [f64],
     ) {
         let Inertia { mass, moment } = self.inertia;
-        let (rates, spins) = a[layout.rollers..].split_at_mut(2 * layout.count);
+        let (rates, spins) = a[layout.elements..].split_at_mut(2 * layout.count);
         let rates = rates.chunks_exact_mut(2).zip(spins);
         for (j, ((rates, spin), wrench)) in rates.zip(on_elements).enumerate() {
             let element = motions.element(j);
@@ -163,29 +161,28 @@ impl Elements for Rollers {
         element: &Element,
         on_element: &Wrench<f64>,
         gravity: [f64; 2],
-        k: &mut Spoke,
-        d: &mut Spoke,
+        k: ElementSlopes<'_>,
+        d: ElementSlopes<'_>,
     ) -> [f64; OF_ELEMENT] {
         let (Inertia { mass, moment }, r) = (self.inertia, element.radius);
         let inverse = [1.0 / mass, 1.0 / (mass * r), 1.0 / moment];
-        for part in [&mut *k, &mut *d] {
-            scale_rows(&mut part.own.data.0, &inverse);
-            scale_rows(&mut part.from_hub.data.0, &inverse);
+        for columns in [&mut *k.own, k.over_hub, &mut *d.own, d.over_hub] {
+            scale_rows(columns, &inverse);
         }
         let [weight_r, weight_c] = element.frame.to_local(gravity);
         let (radial_speed, orbit) = (element.motion.radial_speed, element.motion.orbit_speed);
         let across = (on_element.force[1] / mass + weight_c - 2.0 * radial_speed * orbit) / r;
-        k.own[(0, 0)] += orbit * orbit;
-        k.own[(0, 1)] += weight_c;
-        k.own[(1, 0)] -= across / r;
-        k.own[(1, 1)] -= weight_r / r;
-        d.own[(0, 1)] += 2.0 * r * orbit;
-        d.own[(1, 0)] -= 2.0 * orbit / r;
-        d.own[(1, 1)] -= 2.0 * radial_speed / r;
+        k.own[0][0] += orbit * orbit;
+        k.own[1][0] += weight_c;
+        k.own[0][1] -= across / r;
+        k.own[1][1] -= weight_r / r;
+        d.own[1][0] += 2.0 * r * orbit;
+        d.own[0][1] -= 2.0 * orbit / r;
+        d.own[1][1] -= 2.0 * radial_speed / r;
         inverse
     }
 
-    fn accelerations_of(&self, motions: &Motions, damping: &mut GroupDamping) {
+    fn accelerations_of(&self, motions: &Motions, damping: &mut Damping) {
         let divide = Divide {
             inertia: self.inertia,
             pitch_radius: self.set.pitch_radius,
@@ -219,7 +216,7 @@ struct Divide<'a> {
     pitch_radius: f64,
     rows: usize,
     radial_offset: &'a [f64],
-    damping: &'a mut GroupDamping,
+    damping: &'a mut Damping,
 }
 
 impl Columns for Divide<'_> {

@@ -128,12 +128,12 @@ pub struct Choice {
 
 /// The methods and the choice among them.
 #[derive(Clone, Debug)]
-pub struct Auto {
+pub struct Auto<const N: usize> {
     aim: Aim,
-    leapfrog: Leapfrog,
+    leapfrog: Leapfrog<N>,
     explicit: DormandPrince,
-    implicit: Rosenbrock,
-    monitor: StabilityMonitor,
+    implicit: Rosenbrock<N>,
+    monitor: StabilityMonitor<N>,
     selection: Selection,
     balance: Balance,
     active: Kind,
@@ -175,9 +175,9 @@ pub struct Auto {
     state: Vec<f64>,
 }
 
-impl Auto {
+impl<const N: usize> Auto<N> {
     /// Memory for a system.
-    pub fn new<S: Linearized + Split + Observed>(system: &S, aim: Aim) -> Self {
+    pub fn new<S: Linearized<N> + Split<N> + Observed>(system: &S, aim: Aim) -> Self {
         let tolerance: Vec<f64> = aim.units.iter().map(|unit| unit * aim.tolerance).collect();
         let mut auto = Self {
             leapfrog: Leapfrog::new(system),
@@ -236,7 +236,7 @@ impl Auto {
 
     /// Goes on with another method from the present state at time `t`. Returns the step to take, or nothing if the
     /// method cannot start there.
-    fn change_to<S: Linearized + Split + Observed>(
+    fn change_to<S: Linearized<N> + Split<N> + Observed>(
         &mut self,
         kind: Kind,
         reason: Reason,
@@ -264,7 +264,7 @@ impl Auto {
     }
 
     /// From the leapfrog to error control.
-    fn control_errors<S: Linearized + Split + Observed>(
+    fn control_errors<S: Linearized<N> + Split<N> + Observed>(
         &mut self,
         reason: Reason,
         system: &mut S,
@@ -275,7 +275,11 @@ impl Auto {
         self.change_to(Kind::Rosenbrock, reason, system, t)
     }
 
-    fn review_leapfrog<S: Linearized + Split + Observed>(&mut self, system: &mut S, t: f64) -> Option<f64> {
+    fn review_leapfrog<S: Linearized<N> + Split<N> + Observed>(
+        &mut self,
+        system: &mut S,
+        t: f64,
+    ) -> Option<f64> {
         let stretch_over = std::mem::take(&mut self.judged);
         if stretch_over {
             self.note_right_stretch();
@@ -300,7 +304,7 @@ impl Auto {
     }
 
     /// After a right stretch of error control: whether the leapfrog takes over, or how strict the next one is.
-    fn ease<S: Linearized + Split + Observed>(&mut self, system: &mut S, t: f64) -> Option<f64> {
+    fn ease<S: Linearized<N> + Split<N> + Observed>(&mut self, system: &mut S, t: f64) -> Option<f64> {
         let (advanced, cost) = (std::mem::take(&mut self.advanced), std::mem::take(&mut self.cost));
         self.note_right_stretch();
         if self.hold > 0 {
@@ -337,7 +341,7 @@ impl Auto {
         }
     }
 
-    fn review_error_control<S: Linearized + Split + Observed>(
+    fn review_error_control<S: Linearized<N> + Split<N> + Observed>(
         &mut self,
         system: &mut S,
         t: f64,
@@ -383,7 +387,7 @@ impl Auto {
     }
 
     /// Whether a probe says that the leapfrog could go on from the present state.
-    fn may_leapfrog<S: Linearized + Split + Observed>(&mut self, system: &mut S, t: f64) -> bool {
+    fn may_leapfrog<S: Linearized<N> + Split<N> + Observed>(&mut self, system: &mut S, t: f64) -> bool {
         let mut state = std::mem::take(&mut self.state);
         state.copy_from_slice(Stepper::<S>::state(self));
         Stepper::<S>::set_state(&mut self.leapfrog, &state);

@@ -43,11 +43,11 @@ pub enum Verdict {
 
 /// The monitor and its memory.
 #[derive(Clone, Debug)]
-pub struct StabilityMonitor {
+pub struct StabilityMonitor<const N: usize> {
     tuning: Tuning,
     expected: Expectation,
-    finder: ModeFinder,
-    slopes: Linearization,
+    finder: ModeFinder<N>,
+    slopes: Linearization<N>,
     a: Vec<f64>,
     /// Steps until the next look.
     due: u64,
@@ -58,9 +58,9 @@ pub struct StabilityMonitor {
     highest: f64,
 }
 
-impl StabilityMonitor {
+impl<const N: usize> StabilityMonitor<N> {
     /// A monitor of a system; `units` are one unit of error of each state.
-    pub fn new<S: Linearized + Split + Observed>(
+    pub fn new<S: Linearized<N> + Split<N> + Observed>(
         system: &S,
         expected: Expectation,
         units: &[f64],
@@ -102,10 +102,10 @@ impl StabilityMonitor {
     }
 
     /// Measures, if it is time to, at the state of `main` at time `t` (s).
-    pub fn look<S: Linearized + Split + Observed>(
+    pub fn look<S: Linearized<N> + Split<N> + Observed>(
         &mut self,
         system: &mut S,
-        main: &Leapfrog,
+        main: &Leapfrog<N>,
         t: f64,
     ) -> Verdict {
         if self.due > 0 {
@@ -124,10 +124,10 @@ impl StabilityMonitor {
     }
 
     /// Whether the leapfrog could go on from the state that `main` has been set to at time `t` (s).
-    pub fn allows<S: Linearized + Split + Observed>(
+    pub fn allows<S: Linearized<N> + Split<N> + Observed>(
         &mut self,
         system: &mut S,
-        main: &Leapfrog,
+        main: &Leapfrog<N>,
         t: f64,
     ) -> bool {
         self.due = self.tuning.frequency_interval;
@@ -139,7 +139,12 @@ impl StabilityMonitor {
         self.frequency > self.tuning.highest_frequency * self.expected.frequency
     }
 
-    fn measure<S: Linearized + Split + Observed>(&mut self, system: &mut S, main: &Leapfrog, t: f64) {
+    fn measure<S: Linearized<N> + Split<N> + Observed>(
+        &mut self,
+        system: &mut S,
+        main: &Leapfrog<N>,
+        t: f64,
+    ) {
         let (q, v) = Stepper::<S>::state(main).split_at(system.positions());
         if system.linearize(t, q, v, &mut self.a, &mut self.slopes).is_err() {
             return;

@@ -4,7 +4,7 @@ use super::{Auto, Choice, EXPLICIT, IMPLICIT, KINDS, Kind, Reason};
 use crate::integrate::driver::control::{Estimate, Law};
 use crate::integrate::{Applied, Linearized, Observed, Powers, Reader, Samples, Split, Stepper};
 
-impl<S: Linearized + Split + Observed> Stepper<S> for Auto {
+impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto<N> {
     fn set_state(&mut self, state: &[f64]) {
         self.balance.close();
         self.placed = true;

@@ -70,10 +70,11 @@ pub struct ErrorNorm {
 impl ErrorNorm {
     /// The norm for a system, with an absolute tolerance for every state. States in no group form one more.
     pub fn new<S: System>(system: &S, tolerance: &[f64]) -> Self {
-        let (positions, rest) = (system.positions(), system.groups());
+        let (positions, groups) = (system.positions(), system.groups());
+        let rest = groups.len();
         let mut group = vec![rest; positions + system.velocities()];
-        for i in 0..rest {
-            for v in system.group(i).into_iter().flatten() {
+        for (i, velocities) in groups.into_iter().enumerate() {
+            for v in velocities {
                 group[positions + v] = i;
                 if v < positions {
                     group[v] = i;

@@ -1,7 +1,7 @@
 //! Dense elimination with row exchanges over the whole matrix, for the arrowheads that elimination by blocks fails on: a
 //! singular spoke in a regular matrix. Rare, so it takes its memory when it is needed.
 
-use crate::integrate::linear::{Arrowhead, HUB, Number, SPOKE};
+use crate::integrate::linear::{Arrowhead, Number};
 use nalgebra::{DMatrix, DVector, Dyn, LU, SVector};
 
 /// The factors of an [`Arrowhead`] as a dense matrix, rows and columns scaled to about one.
@@ -14,24 +14,16 @@ pub(in crate::integrate) struct DenseFactors<T: Number> {
 
 impl<T: Number> DenseFactors<T> {
     /// Factorises a matrix; `None` when it is singular within rounding or not finite.
-    pub(in crate::integrate) fn new(a: &Arrowhead<T>) -> Option<Self> {
-        let n = HUB + SPOKE * a.spokes.len();
+    pub(in crate::integrate) fn new<const N: usize>(a: &Arrowhead<T, N>) -> Option<Self> {
+        let hub = a.width();
+        let n = hub + N * a.spokes();
         let mut matrix = DMatrix::<T>::zeros(n, n);
-        for i in 0..HUB {
-            for j in 0..HUB {
-                matrix[(i, j)] = a.hub[(i, j)];
-            }
-        }
-        for (first, spoke) in (HUB..).step_by(SPOKE).zip(&a.spokes) {
-            for i in 0..SPOKE {
-                for j in 0..SPOKE {
-                    matrix[(first + i, first + j)] = spoke.own[(i, j)];
-                }
-                for j in 0..HUB {
-                    matrix[(j, first + i)] = spoke.to_hub[(j, i)];
-                    matrix[(first + i, j)] = spoke.from_hub[(i, j)];
-                }
-            }
+        matrix.view_mut((0, 0), (hub, hub)).copy_from(&a.hub);
+        matrix.columns_mut(hub, n - hub).rows_mut(0, hub).copy_from(&a.to_hub);
+        for j in 0..a.spokes() {
+            let first = hub + N * j;
+            matrix.view_mut((first, first), (N, N)).copy_from(&a.own.columns(N * j, N));
+            matrix.view_mut((first, 0), (N, hub)).copy_from(&a.from_hub.columns(hub * j, hub));
         }
         let size = |i: usize, j: usize| matrix[(i, j)].norm1();
         let columns: Vec<f64> = (0..n).map(|j| 1.0 / (0..n).map(|i| size(i, j)).sum::<f64>()).collect();
@@ -53,7 +45,7 @@ impl<T: Number> DenseFactors<T> {
     }
 
     /// Replaces the right-hand side (`hub`, `spokes`) by the solution.
-    pub(in crate::integrate) fn solve(&self, hub: &mut SVector<T, HUB>, spokes: &mut [SVector<T, SPOKE>]) {
+    pub(in crate::integrate) fn solve<const N: usize>(&self, hub: &mut [T], spokes: &mut [SVector<T, N>]) {
         let values = hub.iter().chain(spokes.iter().flatten()).zip(&self.rows);
         let mut right = DVector::<T>::zeros(self.rows.len());
         for (i, (x, scale)) in values.enumerate() {

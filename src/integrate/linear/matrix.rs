@@ -1,79 +1,139 @@
 //! A matrix of one shared group of unknowns, the hub, and small groups, the spokes, that touch only the hub.
 
-use nalgebra::{ComplexField, SMatrix, SVector};
-
-/// Unknowns of the hub.
-pub const HUB: usize = 5;
-/// Unknowns of a spoke.
-pub const SPOKE: usize = 3;
+use nalgebra::{ComplexField, Const, DMatrix, Dyn, OMatrix, SVector};
 
 /// Real and complex numbers.
 pub trait Number: ComplexField<RealField = f64> + Copy {}
 
 impl<T: ComplexField<RealField = f64> + Copy> Number for T {}
 
-/// The part of the matrix that belongs to one spoke.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spoke<T: Number = f64> {
-    /// A_j: rows and columns of the spoke.
-    pub own: SMatrix<T, SPOKE, SPOKE>,
-    /// U_j: rows of the hub, columns of the spoke.
-    pub to_hub: SMatrix<T, HUB, SPOKE>,
-    /// V_j: rows of the spoke, columns of the hub.
-    pub from_hub: SMatrix<T, SPOKE, HUB>,
-}
-
-impl<T: Number> Spoke<T> {
-    /// A spoke with the identity and without coupling.
-    pub fn identity() -> Self {
-        Self { own: SMatrix::identity(), to_hub: SMatrix::zeros(), from_hub: SMatrix::zeros() }
-    }
-}
-
-/// The matrix. Unused places carry the identity.
+/// The matrix: a hub of any size, spokes of `N` unknowns each, whose blocks stand side by side.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Arrowhead<T: Number = f64> {
+pub struct Arrowhead<T: Number, const N: usize> {
     /// S: rows and columns of the hub.
-    pub hub: SMatrix<T, HUB, HUB>,
-    /// The spokes.
-    pub spokes: Vec<Spoke<T>>,
+    pub hub: DMatrix<T>,
+    /// A_j of all spokes: rows and columns of the spoke. That of spoke j begins at column j N.
+    pub own: OMatrix<T, Const<N>, Dyn>,
+    /// U_j: rows of the hub, columns of the spoke. That of spoke j begins at column j N.
+    pub to_hub: DMatrix<T>,
+    /// V_j: rows of the spoke, columns of the hub. That of spoke j begins at column j times the size of the hub.
+    pub from_hub: OMatrix<T, Const<N>, Dyn>,
 }
 
-impl<T: Number> Arrowhead<T> {
-    /// The identity with this number of spokes.
-    pub fn new(spokes: usize) -> Self {
-        Self { hub: SMatrix::identity(), spokes: vec![Spoke::identity(); spokes] }
+impl<T: Number, const N: usize> Arrowhead<T, N> {
+    /// The identity with so many unknowns in the hub and this number of spokes.
+    pub fn new(hub: usize, spokes: usize) -> Self {
+        let mut identity = Self {
+            hub: DMatrix::zeros(hub, hub),
+            own: OMatrix::zeros_generic(Const, Dyn(N * spokes)),
+            to_hub: DMatrix::zeros(hub, N * spokes),
+            from_hub: OMatrix::zeros_generic(Const, Dyn(hub * spokes)),
+        };
+        identity.fill_identity();
+        identity
+    }
+
+    /// Number of unknowns of the hub.
+    #[inline]
+    pub fn width(&self) -> usize {
+        self.hub.nrows()
+    }
+
+    /// Number of spokes.
+    #[inline]
+    pub fn spokes(&self) -> usize {
+        self.own.ncols() / N
+    }
+
+    /// All blocks, each by its columns: hub, own, to the hub, from the hub.
+    #[inline]
+    pub fn blocks(&self) -> [&[T]; 4] {
+        [self.hub.as_slice(), self.own.as_slice(), self.to_hub.as_slice(), self.from_hub.as_slice()]
+    }
+
+    /// The same, to be written.
+    #[inline]
+    pub fn blocks_mut(&mut self) -> [&mut [T]; 4] {
+        let Self { hub, own, to_hub, from_hub } = self;
+        [hub.as_mut_slice(), own.as_mut_slice(), to_hub.as_mut_slice(), from_hub.as_mut_slice()]
     }
 
     /// Makes the matrix the identity.
     pub fn fill_identity(&mut self) {
-        self.hub = SMatrix::identity();
-        self.spokes.fill(Spoke::identity());
+        self.fill_zero();
+        self.add_diagonal(T::one());
     }
 
     /// Makes the matrix zero.
     pub fn fill_zero(&mut self) {
-        self.hub = SMatrix::zeros();
-        let zero = Spoke { own: SMatrix::zeros(), to_hub: SMatrix::zeros(), from_hub: SMatrix::zeros() };
-        self.spokes.fill(zero);
+        self.blocks_mut().into_iter().for_each(|block| block.fill(T::zero()));
+    }
+
+    /// Adds a number to the diagonal.
+    pub fn add_diagonal(&mut self, x: T) {
+        let width = self.width();
+        self.hub.as_mut_slice().iter_mut().step_by(width + 1).for_each(|entry| *entry += x);
+        for (k, column) in self.own.as_mut_slice().as_chunks_mut::<N>().0.iter_mut().enumerate() {
+            column[k % N] += x;
+        }
+    }
+
+    /// Columns of A_j.
+    #[inline]
+    pub fn own_of(&self, j: usize) -> &[[T; N]] {
+        &self.own.as_slice().as_chunks().0[j * N..(j + 1) * N]
+    }
+
+    /// Columns of U_j, one after another.
+    #[inline]
+    pub fn to_hub_of(&self, j: usize) -> &[T] {
+        let block = N * self.width();
+        &self.to_hub.as_slice()[j * block..(j + 1) * block]
+    }
+
+    /// Columns of V_j.
+    #[inline]
+    pub fn from_hub_of(&self, j: usize) -> &[[T; N]] {
+        let width = self.width();
+        &self.from_hub.as_slice().as_chunks().0[j * width..(j + 1) * width]
     }
 
     /// Product of the matrix with (`hub`, `spokes`).
     ///
     /// # Panics
-    /// If the numbers of spokes differ.
+    /// If sizes differ.
     pub fn multiply(
         &self,
-        hub: &SVector<T, HUB>,
-        spokes: &[SVector<T, SPOKE>],
-        hub_out: &mut SVector<T, HUB>,
-        spokes_out: &mut [SVector<T, SPOKE>],
+        hub: &[T],
+        spokes: &[SVector<T, N>],
+        hub_out: &mut [T],
+        spokes_out: &mut [SVector<T, N>],
     ) {
-        assert!(spokes.len() == self.spokes.len() && spokes_out.len() == self.spokes.len());
-        *hub_out = self.hub * hub;
-        for ((spoke, x), out) in self.spokes.iter().zip(spokes).zip(spokes_out) {
-            *hub_out += spoke.to_hub * x;
-            *out = spoke.own * x + spoke.from_hub * hub;
+        let width = self.width();
+        assert!(spokes.len() == self.spokes() && spokes_out.len() == self.spokes());
+        assert!(hub.len() == width && hub_out.len() == width);
+        hub_out.fill(T::zero());
+        add_product(self.hub.as_slice(), hub, hub_out);
+        for (j, (x, out)) in spokes.iter().zip(spokes_out).enumerate() {
+            for (i, sum) in hub_out.iter_mut().enumerate() {
+                let row = self.to_hub_of(j)[i..].iter().step_by(width).zip(x);
+                *sum += row.fold(T::zero(), |sum, (a, x)| sum + *a * *x);
+            }
+            let [mut own, mut across] = [[T::zero(); N]; 2];
+            add_product(self.own_of(j).as_flattened(), x.as_slice(), &mut own);
+            add_product(self.from_hub_of(j).as_flattened(), hub, &mut across);
+            *out = SVector::from_fn(|i, _| own[i] + across[i]);
+        }
+    }
+}
+
+/// Adds the product of a matrix, given by its columns, with `x`.
+#[inline(always)]
+fn add_product<T: Number>(columns: &[T], x: &[T], sum: &mut [T]) {
+    let rows = sum.len();
+    for (j, x) in x.iter().enumerate() {
+        for (sum, a) in sum.iter_mut().zip(&columns[j * rows..(j + 1) * rows]) {
+            *sum += *a * *x;
         }
     }
 }

@@ -2,8 +2,10 @@
 
 mod dense;
 mod factors;
+mod lu;
 mod matrix;
 pub(crate) mod shifted;
 
 pub use factors::Factors;
-pub use matrix::{Arrowhead, HUB, Number, SPOKE, Spoke};
+pub(crate) use lu::{Scales, decompose, substitute};
+pub use matrix::{Arrowhead, Number};

@@ -6,76 +6,69 @@
 //! (m I - D - K/m) u_v = r_v + K r_q/m,   u_q = (r_q + u_v)/m,   K = da/dq,  D = da/dv
 //! ```
 
-use crate::integrate::linear::{Arrowhead, Factors, HUB, Number, SPOKE};
+use crate::integrate::linear::lu::with_width;
+use crate::integrate::linear::{Arrowhead, Factors, Number};
 use crate::integrate::{Linearization, Structure};
-use nalgebra::{SMatrix, SVector};
+use nalgebra::{Dim, SVector};
 
 /// The factorised matrix, with the memory to use it.
 #[derive(Clone, Debug)]
-pub struct Shifted<T: Number> {
+pub struct Shifted<T: Number, const N: usize> {
     shift: T,
-    matrix: Arrowhead<T>,
-    factors: Factors<T>,
-    hub: SVector<T, HUB>,
-    spokes: Vec<SVector<T, SPOKE>>,
+    matrix: Arrowhead<T, N>,
+    factors: Factors<T, N>,
+    /// Right-hand sides.
+    hub: Vec<T>,
+    spokes: Vec<SVector<T, N>>,
+    memory: [Vec<T>; 3],
 }
 
-impl<T: Number> Shifted<T> {
-    /// Memory for this number of spokes.
-    pub fn new(spokes: usize) -> Self {
+impl<T: Number, const N: usize> Shifted<T, N> {
+    /// Memory for systems of this structure.
+    pub fn new(structure: &Structure<N>) -> Self {
+        let (width, spokes) = (structure.hub.len(), structure.spokes.len());
         Self {
             shift: T::one(),
-            matrix: Arrowhead::new(spokes),
-            factors: Factors::new(spokes),
-            hub: SVector::zeros(),
+            matrix: Arrowhead::new(width, spokes),
+            factors: Factors::new(width, spokes),
+            hub: vec![T::zero(); width],
             spokes: vec![SVector::zeros(); spokes],
+            memory: std::array::from_fn(|_| vec![T::zero(); width]),
         }
     }
 
     /// Factorises the matrix; false if that fails.
     #[must_use]
-    pub fn factorize(&mut self, slope: &Linearization, shift: T) -> bool {
+    pub fn factorize(&mut self, slope: &Linearization<N>, shift: T) -> bool {
         self.shift = shift;
         let inverse = shift.recip();
-        let (k, d) = (&slope.over_positions, &slope.over_velocities);
-        self.matrix.hub = entries(&k.hub, &d.hub, inverse);
-        for i in 0..HUB {
-            self.matrix.hub[(i, i)] += shift;
-        }
-        for ((m, k), d) in self.matrix.spokes.iter_mut().zip(&k.spokes).zip(&d.spokes) {
-            m.own = entries(&k.own, &d.own, inverse);
-            m.to_hub = entries(&k.to_hub, &d.to_hub, inverse);
-            m.from_hub = entries(&k.from_hub, &d.from_hub, inverse);
-            for i in 0..SPOKE {
-                m.own[(i, i)] += shift;
+        let (k, d) = (slope.over_positions.blocks(), slope.over_velocities.blocks());
+        for ((m, k), d) in self.matrix.blocks_mut().into_iter().zip(k).zip(d) {
+            for ((m, k), d) in m.iter_mut().zip(k).zip(d) {
+                *m = -inverse.scale(*k) - T::from_real(*d);
             }
         }
+        self.matrix.add_diagonal(shift);
         self.factors.factorize(&self.matrix)
     }
 
     /// Replaces the right-hand side `r` over (`positions` positions, velocities) by the solution.
-    pub fn solve(&mut self, slope: &Linearization, structure: &Structure, positions: usize, r: &mut [T]) {
+    pub fn solve(
+        &mut self,
+        slope: &Linearization<N>,
+        structure: &Structure<N>,
+        positions: usize,
+        r: &mut [T],
+    ) {
+        with_width!(self.hub.len(), width => self.eliminate_positions(slope, structure, positions, r, width));
         let inverse = self.shift.recip();
+        let Self { hub, spokes, factors, .. } = self;
         let (r_q, r_v) = r.split_at_mut(positions);
-        // Velocities without position have no column in K.
-        let at = |x: &[T], index: Option<usize>| index.and_then(|i| x.get(i)).copied().unwrap_or(T::zero());
-        let hub_q = SVector::<T, HUB>::from_fn(|k, _| at(r_q, structure.hub[k]));
-        let k = &slope.over_positions;
-        let mut pushed = product(&k.hub, &hub_q);
-        for ((x, spoke), places) in self.spokes.iter_mut().zip(&k.spokes).zip(&structure.spokes) {
-            let own_q = SVector::<T, SPOKE>::from_fn(|k, _| at(r_q, Some(places[k])));
-            pushed += product(&spoke.to_hub, &own_q);
-            let own = product(&spoke.own, &own_q) + product(&spoke.from_hub, &hub_q);
-            *x = SVector::from_fn(|k, _| r_v[places[k]] + inverse * own[k]);
+        factors.solve(hub, spokes);
+        for (x, index) in hub.iter().zip(&structure.hub) {
+            r_v[*index] = *x;
         }
-        self.hub = SVector::from_fn(|k, _| at(r_v, structure.hub[k]) + inverse * pushed[k]);
-        self.factors.solve(&mut self.hub, &mut self.spokes);
-        for (x, index) in self.hub.iter().zip(&structure.hub) {
-            if let Some(index) = index {
-                r_v[*index] = *x;
-            }
-        }
-        for (x, places) in self.spokes.iter().zip(&structure.spokes) {
+        for (x, places) in spokes.iter().zip(&structure.spokes) {
             for (x, index) in x.iter().zip(places) {
                 r_v[*index] = *x;
             }
@@ -84,20 +77,48 @@ impl<T: Number> Shifted<T> {
             *u_q = inverse * (*u_q + *u_v);
         }
     }
+
+    /// Right-hand sides over the velocities alone.
+    fn eliminate_positions<W: Dim>(
+        &mut self,
+        slope: &Linearization<N>,
+        structure: &Structure<N>,
+        positions: usize,
+        r: &[T],
+        width: W,
+    ) {
+        let width = width.value();
+        let inverse = self.shift.recip();
+        let (r_q, r_v) = r.split_at(positions);
+        // Velocities without position have no column in K.
+        let at = |x: &[T], index: usize| x.get(index).copied().unwrap_or(T::zero());
+        let [hub_q, pushed, by_spoke] = self.memory.each_mut().map(|column| &mut column[..width]);
+        for (x, index) in hub_q.iter_mut().zip(&structure.hub) {
+            *x = at(r_q, *index);
+        }
+        let k = &slope.over_positions;
+        pushed.fill(T::zero());
+        add_scaled(k.hub.as_slice(), hub_q, pushed);
+        for (j, (x, places)) in self.spokes.iter_mut().zip(&structure.spokes).enumerate() {
+            let own_q = places.map(|index| at(r_q, index));
+            by_spoke.fill(T::zero());
+            add_scaled(k.to_hub_of(j), &own_q, by_spoke);
+            pushed.iter_mut().zip(by_spoke.iter()).for_each(|(sum, x)| *sum += *x);
+            let [mut own, mut across] = [[T::zero(); N]; 2];
+            add_scaled(k.own_of(j).as_flattened(), &own_q, &mut own);
+            add_scaled(k.from_hub_of(j).as_flattened(), hub_q, &mut across);
+            *x = SVector::from_fn(|k, _| r_v[places[k]] + inverse * (own[k] + across[k]));
+        }
+        for ((x, pushed), index) in self.hub.iter_mut().zip(pushed).zip(&structure.hub) {
+            *x = r_v[*index] + inverse * *pushed;
+        }
+    }
 }
 
-/// -D - K/m
-fn entries<T: Number, const R: usize, const C: usize>(
-    k: &SMatrix<f64, R, C>,
-    d: &SMatrix<f64, R, C>,
-    inverse: T,
-) -> SMatrix<T, R, C> {
-    k.zip_map(d, |k, d| -inverse.scale(k) - T::from_real(d))
-}
-
-fn product<T: Number, const R: usize, const C: usize>(
-    m: &SMatrix<f64, R, C>,
-    x: &SVector<T, C>,
-) -> SVector<T, R> {
-    SVector::from_fn(|i, _| (0..C).fold(T::zero(), |sum, j| sum + x[j].scale(m[(i, j)])))
+/// Adds the product of a real matrix, given by its columns, with `x`.
+#[inline(always)]
+fn add_scaled<T: Number>(columns: &[f64], x: &[T], sum: &mut [T]) {
+    for (x, column) in x.iter().zip(columns.chunks_exact(sum.len().max(1))) {
+        sum.iter_mut().zip(column).for_each(|(sum, m)| *sum += x.scale(*m));
+    }
 }

@@ -1,17 +1,20 @@
-//! Damping within groups of coupled velocities, and the step of the velocities against it, for all groups at once.
+//! Damping within groups of coupled velocities, and the step of the velocities against it: of all spokes at once, of each body
+//! of the hub by itself.
 
+use crate::integrate::Structure;
+use crate::integrate::linear::{Scales, decompose, substitute};
 use crate::scalar::{Columns, Numeric, Pack, WIDEST, dispatch};
-use nalgebra::Matrix3;
+use nalgebra::DMatrix;
 use pulp::{Arch, Simd};
 
-/// -da/dv of up to three coupled velocities (zero in unused places), or a positive approximation of it, 1/s.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+/// -da/dv of the velocities of one body, or a positive approximation of it, 1/s.
+#[derive(Clone, Debug, PartialEq)]
 pub struct DampingBlock {
     /// D, all of it.
-    pub full: Matrix3<f64>,
+    pub full: DMatrix<f64>,
     /// D_i, the share of it that acts on the change of the step: half for the trapezoidal rule, all where rates exceed 1/h by
     /// far. See [`implicit_share`].
-    pub implicit: Matrix3<f64>,
+    pub implicit: DMatrix<f64>,
 }
 
 /// Share of the change in a step at which a decay at rate r acts, z = h r >= 0: `(3 + 2 z + z^2)/(6 + 3 z + z^2)`.
@@ -24,92 +27,173 @@ pub fn implicit_share(z: f64) -> f64 {
     if z < 1e100 { (3.0 + z * (2.0 + z)) / (6.0 + z * (3.0 + z)) } else { 1.0 }
 }
 
-/// A matrix for each group: a column of numbers for each entry, as long as whole groups of vector instructions need.
-pub type MatrixColumns = [[Vec<f64>; 3]; 3];
-/// A vector for each group.
-pub type VectorColumns = [Vec<f64>; 3];
+/// A matrix for each spoke: a column of numbers for each entry, as long as whole groups of vector instructions need.
+pub type MatrixColumns<const N: usize> = [[Vec<f64>; N]; N];
+/// A vector for each spoke.
+pub type VectorColumns<const N: usize> = [Vec<f64>; N];
 
-/// Vectors of zeros for `n` groups.
-pub(crate) fn zero_vectors(n: usize) -> VectorColumns {
+/// Vectors of zeros for `n` spokes.
+pub(crate) fn zero_vectors<const N: usize>(n: usize) -> VectorColumns<N> {
     std::array::from_fn(|_| vec![0.0; n.next_multiple_of(WIDEST)])
 }
 
-/// The damping of every group, in columns.
+/// The damping of every spoke, in columns, and of every body of the hub.
 #[derive(Clone, Debug)]
-pub struct GroupDamping {
-    /// D by row and column of the matrix, then group, 1/s. What is beyond the last group is of no meaning, but finite.
-    pub full: MatrixColumns,
+pub struct GroupDamping<const N: usize> {
+    /// D by row and column of the matrix, then spoke, 1/s. What is beyond the last spoke is of no meaning, but finite.
+    pub full: MatrixColumns<N>,
     /// D_i.
-    pub implicit: MatrixColumns,
-    groups: usize,
+    pub implicit: MatrixColumns<N>,
+    /// Of the bodies of the hub.
+    pub bodies: Vec<DampingBlock>,
+    spokes: usize,
+    /// For bodies of more velocities than the closed form is for.
+    elimination: Elimination,
 }
 
-impl GroupDamping {
-    /// No damping of this many groups.
-    pub fn new(groups: usize) -> Self {
-        let zero = std::array::from_fn(|_| zero_vectors(groups));
-        Self { full: zero.clone(), implicit: zero, groups }
-    }
+/// Memory of an elimination.
+#[derive(Clone, Debug)]
+struct Elimination {
+    matrix: Vec<f64>,
+    size: Vec<f64>,
+    scales: [Vec<f64>; 2],
+    order: Vec<usize>,
+    x: Vec<f64>,
+}
 
-    /// Sets that of one group.
-    ///
-    /// # Panics
-    /// If there is no such group.
-    pub fn set(&mut self, group: usize, block: &DampingBlock) {
-        for i in 0..3 {
-            for k in 0..3 {
-                self.full[i][k][group] = block.full[(i, k)];
-                self.implicit[i][k][group] = block.implicit[(i, k)];
-            }
+/// Velocities of a body up to which its step has a closed form.
+const CLOSED: usize = 3;
+
+impl<const N: usize> GroupDamping<N> {
+    /// No damping.
+    pub fn new(structure: &Structure<N>) -> Self {
+        let spokes = structure.spokes.len();
+        let zero = std::array::from_fn(|_| zero_vectors(spokes));
+        let block = |n: usize| DampingBlock { full: DMatrix::zeros(n, n), implicit: DMatrix::zeros(n, n) };
+        let widest = structure.bodies.iter().map(ExactSizeIterator::len).max().unwrap_or(0);
+        let (column, square) = (vec![0.0; widest], vec![0.0; widest * widest]);
+        Self {
+            full: zero.clone(),
+            implicit: zero,
+            bodies: structure.bodies.iter().map(|body| block(body.len())).collect(),
+            spokes,
+            elimination: Elimination {
+                matrix: square.clone(),
+                size: square,
+                scales: [column.clone(), column.clone()],
+                order: vec![0; widest],
+                x: column,
+            },
         }
     }
 
-    /// The solution `x` of `(I + h D_i) x = y + D p` for one group.
+    /// Solves `(I + h D_i) x = y + D p` for one body of the hub; `y` becomes `x`, which is not finite where there is none.
     ///
     /// # Panics
-    /// If there is no such group.
-    pub(crate) fn solve_one(&self, group: usize, h: f64, p: [f64; 3], y: [f64; 3]) -> [f64; 3] {
-        let (mut implicit, mut full) = ([[0.0; 3]; 3], [[0.0; 3]; 3]);
-        for i in 0..3 {
-            for k in 0..3 {
-                implicit[i][k] = self.implicit[i][k][group];
-                full[i][k] = self.full[i][k][group];
+    /// If there is no such body.
+    pub(crate) fn solve_body(&mut self, body: usize, h: f64, p: &[f64], y: &mut [f64]) {
+        let DampingBlock { full, implicit } = &self.bodies[body];
+        let n = full.nrows();
+        if n <= CLOSED {
+            let [mut all, mut share] = [[[0.0; CLOSED]; CLOSED]; 2];
+            let [mut ahead, mut right] = [[0.0; CLOSED]; 2];
+            ahead[..n].copy_from_slice(&p[..n]);
+            right[..n].copy_from_slice(&y[..n]);
+            for k in 0..n {
+                for i in 0..n {
+                    (all[i][k], share[i][k]) = (full[(i, k)], implicit[(i, k)]);
+                }
+            }
+            let x = solve::<f64, CLOSED>(&share, &all, h, ahead, right);
+            return y.copy_from_slice(&x[..n]);
+        }
+        let Elimination { matrix, size, scales: [columns, weights], order, x } = &mut self.elimination;
+        for i in 0..n {
+            order[i] = i;
+            for k in 0..n {
+                matrix[i * n + k] = implicit[(i, k)] * h + f64::from(u8::from(i == k));
+                size[i * n + k] = matrix[i * n + k].abs();
+                y[i] += full[(i, k)] * p[k];
             }
         }
-        solve(&implicit, &full, h, p, y)
+        let [matrix, size] = [&mut matrix[..n * n], &mut size[..n * n]];
+        let scales = Scales { size, columns: &mut columns[..n], weights: &mut weights[..n] };
+        if !decompose(n, matrix, &mut order[..n], scales) {
+            return y.fill(f64::NAN);
+        }
+        for (x, i) in x.iter_mut().zip(&order[..n]) {
+            *x = y[*i];
+        }
+        substitute(n, 1, matrix, &mut x[..n]);
+        y.copy_from_slice(&x[..n]);
     }
 
-    /// Solves `(I + h D_i) x = y + D p` for every group; `y` becomes `x`, which is not finite where there is none.
-    pub(crate) fn solve(&self, h: f64, p: &VectorColumns, y: &mut VectorColumns, instructions: Arch) {
+    /// Solves `(I + h D_i) x = y + D p` for every spoke; `y` becomes `x`, which is not finite where there is none.
+    pub(crate) fn solve_spokes(
+        &self,
+        h: f64,
+        p: &VectorColumns<N>,
+        y: &mut VectorColumns<N>,
+        instructions: Arch,
+    ) {
         dispatch(instructions, Solve { damping: self, h, p, y });
     }
 }
 
-struct Solve<'a> {
-    damping: &'a GroupDamping,
+struct Solve<'a, const N: usize> {
+    damping: &'a GroupDamping<N>,
     h: f64,
-    p: &'a VectorColumns,
-    y: &'a mut VectorColumns,
+    p: &'a VectorColumns<N>,
+    y: &'a mut VectorColumns<N>,
 }
 
-/// One group, or several at once, by Cramer's rule.
+/// One group, or several at once: three velocities by Cramer's rule, which divides once, others by elimination. Damping and
+/// inertia are positive, so the diagonal is always a pivot.
 #[inline(always)]
-fn solve<T: Numeric>(implicit: &[[T; 3]; 3], full: &[[T; 3]; 3], h: f64, p: [T; 3], y: [T; 3]) -> [T; 3] {
+#[expect(clippy::needless_range_loop, reason = "iterators might not be inlined")]
+fn solve<T: Numeric, const N: usize>(
+    implicit: &[[T; N]; N],
+    full: &[[T; N]; N],
+    h: f64,
+    p: [T; N],
+    y: [T; N],
+) -> [T; N] {
     let zero = p[0].like(0.0);
     // Columns of the matrix, and the right side.
-    let mut m = [[zero; 3]; 3];
+    let mut m = [[zero; N]; N];
     let mut right = y;
-    for i in 0..3 {
-        for k in 0..3 {
+    for i in 0..N {
+        for k in 0..N {
             let identity = if i == k { 1.0 } else { 0.0 };
             m[k][i] = implicit[i][k] * h + identity;
             right[i] += full[i][k] * p[k];
         }
     }
-    let [a, b, c] = m;
-    let (bc, ca, ab) = (cross(&b, &c), cross(&c, &a), cross(&a, &b));
-    let inverse = zero.like(1.0) / dot(&a, &bc);
-    [dot(&bc, &right) * inverse, dot(&ca, &right) * inverse, dot(&ab, &right) * inverse]
+    if N == 3 {
+        let [a, b, c] = [0, 1, 2].map(|k| [m[k][0], m[k][1], m[k][2]]);
+        let right = [right[0], right[1], right[2]];
+        let (bc, ca, ab) = (cross(&b, &c), cross(&c, &a), cross(&a, &b));
+        let inverse = zero.like(1.0) / dot(&a, &bc);
+        let x = [dot(&bc, &right) * inverse, dot(&ca, &right) * inverse, dot(&ab, &right) * inverse];
+        return std::array::from_fn(|i| x[i]);
+    }
+    for k in 0..N {
+        let inverse = zero.like(1.0) / m[k][k];
+        for i in k + 1..N {
+            let factor = m[k][i] * inverse;
+            for j in k + 1..N {
+                m[j][i] -= factor * m[j][k];
+            }
+            right[i] -= factor * right[k];
+        }
+    }
+    for k in (0..N).rev() {
+        for j in k + 1..N {
+            right[k] -= m[j][k] * right[j];
+        }
+        right[k] = right[k] / m[k][k];
+    }
+    right
 }
 
 #[inline(always)]
@@ -122,28 +206,28 @@ fn dot<T: Numeric>(a: &[T; 3], b: &[T; 3]) -> T {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-impl Columns for Solve<'_> {
+impl<const N: usize> Columns for Solve<'_, N> {
     const PAIRED: bool = false;
 
     fn rows(&self) -> usize {
-        self.damping.groups
+        self.damping.spokes
     }
 
     #[inline(always)]
     #[expect(clippy::needless_range_loop, reason = "iterators might not be inlined")]
     fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
         let zero = Pack::<S, K>::all(simd, 0.0);
-        let (mut implicit, mut full, mut p, mut y) = ([[zero; 3]; 3], [[zero; 3]; 3], [zero; 3], [zero; 3]);
-        for i in 0..3 {
+        let (mut implicit, mut full, mut p, mut y) = ([[zero; N]; N], [[zero; N]; N], [zero; N], [zero; N]);
+        for i in 0..N {
             p[i] = Pack::load(simd, &self.p[i][first..]);
             y[i] = Pack::load(simd, &self.y[i][first..]);
-            for k in 0..3 {
+            for k in 0..N {
                 implicit[i][k] = Pack::load(simd, &self.damping.implicit[i][k][first..]);
                 full[i][k] = Pack::load(simd, &self.damping.full[i][k][first..]);
             }
         }
         let x = solve(&implicit, &full, self.h, p, y);
-        for i in 0..3 {
+        for i in 0..N {
             x[i].store(&mut self.y[i][first..]);
         }
     }
@@ -152,32 +236,61 @@ impl Columns for Solve<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::Vector3;
 
-    #[test]
-    fn every_group_is_solved() {
+    /// Spokes of N velocities and bodies of every size, against a dense solver.
+    fn check<const N: usize>() {
         let n = 21;
-        let mut damping = GroupDamping::new(n);
-        let (mut p, mut y) = (zero_vectors(n), zero_vectors(n));
+        let bodies = [2, 3, 6, 8];
+        let structure = Structure::<N> {
+            hub: (0..19).collect(),
+            bodies: vec![0..2, 2..5, 5..11, 11..19],
+            spokes: vec![[0; N]; n],
+        };
+        let mut damping = GroupDamping::new(&structure);
         let number = |i: usize| ((i * 37) % 17) as f64 - 8.0;
-        let h = 0.01;
+        let (h, mut seed) = (0.01, 0);
+        let mut problem = |n: usize| {
+            seed += 1;
+            let full =
+                DMatrix::from_fn(n, n, |i, k| number(9 * seed + 3 * i + k) + if i == k { 9.0 } else { 0.0 });
+            let implicit = &full * 0.7;
+            let [known, ahead] =
+                [0, 5].map(|s| nalgebra::DVector::from_fn(n, |k, _| number(4 * seed + k + s)));
+            let x = (DMatrix::identity(n, n) + &implicit * h).lu().solve(&(&known + &full * &ahead)).unwrap();
+            (DampingBlock { full, implicit }, known, ahead, x)
+        };
+        let (mut p, mut y) = (zero_vectors::<N>(n), zero_vectors::<N>(n));
         let mut expected = Vec::new();
         for g in 0..n {
-            let full = Matrix3::from_fn(|i, k| number(9 * g + 3 * i + k));
-            let block = DampingBlock { full, implicit: full * 0.7 };
-            damping.set(g, &block);
-            let [known, predicted] = [0, 5].map(|s| Vector3::from_fn(|k, _| number(4 * g + k + s)));
-            for k in 0..3 {
-                (p[k][g], y[k][g]) = (predicted[k], known[k]);
+            let (block, known, ahead, x) = problem(N);
+            for i in 0..N {
+                (p[i][g], y[i][g]) = (ahead[i], known[i]);
+                for k in 0..N {
+                    damping.full[i][k][g] = block.full[(i, k)];
+                    damping.implicit[i][k][g] = block.implicit[(i, k)];
+                }
             }
-            let matrix = Matrix3::identity() + block.implicit * h;
-            expected.push(matrix.lu().solve(&(known + full * predicted)).unwrap());
+            expected.push(x);
         }
-        damping.solve(h, &p, &mut y, Arch::new());
+        damping.solve_spokes(h, &p, &mut y, Arch::new());
         for (g, x) in expected.iter().enumerate() {
-            for k in 0..3 {
+            for k in 0..N {
                 assert!((y[k][g] - x[k]).abs() < 1e-11 * x.norm(), "{g} {k}: {} {}", y[k][g], x[k]);
             }
         }
+        for (body, n) in bodies.into_iter().enumerate() {
+            let (block, known, ahead, x) = problem(n);
+            damping.bodies[body] = block;
+            let mut y = known.as_slice().to_vec();
+            damping.solve_body(body, h, ahead.as_slice(), &mut y);
+            assert!(y.iter().zip(&x).all(|(y, x)| (y - x).abs() < 1e-11), "{n}: {y:?} {x}");
+        }
+    }
+
+    #[test]
+    fn every_group_is_solved() {
+        check::<2>();
+        check::<3>();
+        check::<6>();
     }
 }

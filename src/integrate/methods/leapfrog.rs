@@ -4,14 +4,14 @@
 //! q_half = q + h/2 v
 //! v*     = v + h/2 a_previous             (mean of the step before)
 //! a      = accelerations(t + h/2, q_half, v*)
-//! (I + h D_i) dv = h (a + D (v* - v))     (per group of coupled velocities; D damping, D_i its implicit share)
+//! (I + h D_i) dv = h (a + D (v* - v))     (per spoke and per body of the hub; D damping, D_i its implicit share)
 //! v_new  = v + dv,   q_new = q_half + h/2 v_new
 //! ```
 //!
-//! Groups that follow others ([`leaders`]) take in their `a` what the forces between them have become by the step of the others,
-//! so that momentum passes whole.
+//! Bodies of the hub follow the spokes ([`react`]): they take in their `a` what the forces between them have become by the step
+//! of the spokes, so that momentum passes whole.
 //!
-//! [`leaders`]: crate::integrate::Split::leaders
+//! [`react`]: crate::integrate::Split::react
 //!
 //! Second order where rates are below 1/h: D_i is D/2 there, and the predictor removes the first-order bias of
 //! velocity-dependent forces also where D is known roughly. Forces may decay far faster than the step. Stable up to
@@ -20,13 +20,13 @@
 use crate::integrate::driver::control::{Estimate, Law};
 use crate::integrate::methods::damping::{VectorColumns, zero_vectors};
 use crate::integrate::{
-    Applied, GroupDamping, Observed, Powers, Reader, Samples, SemiImplicit, Split, Stepper,
+    Applied, GroupDamping, Observed, Powers, Reader, Samples, SemiImplicit, Split, Stepper, Structure,
 };
 use pulp::Arch;
 
 /// The method's memory.
 #[derive(Clone, Debug)]
-pub struct Leapfrog {
+pub struct Leapfrog<const N: usize> {
     positions: usize,
     h: f64,
     start: Vec<f64>,
@@ -40,22 +40,24 @@ pub struct Leapfrog {
     /// `predicted` of the last step.
     applied: Vec<f64>,
     mean_v: Vec<f64>,
-    damping: GroupDamping,
-    /// Velocities of each group.
-    groups: Vec<[Option<usize>; 3]>,
-    /// Accelerations and predicted changes of velocity by group.
-    by_group: [VectorColumns; 2],
+    damping: GroupDamping<N>,
+    /// Velocities of each spoke and of each body of the hub.
+    structure: Structure<N>,
+    /// Accelerations and predicted changes of velocity, of the spokes and of a body.
+    of_spokes: [VectorColumns<N>; 2],
+    of_body: [Vec<f64>; 2],
     instructions: Arch,
     works: Powers,
     samples: Samples,
 }
 
-impl Leapfrog {
+impl<const N: usize> Leapfrog<N> {
     /// Memory for a system.
-    pub fn new<S: Split + Observed>(system: &S) -> Self {
+    pub fn new<S: Split<N> + Observed>(system: &S) -> Self {
         let (nq, nv) = (system.positions(), system.velocities());
         let (state, velocity) = (vec![0.0; nq + nv], vec![0.0; nv]);
-        let groups = system.groups();
+        let structure = system.structure();
+        let spokes = structure.spokes.len();
         Self {
             positions: nq,
             h: 0.0,
@@ -68,9 +70,10 @@ impl Leapfrog {
             mean_v: velocity.clone(),
             applied: velocity.clone(),
             predicted: velocity,
-            damping: GroupDamping::new(groups),
-            groups: (0..groups).map(|i| system.group(i)).collect(),
-            by_group: [zero_vectors(groups), zero_vectors(groups)],
+            damping: GroupDamping::new(&structure),
+            of_spokes: [zero_vectors(spokes), zero_vectors(spokes)],
+            of_body: std::array::from_fn(|_| vec![0.0; structure.hub.len()]),
+            structure,
             instructions: Arch::new(),
             works: Powers::default(),
             samples: Samples::new(system.watched(), 1),
@@ -101,7 +104,7 @@ fn interpolate(positions: usize, h: f64, start: &[f64], end: &[f64], theta: f64,
     }
 }
 
-impl<S: Split + Observed> Stepper<S> for Leapfrog {
+impl<S: Split<N> + Observed, const N: usize> Stepper<S> for Leapfrog<N> {
     fn set_state(&mut self, state: &[f64]) {
         self.start.copy_from_slice(state);
         self.end.copy_from_slice(state);
@@ -133,20 +136,16 @@ impl<S: Split + Observed> Stepper<S> for Leapfrog {
         system.accelerations((t + 0.5 * h).min(t_last), q_trial, &self.predicted, &mut self.a)?;
         self.trial_a.copy_from_slice(&self.a);
         system.damping(h, q_trial, &self.predicted, &mut self.damping);
-        let [known, predicted] = &mut self.by_group;
-        for (g, at) in self.groups.iter().enumerate() {
-            for (k, i) in at.iter().enumerate() {
-                // Unused places are set too: a solution that is not finite must not stay in them.
-                (known[k][g], predicted[k][g]) =
-                    i.map_or((0.0, 0.0), |i| (self.a[i], self.predicted[i] - v[i]));
+        let [known, ahead] = &mut self.of_spokes;
+        for (g, at) in self.structure.spokes.iter().enumerate() {
+            for (k, &i) in at.iter().enumerate() {
+                (known[k][g], ahead[k][g]) = (self.a[i], self.predicted[i] - v[i]);
             }
         }
-        self.damping.solve(h, predicted, known, self.instructions);
-        for (g, at) in self.groups.iter().enumerate() {
-            for (k, i) in at.iter().enumerate() {
-                if let Some(i) = *i {
-                    self.trial_a[i] = known[k][g];
-                }
+        self.damping.solve_spokes(h, ahead, known, self.instructions);
+        for (g, at) in self.structure.spokes.iter().enumerate() {
+            for (k, &i) in at.iter().enumerate() {
+                self.trial_a[i] = known[k][g];
             }
         }
         if let Some(i) = self.trial_a.iter().position(|a| !a.is_finite()) {
@@ -159,22 +158,24 @@ impl<S: Split + Observed> Stepper<S> for Leapfrog {
             *mean = 0.5 * (v + end);
         }
         let step = SemiImplicit { mean: &self.mean_v, end: v_trial, h };
-        let leaders = system.leaders();
-        if leaders < self.groups.len() {
+        if !self.structure.spokes.is_empty() {
             system.react(q_trial, &self.predicted, &step, &mut self.a);
         }
-        for (g, at) in self.groups.iter().enumerate().skip(leaders) {
-            let right = at.map(|i| i.map_or(0.0, |i| self.a[i]));
-            let ahead = at.map(|i| i.map_or(0.0, |i| self.predicted[i] - v[i]));
-            for (&i, a) in at.iter().zip(self.damping.solve_one(g, h, ahead, right)) {
-                if let Some(i) = i {
-                    if !a.is_finite() {
-                        return Err(system.not_finite(i));
-                    }
-                    self.trial_a[i] = a;
-                    v_trial[i] = v[i] + h * a;
-                    self.mean_v[i] = 0.5 * (v[i] + v_trial[i]);
+        let Structure { hub, bodies, .. } = &self.structure;
+        for (body, places) in bodies.iter().enumerate() {
+            let [right, ahead] = self.of_body.each_mut().map(|column| &mut column[..places.len()]);
+            let at = &hub[places.clone()];
+            for ((right, ahead), &i) in right.iter_mut().zip(ahead.iter_mut()).zip(at) {
+                (*right, *ahead) = (self.a[i], self.predicted[i] - v[i]);
+            }
+            self.damping.solve_body(body, h, ahead, right);
+            for (&a, &i) in right.iter().zip(at) {
+                if !a.is_finite() {
+                    return Err(system.not_finite(i));
                 }
+                self.trial_a[i] = a;
+                v_trial[i] = v[i] + h * a;
+                self.mean_v[i] = 0.5 * (v[i] + v_trial[i]);
             }
         }
         let step = SemiImplicit { mean: &self.mean_v, end: v_trial, h };

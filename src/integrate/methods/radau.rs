@@ -65,9 +65,9 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// The method's memory.
 #[derive(Clone, Debug)]
-pub struct Radau {
+pub struct Radau<const N: usize> {
     positions: usize,
-    structure: Structure,
+    structure: Structure<N>,
     /// Absolute tolerance per state.
     tolerance: Vec<f64>,
     norm: ErrorNorm,
@@ -75,7 +75,7 @@ pub struct Radau {
     trial: Vec<f64>,
     /// Accelerations at the start of the step; with `slope` they serve every attempt from there.
     start_a: Vec<f64>,
-    slope: Linearization,
+    slope: Linearization<N>,
     linearized: bool,
     /// The last attempt started from the same state.
     retried: bool,
@@ -89,8 +89,8 @@ pub struct Radau {
     samples: Samples,
     /// What one iteration may leave in each state.
     allowed: Vec<f64>,
-    real: Shifted<f64>,
-    pair: Shifted<Complex<f64>>,
+    real: Shifted<f64, N>,
+    pair: Shifted<Complex<f64>, N>,
     right: Vec<f64>,
     right_pair: Vec<Complex<f64>>,
     /// Estimated ratio of the error of the iteration to its last increment.
@@ -115,14 +115,13 @@ enum Iteration {
     Slow(f64),
 }
 
-impl Radau {
+impl<const N: usize> Radau<N> {
     /// Memory for a system with an absolute tolerance for every state.
-    pub fn new<S: Linearized + Observed>(system: &S, tolerance: &[f64]) -> Self {
+    pub fn new<S: Linearized<N> + Observed>(system: &S, tolerance: &[f64]) -> Self {
         let structure = system.structure();
         let (nq, nv) = (system.positions(), system.velocities());
         let zeros = || vec![0.0; nq + nv];
         let three = || std::array::from_fn(|_| zeros());
-        let spokes = structure.spokes.len();
         Self {
             positions: nq,
             tolerance: tolerance.to_vec(),
@@ -140,8 +139,8 @@ impl Radau {
             works: Powers::default(),
             samples: Samples::new(system.watched(), 3),
             allowed: zeros(),
-            real: Shifted::new(spokes),
-            pair: Shifted::new(spokes),
+            real: Shifted::new(&structure),
+            pair: Shifted::new(&structure),
             right: zeros(),
             right_pair: vec![Complex::new(0.0, 0.0); nq + nv],
             contraction: 1.0,
@@ -171,7 +170,7 @@ impl Radau {
     }
 
     /// Solves for the stages by Newton's method.
-    fn iterate<S: Linearized + Observed>(
+    fn iterate<S: Linearized<N> + Observed>(
         &mut self,
         system: &mut S,
         t: f64,
@@ -261,7 +260,7 @@ impl Radau {
     }
 }
 
-impl<S: Linearized + Observed> Stepper<S> for Radau {
+impl<S: Linearized<N> + Observed, const N: usize> Stepper<S> for Radau<N> {
     fn set_state(&mut self, state: &[f64]) {
         self.state.copy_from_slice(state);
         for part in &mut self.dense {

@@ -65,9 +65,9 @@ const DENSE: [[f64; 5]; 2] = [
 
 /// The method's memory.
 #[derive(Clone, Debug)]
-pub struct Rosenbrock {
+pub struct Rosenbrock<const N: usize> {
     positions: usize,
-    structure: Structure,
+    structure: Structure<N>,
     norm: ErrorNorm,
     state: Vec<f64>,
     trial: Vec<f64>,
@@ -84,16 +84,16 @@ pub struct Rosenbrock {
     samples: Samples,
     /// u_1 to u_6 over the whole state.
     stages: [Vec<f64>; 6],
-    slope: Linearization,
-    system: Shifted<f64>,
+    slope: Linearization<N>,
+    system: Shifted<f64, N>,
     /// Start, end and two bending terms of the last accepted step and of the attempt.
     dense: [Vec<f64>; 4],
     trial_dense: [Vec<f64>; 4],
 }
 
-impl Rosenbrock {
+impl<const N: usize> Rosenbrock<N> {
     /// Memory for a system with an absolute tolerance for every state.
-    pub fn new<S: Linearized + Observed>(system: &S, tolerance: &[f64]) -> Self {
+    pub fn new<S: Linearized<N> + Observed>(system: &S, tolerance: &[f64]) -> Self {
         let structure = system.structure();
         let (nq, nv) = (system.positions(), system.velocities());
         let zeros = || vec![0.0; nq + nv];
@@ -111,7 +111,7 @@ impl Rosenbrock {
             samples: Samples::new(system.watched(), 3),
             stages: std::array::from_fn(|_| zeros()),
             slope: Linearization::new(&structure, nv),
-            system: Shifted::new(structure.spokes.len()),
+            system: Shifted::new(&structure),
             structure,
             dense: std::array::from_fn(|_| zeros()),
             trial_dense: std::array::from_fn(|_| zeros()),
@@ -119,10 +119,10 @@ impl Rosenbrock {
     }
 }
 
-impl Rosenbrock {
+impl<const N: usize> Rosenbrock<N> {
     /// Integrates over the attempt by Simpson's rule. The last stage was evaluated within its error of the end, whose
     /// powers `end` are; the middle comes from the dense output.
-    fn integrate<S: Linearized + Observed>(
+    fn integrate<S: Linearized<N> + Observed>(
         &mut self,
         system: &mut S,
         end: &Powers,
@@ -169,7 +169,7 @@ fn interpolate(parts: [&[f64]; 4], theta: f64, out: &mut [f64]) {
     }
 }
 
-impl<S: Linearized + Observed> Stepper<S> for Rosenbrock {
+impl<S: Linearized<N> + Observed, const N: usize> Stepper<S> for Rosenbrock<N> {
     fn set_state(&mut self, state: &[f64]) {
         self.state.copy_from_slice(state);
         self.dense[0].copy_from_slice(state);

@@ -6,20 +6,19 @@
 //!
 //! and of a shared body the guide, exact by dual numbers, and the contacts with elements of prescribed motion.
 
-use crate::bodies::{CAGE, UPPER};
-use crate::integrate::{DampingBlock, GroupDamping, implicit_share};
+use crate::bodies::{CAGE, Damping, UPPER};
+use crate::integrate::implicit_share;
 use crate::model::Model;
 use crate::model::workspace::Workspace;
 use nalgebra::{Matrix3, Vector3};
 
 impl Model {
     /// Damping of every group for a step of size `h` (s).
-    pub(crate) fn damping(&self, h: f64, ws: &Workspace, out: &mut GroupDamping) {
+    pub(crate) fn damping(&self, h: f64, ws: &Workspace, out: &mut Damping) {
         self.element_damping(h, ws, out);
         let guide =
             self.guide.as_ref().map(|guide| (guide.ring, guide.damping(&ws.motions.shared, ws.fluid)));
-        for group in self.layout.count..self.layout.groups() {
-            let Some(place) = self.layout.body_of_group(group) else { continue };
+        for (place, block) in self.layout.free().zip(&mut out.bodies) {
             let Some(body) = &self.shared[place] else { continue };
             let mut slope = Matrix3::zeros();
             match &guide {
@@ -33,18 +32,23 @@ impl Model {
             if self.elements.inertia().is_none() {
                 slope += contact_damping(place, ws);
             }
-            for k in 0..2 {
-                slope[(k, k)] += body.support_damping();
+            let (full, angle) = (&mut block.full, ws.motions.shared[place].angle);
+            let n = full.nrows();
+            full.fill(0.0);
+            for (column, own) in full.as_mut_slice().chunks_exact_mut(n).zip(&slope.data.0) {
+                column.iter_mut().zip(own).for_each(|(x, slope)| *x = *slope);
             }
-            let full = body.accelerations_of(&slope, ws.motions.shared[place].angle);
-            let implicit = full * self.guide_share(h * full.diagonal().amax());
-            out.set(group, &DampingBlock { full, implicit });
+            body.add_damping(&mut |[i, k], damping| full[(i, k)] += damping);
+            full.as_mut_slice().chunks_exact_mut(n).for_each(|column| body.respond(column, angle));
+            let largest = (0..n).fold(0.0, |largest: f64, i| largest.max(full[(i, i)].abs()));
+            let share = self.guide_share(h * largest);
+            block.implicit.zip_apply(full, |implicit, full| *implicit = full * share);
         }
     }
 
     /// That of each element over (radial speed, orbit speed, spin speed): contact damping, half of it implicit, and the secant
     /// slope of friction.
-    fn element_damping(&self, h: f64, ws: &Workspace, out: &mut GroupDamping) {
+    fn element_damping(&self, h: f64, ws: &Workspace, out: &mut Damping) {
         if self.elements.inertia().is_none() {
             return;
         }
@@ -53,7 +57,7 @@ impl Model {
             out.implicit[i][k].fill(0.0);
         }
         // Upper triangles.
-        let GroupDamping { full, implicit, .. } = out;
+        let Damping { full, implicit, .. } = out;
         for batch in &ws.contacts.batches {
             for (site, [damping, secant]) in batch.damping() {
                 let [nr, nc] = site.grip.normal_on_element();

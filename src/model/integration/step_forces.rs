@@ -48,9 +48,11 @@ impl Model {
         }
         for (place, body) in self.shared.iter().enumerate() {
             if let (Some(body), Some(first)) = (body, self.layout.shared(place)) {
-                let response = body.response(&on[place], ws.motions.shared[place].angle);
-                for (a, change) in a[first..].iter_mut().zip(&response[..body.coordinates().len()]) {
-                    *a += change;
+                let mut change = on[place].components();
+                let change = &mut change[..body.coordinates().len()];
+                body.respond(change, ws.motions.shared[place].angle);
+                for (a, change) in a[first..].iter_mut().zip(change) {
+                    *a += *change;
                 }
             }
         }

@@ -33,7 +33,7 @@ impl Model {
         self.shared.iter().flatten().count() + j
     }
 
-    /// Name of the body of a group of velocities: see [`crate::integrate::System::group`].
+    /// Name of the body of a group of velocities: see [`crate::integrate::System::groups`].
     pub(crate) fn group_name(&self, group: usize) -> Option<String> {
         if group < self.layout.count {
             return Some(format!("{}[{group}]", self.element_kind()));

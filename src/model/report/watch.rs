@@ -181,8 +181,8 @@ impl Model {
         };
         let (Some(guide), Some(state)) = (&self.guide, &ws.guide) else { return Wrench::default() };
         let Some(step) = step else { return guide.wrenches(state)[0] };
-        let gained = std::array::from_fn(|k| 2.0 * (step.end[c + k] - step.mean[c + k]) / step.h);
-        let all = cage.wrench_for(gained, motion, self.gravity);
+        let gained = |k: usize| 2.0 * (step.end[c + k] - step.mean[c + k]) / step.h;
+        let all = cage.wrench_for(&gained, motion, self.gravity);
         let mut other = Wrench::default();
         cage.add_external(motion, &ws.inputs, &mut other);
         other.add(pockets);

@@ -95,7 +95,7 @@ fn longest_step(shape: &PlanePocket, law: &ContactLaw, ahead: &Ahead<'_>) -> f64
     let [sines, cosines] = &set.directions;
     for (j, (x, y)) in cosines.iter().zip(sines).take(set.count).enumerate() {
         let [angle, orbit] = if free {
-            let i = ahead.layout.roller(j) + 1;
+            let i = ahead.layout.element(j) + 1;
             [ahead.q[i], ahead.v[i]]
         } else {
             prescribed

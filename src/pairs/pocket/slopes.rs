@@ -2,7 +2,7 @@
 //! numbers.
 
 use super::kinematics::{Pillar, PillarContact, PocketPlace, PocketShape};
-use crate::bodies::{CAGE, Element, ElementMotion, IN_HUB, Input, Motions};
+use crate::bodies::{CAGE, Element, ElementMotion, Input, Motions};
 use crate::laws::contact_pair::ContactForce;
 use crate::pairs::contacts::{FORCES, Slopes, VISCOSITY, chain, contact_force};
 use crate::pairs::{Batch, MateLever, SlopeSums};
@@ -47,9 +47,8 @@ struct PairForce {
 
 /// Adds the derivatives of the forces of one contact of element `j`.
 fn add_pair(j: usize, force: &PairForce, sums: &mut SlopeSums<'_>) {
-    const AT: usize = IN_HUB[CAGE];
-    sums.add_mate(AT, &force.on_cage.map(over_cage));
-    sums.add_mate_over_time(AT, &force.warming[1]);
+    sums.add_mate(CAGE, CAGE, &force.on_cage.map(over_cage));
+    sums.add_mate_over_time(CAGE, &force.warming[1]);
     if j >= sums.layout.count {
         // The motion of the element is prescribed.
         let rates = sums.rates;
@@ -58,12 +57,12 @@ fn add_pair(j: usize, force: &PairForce, sums: &mut SlopeSums<'_>) {
                 + row.eps[3] * rates.of(Input::OrbitSpeed)
                 + row.eps[4] * rates.of(Input::SpinSpeed)
         });
-        sums.add_mate_over_time(AT, &over_time);
+        sums.add_mate_over_time(CAGE, &over_time);
         return;
     }
-    sums.add_mate_over_own(j, AT, &force.on_cage.map(over_element));
+    sums.add_mate_over_own(j, CAGE, &force.on_cage.map(over_element));
     sums.add_own(j, &force.own.map(over_element));
-    sums.add_own_over_mate(j, AT, &force.own.map(over_cage));
+    sums.add_own_over_mate(j, CAGE, &force.own.map(over_cage));
     sums.add_own_over_time(j, &force.warming[0]);
 }
 

@@ -11,7 +11,7 @@
 //! ```
 
 use super::kinematics::{RacewayGeometry, RingMotion};
-use crate::bodies::{Element, ElementMotion, IN_HUB, INNER_RING, Input, Motions};
+use crate::bodies::{Element, ElementMotion, INNER_RING, Input, Motions};
 use crate::pairs::contacts::{FORCES, Slopes, VISCOSITY, chain, contact_force};
 use crate::pairs::{Batch, Grip, MateLever, SlopeSums};
 use crate::scalar::{Dual, Real};
@@ -85,12 +85,11 @@ pub(super) fn add_inner(
     let speeding = -arm * sums.rates.of(Input::RingSpeed);
     let time = over_time(&slopes, &site.grip, speeding, sums.ln_viscosity_rate);
     if ring_moves {
-        const RING: usize = IN_HUB[INNER_RING];
-        sums.add_own_over_mate(j, RING, &own.map(over_ring));
-        sums.add_mate_over_own(j, RING, &shared.map(over_element));
-        sums.add_mate(RING, &shared.map(over_ring));
+        sums.add_own_over_mate(j, INNER_RING, &own.map(over_ring));
+        sums.add_mate_over_own(j, INNER_RING, &shared.map(over_element));
+        sums.add_mate(INNER_RING, INNER_RING, &shared.map(over_ring));
         if let Some([_, on_ring]) = &time {
-            sums.add_mate_over_time(RING, &element.frame.to_global(on_ring.force));
+            sums.add_mate_over_time(INNER_RING, &element.frame.to_global(on_ring.force));
         }
     }
     if let Some([on_roller, _]) = time {

@@ -3,13 +3,13 @@
 use crate::error::Result;
 use crate::integrate::linear::Arrowhead;
 use crate::integrate::{Linearization, Structure};
-use crate::model::{Fault, Model};
+use crate::model::{Fault, Model, OF_ELEMENT};
 use crate::sim::{Evaluated, Sim, check_time, wrong_size};
 
 /// Memory for derivatives of the accelerations.
 pub(in crate::sim) struct Slopes {
-    pub(in crate::sim) structure: Structure,
-    pub(in crate::sim) linearization: Linearization,
+    pub(in crate::sim) structure: Structure<OF_ELEMENT>,
+    pub(in crate::sim) linearization: Linearization<OF_ELEMENT>,
 }
 
 impl Slopes {
@@ -23,10 +23,8 @@ impl Slopes {
     pub(in crate::sim) fn check(&self) -> std::result::Result<(), Fault> {
         let Linearization { over_positions, over_velocities, .. } = &self.linearization;
         for part in [over_positions, over_velocities] {
-            // A sum over everything is quick, and not finite if anything in it is not.
-            let spokes = part.spokes.iter();
-            let sums = spokes.map(|spoke| spoke.own.sum() + spoke.to_hub.sum() + spoke.from_hub.sum());
-            if (part.hub.sum() + sums.sum::<f64>()).is_finite() {
+            let finite = |block: &[f64]| block.iter().fold(true, |finite, x| finite & x.is_finite());
+            if part.blocks().into_iter().all(finite) {
                 continue;
             }
             if let Some((velocity, ..)) = entries(&self.structure, part).find(|(.., x)| !x.is_finite()) {
@@ -58,18 +56,18 @@ impl Slopes {
 
 /// Row, column (both as velocities) and value of every entry of a matrix of this structure.
 fn entries<'a>(
-    structure: &'a Structure,
-    matrix: &'a Arrowhead,
+    structure: &'a Structure<OF_ELEMENT>,
+    matrix: &'a Arrowhead<f64, OF_ELEMENT>,
 ) -> impl Iterator<Item = (usize, usize, f64)> + 'a {
-    let hub = || structure.hub.iter().enumerate().filter_map(|(k, velocity)| Some((k, (*velocity)?)));
+    let hub = || structure.hub.iter().copied().enumerate();
     let within_hub =
         hub().flat_map(move |(i, row)| hub().map(move |(k, column)| (row, column, matrix.hub[(i, k)])));
-    let spokes = structure.spokes.iter().zip(&matrix.spokes);
-    let with_spokes = spokes.flat_map(move |(places, spoke)| {
-        places.iter().enumerate().flat_map(move |(i, &own)| {
-            let within = places.iter().enumerate().map(move |(k, &column)| (own, column, spoke.own[(i, k)]));
+    let with_spokes = structure.spokes.iter().enumerate().flat_map(move |(j, places)| {
+        let (own, from_hub, to_hub) = (matrix.own_of(j), matrix.from_hub_of(j), matrix.to_hub_of(j));
+        places.iter().enumerate().flat_map(move |(i, &row)| {
+            let within = places.iter().enumerate().map(move |(k, &column)| (row, column, own[k][i]));
             let across = hub().flat_map(move |(k, shared)| {
-                [(own, shared, spoke.from_hub[(i, k)]), (shared, own, spoke.to_hub[(k, i)])]
+                [(row, shared, from_hub[k][i]), (shared, row, to_hub[i * matrix.width() + k])]
             });
             within.chain(across)
         })
@@ -118,7 +116,7 @@ mod tests {
         let model = Model::from_json(include_str!("../../../scenes/nu2310.json")).unwrap();
         let mut slopes = Slopes::new(&model);
         assert_eq!(slopes.check(), Ok(()));
-        slopes.linearization.over_velocities.spokes[3].to_hub[(4, 1)] = f64::NAN;
+        slopes.linearization.over_velocities.to_hub[(4, 3 * OF_ELEMENT + 1)] = f64::NAN;
         let fault = slopes.check().unwrap_err();
         let text = model.describe(fault);
         assert!(text.contains("derivative of the rate of cage.speed is not a finite number"), "{text}");

@@ -3,7 +3,7 @@
 
 use crate::error::{Error, Result, Status};
 use crate::integrate::linear::shifted::Shifted;
-use crate::model::Model;
+use crate::model::{Model, OF_ELEMENT};
 use crate::sim::linear::jacobian::Slopes;
 use crate::sim::{Evaluated, Sim, check_time, wrong_size};
 
@@ -11,7 +11,7 @@ use crate::sim::{Evaluated, Sim, check_time, wrong_size};
 pub(in crate::sim) struct Newton {
     slopes: Slopes,
     linearized: bool,
-    shifted: Shifted<f64>,
+    shifted: Shifted<f64, OF_ELEMENT>,
     /// 1/gamma of the factors, 1/s; none before there are any.
     shift: Option<f64>,
     solution: Vec<f64>,
@@ -19,9 +19,8 @@ pub(in crate::sim) struct Newton {
 
 impl Newton {
     fn new(model: &Model) -> Self {
-        let structure = model.structure();
         Self {
-            shifted: Shifted::new(structure.spokes.len()),
+            shifted: Shifted::new(&model.structure()),
             slopes: Slopes::new(model),
             linearized: false,
             shift: None,

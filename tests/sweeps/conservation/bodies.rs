@@ -194,7 +194,7 @@ impl Bodies {
         }
         let Some(rollers) = &self.rollers else { return sum };
         for j in 0..rollers.count {
-            let (i, start) = (layout.roller(j), self.first_angle + TAU * j as f64 / rollers.count as f64);
+            let (i, start) = (layout.element(j), self.first_angle + TAU * j as f64 / rollers.count as f64);
             let (radius, angle) = (rollers.pitch + q[i], start + q[i + 1]);
             let place = turned([radius, 0.0], angle);
             let velocity = turned([v[i], radius * v[i + 1]], angle);
