@@ -2,7 +2,7 @@
 //!
 //! Compare numbers of one run only: machines differ and drift.
 
-use cagedyn::model::{HostInputs, Workspace};
+use cagedyn::model::{HostInputs, POWERS, Workspace};
 use cagedyn::{Model, Scene, Sim};
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
@@ -49,7 +49,8 @@ fn benches(c: &mut Criterion) {
         let inputs = model.inputs_at(DEVELOPED, &HostInputs::default());
         if model.accelerations(&inputs, q, v, &mut workspace, &mut a).is_ok() {
             c.bench_function(&format!("{scene}/{name}/power balance"), |b| {
-                b.iter(|| model.powers(black_box(v), None, &workspace));
+                let mut powers = [0.0; POWERS.len() + 1];
+                b.iter(|| model.powers(black_box(v), None, &mut workspace, &mut powers));
             });
         }
         c.bench_function(&format!("{scene}/{name}/1 ms"), |b| {

@@ -39,6 +39,8 @@ pub mod scene;
 pub mod sim;
 #[doc(hidden)]
 pub mod space;
+#[doc(hidden)]
+pub mod stored;
 
 pub use error::{Error, Result, Status};
 pub use model::Model;

@@ -1,6 +1,7 @@
 //! Inputs of the model: what drives the bodies from outside.
 
 use crate::registry::registry;
+use crate::stored::stored;
 
 registry! {
     /// An input.
@@ -78,4 +79,8 @@ impl HostInputs {
     pub fn of(&self, input: Input) -> Option<f64> {
         self.values[input as usize]
     }
+}
+
+stored! {
+    impl[] HostInputs { values, anchor }
 }

@@ -25,13 +25,12 @@ pub use driver::{Driver, Failure, Limits, Statistics, control};
 pub use methods::damping::{DampingBlock, GroupDamping, implicit_share};
 pub use methods::dormand_prince::DormandPrince;
 pub use methods::leapfrog::Leapfrog;
-pub use methods::pack::Reader;
 pub use methods::radau::Radau;
 pub use methods::rosenbrock::Rosenbrock;
 pub use stepper::{Applied, Stepper};
 pub use system::{
-    Interruption, Linearization, Linearized, MOST_POWERS, Observed, Powers, SemiImplicit, Split, Structure,
-    Structured, System, Vibration,
+    Interruption, Linearization, Linearized, Observed, SemiImplicit, Split, Structure, Structured, System,
+    Vibration,
 };
 
-pub(crate) use system::add_weighted;
+pub(crate) use system::{add_weighted, zero_works};

@@ -3,8 +3,8 @@
 use super::auto::Choice;
 use super::driver::control::{Estimate, Law};
 use super::driver::watch::Samples;
-use super::methods::pack::Reader;
-use super::system::{Powers, System};
+use super::system::System;
+use crate::stored::Stored;
 
 /// The evaluation that a semi-implicit step was made with: positions `start.q + h/2 start.v`, velocities `predicted`. The
 /// forces it applied lie between those of the states on both sides; where friction is steep neither of them has their mean.
@@ -20,8 +20,9 @@ pub struct Applied<'a> {
     pub h: f64,
 }
 
-/// One integration method: makes steps and interpolates in the last one.
-pub trait Stepper<S: System> {
+/// One integration method: makes steps and interpolates in the last one. What is stored is everything that the next steps
+/// depend on.
+pub trait Stepper<S: System>: Stored {
     /// Sets the state.
     fn set_state(&mut self, state: &[f64]);
     /// Evaluates what the next step starts from; called at the start and after events.
@@ -45,7 +46,7 @@ pub trait Stepper<S: System> {
     /// Makes the last attempt the current state.
     fn accept(&mut self);
     /// Works of [`super::Observed::powers`] over the last attempt.
-    fn works(&self) -> &Powers;
+    fn works(&self) -> &[f64];
     /// What the host watches, in the last attempt.
     fn samples(&self) -> &Samples;
     /// What the last accepted step was made with, for methods whose forces are those of steps and not of states.
@@ -85,8 +86,4 @@ pub trait Stepper<S: System> {
     fn choice(&self) -> Option<Choice> {
         None
     }
-    /// Appends everything that the next steps depend on.
-    fn save(&self, out: &mut Vec<f64>);
-    /// Takes back what [`Stepper::save`] wrote; `None` if it does not fit.
-    fn load(&mut self, from: &mut Reader<'_>) -> Option<()>;
 }

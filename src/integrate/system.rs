@@ -72,15 +72,18 @@ pub trait Split<const N: usize>: Structured<N> {
     fn damping(&self, h: f64, q: &[f64], v: &[f64], out: &mut GroupDamping<N>);
     /// Adds to the accelerations `a` of the hub what the forces between it and the spokes have become since the last
     /// evaluation, at (`q`, `v`), in the `step` of the spokes.
-    fn react(&self, _q: &[f64], _v: &[f64], _step: &SemiImplicit<'_>, _a: &mut [f64]) {}
+    fn react(&mut self, _q: &[f64], _v: &[f64], _step: &SemiImplicit<'_>, _a: &mut [f64]) {}
 }
 
 /// What the owner of a system wants to know of a run, and says to it. Nothing by default.
 pub trait Observed: System {
-    /// Powers that are integrated over time beside the state, at the last evaluated state (`q`, `v`), or for a step from there.
-    fn powers(&self, _q: &[f64], _v: &[f64], _step: Option<&SemiImplicit<'_>>) -> Powers {
-        Powers::default()
+    /// Number of powers that are integrated over time beside the state, and of other rates behind them.
+    fn power_count(&self) -> [usize; 2] {
+        [0; 2]
     }
+    /// Those powers (W) and rates at the last evaluated state (`q`, `v`), or for a step from there: the only one, in which the spokes
+    /// move as [`Split::react`] was told.
+    fn powers(&mut self, _q: &[f64], _v: &[f64], _step: Option<&SemiImplicit<'_>>, _out: &mut [f64]) {}
     /// Kinds of energy stored at the last evaluated state (`q`, `v`), J. Their rate is the sum of the powers.
     fn energy(&self, _q: &[f64], _v: &[f64]) -> [f64; 3] {
         [0.0; 3]
@@ -94,7 +97,7 @@ pub trait Observed: System {
         0
     }
     /// Their values, as those of [`Observed::powers`].
-    fn watch(&self, _q: &[f64], _v: &[f64], _step: Option<&SemiImplicit<'_>>, _out: &mut [f64]) {}
+    fn watch(&mut self, _q: &[f64], _v: &[f64], _step: Option<&SemiImplicit<'_>>, _out: &mut [f64]) {}
     /// Whether the host wants the run to stop; asked before every attempt.
     fn interruption(&mut self) -> Option<Interruption> {
         None
@@ -114,11 +117,6 @@ pub enum Interruption {
     OutOfTime,
 }
 
-/// Powers of a system in W, zeros behind those that it has, and last one rate of another kind; or their works in J.
-pub type Powers = [f64; MOST_POWERS + 1];
-/// Room for powers.
-pub const MOST_POWERS: usize = 15;
-
 /// A semi-implicit step, whose forces F are linear from those at the evaluated velocities v* on: F(v*) - D (v - v*) with the
 /// share of the change of the step that [`super::implicit_share`] says, and do their work at the mean velocities.
 #[derive(Clone, Copy, Debug)]
@@ -131,8 +129,13 @@ pub struct SemiImplicit<'a> {
     pub h: f64,
 }
 
+/// Zero for each of the rates that a system integrates beside its state.
+pub(crate) fn zero_works<S: Observed>(system: &S) -> Vec<f64> {
+    vec![0.0; system.power_count().iter().sum()]
+}
+
 /// `sum` + `weight` `x`, in place.
-pub(crate) fn add_weighted(sum: &mut Powers, weight: f64, x: &Powers) {
+pub(crate) fn add_weighted(sum: &mut [f64], weight: f64, x: &[f64]) {
     for (sum, x) in sum.iter_mut().zip(x) {
         *sum += weight * x;
     }

@@ -7,8 +7,6 @@ use crate::bodies;
 use crate::error::Result;
 use crate::laws::fluid::walther::Walther;
 use crate::pairs;
-use crate::pairs::guide::Guide;
-use crate::pairs::line_laws::LawBuilder;
 use crate::scalar::math;
 use crate::scene::{ElementMotion, RingMotion, Scene, Signal, SignalIntegral};
 use crate::scene::{Temperature, VISCOSITY, Viscosity, bad_scene, interpolate};
@@ -18,7 +16,8 @@ pub(super) fn compile(scene: Scene) -> Result<Model> {
     let (shared, elements) = (bodies::shared_bodies(&scene), bodies::elements(&scene));
     let inputs = inputs(&scene)?;
     let viscosity = viscosity_at_start(&scene, &inputs);
-    let pairs = pairs::element_pairs(&scene, viscosity)?;
+    let (pairs, between) =
+        (pairs::element_pairs(&scene, viscosity)?, pairs::shared_pairs(&scene, viscosity)?);
     let radius = elements.set().radius;
     let mut model = Model {
         layout: bodies::layout_of(&shared, &*elements),
@@ -29,8 +28,9 @@ pub(super) fn compile(scene: Scene) -> Result<Model> {
         infos: pairs.iter().map(|pair| pair.info()).collect(),
         parts: pairs.iter().map(|pair| pair.law().parts()).collect(),
         laws: pairs.iter().map(|pair| pair.law()).collect(),
-        guide: Guide::new(&LawBuilder::new(&scene, viscosity))?,
         pairs,
+        between_infos: between.iter().map(|pair| pair.info()).collect(),
+        between,
         inputs,
         selection: Selection::default(),
         scene,

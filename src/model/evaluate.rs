@@ -5,7 +5,7 @@
 
 use super::workspace::Workspace;
 use super::{Fault, Input, InputValues, Model};
-use crate::bodies::{CAGE, SHARED};
+use crate::bodies::SHARED;
 use crate::laws::contact_pair::ContactForce;
 use crate::laws::fluid::Fluid;
 use crate::pairs::Law;
@@ -61,8 +61,9 @@ impl Model {
 
     /// Finds the motion of all bodies and the contacts that touch.
     pub(super) fn locate(&self, q: &[f64], v: &[f64], ws: &mut Workspace) -> Result<(), Fault> {
-        let Workspace { motions, contacts, inputs, .. } = ws;
+        let Workspace { motions, contacts, changes, inputs, .. } = ws;
         contacts.clear();
+        changes.forget();
         let reach = LOST_BODY * self.pitch_radius();
         motions.shared = self.motions_at(q, v, inputs);
         for (place, body) in self.shared.iter().enumerate() {
@@ -84,7 +85,7 @@ impl Model {
     /// Evaluates the laws of all contacts.
     fn apply_laws(&self, ws: &mut Workspace) -> Result<(), Fault> {
         self.apply_to_contacts(ws, |_| true);
-        self.apply_guide(ws)?;
+        self.apply_between(ws)?;
         if ws.counting {
             self.count(ws);
         }
@@ -103,12 +104,10 @@ impl Model {
         }
     }
 
-    /// Evaluates the guide.
-    pub(super) fn apply_guide(&self, ws: &mut Workspace) -> Result<(), Fault> {
-        if let Some(guide) = &self.guide {
-            ws.guide = Some(guide.evaluate(&ws.motions.shared, ws.fluid)?);
-        }
-        Ok(())
+    /// Evaluates the pairs of shared bodies.
+    pub(super) fn apply_between(&self, ws: &mut Workspace) -> Result<(), Fault> {
+        let mut pairs = self.between.iter().zip(&mut ws.between);
+        pairs.try_for_each(|(pair, force)| pair.evaluate(&ws.motions.shared, ws.fluid, force))
     }
 
     /// The first contact whose force is not finite, as a place in [`Model::contact_names`].
@@ -120,7 +119,7 @@ impl Model {
 
     /// Collects forces on the bodies and lets them accelerate.
     pub(super) fn assemble(&self, ws: &mut Workspace, a: &mut [f64]) {
-        let Workspace { motions, contacts, on_elements, on_shared, inputs, .. } = ws;
+        let Workspace { motions, contacts, between, on_elements, on_shared, inputs, .. } = ws;
         let mut on = [Wrench::default(); SHARED];
         on_elements.fill(Wrench::default());
         for batch in &contacts.batches {
@@ -135,10 +134,10 @@ impl Model {
                 }
             }
         }
-        if let (Some(guide), Some(state)) = (&self.guide, &ws.guide) {
-            let [on_cage, on_ring] = guide.wrenches(state);
-            on[CAGE].add(&on_cage);
-            on[guide.ring].add(&on_ring);
+        for (info, force) in self.between_infos.iter().zip(between) {
+            for (body, on_body) in info.bodies.into_iter().zip(&force.on) {
+                on[body].add(on_body);
+            }
         }
         for (place, body) in self.shared.iter().enumerate() {
             if let (Some(body), Some(first)) = (body, self.layout.shared(place)) {
@@ -162,10 +161,12 @@ impl Model {
                 counts[*part as usize] += of_pair[0];
             }
         }
-        if let (Some(guide), Some(state)) = (&self.guide, &ws.guide) {
-            let [film, solid] = guide.acting(state);
-            counts[Law::GuideFilm as usize] += u64::from(film);
-            counts[Law::GuideSolid as usize] += u64::from(solid);
+        for ((pair, info), force) in self.between.iter().zip(&self.between_infos).zip(&ws.between) {
+            for (law, acts) in info.laws.into_iter().zip(pair.acting(force)) {
+                if let Some(law) = law {
+                    counts[law as usize] += u64::from(acts);
+                }
+            }
         }
     }
 }

@@ -33,7 +33,7 @@ impl Model {
         let (q, v) = state.split_at_mut(layout.positions());
         let [orbit, spin] = self.kinematic_speeds(&inputs);
         let start = &self.scene.initial;
-        let inner_guide = self.guide.as_ref().is_some_and(|guide| guide.ring == INNER_RING);
+        let inner_guide = self.guiding_ring() == INNER_RING;
         let mut cage = match (start.cage, self.scene.inner_ring.as_ref().map(|ring| &ring.motion)) {
             (Some(place), _) => [place.y, place.z],
             (None, Some(Held::Fixed(place))) if inner_guide => [place.y, place.z],

@@ -41,8 +41,8 @@ impl Model {
             let (batch, contacts) = ws.contacts.range(place);
             pair.add_slopes(batch, contacts, &ws.motions, &mut sums);
         }
-        if let Some(guide) = &self.guide {
-            guide.add_slopes(&ws.motions, ws.fluid, &mut sums);
+        for pair in &self.between {
+            pair.add_slopes(&ws.motions, ws.fluid, &mut sums);
         }
         self.divide_by_inertias(ws, rates, out);
     }

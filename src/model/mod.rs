@@ -34,16 +34,15 @@ pub use integration::costs::{PARTS, PartTimes};
 pub use report::{
     CONTACT_QUANTITIES, Channel, ContactForces, FORCE_COMPONENTS, Forces, GuideReport, Quantity, StateInfo,
 };
-pub(crate) use works::AT_FLOOR;
 pub use works::Energy;
+pub(crate) use works::{AT_FLOOR, RATES};
 #[doc(hidden)]
 pub use workspace::Workspace;
 
-use crate::bodies::{CAGE, Elements, INNER_RING, SHARED, SharedBodies};
+use crate::bodies::{CAGE, Elements, ForceSource, INNER_RING, OUTER_RING, SHARED, SharedBodies};
 use crate::error::{Error, Result, Status};
-use crate::pairs::guide::Guide;
 use crate::pairs::raceway::RacewayGeometry;
-use crate::pairs::{ContactLaw, ElementPair, PairInfo};
+use crate::pairs::{ContactLaw, ElementPair, PairInfo, SharedInfo, SharedPair};
 use crate::scene::{FORCE, SPEED, Scene, TEMPERATURE, TORQUE, VISCOSITY};
 use crate::space::Motion;
 use report::Selection;
@@ -65,7 +64,9 @@ pub struct Model {
     laws: Vec<ContactLaw>,
     /// Optional laws in those of each pair.
     parts: Vec<Vec<Law>>,
-    guide: Option<Guide>,
+    /// Pairs of shared bodies, and what they say of themselves.
+    between: Vec<Box<dyn SharedPair>>,
+    between_infos: Vec<SharedInfo>,
     inputs: InputSignals,
     selection: Selection,
 }
@@ -162,8 +163,7 @@ impl Model {
 
     /// The field of the scene by which the film of the guide can give energy to the cage, if it can.
     pub fn energy_giving_film(&self) -> Option<String> {
-        let film = self.guide.as_ref()?.law().film.as_ref()?;
-        film.passive().err().map(|field| format!("cage.guide.film.{field}"))
+        self.between.iter().find_map(|pair| pair.energy_giving_field())
     }
 
     /// Number of rolling elements, whether they have states or not.
@@ -224,6 +224,16 @@ impl Model {
     /// Whether there is a cage.
     fn has_cage(&self) -> bool {
         self.shared[CAGE].is_some()
+    }
+
+    /// Place of the guide among the pairs of shared bodies, and what it says of itself.
+    fn guide(&self) -> Option<(usize, &SharedInfo)> {
+        self.between_infos.iter().enumerate().find(|(_, info)| info.source == ForceSource::Guide)
+    }
+
+    /// The ring that guides the cage; the outer one, which stands still, without a guide.
+    fn guiding_ring(&self) -> usize {
+        self.guide().map_or(OUTER_RING, |(_, info)| info.bodies[1])
     }
 
     /// Whether elements touch the cage.

@@ -14,15 +14,16 @@
 use super::Model;
 use super::integration::step_forces::Changes;
 use super::workspace::Workspace;
-use crate::bodies::{CAGE, INNER_RING, Input, POWERS, Power};
-use crate::integrate::{MOST_POWERS, Powers, SemiImplicit};
+use crate::bodies::{INNER_RING, Input, POWERS, Power};
+use crate::integrate::SemiImplicit;
 use crate::laws::contact_pair::ContactForce;
 use crate::pairs::{Batch, Site};
 use crate::space::Wrench;
 
 /// Behind the powers: 1 while a law between rollers and raceways is at a floor, else 0.
-pub(crate) const AT_FLOOR: usize = MOST_POWERS;
-const _: () = assert!(POWERS.len() <= MOST_POWERS, "integrate/system.rs has room for fewer powers");
+pub(crate) const AT_FLOOR: usize = POWERS.len();
+/// Number of the powers and what is behind them.
+pub(crate) const RATES: usize = AT_FLOOR + 1;
 
 /// Energy of a state, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -43,19 +44,23 @@ impl Energy {
 }
 
 impl Model {
-    /// Powers at the last evaluated state of `ws`, whose velocities are `v`, W, in the order of [`POWERS`], then zeros, and last whether
-    /// a law is at a floor (1 or 0). With a semi-implicit step those of its forces, which differ from the evaluated ones.
+    /// Powers at the last evaluated state of `ws`, whose velocities are `v`, W, in the order of [`POWERS`], and last whether a law
+    /// is at a floor (1 or 0). With a semi-implicit step those of its forces, which differ from the evaluated ones.
     #[doc(hidden)]
-    pub fn powers(&self, v: &[f64], step: Option<&SemiImplicit<'_>>, ws: &Workspace) -> Powers {
-        let mut p = Powers::default();
+    ///
+    /// # Panics
+    /// When `p` is shorter than that.
+    #[doc(hidden)]
+    pub fn powers(&self, v: &[f64], step: Option<&SemiImplicit<'_>>, ws: &mut Workspace, p: &mut [f64]) {
+        p.fill(0.0);
+        self.find_changes(v, step, ws);
+        let ws = &*ws;
         let motions = &ws.motions;
         // Moment on the inner ring, which its drive holds up.
         let mut on_ring = 0.0;
-        for batch in &ws.contacts.batches {
+        for (place, batch) in ws.contacts.batches.iter().enumerate() {
             for (i, site) in batch.sites.iter().enumerate() {
-                let secant = batch.force.friction_secant[i];
-                let changes = step.map(|step| self.step_changes(site, secant, v, step, motions));
-                let (power, on_surfaces) = self.contact_power(batch, i, changes);
+                let (power, on_surfaces) = self.contact_power(batch, i, ws.changes.of(place, i, step));
                 let info = self.infos[site.pair];
                 let [damping, friction] = info.powers;
                 p[damping as usize] += power.damping;
@@ -71,26 +76,26 @@ impl Model {
                 }
             }
         }
-        if let (Some(guide), Some(state)) = (&self.guide, &ws.guide) {
-            let bodies = [&motions.shared[CAGE], &motions.shared[guide.ring]];
-            let power =
-                |[on_cage, on_ring]: [Wrench<f64>; 2]| on_cage.power(bodies[0]) + on_ring.power(bodies[1]);
-            let wrenches = guide.wrenches(state);
-            let (all, film) = (power(wrenches), power(guide.film_wrenches(state)));
-            p[Power::GuideFilm as usize] = film;
-            p[Power::GuideSolid as usize] = all - film;
-            on_ring += if guide.ring == INNER_RING { wrenches[1].moment } else { 0.0 };
+        for ((pair, info), force) in self.between.iter().zip(&self.between_infos).zip(&ws.between) {
+            let [a, b] = info.bodies.map(|body| &motions.shared[body]);
+            let power = |[on_a, on_b]: [Wrench<f64>; 2]| on_a.power(a) + on_b.power(b);
+            let (all, film) = (power(force.on), power(pair.of_film(&motions.shared, force)));
+            let [of_film, of_solid] = info.powers;
+            p[of_film as usize] += film;
+            p[of_solid as usize] += all - film;
+            for (body, on_body) in info.bodies.iter().zip(&force.on) {
+                on_ring += if *body == INNER_RING { on_body.moment } else { 0.0 };
+            }
         }
         for (body, motion) in self.shared.iter().zip(&motions.shared) {
             if let Some(body) = body {
-                body.add_powers(motion, &ws.inputs, &mut p);
+                body.add_powers(motion, &ws.inputs, p);
             }
         }
         p[Power::RingDrive as usize] = -on_ring * ws.inputs.of(Input::RingSpeed);
         if self.elements.inertia().is_none() {
             p[Power::ElementDrive as usize] = -self.power_on_elements(ws);
         }
-        p
     }
 
     /// Power of contact forces on elements whose motion is prescribed, W.
@@ -102,14 +107,9 @@ impl Model {
     }
 
     /// Power of contact `i`, whose speeds and forces a semi-implicit step has changed, and the forces on its surfaces.
-    fn contact_power(
-        &self,
-        batch: &Batch,
-        i: usize,
-        changes: Option<Changes>,
-    ) -> (ContactPower, ContactForce<f64>) {
+    fn contact_power(&self, batch: &Batch, i: usize, changes: Changes) -> (ContactPower, ContactForce<f64>) {
         let (f, m) = (&batch.force, &batch.motion);
-        let Changes { approach_speed, slip, acting_slip } = changes.unwrap_or_default();
+        let Changes { approach_speed, slip, acting_slip } = changes;
         let approach_speed = m.delta_dot[i] + approach_speed;
         let friction = f.friction[i] - f.friction_secant[i] * acting_slip;
         let damping = if f.normal[i] == 0.0 && m.delta[i] > 0.0 {
@@ -181,7 +181,9 @@ mod tests {
             let (q, v) = state.split_at(nq);
             let inputs = model.inputs_at(t, &HostInputs::default());
             model.accelerations(&inputs, q, v, &mut ws, &mut a).unwrap();
-            (model.powers(v, None, &ws), model.energy(&ws))
+            let mut powers = [0.0; RATES];
+            model.powers(v, None, &mut ws, &mut powers);
+            (powers, model.energy(&ws))
         };
         for step in 1..=40 {
             sim.advance_to(0.25e-3 * f64::from(step)).unwrap();
@@ -193,6 +195,7 @@ mod tests {
             let (powers, _) = evaluate(&state, t);
             let (after, before) = (evaluate(&moved(dt), t + dt).1, evaluate(&moved(-dt), t - dt).1);
             let change = (after.total() - before.total()) / (2.0 * dt);
+            let powers = &powers[..POWERS.len()];
             let sum: f64 = powers.iter().sum();
             let size = powers.iter().fold(0.0, |size, p| size + p.abs());
             assert!(

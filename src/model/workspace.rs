@@ -1,12 +1,12 @@
 //! Memory of a force evaluation: motion of the bodies, touching contacts, and all forces.
 
+use super::integration::step_forces::StepChanges;
 use super::linearize::InverseInertia;
 use super::{InputValues, Model};
 use crate::bodies::{Motions, SHARED};
 use crate::integrate::Vibration;
 use crate::laws::fluid::Fluid;
-use crate::pairs::guide::GuideState;
-use crate::pairs::{Batch, Contacts, LAWS, LawCounts, PairInfo};
+use crate::pairs::{Batch, Contacts, LAWS, LawCounts, PairInfo, SharedForce};
 use crate::space::Wrench;
 
 /// Memory of a force evaluation and its results. One per simulation; never shared.
@@ -14,9 +14,12 @@ use crate::space::Wrench;
 pub struct Workspace {
     pub(super) motions: Motions,
     pub(super) contacts: Contacts,
+    /// Of their speeds in the step from the last evaluated state.
+    pub(super) changes: StepChanges,
     /// What the pairs say of themselves.
     infos: Vec<&'static PairInfo>,
-    pub(super) guide: Option<GuideState>,
+    /// Forces of the pairs of shared bodies.
+    pub(super) between: Vec<SharedForce>,
     pub(super) inputs: InputValues,
     /// Contact forces on each element that moves freely, local frame.
     pub(super) on_elements: Vec<Wrench<f64>>,
@@ -39,11 +42,13 @@ pub struct Workspace {
 impl Workspace {
     /// Memory for evaluations of `model`.
     pub fn new(model: &Model) -> Self {
+        let contacts = Contacts::new(&model.pairs, model.element_count());
         Self {
+            changes: StepChanges::new(contacts.batches.iter().map(Batch::room)),
             motions: Motions::new(model.elements.set()),
-            contacts: Contacts::new(&model.pairs, model.element_count()),
+            contacts,
             infos: model.infos.clone(),
-            guide: None,
+            between: vec![SharedForce::default(); model.between.len()],
             inputs: InputValues::default(),
             on_elements: vec![Wrench::default(); model.layout.count],
             on_shared: [Wrench::default(); SHARED],

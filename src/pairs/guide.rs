@@ -6,7 +6,8 @@
 use super::line_laws::LawBuilder;
 use super::passage::Passage;
 use super::slope_sums::{Slope, SlopeSums};
-use crate::bodies::{CAGE, Fault, INNER_RING, Input, Motions, OUTER_RING, SHARED};
+use super::{Ahead, Cost, Law, SharedForce, SharedInfo, SharedPair};
+use crate::bodies::{CAGE, Fault, ForceSource, INNER_RING, Input, Motions, OUTER_RING, Power, SHARED};
 use crate::error::Result;
 use crate::integrate::Tuning;
 use crate::laws::elastic::solid::SolidContact;
@@ -129,27 +130,23 @@ fn carried<T: Real>(f: &GuideForce<T>, m: &JournalMotion<T>) -> T {
 
 /// The guide of a cage: the laws of its film and its solid contact, and the bodies it is between.
 #[derive(Debug)]
-pub(crate) struct Guide {
+pub(super) struct Guide {
     law: GuideLaw,
     side: GuideSide,
     /// The ring that guides, a shared body.
-    pub(crate) ring: usize,
+    ring: usize,
 }
 
-/// Force of the guide at one state.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct GuideState {
-    /// On the journal.
-    force: GuideForce<f64>,
-    motion: JournalMotion<f64>,
-}
+const SHORT_BEARING: Cost = Cost { value: 160.0, slopes: 1550.0, per_element: false };
+/// A layer, which is dry for most of the time in some scenes and never in others.
+const LAYER: Cost = Cost { value: 200.0, slopes: 400.0, per_element: false };
 
 /// A number with derivatives over what the law sees, in the order of [`JournalMotion`].
 type JournalDual = Dual<8>;
 
 impl Guide {
     /// The guide of a scene, if its cage has one.
-    pub(crate) fn new(laws: &LawBuilder<'_>) -> Result<Option<Self>> {
+    pub(super) fn of(laws: &LawBuilder<'_>) -> Result<Option<Box<dyn SharedPair>>> {
         let Some(guide) = laws.scene().cage.as_ref().and_then(|cage| cage.guide.as_ref()) else {
             return Ok(None);
         };
@@ -206,55 +203,60 @@ impl Guide {
             GuideRing::OuterRing => (GuideSide::CageInside, OUTER_RING),
             GuideRing::InnerRing => (GuideSide::CageOutside, INNER_RING),
         };
-        Ok(Some(Self { law, side, ring }))
+        Ok(Some(Box::new(Self { law, side, ring })))
     }
 
-    /// Its laws.
-    pub(crate) fn law(&self) -> &GuideLaw {
-        &self.law
-    }
-
-    /// Force at this motion of the bodies with this lubricant.
-    ///
-    /// # Errors
-    /// [`Fault::NoGuideFilm`] where a film alone is gone.
     #[inline]
-    pub(crate) fn evaluate(
+    fn journal_motion(&self, shared: &[Motion<f64>; SHARED]) -> JournalMotion<f64> {
+        self.side.journal_motion(&shared[CAGE], &shared[self.ring])
+    }
+}
+
+impl SharedPair for Guide {
+    fn info(&self) -> SharedInfo {
+        SharedInfo {
+            bodies: [CAGE, self.ring],
+            source: ForceSource::Guide,
+            laws: [
+                self.law.film.as_ref().map(|_| Law::GuideFilm),
+                self.law.solid.as_ref().map(|_| Law::GuideSolid),
+            ],
+            powers: [Power::GuideFilm, Power::GuideSolid],
+            shears: matches!(self.law.film, Some(GuideFilm::LubricantLayer(_))),
+        }
+    }
+
+    #[inline]
+    fn evaluate(
         &self,
         shared: &[Motion<f64>; SHARED],
         fluid: Fluid,
-    ) -> std::result::Result<GuideState, Fault> {
-        let motion = self.side.journal_motion(&shared[CAGE], &shared[self.ring]);
+        out: &mut SharedForce,
+    ) -> std::result::Result<(), Fault> {
+        let motion = self.journal_motion(shared);
         match self.law.force(&motion, fluid) {
-            Ok(force) => Ok(GuideState { force, motion }),
+            Ok(force) => {
+                *out = SharedForce { on: self.side.wrenches(&force, &motion), of_law: force };
+                Ok(())
+            }
             Err(gone) => Err(Fault::NoGuideFilm { minimum_film: gone.minimum_film }),
         }
     }
 
-    /// Wrenches on cage and ring.
-    #[inline]
-    pub(crate) fn wrenches(&self, state: &GuideState) -> [Wrench<f64>; 2] {
-        self.side.wrenches(&state.force, &state.motion)
+    fn acting(&self, force: &SharedForce) -> [bool; 2] {
+        let GuideForce { film_share, solid, .. } = force.of_law;
+        [self.law.film.is_some() && film_share > 0.0, solid != [0.0; 2]]
     }
 
-    /// Those of the film alone.
-    #[inline]
-    pub(crate) fn film_wrenches(&self, state: &GuideState) -> [Wrench<f64>; 2] {
-        self.side.wrenches(&state.force.of_film(), &state.motion)
+    fn of_film(&self, shared: &[Motion<f64>; SHARED], force: &SharedForce) -> [Wrench<f64>; 2] {
+        self.side.wrenches(&force.of_law.of_film(), &self.journal_motion(shared))
     }
 
-    /// The force on the cage by its parts.
-    pub(crate) fn on_cage(&self, state: &GuideState) -> GuideForce<f64> {
-        self.side.on_cage(&state.force, &state.motion)
+    fn parts(&self, shared: &[Motion<f64>; SHARED], force: &SharedForce) -> GuideForce<f64> {
+        self.side.on_cage(&force.of_law, &self.journal_motion(shared))
     }
 
-    /// Whether film and solid contact act.
-    pub(crate) fn acting(&self, state: &GuideState) -> [bool; 2] {
-        [self.law.film.is_some() && state.force.film_share > 0.0, state.force.solid != [0.0; 2]]
-    }
-
-    /// -d(force, moment on the cage)/d(velocity, speed of the cage), N s/m and its kin.
-    pub(crate) fn damping(&self, shared: &[Motion<f64>; SHARED], fluid: Fluid) -> Matrix3<f64> {
+    fn damping(&self, shared: &[Motion<f64>; SHARED], fluid: Fluid) -> [Matrix3<f64>; 2] {
         let [body, ring] = [&shared[CAGE], &shared[self.ring]];
         let constant = |x: [f64; 2]| x.map(Dual::<3>::constant);
         let moving = Motion {
@@ -270,16 +272,18 @@ impl Guide {
             speed: Dual::constant(ring.speed),
         };
         let motion = self.side.journal_motion(&moving, &ring);
-        let Ok(force) = self.law.force(&motion, fluid) else { return Matrix3::zeros() };
+        let Ok(force) = self.law.force(&motion, fluid) else { return [Matrix3::zeros(); 2] };
         let [on_cage, _] = self.side.wrenches(&force, &motion);
         let rows = on_cage.components();
-        Matrix3::from_fn(|i, k| -rows[i].eps[k])
+        let on_cage = Matrix3::from_fn(|i, k| -rows[i].eps[k]);
+        // The ring feels what the cage feels, but for the lever.
+        let mut on_ring = Matrix3::zeros();
+        on_ring.fixed_view_mut::<2, 2>(0, 0).copy_from(&on_cage.fixed_view::<2, 2>(0, 0));
+        [on_cage, on_ring]
     }
 
-    /// Adds the derivatives of its forces.
-    pub(crate) fn add_slopes(&self, motions: &Motions, fluid: Fluid, sums: &mut SlopeSums<'_>) {
-        let [cage, ring] = [&motions.shared[CAGE], &motions.shared[self.ring]];
-        let m = self.side.journal_motion(cage, ring);
+    fn add_slopes(&self, motions: &Motions, fluid: Fluid, sums: &mut SlopeSums<'_>) {
+        let m = self.journal_motion(&motions.shared);
         let motion = lift(&m);
         let Ok(force) = self.law.force(&motion, fluid) else { return };
         let speeding = if self.ring == INNER_RING { sums.rates.of(Input::RingSpeed) } else { 0.0 };
@@ -309,14 +313,30 @@ impl Guide {
         }
     }
 
-    /// The longest step (s) that passes no onset unseen, with a cage of `mass` kg. Bodies move on straight lines for this.
-    pub(crate) fn longest_step(&self, shared: &[Motion<f64>], mass: f64, tuning: &Tuning) -> f64 {
-        let [body, ring] = [&shared[CAGE], &shared[self.ring]];
+    /// Bodies move on straight lines for this.
+    fn longest_step(&self, ahead: &Ahead<'_>) -> f64 {
+        let [body, ring] = [&ahead.shared[CAGE], &ahead.shared[self.ring]];
         let relative = JournalPlace {
             position: difference(body.position, ring.position),
             velocity: difference(body.velocity, ring.velocity),
         };
-        longest_step(&self.law, mass, &relative, tuning)
+        longest_step(&self.law, ahead.masses[CAGE], &relative, ahead.tuning)
+    }
+
+    fn stiffness(&self) -> f64 {
+        self.law.solid.map_or(0.0, |solid| solid.contact.stiffness)
+    }
+
+    fn energy_giving_field(&self) -> Option<String> {
+        let field = self.law.film.as_ref()?.passive().err()?;
+        Some(format!("cage.guide.film.{field}"))
+    }
+
+    fn cost(&self) -> Option<Cost> {
+        self.law.film.as_ref().map(|film| match film {
+            GuideFilm::ShortBearing(_) => SHORT_BEARING,
+            GuideFilm::LubricantLayer(_) => LAYER,
+        })
     }
 }
 

@@ -9,8 +9,8 @@
 //!
 //! A pair of elements finds its touching contacts and hands motion and `Grip` of each to `Contacts`. Wrenches, powers,
 //! damping, the change of forces in a step and the reaction follow from these by the same code for all pairs
-//! (`model/evaluate`, `model/works`, `model/integration`). A new pair is a file with the trait `ElementPair` and a line in
-//! `element_pairs`. The guide is no pair of elements: the model has at most one, and asks it by name.
+//! (`model/evaluate`, `model/works`, `model/integration`). A pair of two shared bodies gives wrenches on both. A new pair is a
+//! file with the trait `ElementPair` and a line in `element_pairs`, or with `SharedPair` and a line in `shared_pairs`.
 
 mod contacts;
 pub(crate) mod grip;
@@ -30,11 +30,14 @@ use crate::error::Result;
 use crate::integrate::Tuning;
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
 use crate::laws::elastic::solid::SolidContact;
+use crate::laws::fluid::Fluid;
+use crate::laws::guide::GuideForce;
 use crate::laws::line_contact::LineContact;
 use crate::registry::registry;
 use crate::scene::Scene;
-use crate::space::{Frame, Motion};
+use crate::space::{Frame, Motion, Wrench};
 use line_laws::LawBuilder;
+use nalgebra::Matrix3;
 use std::fmt::Debug;
 use std::ops::Range;
 
@@ -44,6 +47,12 @@ pub(crate) fn element_pairs(scene: &Scene, viscosity: Option<f64>) -> Result<Vec
     let list =
         [raceway::outer(&laws)?, raceway::inner(&laws)?, pocket::cylinder(&laws)?, pocket::plane(&laws)?];
     Ok(list.into_iter().flatten().collect())
+}
+
+/// The pairs of shared bodies of a checked scene.
+pub(crate) fn shared_pairs(scene: &Scene, viscosity: Option<f64>) -> Result<Vec<Box<dyn SharedPair>>> {
+    let laws = LawBuilder::new(scene, viscosity);
+    Ok([guide::Guide::of(&laws)?].into_iter().flatten().collect())
 }
 
 registry! {
@@ -222,6 +231,74 @@ pub(crate) trait ElementPair: Debug + Send + Sync {
 
     /// Time of finding its contacts and of their forces, and of the derivatives: see [`crate::Model::jacobian_cost`].
     fn cost(&self) -> Cost;
+}
+
+/// What a pair of shared bodies is called and where its forces count.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SharedInfo {
+    /// Places of the bodies.
+    pub(crate) bodies: [usize; 2],
+    /// Under which its forces are reported.
+    pub(crate) source: ForceSource,
+    /// Laws of its film and its solid contact, where it has them.
+    pub(crate) laws: [Option<Law>; 2],
+    /// Powers that both belong to.
+    pub(crate) powers: [Power; 2],
+    /// Whether its film has shear of its own.
+    pub(crate) shears: bool,
+}
+
+/// Forces of a pair of shared bodies at one state.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct SharedForce {
+    /// Wrenches on both bodies.
+    pub(crate) on: [Wrench<f64>; 2],
+    /// What the law of the pair gives.
+    of_law: GuideForce<f64>,
+}
+
+/// Contact of two shared bodies.
+pub(crate) trait SharedPair: Debug + Send + Sync {
+    /// Names and places.
+    fn info(&self) -> SharedInfo;
+
+    /// Writes the forces at this motion of the bodies with this lubricant.
+    ///
+    /// # Errors
+    /// The fault of a state where it has no law.
+    fn evaluate(
+        &self,
+        shared: &[Motion<f64>; SHARED],
+        fluid: Fluid,
+        out: &mut SharedForce,
+    ) -> std::result::Result<(), Fault>;
+
+    /// Whether film and solid contact act.
+    fn acting(&self, force: &SharedForce) -> [bool; 2];
+
+    /// Wrenches of the film alone on both bodies, which moved like this.
+    fn of_film(&self, shared: &[Motion<f64>; SHARED], force: &SharedForce) -> [Wrench<f64>; 2];
+
+    /// The force on the first body by its parts.
+    fn parts(&self, shared: &[Motion<f64>; SHARED], force: &SharedForce) -> GuideForce<f64>;
+
+    /// How the wrench on each body opposes its own motion: -d(force, moment)/d(velocity, speed), N s/m and its kin.
+    fn damping(&self, shared: &[Motion<f64>; SHARED], fluid: Fluid) -> [Matrix3<f64>; 2];
+
+    /// Adds the derivatives of its forces over the coordinates of both bodies.
+    fn add_slopes(&self, motions: &Motions, fluid: Fluid, sums: &mut SlopeSums<'_>);
+
+    /// The longest step (s) that passes no onset of its laws unseen.
+    fn longest_step(&self, ahead: &Ahead<'_>) -> f64;
+
+    /// Stiffness of its solid contact, N/m.
+    fn stiffness(&self) -> f64;
+
+    /// The field of the scene by which its film can give energy, if it can.
+    fn energy_giving_field(&self) -> Option<String>;
+
+    /// Time of its forces and of their derivatives: see [`crate::Model::jacobian_cost`].
+    fn cost(&self) -> Option<Cost>;
 }
 
 /// Place of an element beside its mate.

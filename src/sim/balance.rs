@@ -2,9 +2,10 @@
 
 use super::{Evaluated, Sim};
 use crate::error::Result;
-use crate::integrate::{Reader, throughput};
-use crate::model::{AT_FLOOR, Energy, POWERS};
+use crate::integrate::throughput;
+use crate::model::{AT_FLOOR, Energy, POWERS, RATES};
 use crate::registry::registry;
+use crate::stored::stored;
 
 /// Round-off of the stored energy, relative; and an energy that is none, J: less than a nanonewton does over a picometre.
 const ROUNDING: f64 = 1e-14;
@@ -101,7 +102,7 @@ impl Sim {
         self.driver.state_at(to, &mut state);
         let energy = self.energy_at(to, &state)?;
         let mut work = [0.0; POWERS.len()];
-        work.copy_from_slice(&self.driver.works_at(to)[..POWERS.len()]);
+        work.copy_from_slice(&self.works_at(to)[..POWERS.len()]);
         let Start { time, energy: start } = self.balance;
         Ok(PowerBalance { from: time, to, work, energy: [start, energy] })
     }
@@ -110,8 +111,14 @@ impl Sim {
     pub(super) fn share_at_floor(&self) -> f64 {
         let to = self.driver.reached();
         // Some weights of methods are negative.
-        let time = self.driver.works_at(to)[AT_FLOOR].abs();
+        let time = self.works_at(to)[AT_FLOOR].abs();
         if time > 0.0 { time / (to - self.balance.time) } else { 0.0 }
+    }
+
+    fn works_at(&self, t: f64) -> [f64; RATES] {
+        let mut works = [0.0; RATES];
+        self.driver.works_at(t, &mut works);
+        works
     }
 
     /// Energy of a state at time `t` (s).
@@ -129,15 +136,11 @@ impl Sim {
     }
 }
 
-impl Start {
-    pub(super) fn save(&self, out: &mut Vec<f64>) {
-        let Energy { kinetic, elastic, potential } = self.energy;
-        out.extend([self.time, kinetic, elastic, potential]);
-    }
+stored! {
+    impl[] Start { time, energy }
+    if |start| start.time >= 0.0
+}
 
-    pub(super) fn load(from: &mut Reader<'_>) -> Option<Self> {
-        let time = from.number().filter(|t| *t >= 0.0)?;
-        let [kinetic, elastic, potential] = [from.number()?, from.number()?, from.number()?];
-        Some(Self { time, energy: Energy { kinetic, elastic, potential } })
-    }
+stored! {
+    impl[] Energy { kinetic, elastic, potential }
 }

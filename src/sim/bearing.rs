@@ -3,12 +3,12 @@
 use super::limits::RunLimits;
 use super::linear::jacobian::Slopes;
 use crate::integrate::{
-    Applied, GroupDamping, Interruption, Linearization, Linearized, Observed, Powers, SemiImplicit, Split,
-    Structure, Structured, System, Tuning, Vibration,
+    Applied, GroupDamping, Interruption, Linearization, Linearized, Observed, SemiImplicit, Split, Structure,
+    Structured, System, Tuning, Vibration,
 };
 use crate::model::{
-    Channel, Energy, Fault, FaultCounts, Forces, HostInputs, Input, LawCounts, Model, OF_ELEMENT, PartTimes,
-    Workspace,
+    Channel, Energy, Fault, FaultCounts, Forces, HostInputs, Input, LawCounts, Model, OF_ELEMENT, POWERS,
+    PartTimes, RATES, Workspace,
 };
 use std::sync::Arc;
 
@@ -303,8 +303,8 @@ impl Split<OF_ELEMENT> for Bearing {
         self.model.damping(h, &self.workspace, out);
     }
 
-    fn react(&self, _q: &[f64], v: &[f64], step: &SemiImplicit<'_>, a: &mut [f64]) {
-        self.model.react(v, step, &self.workspace, a);
+    fn react(&mut self, _q: &[f64], v: &[f64], step: &SemiImplicit<'_>, a: &mut [f64]) {
+        self.model.react(v, step, &mut self.workspace, a);
     }
 }
 
@@ -313,8 +313,12 @@ impl Observed for Bearing {
         self.workspace.vibration()
     }
 
-    fn powers(&self, _q: &[f64], v: &[f64], step: Option<&SemiImplicit<'_>>) -> Powers {
-        self.model.powers(v, step, &self.workspace)
+    fn power_count(&self) -> [usize; 2] {
+        [POWERS.len(), RATES - POWERS.len()]
+    }
+
+    fn powers(&mut self, _q: &[f64], v: &[f64], step: Option<&SemiImplicit<'_>>, out: &mut [f64]) {
+        self.model.powers(v, step, &mut self.workspace, out);
     }
 
     fn energy(&self, _q: &[f64], _v: &[f64]) -> [f64; 3] {
@@ -326,8 +330,8 @@ impl Observed for Bearing {
         self.model.watched().len()
     }
 
-    fn watch(&self, _q: &[f64], v: &[f64], step: Option<&SemiImplicit<'_>>, out: &mut [f64]) {
-        self.model.watch(v, step, &self.workspace, out);
+    fn watch(&mut self, _q: &[f64], v: &[f64], step: Option<&SemiImplicit<'_>>, out: &mut [f64]) {
+        self.model.watch(v, step, &mut self.workspace, out);
     }
 
     fn interruption(&mut self) -> Option<Interruption> {

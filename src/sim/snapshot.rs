@@ -3,36 +3,60 @@
 use super::balance::Start;
 use super::{Evaluated, Sim};
 use crate::error::{Error, Result, Status};
-use crate::integrate::{Reader, Tuning};
+use crate::integrate::Tuning;
 use crate::model::{FaultCounts, HostInputs, LawCounts, Model};
 use crate::scene::{Record, Scene, Solver};
+use crate::stored::{Reader, Stored, stored};
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// First number of a snapshot; changes when its content changes.
-const FORMAT: f64 = 12.0;
+const FORMAT: f64 = 13.0;
 
 /// Numbers of the checksum, and in front of the content: format, fingerprint, checksum.
 const CHECKSUM: usize = 2;
 const HEAD: usize = 3 + CHECKSUM;
 
+/// What a simulation knows beside its driver.
+struct Content {
+    time: f64,
+    /// Evaluations and Jacobians.
+    counts: [u64; 2],
+    laws: LawCounts,
+    faults: FaultCounts,
+    rejections: Vec<u64>,
+    host: HostInputs,
+    state: Vec<f64>,
+    balance: Start,
+}
+
+stored! {
+    impl[] Content { time, counts, laws, faults, rejections, host, state, balance }
+    if |content| content.time >= 0.0
+}
+
 impl Sim {
+    fn content(&self) -> Content {
+        let bearing = &self.bearing;
+        Content {
+            time: self.time,
+            counts: [bearing.evaluations(), bearing.jacobians()],
+            laws: *bearing.law_counts(),
+            faults: *bearing.fault_counts(),
+            rejections: bearing.rejections().to_vec(),
+            host: *bearing.host(),
+            state: self.state.clone(),
+            balance: self.balance,
+        }
+    }
+
     /// Everything the future of this simulation depends on, for a model of the same physics in the same build of the library:
     /// title, comments and what is recorded may differ.
     pub fn save(&self) -> Vec<f64> {
         let mut out = vec![FORMAT];
         out.extend(self.fingerprint);
         out.extend([0.0; 2]);
-        out.extend([self.time, self.bearing.evaluations() as f64, self.bearing.jacobians() as f64]);
-        out.extend(self.bearing.law_counts().iter().map(|n| *n as f64));
-        out.extend(self.bearing.fault_counts().iter().chain(self.bearing.rejections()).map(|n| *n as f64));
-        let host = self.bearing.host();
-        for input in host.values {
-            out.extend([f64::from(u8::from(input.is_some())), input.unwrap_or(0.0)]);
-        }
-        out.extend(host.anchor);
-        out.extend_from_slice(&self.state);
-        self.balance.save(&mut out);
-        self.driver.save(&mut out);
+        self.content().save(&mut out);
+        self.driver.save_for_later(&mut out);
         let checksum = checksum(&out[HEAD..]);
         out[HEAD - checksum.len()..HEAD].copy_from_slice(&checksum);
         out
@@ -74,31 +98,11 @@ impl Sim {
 
     fn load(&mut self, snapshot: &[f64]) -> Option<()> {
         let mut from = Reader::new(snapshot.get(HEAD..)?);
-        let time = from.number().filter(|t| *t >= 0.0)?;
-        let counts = [from.count()?, from.count()?];
-        let mut law_counts = LawCounts::default();
-        for count in &mut law_counts {
-            *count = from.count()?;
-        }
-        let mut fault_counts = FaultCounts::default();
-        for count in &mut fault_counts {
-            *count = from.count()?;
-        }
-        let mut rejections = self.bearing.rejections().to_vec();
-        for count in &mut rejections {
-            *count = from.count()?;
-        }
-        let mut host = HostInputs::default();
-        for input in &mut host.values {
-            let (set, value) = (from.flag()?, from.number()?);
-            *input = set.then_some(value);
-        }
-        from.fill(&mut host.anchor)?;
-        let mut state = vec![0.0; self.state.len()];
-        from.fill(&mut state)?;
-        let balance = Start::load(&mut from)?;
+        let mut content = self.content();
+        content.load(&mut from)?;
         self.driver.load(&mut from)?;
         from.finished().then_some(())?;
+        let Content { time, counts, laws, faults, rejections, host, state, balance } = content;
         *self.bearing.host_mut() = host;
         // The stretch that covers this time is made again, whatever the wall time; the state must be the one that it gives.
         let limits = std::mem::take(self.bearing.limits_mut());
@@ -112,9 +116,9 @@ impl Sim {
         }
         self.time = time;
         self.balance = balance;
-        self.bearing.set_counts(counts, law_counts);
+        self.bearing.set_counts(counts, laws);
         self.bearing.rejections_mut().copy_from_slice(&rejections);
-        self.bearing.set_fault_counts(fault_counts);
+        self.bearing.set_fault_counts(faults);
         self.evaluated = Evaluated::Other;
         Some(())
     }

@@ -2,8 +2,9 @@
 
 use crate::common::systems::Oscillator;
 use cagedyn::integrate::{
-    DormandPrince, Driver, Failure, Leapfrog, Limits, Radau, Reader, Rosenbrock, Stepper, implicit_share,
+    DormandPrince, Driver, Failure, Leapfrog, Limits, Radau, Rosenbrock, Stepper, implicit_share,
 };
+use cagedyn::stored::{Reader, Stored};
 
 const START: [f64; 5] = [1.0, 0.0, 0.0, 3.0, 0.0];
 
@@ -185,7 +186,7 @@ fn saving_continues_bit_identically() {
         d.start(0.0, &START);
         d.advance(&mut s, 1.003).unwrap();
         let mut saved = Vec::new();
-        d.save(&mut saved);
+        d.save_for_later(&mut saved);
         let mut other = new(&s);
         other.start(7.0, &[0.0; 5]);
         let mut reader = Reader::new(&saved);

@@ -3,7 +3,8 @@
 //! The works of all forces ([`Observed::powers`]) less the gain of stored energy ([`Observed::energy`]) are zero for an exact
 //! solution. What is missing, as a share of what passed through, is an error of all of the integration.
 
-use crate::integrate::{MOST_POWERS, Observed, Powers, Reader, Tuning, add_weighted};
+use crate::integrate::{Observed, Tuning, add_weighted};
+use crate::stored::stored;
 
 /// Energy that passed through a system, J: all that came in by work, or was stored before and is no longer.
 pub fn throughput(works: impl IntoIterator<Item = f64>, gains: impl IntoIterator<Item = f64>) -> f64 {
@@ -16,13 +17,18 @@ pub fn throughput(works: impl IntoIterator<Item = f64>, gains: impl IntoIterator
 }
 
 /// Works and gains of stored energy over some time, J.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug)]
 struct Turnover {
-    works: Powers,
+    works: Vec<f64>,
     gains: [f64; 3],
 }
 
 impl Turnover {
+    fn clear(&mut self) {
+        self.works.fill(0.0);
+        self.gains = [0.0; 3];
+    }
+
     fn add(&mut self, other: &Self) {
         add_weighted(&mut self.works, 1.0, &other.works);
         for (sum, gain) in self.gains.iter_mut().zip(other.gains) {
@@ -31,13 +37,13 @@ impl Turnover {
     }
 
     fn missing(&self) -> f64 {
-        self.works[..MOST_POWERS].iter().sum::<f64>() - self.gains.iter().sum::<f64>()
+        self.works.iter().sum::<f64>() - self.gains.iter().sum::<f64>()
     }
 
     /// What is missing as a share of what passed through; zero where nothing passed.
     fn missing_share(&self) -> f64 {
         let missing = self.missing();
-        let passed = throughput(self.works.into_iter().take(MOST_POWERS), self.gains);
+        let passed = throughput(self.works.iter().copied(), self.gains);
         if missing == 0.0 { 0.0 } else { (missing / passed).abs() }
     }
 }
@@ -58,29 +64,31 @@ pub struct Balance {
 }
 
 impl Balance {
-    /// An empty balance of a system with this many velocities, whose runs may miss this share of their energy.
-    pub fn new(velocities: usize, allowed: f64, tuning: Tuning) -> Self {
+    /// An empty balance of a system whose runs may miss this share of their energy.
+    pub fn new<S: Observed>(system: &S, allowed: f64, tuning: Tuning) -> Self {
+        let [powers, _] = system.power_count();
+        let nothing = Turnover { works: vec![0.0; powers], gains: [0.0; 3] };
         Self {
             tuning,
             allowed,
             open: false,
             energy: [0.0; 3],
-            stretch: Turnover::default(),
-            before: Turnover::default(),
-            a: vec![0.0; velocities],
+            stretch: nothing.clone(),
+            before: nothing,
+            a: vec![0.0; system.velocities()],
         }
     }
 
     /// Forgets everything: the next stretch opens the balance.
     pub fn forget(&mut self) {
         self.close();
-        self.before = Turnover::default();
+        self.before.clear();
     }
 
     /// Ends the stretch without a judgement, as the state may jump.
     pub fn close(&mut self) {
         self.open = false;
-        self.stretch = Turnover::default();
+        self.stretch.clear();
     }
 
     /// Whether a stretch has begun.
@@ -94,12 +102,13 @@ impl Balance {
     /// The system's fault at this state.
     pub fn open<S: Observed>(&mut self, system: &mut S, t: f64, state: &[f64]) -> Result<(), S::Fault> {
         self.energy = self.energy_at(system, t, state)?;
-        (self.open, self.stretch) = (true, Turnover::default());
+        self.open = true;
+        self.stretch.clear();
         Ok(())
     }
 
     /// Adds the works of a step.
-    pub fn add(&mut self, works: &Powers) {
+    pub fn add(&mut self, works: &[f64]) {
         add_weighted(&mut self.stretch.works, 1.0, works);
     }
 
@@ -112,12 +121,13 @@ impl Balance {
         let energy = self.energy_at(system, t, state)?;
         self.stretch.gains = [0, 1, 2].map(|k| energy[k] - self.energy[k]);
         self.energy = energy;
-        let stretch = std::mem::take(&mut self.stretch);
-        self.before.add(&stretch);
+        self.before.add(&self.stretch);
+        let (missing, missing_share) = (self.stretch.missing(), self.stretch.missing_share());
+        self.stretch.clear();
         let stored: f64 = energy.iter().map(|x| x.abs()).sum();
         // Written so that what is not a number is too much.
-        Ok(stretch.missing().abs() <= self.tuning.energy_rounding * stored
-            || stretch.missing_share() <= self.tuning.energy_share * self.allowed
+        Ok(missing.abs() <= self.tuning.energy_rounding * stored
+            || missing_share <= self.tuning.energy_share * self.allowed
             || self.can_spare())
     }
 
@@ -136,25 +146,12 @@ impl Balance {
         system.accelerations(t, q, v, &mut self.a)?;
         Ok(system.energy(q, v))
     }
+}
 
-    /// Appends everything that the next decisions depend on.
-    pub fn save(&self, out: &mut Vec<f64>) {
-        out.push(f64::from(u8::from(self.open)));
-        out.extend(self.energy);
-        for turnover in [&self.stretch, &self.before] {
-            out.extend(turnover.works);
-            out.extend(turnover.gains);
-        }
-    }
+stored! {
+    impl[] Balance { open, energy, stretch, before }
+}
 
-    /// Takes back what [`Balance::save`] wrote; `None` if it does not fit.
-    pub fn load(&mut self, from: &mut Reader<'_>) -> Option<()> {
-        self.open = from.flag()?;
-        from.fill(&mut self.energy)?;
-        for turnover in [&mut self.stretch, &mut self.before] {
-            from.fill(&mut turnover.works)?;
-            from.fill(&mut turnover.gains)?;
-        }
-        Some(())
-    }
+stored! {
+    impl[] Turnover { works, gains }
 }

@@ -106,6 +106,18 @@ pub enum Reason {
     Affordable,
 }
 
+/// The reasons, by their numbers.
+const REASONS: [Reason; 8] = [
+    Reason::Vibration,
+    Reason::Trajectory,
+    Reason::Speed,
+    Reason::Trial,
+    Reason::Failures,
+    Reason::Cost,
+    Reason::Balance,
+    Reason::Affordable,
+];
+
 /// What was chosen, and what it rests on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Choice {
@@ -185,7 +197,7 @@ impl<const N: usize> Auto<N> {
             implicit: Rosenbrock::new(system, &tolerance),
             monitor: StabilityMonitor::new(system, aim.expected, &aim.units, aim.tuning),
             selection: Selection::new(EXPLICIT, aim.tuning),
-            balance: Balance::new(system.velocities(), aim.missing_energy, aim.tuning),
+            balance: Balance::new(system, aim.missing_energy, aim.tuning),
             active: Kind::DormandPrince,
             reason: Reason::Trajectory,
             last_steps: [aim.first_step; 2],

@@ -3,7 +3,8 @@
 //! Both work on the run itself, so a trial of the slower one costs time but no accuracy. A method that loses waits
 //! twice as long for its next trial. All of it counts evaluations and not seconds of a clock, so it is reproducible.
 
-use crate::integrate::{Reader, Tuning};
+use crate::integrate::Tuning;
+use crate::stored::stored;
 
 /// Two methods, numbered 0 and 1, one of which is active.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -101,22 +102,15 @@ impl Selection {
         true
     }
 
-    /// Appends everything that the next decisions depend on.
-    pub fn save(&self, out: &mut Vec<f64>) {
-        out.extend([self.active as f64, self.advanced, self.cost, self.rates[0], self.rates[1]]);
-        out.extend([f64::from(u8::from(self.trial)), self.wait, self.pause]);
+    /// Whether a state that was loaded is one that a selection can have.
+    fn is_sound(&self) -> bool {
+        let pauses = self.tuning.first_trial..=self.tuning.longest_trial;
+        let mut numbers = self.rates.iter().chain([&self.advanced, &self.cost]);
+        self.active < 2 && pauses.contains(&self.pause) && numbers.all(|x| *x >= 0.0)
     }
+}
 
-    /// Takes back what [`Selection::save`] wrote; `None` if it does not fit.
-    pub fn load(&mut self, from: &mut Reader<'_>) -> Option<()> {
-        self.active = usize::from(from.flag()?);
-        for number in [&mut self.advanced, &mut self.cost].into_iter().chain(&mut self.rates) {
-            *number = from.number().filter(|x| *x >= 0.0)?;
-        }
-        self.trial = from.flag()?;
-        self.wait = from.number()?;
-        self.pause =
-            from.number().filter(|x| (self.tuning.first_trial..=self.tuning.longest_trial).contains(x))?;
-        Some(())
-    }
+stored! {
+    impl[] Selection { active, advanced, cost, rates, trial, wait, pause }
+    if Self::is_sound
 }

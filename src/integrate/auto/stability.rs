@@ -4,7 +4,8 @@
 //! that it expects; from time to time it is measured at the present state.
 
 use crate::integrate::auto::mode::{Mode, ModeFinder};
-use crate::integrate::{Leapfrog, Linearization, Linearized, Observed, Reader, Split, Stepper, Tuning};
+use crate::integrate::{Leapfrog, Linearization, Linearized, Observed, Split, Stepper, Tuning};
+use crate::stored::stored;
 
 /// What is known about a system before its first step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -159,18 +160,9 @@ impl<const N: usize> StabilityMonitor<N> {
         let fast = frequency >= 0.5 * self.frequency;
         self.damped = self.expected.damped && !(fast && damping_ratio < self.tuning.light_damping);
     }
+}
 
-    /// Appends everything that the next steps depend on.
-    pub fn save(&self, out: &mut Vec<f64>) {
-        out.extend([self.due as f64, self.frequency, self.highest, f64::from(u8::from(self.damped))]);
-    }
-
-    /// Takes back what [`StabilityMonitor::save`] wrote; `None` if it does not fit.
-    pub fn load(&mut self, from: &mut Reader<'_>) -> Option<()> {
-        self.due = from.count()?;
-        self.frequency = from.number().filter(|x| *x >= 0.0)?;
-        self.highest = from.number().filter(|x| *x >= 0.0)?;
-        self.damped = from.flag()?;
-        Some(())
-    }
+stored! {
+    impl[const N: usize] StabilityMonitor<N> { due, frequency, highest, damped }
+    if |monitor| monitor.frequency >= 0.0 && monitor.highest >= 0.0
 }

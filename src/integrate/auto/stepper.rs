@@ -1,8 +1,9 @@
 //! The chosen method at work: attempts, accounts, judgement, memory.
 
-use super::{Auto, Choice, EXPLICIT, IMPLICIT, KINDS, Kind, Reason};
+use super::{Auto, Choice, EXPLICIT, IMPLICIT, KINDS, Kind, REASONS, Reason};
 use crate::integrate::driver::control::{Estimate, Law};
-use crate::integrate::{Applied, Linearized, Observed, Powers, Reader, Samples, Split, Stepper};
+use crate::integrate::{Applied, Linearized, Observed, Samples, Split, Stepper};
+use crate::stored::{stored, stored_choice};
 
 impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto<N> {
     fn set_state(&mut self, state: &[f64]) {
@@ -116,7 +117,7 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
         }
     }
 
-    fn works(&self) -> &Powers {
+    fn works(&self) -> &[f64] {
         active!(self, ref S, works())
     }
 
@@ -151,64 +152,26 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
             highest_frequency: self.monitor.highest_frequency(),
         })
     }
+}
 
-    /// All methods are saved, so that the length is always the same.
-    fn save(&self, out: &mut Vec<f64>) {
-        out.extend([self.active as usize as f64, self.reason as usize as f64]);
-        out.extend([self.last_steps[0], self.last_steps[1], self.h, self.advanced, self.cost]);
-        out.extend([self.placed, self.judged, self.event].map(|x| f64::from(u8::from(x))));
-        let counts = [self.attempts, self.gave_way, self.strictness, self.hold, self.next_hold];
-        out.extend(counts.map(|n| n as f64));
-        out.extend([self.right, self.wait, self.pause, self.event_wait].map(|n| n as f64));
-        out.extend(self.steps.map(|n| n as f64));
-        out.push(self.changes as f64);
-        self.monitor.save(out);
-        self.selection.save(out);
-        self.balance.save(out);
-        Stepper::<S>::save(&self.leapfrog, out);
-        Stepper::<S>::save(&self.explicit, out);
-        Stepper::<S>::save(&self.implicit, out);
-    }
-
-    fn load(&mut self, from: &mut Reader<'_>) -> Option<()> {
-        let reasons = [
-            Reason::Vibration,
-            Reason::Trajectory,
-            Reason::Speed,
-            Reason::Trial,
-            Reason::Failures,
-            Reason::Cost,
-            Reason::Balance,
-            Reason::Affordable,
-        ];
-        self.active = *KINDS.get(usize::try_from(from.count()?).ok()?)?;
-        self.reason = *reasons.get(usize::try_from(from.count()?).ok()?)?;
-        for step in self.last_steps.iter_mut().chain([&mut self.h]) {
-            *step = from.number().filter(|h| *h > 0.0)?;
-        }
-        self.advanced = from.number().filter(|x| *x >= 0.0)?;
-        self.cost = from.number().filter(|x| *x >= 0.0)?;
-        for flag in [&mut self.placed, &mut self.judged, &mut self.event] {
-            *flag = from.flag()?;
-        }
-        for count in [&mut self.attempts, &mut self.gave_way, &mut self.strictness, &mut self.hold] {
-            *count = from.count()?;
-        }
-        self.strictness = self.strictness.min(self.aim.tuning.strictest);
-        for count in
-            [&mut self.next_hold, &mut self.right, &mut self.wait, &mut self.pause, &mut self.event_wait]
-        {
-            *count = from.count()?;
-        }
-        for steps in &mut self.steps {
-            *steps = from.count()?;
-        }
-        self.changes = from.count()?;
-        self.monitor.load(from)?;
-        self.selection.load(from)?;
-        self.balance.load(from)?;
-        Stepper::<S>::load(&mut self.leapfrog, from)?;
-        Stepper::<S>::load(&mut self.explicit, from)?;
-        Stepper::<S>::load(&mut self.implicit, from)
+impl<const N: usize> Auto<N> {
+    /// Whether a state that was loaded is one that the choice can have.
+    fn is_sound(&self) -> bool {
+        let steps = self.last_steps.iter().chain([&self.h]);
+        steps.into_iter().all(|h| *h > 0.0)
+            && (self.advanced >= 0.0 && self.cost >= 0.0)
+            && self.strictness <= self.aim.tuning.strictest
     }
 }
+
+// All methods are saved, so that the length is always the same.
+stored! {
+    impl[const N: usize] Auto<N> {
+        active, reason, last_steps, h, advanced, cost, placed, judged, event, attempts, gave_way, strictness, hold, next_hold,
+        right, wait, pause, event_wait, steps, changes, monitor, selection, balance, leapfrog, explicit, implicit
+    }
+    if Self::is_sound
+}
+
+stored_choice!(Kind, KINDS);
+stored_choice!(Reason, REASONS);

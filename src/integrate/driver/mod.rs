@@ -15,7 +15,8 @@ pub mod watch;
 pub use outcome::{Failure, Limits, Statistics};
 
 use crate::integrate::auto::Choice;
-use crate::integrate::{Applied, Observed, Powers, Reader, Samples, Stepper, Total, Vibration, add_weighted};
+use crate::integrate::{Applied, Observed, Samples, Stepper, Total, Vibration, add_weighted};
+use crate::stored::{Reader, Stored, stored};
 use control::{Controller, Estimate, RECOVERY_GROWTH};
 use watch::Tally;
 
@@ -37,8 +38,9 @@ pub struct Driver<S: Observed> {
     control: Controller,
     needs_refresh: bool,
     statistics: Statistics,
-    /// Works of the system's powers up to `from`, and over the last step.
-    works: [Powers; 2],
+    /// Works of the system's powers up to `from`, and over the last step; and memory for as many.
+    works: [Vec<f64>; 2],
+    spare: Vec<f64>,
     /// Of what the host watches.
     tally: Tally,
     /// Number of steps of the next stretch.
@@ -59,7 +61,7 @@ struct Step {
     from: f64,
     to: f64,
     /// Works up to `from`, and over the step.
-    works: [Powers; 2],
+    works: [Vec<f64>; 2],
     samples: Samples,
     /// What the stepper keeps of it.
     kept: Vec<f64>,
@@ -77,7 +79,7 @@ struct Plan {
 impl<S: Observed> Driver<S> {
     /// A driver at rest; [`Driver::start`] comes next.
     pub fn new(stepper: Box<dyn Stepper<S> + Send>, limits: Limits) -> Self {
-        let watched = stepper.samples().count();
+        let (watched, works) = (stepper.samples().count(), vec![0.0; stepper.works().len()]);
         let mut driver = Self {
             stepper,
             limits,
@@ -88,7 +90,8 @@ impl<S: Observed> Driver<S> {
             control: Controller::default(),
             needs_refresh: true,
             statistics: Statistics::default(),
-            works: Default::default(),
+            works: [works.clone(), works.clone()],
+            spare: works,
             tally: Tally::new(watched),
             length: 1,
             stretch: Vec::new(),
@@ -100,6 +103,7 @@ impl<S: Observed> Driver<S> {
         if longest > 0 {
             let room = MOST_KEPT * driver.stepper.state().len();
             let step = |_| Step {
+                works: driver.works.clone(),
                 kept: Vec::with_capacity(room),
                 samples: Samples::new(watched, MOST_SAMPLES),
                 ..Step::default()
@@ -113,7 +117,11 @@ impl<S: Observed> Driver<S> {
     /// Starts at time `t` from `state`. Counts go on, and so do works if `t` is within the last step.
     pub fn start(&mut self, t: f64, state: &[f64]) {
         self.tally_to(t);
-        self.works = [self.works_at(t), Powers::default()];
+        let mut sum = std::mem::take(&mut self.spare);
+        self.works_at(t, &mut sum);
+        std::mem::swap(&mut self.works[0], &mut sum);
+        self.spare = sum;
+        self.works[1].fill(0.0);
         self.stepper.set_state(state);
         (self.from, self.to) = (t, t);
         self.next_step = self.nominal_step;
@@ -200,7 +208,7 @@ impl<S: Observed> Driver<S> {
         self.made = 0;
         let mut mark = std::mem::take(&mut self.mark);
         mark.clear();
-        self.save_now(&mut mark);
+        self.save(&mut mark);
         self.mark = mark;
     }
 
@@ -221,7 +229,10 @@ impl<S: Observed> Driver<S> {
     /// Keeps the last step for questions about it.
     fn keep_step(&mut self) {
         let step = &mut self.stretch[self.made];
-        (step.from, step.to, step.works) = (self.from, self.to, self.works);
+        (step.from, step.to) = (self.from, self.to);
+        for (kept, works) in step.works.iter_mut().zip(&self.works) {
+            kept.copy_from_slice(works);
+        }
         step.kept.clear();
         self.stepper.keep(&mut step.kept);
         step.samples.copy(self.stepper.samples());
@@ -269,14 +280,19 @@ impl<S: Observed> Driver<S> {
     }
 
     /// Works of the system's powers since they were forgotten, up to time `t` (s) within the last step or stretch.
-    pub fn works_at(&self, t: f64) -> Powers {
-        let (from, to, [mut sum, last]) = match self.step_at(t) {
-            Some(step) => (step.from, step.to, step.works),
-            None => (self.from, self.to, self.works),
+    pub fn works_at(&self, t: f64, out: &mut [f64]) {
+        let (from, to, [sum, last]) = match self.step_at(t) {
+            Some(step) => (step.from, step.to, &step.works),
+            None => (self.from, self.to, &self.works),
         };
         let step = to - from;
-        add_weighted(&mut sum, if step > 0.0 { ((t - from) / step).clamp(0.0, 1.0) } else { 1.0 }, &last);
-        sum
+        out.copy_from_slice(sum);
+        add_weighted(out, if step > 0.0 { ((t - from) / step).clamp(0.0, 1.0) } else { 1.0 }, last);
+    }
+
+    /// Number of those works, and of the integrals of other rates behind them.
+    pub fn work_count(&self) -> usize {
+        self.spare.len()
     }
 
     /// Begins the interval of [`Driver::total_at`] at time `t` (s) within the last step or stretch.
@@ -307,7 +323,7 @@ impl<S: Observed> Driver<S> {
 
     /// Sets the works to zero; comes after [`Driver::start`].
     pub fn forget_works(&mut self) {
-        self.works = Default::default();
+        self.works.iter_mut().for_each(|works| works.fill(0.0));
     }
 
     /// Goes on with this step (s), and without memory of errors.
@@ -389,7 +405,7 @@ impl<S: Observed> Driver<S> {
     fn accept(&mut self, system: &S, plan: &Plan) {
         let [sum, last] = &mut self.works;
         add_weighted(sum, 1.0, last);
-        *last = *self.stepper.works();
+        last.copy_from_slice(self.stepper.works());
         self.stepper.accept();
         (self.from, self.to) = (self.to, plan.end);
         self.needs_refresh = plan.on_event;
@@ -418,59 +434,47 @@ impl<S: Observed> Driver<S> {
         }
     }
 
-    /// Appends everything that the next steps depend on, as it was before the last stretch: after [`Driver::load`] the stretch
+    /// Appends everything that the next steps depend on, as it was before the last stretch: after [`Stored::load`] the stretch
     /// has to be made again.
-    pub fn save(&self, out: &mut Vec<f64>) {
+    pub fn save_for_later(&self, out: &mut Vec<f64>) {
         if self.made > 0 {
             out.extend_from_slice(&self.mark);
         } else {
-            self.save_now(out);
+            self.save(out);
         }
     }
 
-    fn save_now(&self, out: &mut Vec<f64>) {
-        let s = &self.statistics;
-        let c = &self.control;
-        out.extend([self.from, self.to, self.nominal_step, self.next_step]);
-        out.extend([c.last_error, c.last_change, f64::from(u8::from(c.after_rejection))]);
-        out.push(f64::from(u8::from(self.needs_refresh)));
-        out.push(self.length as f64);
-        out.extend([s.steps, s.rejected, s.faults, s.events, s.undone].map(|n| n as f64));
-        out.extend([s.smallest_step, s.largest_step, s.vibration.squares, s.vibration.count]);
-        out.extend(self.works.iter().flatten());
-        self.stepper.save(out);
+    /// Whether a state that was loaded is one that the driver can have.
+    fn is_sound(&self) -> bool {
+        let Self { limits, control, statistics: s, .. } = self;
+        let largest = limits.nominal_step.max(limits.max_step);
+        let step = |h: f64| h > 0.0 && h <= largest;
+        let counts = [s.smallest_step, s.largest_step, s.vibration.squares, s.vibration.count];
+        self.to >= self.from
+            && step(self.nominal_step)
+            && step(self.next_step)
+            && (control.last_error > 0.0 && control.last_change > 0.0)
+            && (1..=self.stretch.len().max(1)).contains(&self.length)
+            && counts.iter().all(|x| *x >= 0.0)
     }
+}
 
-    /// Takes back what [`Driver::save`] wrote; `None` if it does not fit or cannot be, and the driver must then be
-    /// started again.
-    pub fn load(&mut self, from: &mut Reader<'_>) -> Option<()> {
-        let largest = self.limits.nominal_step.max(self.limits.max_step);
-        self.from = from.number()?;
-        self.to = from.number().filter(|to| *to >= self.from)?;
-        self.nominal_step = from.number().filter(|h| *h > 0.0 && *h <= largest)?;
-        self.next_step = from.number().filter(|h| *h > 0.0 && *h <= largest)?;
-        let last_error = from.number().filter(|e| *e > 0.0)?;
-        let last_change = from.number().filter(|c| *c > 0.0)?;
-        self.control = Controller { last_error, last_change, after_rejection: from.flag()? };
-        self.needs_refresh = from.flag()?;
-        self.length = from.count().filter(|n| (1..=self.stretch.len().max(1) as u64).contains(n))? as usize;
-        (self.made, self.unfinished) = (0, false);
-        self.statistics = Statistics {
-            steps: from.count()?,
-            rejected: from.count()?,
-            faults: from.count()?,
-            events: from.count()?,
-            undone: from.count()?,
-            smallest_step: from.number().filter(|h| *h >= 0.0)?,
-            largest_step: from.number().filter(|h| *h >= 0.0)?,
-            vibration: Vibration {
-                squares: from.number().filter(|x| *x >= 0.0)?,
-                count: from.number().filter(|x| *x >= 0.0)?,
-            },
-        };
-        for part in &mut self.works {
-            from.fill(part)?;
-        }
-        self.stepper.load(from)
+stored! {
+    impl[S: Observed] Driver<S> {
+        from, to, nominal_step, next_step, control, needs_refresh, length, statistics, works, stepper
     }
+    then { made = 0, unfinished = false }
+    if Self::is_sound
+}
+
+stored! {
+    impl[] Controller { last_error, last_change, after_rejection }
+}
+
+stored! {
+    impl[] Statistics { steps, rejected, faults, events, undone, smallest_step, largest_step, vibration }
+}
+
+stored! {
+    impl[] Vibration { squares, count }
 }

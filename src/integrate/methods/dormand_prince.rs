@@ -4,8 +4,9 @@
 //! section II.6.
 
 use crate::integrate::driver::control::{ErrorNorm, Estimate, Law};
-use crate::integrate::methods::pack::{keep_parts, kept_parts};
-use crate::integrate::{Observed, Powers, Reader, Samples, Stepper, add_weighted};
+use crate::integrate::methods::kept::{keep_parts, kept_parts};
+use crate::integrate::{Observed, Samples, Stepper, add_weighted, zero_works};
+use crate::stored::stored;
 
 const C: [f64; 7] = [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0];
 const A: [[f64; 6]; 7] = [
@@ -47,8 +48,8 @@ pub struct DormandPrince {
     k: [Vec<f64>; 7],
     a: Vec<f64>,
     /// Powers at the stages, and their works.
-    powers: [Powers; 7],
-    works: Powers,
+    powers: [Vec<f64>; 7],
+    works: Vec<f64>,
     samples: Samples,
     /// Polynomials of the last accepted step and of the attempt.
     dense: [Vec<f64>; 5],
@@ -67,8 +68,8 @@ impl DormandPrince {
             trial: zeros(),
             k: std::array::from_fn(|_| zeros()),
             a: vec![0.0; system.velocities()],
-            powers: Default::default(),
-            works: Powers::default(),
+            powers: std::array::from_fn(|_| zero_works(system)),
+            works: zero_works(system),
             samples: Samples::new(system.watched(), SAMPLED.len()),
             dense: std::array::from_fn(|_| zeros()),
             trial_dense: std::array::from_fn(|_| zeros()),
@@ -82,12 +83,14 @@ impl DormandPrince {
         state: &[f64],
         a: &mut [f64],
         rate: &mut [f64],
-    ) -> Result<Powers, S::Fault> {
+        powers: &mut [f64],
+    ) -> Result<(), S::Fault> {
         let (q, v) = state.split_at(positions);
         system.accelerations(t, q, v, a)?;
         rate[..positions].copy_from_slice(&v[..positions]);
         rate[positions..].copy_from_slice(a);
-        Ok(system.powers(q, v, None))
+        system.powers(q, v, None, powers);
+        Ok(())
     }
 }
 
@@ -110,8 +113,8 @@ impl<S: Observed> Stepper<S> for DormandPrince {
     }
 
     fn refresh(&mut self, system: &mut S, t: f64) -> Result<(), S::Fault> {
-        self.powers[0] = Self::rate(system, t, self.positions, &self.state, &mut self.a, &mut self.k[0])?;
-        Ok(())
+        let Self { positions, state, a, k, powers, .. } = self;
+        Self::rate(system, t, *positions, state, a, &mut k[0], &mut powers[0])
     }
 
     fn attempt(&mut self, system: &mut S, t: f64, h: f64, t_last: f64) -> Result<Option<Estimate>, S::Fault> {
@@ -123,8 +126,8 @@ impl<S: Observed> Stepper<S> for DormandPrince {
                 self.trial[i] = self.state[i] + h * sum;
             }
             let time = (t + C[stage] * h).min(t_last);
-            self.powers[stage] =
-                Self::rate(system, time, self.positions, &self.trial, &mut self.a, &mut rest[0])?;
+            let (a, powers) = (&mut self.a, &mut self.powers[stage]);
+            Self::rate(system, time, self.positions, &self.trial, a, &mut rest[0], powers)?;
             if let Some(place) = SAMPLED.iter().position(|s| *s == stage)
                 && let Some(row) = self.samples.row(place)
             {
@@ -133,7 +136,7 @@ impl<S: Observed> Stepper<S> for DormandPrince {
             }
         }
         self.samples.weigh(&SAMPLE_WEIGHTS);
-        self.works = Powers::default();
+        self.works.fill(0.0);
         for (x, weight) in self.powers.iter().zip(A[6]) {
             add_weighted(&mut self.works, h * weight, x);
         }
@@ -159,7 +162,7 @@ impl<S: Observed> Stepper<S> for DormandPrince {
         self.powers.swap(0, 6);
     }
 
-    fn works(&self) -> &Powers {
+    fn works(&self) -> &[f64] {
         &self.works
     }
 
@@ -186,20 +189,8 @@ impl<S: Observed> Stepper<S> for DormandPrince {
     fn control(&self) -> Law {
         Law::explicit(5.0)
     }
+}
 
-    fn save(&self, out: &mut Vec<f64>) {
-        out.extend_from_slice(&self.state);
-        out.extend_from_slice(&self.k[0]);
-        out.extend_from_slice(&self.powers[0]);
-        for part in &self.dense {
-            out.extend_from_slice(part);
-        }
-    }
-
-    fn load(&mut self, from: &mut Reader<'_>) -> Option<()> {
-        from.fill(&mut self.state)?;
-        from.fill(&mut self.k[0])?;
-        from.fill(&mut self.powers[0])?;
-        self.dense.iter_mut().try_for_each(|part| from.fill(part))
-    }
+stored! {
+    impl[] DormandPrince { state, k[0], powers[0], dense }
 }

@@ -20,8 +20,9 @@
 use crate::integrate::driver::control::{Estimate, Law};
 use crate::integrate::methods::damping::{VectorColumns, zero_vectors};
 use crate::integrate::{
-    Applied, GroupDamping, Observed, Powers, Reader, Samples, SemiImplicit, Split, Stepper, Structure,
+    Applied, GroupDamping, Observed, Samples, SemiImplicit, Split, Stepper, Structure, zero_works,
 };
+use crate::stored::stored;
 use pulp::Arch;
 
 /// The method's memory.
@@ -47,7 +48,7 @@ pub struct Leapfrog<const N: usize> {
     of_spokes: [VectorColumns<N>; 2],
     of_body: [Vec<f64>; 2],
     instructions: Arch,
-    works: Powers,
+    works: Vec<f64>,
     samples: Samples,
 }
 
@@ -75,7 +76,7 @@ impl<const N: usize> Leapfrog<N> {
             of_body: std::array::from_fn(|_| vec![0.0; structure.hub.len()]),
             structure,
             instructions: Arch::new(),
-            works: Powers::default(),
+            works: zero_works(system),
             samples: Samples::new(system.watched(), 1),
         }
     }
@@ -179,7 +180,8 @@ impl<S: Split<N> + Observed, const N: usize> Stepper<S> for Leapfrog<N> {
             }
         }
         let step = SemiImplicit { mean: &self.mean_v, end: v_trial, h };
-        self.works = system.powers(q_trial, &self.predicted, Some(&step)).map(|x| h * x);
+        system.powers(q_trial, &self.predicted, Some(&step), &mut self.works);
+        self.works.iter_mut().for_each(|work| *work *= h);
         if let Some(row) = self.samples.row(0) {
             system.watch(q_trial, &self.predicted, Some(&step), row);
             self.samples.weigh(&[1.0]);
@@ -198,7 +200,7 @@ impl<S: Split<N> + Observed, const N: usize> Stepper<S> for Leapfrog<N> {
         std::mem::swap(&mut self.applied, &mut self.predicted);
     }
 
-    fn works(&self) -> &Powers {
+    fn works(&self) -> &[f64] {
         &self.works
     }
 
@@ -242,19 +244,8 @@ impl<S: Split<N> + Observed, const N: usize> Stepper<S> for Leapfrog<N> {
     fn control(&self) -> Law {
         Law::explicit(2.0)
     }
+}
 
-    fn save(&self, out: &mut Vec<f64>) {
-        out.push(self.h);
-        for part in [&self.start, &self.end, &self.mean_a, &self.applied] {
-            out.extend_from_slice(part);
-        }
-    }
-
-    fn load(&mut self, from: &mut Reader<'_>) -> Option<()> {
-        self.h = from.number()?;
-        from.fill(&mut self.start)?;
-        from.fill(&mut self.end)?;
-        from.fill(&mut self.mean_a)?;
-        from.fill(&mut self.applied)
-    }
+stored! {
+    impl[const N: usize] Leapfrog<N> { h, start, end, mean_a, applied }
 }

@@ -27,9 +27,10 @@
 use crate::integrate::driver::control::{ErrorNorm, Estimate, Law};
 use crate::integrate::linear::shifted::Shifted;
 use crate::integrate::{
-    Linearization, Linearized, Observed, Powers, Reader, Samples, Stepper, Structure, add_weighted,
+    Linearization, Linearized, Observed, Samples, Stepper, Structure, add_weighted, zero_works,
 };
 use crate::scalar::math;
+use crate::stored::stored;
 use nalgebra::Complex;
 
 /// Times of the stages in units of the step.
@@ -84,8 +85,8 @@ pub struct Radau<const N: usize> {
     transformed: [Vec<f64>; 3],
     a: [Vec<f64>; 3],
     /// Powers at the stages, and their works.
-    powers: [Powers; 3],
-    works: Powers,
+    powers: [Vec<f64>; 3],
+    works: Vec<f64>,
     samples: Samples,
     /// What one iteration may leave in each state.
     allowed: Vec<f64>,
@@ -135,8 +136,8 @@ impl<const N: usize> Radau<N> {
             stages: three(),
             transformed: three(),
             a: std::array::from_fn(|_| vec![0.0; nv]),
-            powers: Default::default(),
-            works: Powers::default(),
+            powers: std::array::from_fn(|_| zero_works(system)),
+            works: zero_works(system),
             samples: Samples::new(system.watched(), 3),
             allowed: zeros(),
             real: Shifted::new(&structure),
@@ -189,7 +190,7 @@ impl<const N: usize> Radau<N> {
                 }
                 let (q, v) = self.trial.split_at(nq);
                 system.accelerations((t + c * h).min(t_last), q, v, a)?;
-                *powers = system.powers(q, v, None);
+                system.powers(q, v, None, powers);
                 if let Some(row) = self.samples.row(place) {
                     system.watch(q, v, None, row);
                 }
@@ -311,7 +312,7 @@ impl<S: Linearized<N> + Observed, const N: usize> Stepper<S> for Radau<N> {
         }
         self.trial_step = h;
         self.samples.weigh(&WEIGHTS);
-        self.works = Powers::default();
+        self.works.fill(0.0);
         for (x, weight) in self.powers.iter().zip(WEIGHTS) {
             add_weighted(&mut self.works, h * weight, x);
         }
@@ -339,7 +340,7 @@ impl<S: Linearized<N> + Observed, const N: usize> Stepper<S> for Radau<N> {
         (self.linearized, self.retried, self.smooth) = (false, false, true);
     }
 
-    fn works(&self) -> &Powers {
+    fn works(&self) -> &[f64] {
         &self.works
     }
 
@@ -362,23 +363,6 @@ impl<S: Linearized<N> + Observed, const N: usize> Stepper<S> for Radau<N> {
     fn control(&self) -> Law {
         Law::implicit(4.0)
     }
-
-    fn save(&self, out: &mut Vec<f64>) {
-        out.extend([self.step, self.contraction, f64::from(u8::from(self.smooth))]);
-        out.extend_from_slice(&self.state);
-        for part in self.dense.iter().chain([&self.defect]) {
-            out.extend_from_slice(part);
-        }
-    }
-
-    fn load(&mut self, from: &mut Reader<'_>) -> Option<()> {
-        (self.linearized, self.retried) = (false, false);
-        self.step = from.number()?;
-        self.contraction = from.number()?;
-        self.smooth = from.flag()?;
-        from.fill(&mut self.state)?;
-        self.dense.iter_mut().chain([&mut self.defect]).try_for_each(|part| from.fill(part))
-    }
 }
 
 /// Difference of a collocation polynomial to its end, at `x` steps after the end.
@@ -389,4 +373,9 @@ fn bend(dense: &[Vec<f64>; 3], k: usize, x: f64) -> f64 {
 
 fn combined(matrix: &[[f64; 3]; 3], x: [f64; 3]) -> [f64; 3] {
     matrix.map(|row| row[0] * x[0] + row[1] * x[1] + row[2] * x[2])
+}
+
+stored! {
+    impl[const N: usize] Radau<N> { step, contraction, smooth, state, dense, defect }
+    then { linearized = false, retried = false }
 }

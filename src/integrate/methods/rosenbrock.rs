@@ -13,10 +13,11 @@
 
 use crate::integrate::driver::control::{ErrorNorm, Estimate, Law};
 use crate::integrate::linear::shifted::Shifted;
-use crate::integrate::methods::pack::{keep_parts, kept_parts};
+use crate::integrate::methods::kept::{keep_parts, kept_parts};
 use crate::integrate::{
-    Linearization, Linearized, Observed, Powers, Reader, Samples, Stepper, Structure, add_weighted,
+    Linearization, Linearized, Observed, Samples, Stepper, Structure, add_weighted, zero_works,
 };
+use crate::stored::stored;
 
 const GAMMA: f64 = 0.25;
 const A: [[f64; 5]; 6] = [
@@ -77,9 +78,9 @@ pub struct Rosenbrock<const N: usize> {
     /// Accelerations at the start of the step; with `slope` they serve every attempt from there.
     start_a: Vec<f64>,
     linearized: bool,
-    /// Powers there, and their works over the attempt.
-    start_powers: Powers,
-    works: Powers,
+    /// Powers at the start, in the middle and at the end, and their works over the attempt.
+    powers: [Vec<f64>; 3],
+    works: Vec<f64>,
     /// At the start, at the end and in the middle.
     samples: Samples,
     /// u_1 to u_6 over the whole state.
@@ -106,8 +107,8 @@ impl<const N: usize> Rosenbrock<N> {
             a: vec![0.0; nv],
             start_a: vec![0.0; nv],
             linearized: false,
-            start_powers: Powers::default(),
-            works: Powers::default(),
+            powers: std::array::from_fn(|_| zero_works(system)),
+            works: zero_works(system),
             samples: Samples::new(system.watched(), 3),
             stages: std::array::from_fn(|_| zeros()),
             slope: Linearization::new(&structure, nv),
@@ -120,31 +121,28 @@ impl<const N: usize> Rosenbrock<N> {
 }
 
 impl<const N: usize> Rosenbrock<N> {
-    /// Integrates over the attempt by Simpson's rule. The last stage was evaluated within its error of the end, whose
-    /// powers `end` are; the middle comes from the dense output.
-    fn integrate<S: Linearized<N> + Observed>(
-        &mut self,
-        system: &mut S,
-        end: &Powers,
-        t: f64,
-        h: f64,
-        t_last: f64,
-    ) {
+    /// Integrates over the attempt by Simpson's rule. The last stage was evaluated within its error of the end; the
+    /// middle comes from the dense output.
+    fn integrate<S: Linearized<N> + Observed>(&mut self, system: &mut S, t: f64, h: f64, t_last: f64) {
         let [start, last, bend, twist] = &self.trial_dense;
         for (k, x) in self.middle.iter_mut().enumerate() {
             *x = 0.5 * (start[k] + last[k] + 0.5 * (bend[k] + 0.5 * twist[k]));
         }
         let (q, v) = self.middle.split_at(self.positions);
-        self.works = Powers::default();
+        self.works.fill(0.0);
         // Where nothing is defined between the ends, they alone must do: sums must not stop a step.
         let defined = system.accelerations((t + 0.5 * h).min(t_last), q, v, &mut self.a).is_ok();
-        let middle = if defined { system.powers(q, v, None) } else { Powers::default() };
+        if defined {
+            system.powers(q, v, None, &mut self.powers[1]);
+        } else {
+            self.powers[1].fill(0.0);
+        }
         let weights = if defined { [1.0, 4.0, 1.0] } else { [3.0, 0.0, 3.0] };
         if let Some(row) = self.samples.row(2).filter(|_| defined) {
             system.watch(q, v, None, row);
         }
         self.samples.weigh(if defined { &[1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0] } else { &[0.5, 0.5] });
-        for (x, weight) in [&self.start_powers, &middle, end].into_iter().zip(weights) {
+        for (x, weight) in self.powers.iter().zip(weights) {
             add_weighted(&mut self.works, weight * h / 6.0, x);
         }
     }
@@ -183,7 +181,7 @@ impl<S: Linearized<N> + Observed, const N: usize> Stepper<S> for Rosenbrock<N> {
         let (q, v) = self.state.split_at(self.positions);
         self.linearized = false;
         system.linearize(t, q, v, &mut self.start_a, &mut self.slope)?;
-        self.start_powers = system.powers(q, v, None);
+        system.powers(q, v, None, &mut self.powers[0]);
         if let Some(row) = self.samples.row(0) {
             system.watch(q, v, None, row);
         }
@@ -200,7 +198,6 @@ impl<S: Linearized<N> + Observed, const N: usize> Stepper<S> for Rosenbrock<N> {
             return Err(system.not_finite(0));
         }
         self.trial.copy_from_slice(&self.state);
-        let mut end_powers = Powers::default();
         for i in 0..6 {
             weighted_sum(&mut self.trial, &self.stages[..i], &A[i]);
             for (x, start) in self.trial.iter_mut().zip(&self.state) {
@@ -213,7 +210,7 @@ impl<S: Linearized<N> + Observed, const N: usize> Stepper<S> for Rosenbrock<N> {
                 system.accelerations((t + TIMES[i] * h).min(t_last), q, v, &mut self.a)?;
             }
             if i == 5 {
-                end_powers = system.powers(q, v, None);
+                system.powers(q, v, None, &mut self.powers[2]);
                 if let Some(row) = self.samples.row(1) {
                     system.watch(q, v, None, row);
                 }
@@ -242,7 +239,7 @@ impl<S: Linearized<N> + Observed, const N: usize> Stepper<S> for Rosenbrock<N> {
         weighted_sum(twist, &self.stages[..5], &DENSE[1]);
         let estimate = self.norm.of(|k| last[k]);
         if estimate.error <= 1.0 {
-            self.integrate(system, &end_powers, t, h, t_last);
+            self.integrate(system, t, h, t_last);
         }
         Ok(Some(estimate))
     }
@@ -253,7 +250,7 @@ impl<S: Linearized<N> + Observed, const N: usize> Stepper<S> for Rosenbrock<N> {
         self.linearized = false;
     }
 
-    fn works(&self) -> &Powers {
+    fn works(&self) -> &[f64] {
         &self.works
     }
 
@@ -280,17 +277,9 @@ impl<S: Linearized<N> + Observed, const N: usize> Stepper<S> for Rosenbrock<N> {
     fn control(&self) -> Law {
         Law::implicit(4.0)
     }
+}
 
-    fn save(&self, out: &mut Vec<f64>) {
-        out.extend_from_slice(&self.state);
-        for part in &self.dense {
-            out.extend_from_slice(part);
-        }
-    }
-
-    fn load(&mut self, from: &mut Reader<'_>) -> Option<()> {
-        self.linearized = false;
-        from.fill(&mut self.state)?;
-        self.dense.iter_mut().try_for_each(|part| from.fill(part))
-    }
+stored! {
+    impl[const N: usize] Rosenbrock<N> { state, dense }
+    then { linearized = false }
 }

@@ -67,7 +67,7 @@ pub struct GuideLaw {
 }
 
 /// Force of a guide on the journal. Components are those that act, after sharing.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GuideForce<T> {
     /// Force of the film pressure (y, z), N.
     pub pressure: [T; 2],

@@ -1,7 +1,6 @@
 //! Where the time of a force evaluation goes, and what its derivatives take.
 
 use crate::bodies::{INNER_RING, OUTER_RING};
-use crate::laws::guide::GuideFilm;
 use crate::model::{Fault, InputValues, Model, Workspace};
 use crate::pairs::Cost;
 use std::hint::black_box;
@@ -16,22 +15,16 @@ pub type PartTimes = [f64; PARTS.len()];
 
 /// An element whose contacts are looked for.
 const ELEMENT: Cost = Cost { value: 10.0, slopes: 5.0, per_element: true };
-const SHORT_BEARING: Cost = Cost { value: 160.0, slopes: 1550.0, per_element: false };
-/// A layer, which is dry for most of the time in some scenes and never in others.
-const LAYER: Cost = Cost { value: 200.0, slopes: 400.0, per_element: false };
 
 impl Model {
     /// Time that the derivatives of the forces take beside their values, in force evaluations, counted from elements, contacts
     /// and films. Never clocked, so that equal runs choose equally.
     #[doc(hidden)]
     pub fn jacobian_cost(&self) -> f64 {
-        let film = self.guide.as_ref().and_then(|guide| guide.law().film.as_ref()).map(|film| match film {
-            GuideFilm::ShortBearing(_) => SHORT_BEARING,
-            GuideFilm::LubricantLayer(_) => LAYER,
-        });
+        let between = self.between.iter().filter_map(|pair| pair.cost());
         let of_pairs = self.pairs.iter().map(|pair| pair.cost());
         let (mut value, mut slopes) = (0.0, 0.0);
-        for cost in std::iter::once(ELEMENT).chain(of_pairs).chain(film) {
+        for cost in std::iter::once(ELEMENT).chain(of_pairs).chain(between) {
             let n = if cost.per_element { self.element_count() as f64 } else { 1.0 };
             value += n * cost.value;
             slopes += n * cost.slopes;
@@ -81,8 +74,8 @@ impl Model {
                 Ok(())
             })?;
         }
-        if self.guide.is_some() {
-            time(4, &mut || self.apply_guide(black_box(&mut *ws)))?;
+        if !self.between.is_empty() {
+            time(4, &mut || self.apply_between(black_box(&mut *ws)))?;
         }
         time(5, &mut || {
             self.assemble(black_box(&mut *ws), &mut a);

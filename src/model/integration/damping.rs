@@ -6,7 +6,7 @@
 //!
 //! and of a shared body the guide, exact by dual numbers, and the contacts with elements of prescribed motion.
 
-use crate::bodies::{CAGE, Damping, UPPER};
+use crate::bodies::{Damping, SHARED, UPPER};
 use crate::integrate::implicit_share;
 use crate::model::Model;
 use crate::model::workspace::Workspace;
@@ -16,19 +16,15 @@ impl Model {
     /// Damping of every group for a step of size `h` (s).
     pub(crate) fn damping(&self, h: f64, ws: &Workspace, out: &mut Damping) {
         self.element_damping(h, ws, out);
-        let guide =
-            self.guide.as_ref().map(|guide| (guide.ring, guide.damping(&ws.motions.shared, ws.fluid)));
+        let mut slopes = [Matrix3::zeros(); SHARED];
+        for (pair, info) in self.between.iter().zip(&self.between_infos) {
+            for (body, slope) in info.bodies.into_iter().zip(pair.damping(&ws.motions.shared, ws.fluid)) {
+                slopes[body] += slope;
+            }
+        }
         for (place, block) in self.layout.free().zip(&mut out.bodies) {
             let Some(body) = &self.shared[place] else { continue };
-            let mut slope = Matrix3::zeros();
-            match &guide {
-                Some((_, on_cage)) if place == CAGE => slope = *on_cage,
-                // The ring feels what the cage feels, but for the lever.
-                Some((ring, on_cage)) if place == *ring => {
-                    slope.fixed_view_mut::<2, 2>(0, 0).copy_from(&on_cage.fixed_view::<2, 2>(0, 0));
-                }
-                _ => {}
-            }
+            let mut slope = slopes[place];
             if self.elements.inertia().is_none() {
                 slope += contact_damping(place, ws);
             }
@@ -41,7 +37,7 @@ impl Model {
             body.add_damping(&mut |[i, k], damping| full[(i, k)] += damping);
             full.as_mut_slice().chunks_exact_mut(n).for_each(|column| body.respond(column, angle));
             let largest = (0..n).fold(0.0, |largest: f64, i| largest.max(full[(i, i)].abs()));
-            let share = self.guide_share(h * largest);
+            let share = self.shared_share(h * largest);
             block.implicit.zip_apply(full, |implicit, full| *implicit = full * share);
         }
     }
@@ -72,10 +68,11 @@ impl Model {
         self.elements.accelerations_of(&ws.motions, out);
     }
 
-    /// Share of a guide's damping to take at the end of a step. Where both bodies move, each takes the other's
-    /// predicted velocity, and only twice the share keeps the exchange stable.
-    fn guide_share(&self, z: f64) -> f64 {
-        let both_move = self.guide.as_ref().is_some_and(|guide| self.layout.shared(guide.ring).is_some());
+    /// Share of the damping of pairs of shared bodies to take at the end of a step. Where both bodies move, each takes the
+    /// other's predicted velocity, and only twice the share keeps the exchange stable.
+    fn shared_share(&self, z: f64) -> f64 {
+        let moves = |body: &usize| self.layout.shared(*body).is_some();
+        let both_move = self.between_infos.iter().any(|info| info.bodies.iter().all(moves));
         implicit_share(z) * if both_move { 2.0 } else { 1.0 }
     }
 

@@ -7,7 +7,7 @@
 //!
 //! [`InputSignals::shortest_period`]: crate::model::signals::InputSignals::shortest_period
 
-use crate::bodies::{CAGE, OUTER_RING};
+use crate::bodies::INNER_RING;
 use crate::integrate::Tuning;
 use crate::model::{HostInputs, InputValues, Model};
 use crate::pairs::Ahead;
@@ -26,20 +26,14 @@ impl Model {
     ) -> f64 {
         let mut longest = self.inputs.shortest_period(host) / tuning.steps_per_period;
         let onsets = self.pairs.iter().any(|pair| pair.has_onset());
-        if self.guide.is_none() && !onsets {
+        if self.between.is_empty() && !onsets {
             return longest;
         }
         // A ring that stands guides at no input.
-        let moved = self.guide.as_ref().is_some_and(|guide| guide.ring != OUTER_RING);
+        let moved = self.between_infos.iter().any(|info| info.bodies.contains(&INNER_RING));
         let inputs = if moved || onsets { self.inputs_at(t, host) } else { InputValues::default() };
         let mass = |body: usize| self.shared[body].as_ref().and_then(|body| body.mass());
         let shared = self.motions_at(q, v, &inputs);
-        if let Some(guide) = &self.guide {
-            longest = longest.min(guide.longest_step(&shared, mass(CAGE).unwrap_or(0.0), tuning));
-        }
-        if !onsets {
-            return longest;
-        }
         let ahead = Ahead {
             shared: &shared,
             elements: &*self.elements,
@@ -51,6 +45,10 @@ impl Model {
             wanted,
             tuning,
         };
+        longest = self.between.iter().map(|pair| pair.longest_step(&ahead)).fold(longest, f64::min);
+        if !onsets {
+            return longest;
+        }
         self.pairs.iter().map(|pair| pair.longest_step(&ahead)).fold(longest, f64::min)
     }
 }

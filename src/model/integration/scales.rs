@@ -34,8 +34,8 @@ impl Model {
         let (rollers, pocket_load) = self.roller_frequencies().unwrap_or((0.0, 1.0));
         let cage = self.shared[CAGE].as_ref().map_or(0.0, |cage| {
             let pockets: f64 = self.laws_on(CAGE).map(|law| law.stiffness_at_load(pocket_load)).sum();
-            let solid = self.guide.as_ref().and_then(|guide| guide.law().solid);
-            let guide = solid.map_or(0.0, |solid| solid.contact.stiffness);
+            let with_cage = self.between.iter().filter(|pair| pair.info().bodies.contains(&CAGE));
+            let guide: f64 = with_cage.map(|pair| pair.stiffness()).sum();
             cage.frequency_on(guide, pockets * self.element_count() as f64, self.pitch_radius())
         });
         rollers.max(cage).sqrt()

@@ -16,11 +16,38 @@ use crate::pairs::{Batch, Site};
 use crate::space::Wrench;
 
 /// Changes of the speeds of one contact, m/s: mean over the step, and slip at which friction acts.
-#[derive(Default)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(in crate::model) struct Changes {
     pub(in crate::model) approach_speed: f64,
     pub(in crate::model) slip: f64,
     pub(in crate::model) acting_slip: f64,
+}
+
+/// Those of all contacts, by batch, in the step from the last evaluated state.
+#[derive(Clone, Debug)]
+pub(in crate::model) struct StepChanges {
+    of_batches: Vec<Vec<Changes>>,
+    /// Whether they are those of the last evaluated state.
+    found: bool,
+}
+
+impl StepChanges {
+    /// Memory for so many contacts in each batch.
+    pub(in crate::model) fn new(most: impl Iterator<Item = usize>) -> Self {
+        Self { of_batches: most.map(Vec::with_capacity).collect(), found: false }
+    }
+
+    /// Forgets them, as another state is evaluated.
+    #[inline]
+    pub(in crate::model) fn forget(&mut self) {
+        self.found = false;
+    }
+
+    /// Of contact `i` of a batch in its step; none without a step.
+    #[inline]
+    pub(in crate::model) fn of(&self, batch: usize, i: usize, step: Option<&SemiImplicit<'_>>) -> Changes {
+        if step.is_some() { self.of_batches[batch][i] } else { Changes::default() }
+    }
 }
 
 impl Model {
@@ -28,17 +55,17 @@ impl Model {
     ///
     /// The forces between an element and its mates are the same on both of them in this way. With those of the evaluation on
     /// the mates, a ring under a heavy load swings against its rollers from step to step.
-    pub(crate) fn react(&self, v: &[f64], step: &SemiImplicit<'_>, ws: &Workspace, a: &mut [f64]) {
+    pub(crate) fn react(&self, v: &[f64], step: &SemiImplicit<'_>, ws: &mut Workspace, a: &mut [f64]) {
+        self.find_changes(v, Some(step), ws);
         let mut on = [Wrench::default(); SHARED];
-        for Batch { sites, force, .. } in &ws.contacts.batches {
-            for (i, site) in sites.iter().enumerate() {
+        for (batch, of_batch) in ws.contacts.batches.iter().zip(&ws.changes.of_batches) {
+            for ((site, [damping, secant]), changes) in batch.damping().zip(of_batch) {
                 if self.layout.shared(site.mate).is_none() {
                     continue;
                 }
-                let changes = self.step_changes(site, force.friction_secant[i], v, step, &ws.motions);
                 let change = ContactForce {
-                    normal: force.damping[i] * changes.approach_speed,
-                    friction: -force.friction_secant[i] * changes.acting_slip,
+                    normal: damping * changes.approach_speed,
+                    friction: -secant * changes.acting_slip,
                     ..ContactForce::none(0.0)
                 };
                 let [_, on_mate] = site.grip.wrenches(&change);
@@ -61,20 +88,38 @@ impl Model {
     /// Makes the forces at the last evaluated state, whose velocities are `v`, those of a semi-implicit step from there; zero
     /// where damping would make a contact pull, which the step itself lets it do.
     pub(crate) fn apply_step(&self, v: &[f64], step: &SemiImplicit<'_>, ws: &mut Workspace) {
-        let Workspace { contacts, motions, .. } = ws;
-        for Batch { sites, force, .. } in &mut contacts.batches {
-            for (i, site) in sites.iter().enumerate() {
-                let changes = self.step_changes(site, force.friction_secant[i], v, step, motions);
+        self.find_changes(v, Some(step), ws);
+        for (batch, of_batch) in ws.contacts.batches.iter_mut().zip(&ws.changes.of_batches) {
+            let force = &mut batch.force;
+            for (i, changes) in of_batch.iter().enumerate() {
                 force.normal[i] = (force.normal[i] + force.damping[i] * changes.approach_speed).max(0.0);
                 force.friction[i] -= force.friction_secant[i] * changes.acting_slip;
             }
         }
     }
 
+    /// Finds the changes in the step, if there is one and they are not known yet.
+    pub(in crate::model) fn find_changes(
+        &self,
+        v: &[f64],
+        step: Option<&SemiImplicit<'_>>,
+        ws: &mut Workspace,
+    ) {
+        let Workspace { contacts, motions, changes, .. } = ws;
+        let Some(step) = step.filter(|_| !changes.found) else { return };
+        for (batch, out) in contacts.batches.iter().zip(&mut changes.of_batches) {
+            out.clear();
+            out.extend(
+                batch.damping().map(|(site, [_, secant])| self.changes_of(site, secant, v, step, motions)),
+            );
+        }
+        changes.found = true;
+    }
+
     /// How the speeds of a contact whose friction has the slope `secant` change from the evaluated velocities `v` to those of
     /// the step, by the motion of its element; not at all where that is prescribed.
     #[inline]
-    pub(in crate::model) fn step_changes(
+    fn changes_of(
         &self,
         site: &Site,
         secant: f64,
@@ -86,10 +131,9 @@ impl Model {
             return Changes::default();
         }
         let [nr, nc] = site.grip.normal_on_element();
-        let places = self.layout.of_element(site.element);
+        let [a, b, c] = self.layout.of_element(site.element);
         let element = motions.element(site.element);
-        let change =
-            |to: &[f64]| -> [f64; OF_ELEMENT] { element.local_speeds(places.map(|at| to[at] - v[at])) };
+        let change = |to: &[f64]| element.local_speeds([to[a] - v[a], to[b] - v[b], to[c] - v[c]]);
         let slip = |[radial, across, turning]: [f64; OF_ELEMENT]| {
             nr * across - nc * radial + site.grip.arm * turning
         };
@@ -102,26 +146,16 @@ impl Model {
             acting_slip: mean_slip + beyond * (end_slip - mean_slip),
         }
     }
+}
 
-    /// Force of contact `i` of a batch, or what a semi-implicit step has made of it.
-    #[inline]
-    pub(in crate::model) fn force_in_step(
-        &self,
-        batch: &Batch,
-        i: usize,
-        v: &[f64],
-        step: Option<&SemiImplicit<'_>>,
-        motions: &Motions,
-    ) -> ContactForce<f64> {
-        let f = &batch.force;
-        let secant = f.friction_secant[i];
-        let changes = step.map(|step| self.step_changes(&batch.sites[i], secant, v, step, motions));
-        let changes = changes.unwrap_or_default();
-        ContactForce {
-            normal: f.normal[i] + f.damping[i] * changes.approach_speed,
-            friction: f.friction[i] - secant * changes.acting_slip,
-            rolling_resistance: f.rolling_resistance[i],
-            ..ContactForce::none(0.0)
-        }
+/// Force of contact `i` of a batch, or what a semi-implicit step has made of it by these changes.
+#[inline]
+pub(in crate::model) fn force_in_step(batch: &Batch, i: usize, changes: &Changes) -> ContactForce<f64> {
+    let f = &batch.force;
+    ContactForce {
+        normal: f.normal[i] + f.damping[i] * changes.approach_speed,
+        friction: f.friction[i] - f.friction_secant[i] * changes.acting_slip,
+        rolling_resistance: f.rolling_resistance[i],
+        ..ContactForce::none(0.0)
     }
 }

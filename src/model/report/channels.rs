@@ -2,7 +2,6 @@
 
 use super::forces::{FILM_THICKNESS, FRICTION, Forces, GuideReport, NORMAL_FORCE, SLIP_SPEED};
 use crate::bodies::{CAGE, ForceSource, INNER_RING, Input, InputValues, OUTER_RING};
-use crate::laws::guide::GuideFilm;
 use crate::model::Model;
 use crate::model::Workspace;
 use crate::pairs::{ContactLaw, ElementPlace};
@@ -108,7 +107,7 @@ impl Model {
         }
         list.add("cage.y", "m", "cage centre to the right", Source::CageY);
         list.add("cage.z", "m", "cage centre upwards", Source::CageZ);
-        if self.guide.is_some() {
+        if self.guide().is_some() {
             let text = "cage centre to the right of the guide centre, over the radial guide clearance";
             list.add("cage.y_ratio", "1", text, Source::CageYRatio);
             let text = "cage centre above the guide centre, over the radial guide clearance";
@@ -124,20 +123,20 @@ impl Model {
         list.add("cage.whirl_speed", "rad/s", text, Source::WhirlSpeed);
         let text = "distance of the cage centre from the guide centre";
         list.add("cage.whirl_radius", "m", text, Source::WhirlRadius);
-        if let Some(guide) = self.guide.as_ref().map(|guide| guide.law()) {
+        if let Some((_, guide)) = self.guide() {
+            let [film, solid] = guide.laws.map(|law| law.is_some());
             list.add("guide.force_y", "N", "guide force on the cage to the right", Source::GuideY);
             list.add("guide.force_z", "N", "guide force on the cage upwards", Source::GuideZ);
             list.add("guide.moment", "N m", "guide moment on the cage", Source::GuideMoment);
             list.add("guide.minimum_film", "m", "smallest gap of the guide", Source::GuideFilm);
-            if guide.film.is_some() && guide.solid.is_some() {
+            if film && solid {
                 let text = "share of the film in the guide force";
                 list.add("guide.film_share", "1", text, Source::FilmShare);
             }
-            let layer = matches!(guide.film, Some(GuideFilm::LubricantLayer(_)));
             for (part, name, present) in [
-                (GuidePart::Pressure, "pressure", guide.film.is_some()),
-                (GuidePart::Shear, "shear", layer),
-                (GuidePart::Solid, "solid", guide.solid.is_some()),
+                (GuidePart::Pressure, "pressure", film),
+                (GuidePart::Shear, "shear", guide.shears),
+                (GuidePart::Solid, "solid", solid),
             ] {
                 if present {
                     let text = "guide force on the cage, along the line from guide to cage centre";

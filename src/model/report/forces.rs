@@ -1,6 +1,7 @@
 //! Force report: every contact and every contribution to every body at one state.
 
-use crate::bodies::{BodyForces, CAGE, ForceSource, OUTER_RING};
+use crate::bodies::{BodyForces, CAGE};
+use crate::laws::guide::GuideForce;
 use crate::model::Model;
 use crate::model::Workspace;
 use crate::pairs::Loaded;
@@ -117,11 +118,12 @@ impl Model {
         }
         let shared = self.motions_at(q, v, &ws.inputs);
         out.guide = GuideReport::default();
-        if let (Some(guide), Some(state)) = (&self.guide, &ws.guide) {
-            for (body, on_body) in [CAGE, guide.ring].into_iter().zip(guide.wrenches(state)) {
-                add(&mut out.bodies[body][ForceSource::Guide as usize], &on_body);
+        for (info, force) in self.between_infos.iter().zip(&ws.between) {
+            for (body, on_body) in info.bodies.into_iter().zip(&force.on) {
+                add(&mut out.bodies[body][info.source as usize], on_body);
             }
-            let on_cage = guide.on_cage(state);
+        }
+        if let Some(on_cage) = self.force_of_guide(ws) {
             out.guide.pressure = on_cage.pressure;
             out.guide.shear = on_cage.shear;
             out.guide.solid = on_cage.solid;
@@ -144,9 +146,10 @@ impl Model {
         }
     }
 
-    /// The ring that guides the cage; the outer one, which stands still, without a guide.
-    pub(super) fn guiding_ring(&self) -> usize {
-        self.guide.as_ref().map_or(OUTER_RING, |guide| guide.ring)
+    /// Force of the guide on the cage by its parts, at the last evaluated state.
+    pub(super) fn force_of_guide(&self, ws: &Workspace) -> Option<GuideForce<f64>> {
+        let (place, _) = self.guide()?;
+        Some(self.between[place].parts(&ws.motions.shared, &ws.between[place]))
     }
 }
 

@@ -118,9 +118,8 @@ impl Model {
                 most[*law as usize] += self.element_count() * info.contacts.len();
             }
         }
-        if let Some(guide) = &self.guide {
-            most[Law::GuideFilm as usize] += usize::from(guide.law().film.is_some());
-            most[Law::GuideSolid as usize] += usize::from(guide.law().solid.is_some());
+        for law in self.between_infos.iter().flat_map(|info| info.laws).flatten() {
+            most[law as usize] += 1;
         }
         most[Law::ViscosityTemperature as usize] += usize::from(self.inputs.oil.is_some());
         Law::ALL.iter().map(|law| (law.name(), most[*law as usize])).filter(|(_, n)| *n > 0).collect()

@@ -6,9 +6,9 @@
 use super::channels::{Channel, GuidePart, Source, along, radius};
 use crate::bodies::{CAGE, ForceSource, INNER_RING, OUTER_RING, SHARED};
 use crate::integrate::SemiImplicit;
-use crate::laws::guide::GuideForce;
 use crate::model::Model;
 use crate::model::Workspace;
+use crate::model::integration::step_forces::force_in_step;
 use crate::pairs::PairInfo;
 use crate::space::{Motion, Wrench};
 
@@ -96,8 +96,16 @@ impl Model {
     }
 
     /// Values of the watched channels at the last evaluated state of `ws`, whose velocities are `v`, or in a step from there.
-    pub(crate) fn watch(&self, v: &[f64], step: Option<&SemiImplicit<'_>>, ws: &Workspace, out: &mut [f64]) {
+    pub(crate) fn watch(
+        &self,
+        v: &[f64],
+        step: Option<&SemiImplicit<'_>>,
+        ws: &mut Workspace,
+        out: &mut [f64],
+    ) {
         out.fill(0.0);
+        self.find_changes(v, step, ws);
+        let ws = &*ws;
         let watch = &self.selection.watch;
         let (direction, motions) = (self.direction(&ws.inputs), &ws.motions);
         let mut on = [Wrench::default(); SHARED];
@@ -106,10 +114,11 @@ impl Model {
             if !on_cage && !watch.raceways {
                 continue;
             }
-            let (batch, contacts) = ws.contacts.range(pair);
+            let (place, contacts) = ws.contacts.place(pair);
+            let batch = &ws.contacts.batches[place];
             for i in contacts {
                 let site = &batch.sites[i];
-                let force = self.force_in_step(batch, i, v, step, motions);
+                let force = force_in_step(batch, i, &ws.changes.of(place, i, step));
                 let place = watch.contacts[pair][site.element];
                 if on_cage {
                     let [on_element, on_mate] = site.grip.wrenches(&force);
@@ -163,11 +172,6 @@ impl Model {
         }
     }
 
-    /// Force of the guide on the cage at the last evaluated state.
-    fn force_of_guide(&self, ws: &Workspace) -> Option<GuideForce<f64>> {
-        Some(self.guide.as_ref()?.on_cage(ws.guide.as_ref()?))
-    }
-
     /// Force of the guide on the cage, moment about the centre of the cage, whose pockets push with `pockets`.
     fn guide_in_step(
         &self,
@@ -179,8 +183,10 @@ impl Model {
         let (Some(cage), Some(c)) = (&self.shared[CAGE], self.layout.cage()) else {
             return Wrench::default();
         };
-        let (Some(guide), Some(state)) = (&self.guide, &ws.guide) else { return Wrench::default() };
-        let Some(step) = step else { return guide.wrenches(state)[0] };
+        let Some(force) = self.guide().and_then(|(place, _)| ws.between.get(place)) else {
+            return Wrench::default();
+        };
+        let Some(step) = step else { return force.on[0] };
         let gained = |k: usize| 2.0 * (step.end[c + k] - step.mean[c + k]) / step.h;
         let all = cage.wrench_for(&gained, motion, self.gravity);
         let mut other = Wrench::default();

@@ -80,6 +80,11 @@ impl Batch {
         self.differentiated = false;
     }
 
+    /// Number of contacts that there is memory for.
+    pub(crate) fn room(&self) -> usize {
+        self.sites.capacity()
+    }
+
     #[inline]
     pub(crate) fn len(&self) -> usize {
         self.sites.len()
@@ -252,7 +257,14 @@ impl Contacts {
     /// The batch of a pair and its contacts there.
     #[inline]
     pub(crate) fn range(&self, pair: usize) -> (&Batch, Range<usize>) {
-        (&self.batches[self.place[pair][0]], self.ranges[pair].clone())
+        let (place, contacts) = self.place(pair);
+        (&self.batches[place], contacts)
+    }
+
+    /// Place of the batch of a pair among all, and its contacts there.
+    #[inline]
+    pub(crate) fn place(&self, pair: usize) -> (usize, Range<usize>) {
+        (self.place[pair][0], self.ranges[pair].clone())
     }
 
     /// All touching contacts.
