@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! q = [ring y, z] [cage y, z, angle] [element 0: rho, travel] [element 1: rho, travel] ...
-//! v = the rates of q in the same order, then [spin speed of element 0] [of element 1] ...
+//! v = the rates of q in the same order, then [spin speed of element 0] [of element 1] ... [states of node 0] ...
 //! ```
 //!
 //! Blocks in brackets exist only if the scene has them: a fixed ring and an absent cage add nothing. The spin angle
@@ -11,7 +11,7 @@
 //! The travel of an element and the angle of the cage both count from the start, so the place of an element in its pocket
 //! is their difference and does not depend on where in the bearing it is.
 //!
-//! In linear systems the shared bodies are the hub, in the same order, and the elements the spokes.
+//! In linear systems the shared bodies are the hub, in the same order, with the nodes behind them, and the elements the spokes.
 
 use super::{CAGE, INNER_RING, SHARED};
 use crate::integrate::Structure;
@@ -23,7 +23,7 @@ pub(crate) const OF_ELEMENT: usize = 3;
 const POSITIONS: usize = 2;
 
 /// Places of the bodies in `q` and `v`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layout {
     /// First coordinate of each shared body, and how many there are.
     shared: [(usize, usize); SHARED],
@@ -31,17 +31,19 @@ pub struct Layout {
     pub(in crate::bodies) elements: usize,
     /// Number of elements that move freely.
     pub count: usize,
+    /// Number of states of each node.
+    nodes: Vec<usize>,
 }
 
 impl Layout {
-    /// The layout of shared bodies with so many coordinates each and so many free elements.
-    pub(crate) fn new(widths: [usize; SHARED], count: usize) -> Self {
+    /// The layout of shared bodies with so many coordinates each, so many free elements and nodes with so many states each.
+    pub(crate) fn new(widths: [usize; SHARED], count: usize, nodes: Vec<usize>) -> Self {
         let mut next = 0;
         let shared = widths.map(|width| {
             next += width;
             (next - width, width)
         });
-        Self { shared, elements: next, count }
+        Self { shared, elements: next, count, nodes }
     }
 
     /// First coordinate of the inner ring, if it is free.
@@ -68,10 +70,34 @@ impl Layout {
         first..first + width
     }
 
+    /// Index of the first state of the nodes in `v`.
+    fn first_of_nodes(&self) -> usize {
+        self.positions() + self.count
+    }
+
+    /// States of each node in `v`.
+    pub(crate) fn nodes(&self) -> impl Iterator<Item = Range<usize>> {
+        self.nodes.iter().scan(self.first_of_nodes(), |next, width| {
+            *next += width;
+            Some(*next - width..*next)
+        })
+    }
+
+    /// Place in the hub of a state of the nodes.
+    pub(crate) fn in_hub(&self, node_state: usize) -> usize {
+        self.elements + node_state - self.first_of_nodes()
+    }
+
+    /// Number of coordinates of all shared bodies.
+    #[inline]
+    pub(crate) fn of_shared(&self) -> usize {
+        self.elements
+    }
+
     /// Number of places in the hub.
     #[inline]
     pub(crate) fn hub(&self) -> usize {
-        self.elements
+        self.elements + self.velocities() - self.first_of_nodes()
     }
 
     /// The shared bodies that are free.
@@ -87,7 +113,7 @@ impl Layout {
 
     /// Number of velocities.
     pub fn velocities(&self) -> usize {
-        self.positions() + self.count
+        self.first_of_nodes() + self.nodes.iter().sum::<usize>()
     }
 
     /// Length of the state vector (q, v).
@@ -113,15 +139,25 @@ impl Layout {
 
     /// Which velocities are coupled: shared bodies are the hub, elements the spokes.
     pub(crate) fn structure(&self) -> Structure<OF_ELEMENT> {
+        let of_nodes = self.nodes().map(|states| self.in_hub(states.start)..self.in_hub(states.end));
         Structure {
-            hub: (0..self.hub()).collect(),
-            bodies: self.free().map(|body| self.range(body)).collect(),
+            hub: (0..self.elements).chain(self.first_of_nodes()..self.velocities()).collect(),
+            bodies: self.free().map(|body| self.range(body)).chain(of_nodes).collect(),
             spokes: (0..self.count).map(|j| self.of_element(j)).collect(),
         }
     }
 
-    /// The shared body of a group of velocities (see [`Structure::groups`]) that is not that of an element.
-    pub(crate) fn body_of_group(&self, group: usize) -> Option<usize> {
-        self.free().nth(group.checked_sub(self.count)?)
+    /// What a group of velocities (see [`Structure::groups`]) belongs to.
+    pub(crate) fn owner_of_group(&self, group: usize) -> Owner {
+        let Some(nth) = group.checked_sub(self.count) else { return Owner::Element(group) };
+        self.free().nth(nth).map_or_else(|| Owner::Node(nth - self.free().count()), Owner::Shared)
     }
+}
+
+/// What velocities belong to, by its place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Owner {
+    Element(usize),
+    Shared(usize),
+    Node(usize),
 }

@@ -6,6 +6,7 @@
 //! | cage | `cage` | centre (y, z), angle |
 //! | rollers | `elements/rollers` | radial offset and orbit angle, spin speed |
 //! | elements of prescribed motion | `elements/kinematic` | none |
+//! | nodes | `nodes` | states that are no motion |
 //!
 //! Rings and cage are shared: there is one of each, and every element can touch it. Pairs of bodies see [`Motions`] only and
 //! act on bodies by wrenches only. A new body is a file with one of the two traits and a line in [`shared_bodies`] or
@@ -17,6 +18,7 @@ mod fault;
 mod inputs;
 mod layout;
 mod motions;
+mod nodes;
 mod ring;
 mod states;
 
@@ -26,8 +28,11 @@ pub use inputs::{HostInputs, INPUTS, Input, InputValues};
 pub use layout::Layout;
 
 pub(crate) use elements::{Damping, ElementSlopes, Elements, Inertia, UPPER};
-pub(crate) use layout::OF_ELEMENT;
+pub(crate) use layout::{OF_ELEMENT, Owner};
 pub(crate) use motions::{Element, ElementMotion, ElementSet, Motions};
+#[cfg(test)]
+pub(crate) use nodes::NodeState;
+pub(crate) use nodes::{Node, nodes};
 pub(crate) use states::{State, layout_of, states_of};
 
 use crate::registry::registry;

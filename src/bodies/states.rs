@@ -1,12 +1,13 @@
 //! What is in the state vector, by the coordinates of the bodies, and where.
 
-use super::{Coordinate, Elements, Layout, SharedBodies};
+use super::{Coordinate, Elements, Layout, Node, SharedBodies};
 
 /// The layout of these bodies.
-pub(crate) fn layout_of(bodies: &SharedBodies, elements: &dyn Elements) -> Layout {
+pub(crate) fn layout_of(bodies: &SharedBodies, elements: &dyn Elements, nodes: &[Box<dyn Node>]) -> Layout {
     let widths = bodies.each_ref().map(|body| body.as_ref().map_or(0, |b| b.coordinates().len()));
     let free = !elements.coordinates().is_empty();
-    Layout::new(widths, if free { elements.set().count } else { 0 })
+    let nodes = nodes.iter().map(|node| node.states().len()).collect();
+    Layout::new(widths, if free { elements.set().count } else { 0 }, nodes)
 }
 
 /// What a state of a coordinate is.
@@ -22,7 +23,7 @@ impl State {
     }
 }
 
-/// All states in order: what they are, their body and their coordinate.
+/// All states of bodies in order; those of nodes follow. What they are, their body and their coordinate.
 pub(crate) fn states_of<'a>(
     bodies: &'a SharedBodies,
     elements: &'a dyn Elements,

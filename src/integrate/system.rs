@@ -69,7 +69,7 @@ pub trait Linearized<const N: usize>: Structured<N> {
 /// in that step acts on them, too.
 pub trait Split<const N: usize>: Structured<N> {
     /// Damping of every spoke and every body of the hub at the last evaluated state (`q`, `v`), for a step of size `h` in s.
-    fn damping(&self, h: f64, q: &[f64], v: &[f64], out: &mut GroupDamping<N>);
+    fn damping(&mut self, h: f64, q: &[f64], v: &[f64], out: &mut GroupDamping<N>);
     /// Adds to the accelerations `a` of the hub what the forces between it and the spokes have become since the last
     /// evaluation, at (`q`, `v`), in the `step` of the spokes.
     fn react(&mut self, _q: &[f64], _v: &[f64], _step: &SemiImplicit<'_>, _a: &mut [f64]) {}

@@ -14,17 +14,19 @@ use crate::scene::{Temperature, VISCOSITY, Viscosity, bad_scene, interpolate};
 /// Builds the model of a checked scene.
 pub(super) fn compile(scene: Scene) -> Result<Model> {
     let (shared, elements) = (bodies::shared_bodies(&scene), bodies::elements(&scene));
+    let nodes = bodies::nodes(&scene);
     let inputs = inputs(&scene)?;
     let viscosity = viscosity_at_start(&scene, &inputs);
     let (pairs, between) =
         (pairs::element_pairs(&scene, viscosity)?, pairs::shared_pairs(&scene, viscosity)?);
     let radius = elements.set().radius;
     let mut model = Model {
-        layout: bodies::layout_of(&shared, &*elements),
+        layout: bodies::layout_of(&shared, &*elements, &nodes),
         gravity: scene.gravity.map_or([0.0; 2], |g| [g.y, g.z]),
         shared,
         mobility: elements.inertia().map_or(0.0, |i| 1.0 / i.mass + radius * radius / i.moment),
         elements,
+        nodes,
         infos: pairs.iter().map(|pair| pair.info()).collect(),
         parts: pairs.iter().map(|pair| pair.law().parts()).collect(),
         laws: pairs.iter().map(|pair| pair.law()).collect(),

@@ -37,6 +37,7 @@ impl Model {
         self.locate(q, v, ws)?;
         self.apply_laws(ws)?;
         self.assemble(ws, a);
+        self.find_node_rates(v, ws, a);
         match a.iter().position(|x| !x.is_finite()) {
             None => Ok(()),
             Some(velocity) => Err(Fault::NotFinite { velocity, contact: self.contact_not_finite(ws) }),

@@ -45,6 +45,7 @@ impl Model {
             v[c + 2] = start.cage_speed.unwrap_or(orbit);
         }
         self.place_cage(cage, q);
+        self.start_nodes(v);
         let Some(inertia) = self.elements.inertia() else { return Ok(state) };
         for j in 0..layout.count {
             v[layout.element(j) + 1] = orbit;

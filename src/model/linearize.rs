@@ -45,6 +45,7 @@ impl Model {
             pair.add_slopes(&ws.motions, ws.fluid, &mut sums);
         }
         self.divide_by_inertias(ws, rates, out);
+        self.add_node_slopes(ws, out);
     }
 
     /// The shared bodies that move freely: place, body, coordinates.
@@ -71,6 +72,7 @@ impl Model {
     ) {
         let Linearization { over_positions, over_velocities, over_time } = out;
         let (inverse, width) = (&mut ws.inverse_inertia, self.layout.hub());
+        let of_shared = self.layout.of_shared();
         inverse.clear();
         for (place, body, at) in self.free_bodies() {
             // External loads change by themselves.
@@ -82,11 +84,11 @@ impl Model {
             });
             inverse.add(body, at, ws.motions.shared[place].angle);
         }
-        inverse.multiply(&mut over_time[..width]);
+        inverse.multiply(&mut over_time[..of_shared], of_shared);
         for part in [&mut *over_positions, &mut *over_velocities] {
             let [hub, _, to_hub, _] = part.blocks_mut();
-            inverse.multiply(hub);
-            inverse.multiply(to_hub);
+            inverse.multiply(hub, width);
+            inverse.multiply(to_hub, width);
         }
         for (place, body, at) in self.free_bodies().filter(|(_, body, _)| !body.is_balanced()) {
             let [k, d] = [&mut *over_positions, &mut *over_velocities]
@@ -143,17 +145,18 @@ impl InverseInertia {
         }
     }
 
-    /// Makes columns of forces columns of accelerations.
-    fn multiply(&mut self, columns: &mut [f64]) {
+    /// Makes the forces that begin columns of `length` numbers accelerations.
+    fn multiply(&mut self, columns: &mut [f64], length: usize) {
         let Self { columns: inverse, diagonal, product, balanced } = self;
-        let width = diagonal.len().max(1);
-        for forces in columns.chunks_exact_mut(width) {
+        let width = diagonal.len();
+        for forces in columns.chunks_exact_mut(length.max(1)) {
+            let forces = &mut forces[..width];
             if *balanced {
                 forces.iter_mut().zip(diagonal.iter()).for_each(|(x, factor)| *x *= factor);
                 continue;
             }
             product.fill(0.0);
-            for (force, column) in forces.iter().zip(inverse.chunks_exact(width)) {
+            for (force, column) in forces.iter().zip(inverse.chunks_exact(width.max(1))) {
                 product.iter_mut().zip(column).for_each(|(sum, x)| *sum += x * force);
             }
             forces.copy_from_slice(product);

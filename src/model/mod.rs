@@ -8,6 +8,7 @@
 //! | `compile`, `signals` | from the scene to bodies, pairs and inputs |
 //! | `evaluate`, `workspace` | forces and accelerations |
 //! | `linearize` | their exact derivatives |
+//! | `nodes` | rates of states that are no motion |
 //! | `integration/` | what integrators need: damping, forces of a semi-implicit step, onsets, units of errors, costs |
 //! | `works` | energies, powers |
 //! | `initial` | start of a run |
@@ -18,6 +19,7 @@ mod evaluate;
 mod initial;
 mod integration;
 mod linearize;
+mod nodes;
 mod report;
 mod signals;
 mod works;
@@ -39,7 +41,7 @@ pub(crate) use works::{AT_FLOOR, RATES};
 #[doc(hidden)]
 pub use workspace::Workspace;
 
-use crate::bodies::{CAGE, Elements, ForceSource, INNER_RING, OUTER_RING, SHARED, SharedBodies};
+use crate::bodies::{CAGE, Elements, ForceSource, INNER_RING, Node, OUTER_RING, SHARED, SharedBodies};
 use crate::error::{Error, Result, Status};
 use crate::pairs::raceway::RacewayGeometry;
 use crate::pairs::{ContactLaw, ElementPair, PairInfo, SharedInfo, SharedPair};
@@ -56,6 +58,7 @@ pub struct Model {
     gravity: [f64; 2],
     shared: SharedBodies,
     elements: Box<dyn Elements>,
+    nodes: Vec<Box<dyn Node>>,
     /// Slip speed that a tangential impulse of 1 N s gives a free element, m/(N s^2).
     mobility: f64,
     pairs: Vec<Box<dyn ElementPair>>,

@@ -2,6 +2,7 @@
 
 use super::integration::step_forces::StepChanges;
 use super::linearize::InverseInertia;
+use super::works::RATES;
 use super::{InputValues, Model};
 use crate::bodies::{Motions, SHARED};
 use crate::integrate::Vibration;
@@ -27,6 +28,9 @@ pub struct Workspace {
     pub(super) on_shared: [Wrench<f64>; SHARED],
     /// Memory for derivatives.
     pub(super) inverse_inertia: InverseInertia,
+    /// Powers, where nodes follow from them, and the values of these.
+    pub(super) powers: Vec<f64>,
+    pub(super) nodes: Vec<f64>,
     /// Evaluations per law.
     pub(super) counts: LawCounts,
     /// Whether evaluations are counted now.
@@ -44,7 +48,7 @@ impl Workspace {
     pub fn new(model: &Model) -> Self {
         let contacts = Contacts::new(&model.pairs, model.element_count());
         Self {
-            changes: StepChanges::new(contacts.batches.iter().map(Batch::room)),
+            changes: StepChanges::new(model.layout.count, contacts.batches.iter().map(Batch::room)),
             motions: Motions::new(model.elements.set()),
             contacts,
             infos: model.infos.clone(),
@@ -52,7 +56,9 @@ impl Workspace {
             inputs: InputValues::default(),
             on_elements: vec![Wrench::default(); model.layout.count],
             on_shared: [Wrench::default(); SHARED],
-            inverse_inertia: InverseInertia::new(model.layout.hub()),
+            inverse_inertia: InverseInertia::new(model.layout.of_shared()),
+            powers: vec![0.0; RATES],
+            nodes: vec![0.0; model.layout.nodes().map(|states| states.len()).sum()],
             counts: [0; LAWS.len()],
             counting: true,
             differentiating: false,

@@ -236,7 +236,8 @@ impl SharedPair for Guide {
         let motion = self.journal_motion(shared);
         match self.law.force(&motion, fluid) {
             Ok(force) => {
-                *out = SharedForce { on: self.side.wrenches(&force, &motion), of_law: force };
+                out.on = self.side.wrenches(&force, &motion);
+                out.of_law = force;
                 Ok(())
             }
             Err(gone) => Err(Fault::NoGuideFilm { minimum_film: gone.minimum_film }),

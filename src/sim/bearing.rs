@@ -299,8 +299,8 @@ impl Linearized<OF_ELEMENT> for Bearing {
 }
 
 impl Split<OF_ELEMENT> for Bearing {
-    fn damping(&self, h: f64, _q: &[f64], _v: &[f64], out: &mut GroupDamping<OF_ELEMENT>) {
-        self.model.damping(h, &self.workspace, out);
+    fn damping(&mut self, h: f64, _q: &[f64], _v: &[f64], out: &mut GroupDamping<OF_ELEMENT>) {
+        self.model.damping(h, &mut self.workspace, out);
     }
 
     fn react(&mut self, _q: &[f64], v: &[f64], step: &SemiImplicit<'_>, a: &mut [f64]) {

@@ -94,7 +94,7 @@ impl Linearized<3> for Oscillator {
 }
 
 impl Split<3> for Oscillator {
-    fn damping(&self, h: f64, _: &[f64], _: &[f64], damping: &mut GroupDamping<3>) {
+    fn damping(&mut self, h: f64, _: &[f64], _: &[f64], damping: &mut GroupDamping<3>) {
         let rates = [2.0 * self.zeta, 0.0, self.rate].map(|rate| rate * self.known);
         let full = DMatrix::from_diagonal(&rates.to_vec().into());
         let share = implicit_share(h * rates[0].max(rates[2]));
@@ -231,7 +231,7 @@ impl Linearized<3> for Stiffening {
 }
 
 impl Split<3> for Stiffening {
-    fn damping(&self, _: f64, _: &[f64], _: &[f64], _: &mut GroupDamping<3>) {}
+    fn damping(&mut self, _: f64, _: &[f64], _: &[f64], _: &mut GroupDamping<3>) {}
 }
 
 impl Observed for Stiffening {

@@ -157,7 +157,8 @@ pub fn run(case: &Case, solver: &Value, wall_time: f64) -> Outcome {
 /// Mass times acceleration less the sum of the reported forces, of ring and cage, as a share of the largest force: how far
 /// bodies are from accelerating by what is reported.
 fn unexplained(sim: &mut Sim) -> f64 {
-    let (layout, scene, state) = (*sim.model().layout(), sim.model().scene().clone(), sim.state().to_vec());
+    let (layout, scene, state) =
+        (sim.model().layout().clone(), sim.model().scene().clone(), sim.state().to_vec());
     let forces = sim.forces().expect("forces");
     let ring_mass = scene.inner_ring.as_ref().map(|ring| match &ring.motion {
         RingMotion::Free(free) => free.mass,

@@ -147,7 +147,10 @@ impl<T: Number, const N: usize> Factors<T, N> {
         let hub = &mut hub[..width];
         let couplings = self.to_hub.chunks_exact(block(N, width));
         for ((factors, x), to_hub) in self.spokes.iter().zip(spokes.iter_mut()).zip(couplings) {
-            let mut y = factors.order.map(|i| x[i]);
+            let mut y = [T::zero(); N];
+            for (y, i) in y.iter_mut().zip(&factors.order) {
+                *y = x[*i];
+            }
             substitute(N, 1, factors.rows.as_flattened(), &mut y);
             for (k, y) in y.iter().enumerate() {
                 subtract(hub, *y, &to_hub[k * width..(k + 1) * width]);

@@ -92,7 +92,8 @@ impl<T: Number, const N: usize> Shifted<T, N> {
         let (r_q, r_v) = r.split_at(positions);
         // Velocities without position have no column in K.
         let at = |x: &[T], index: usize| x.get(index).copied().unwrap_or(T::zero());
-        let [hub_q, pushed, by_spoke] = self.memory.each_mut().map(|column| &mut column[..width]);
+        let [hub_q, pushed, by_spoke] = &mut self.memory;
+        let (hub_q, pushed, by_spoke) = (&mut hub_q[..width], &mut pushed[..width], &mut by_spoke[..width]);
         for (x, index) in hub_q.iter_mut().zip(&structure.hub) {
             *x = at(r_q, *index);
         }
@@ -100,13 +101,16 @@ impl<T: Number, const N: usize> Shifted<T, N> {
         pushed.fill(T::zero());
         add_scaled(k.hub.as_slice(), hub_q, pushed);
         for (j, (x, places)) in self.spokes.iter_mut().zip(&structure.spokes).enumerate() {
-            let own_q = places.map(|index| at(r_q, index));
+            let mut own_q = [T::zero(); N];
+            for (x, index) in own_q.iter_mut().zip(places) {
+                *x = at(r_q, *index);
+            }
             by_spoke.fill(T::zero());
-            add_scaled(k.to_hub_of(j), &own_q, by_spoke);
+            add_scaled(&k.to_hub_of(j)[..N * width], &own_q, by_spoke);
             pushed.iter_mut().zip(by_spoke.iter()).for_each(|(sum, x)| *sum += *x);
             let [mut own, mut across] = [[T::zero(); N]; 2];
-            add_scaled(k.own_of(j).as_flattened(), &own_q, &mut own);
-            add_scaled(k.from_hub_of(j).as_flattened(), hub_q, &mut across);
+            add_scaled(k.own_of(j)[..N].as_flattened(), &own_q, &mut own);
+            add_scaled(k.from_hub_of(j)[..width].as_flattened(), hub_q, &mut across);
             *x = SVector::from_fn(|k, _| r_v[places[k]] + inverse * (own[k] + across[k]));
         }
         for ((x, pushed), index) in self.hub.iter_mut().zip(pushed).zip(&structure.hub) {

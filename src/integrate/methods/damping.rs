@@ -47,7 +47,7 @@ pub struct GroupDamping<const N: usize> {
     /// Of the bodies of the hub.
     pub bodies: Vec<DampingBlock>,
     spokes: usize,
-    /// For bodies of more velocities than the closed form is for.
+    /// For bodies of other numbers of velocities than the closed form is for.
     elimination: Elimination,
 }
 
@@ -60,9 +60,6 @@ struct Elimination {
     order: Vec<usize>,
     x: Vec<f64>,
 }
-
-/// Velocities of a body up to which its step has a closed form.
-const CLOSED: usize = 3;
 
 impl<const N: usize> GroupDamping<N> {
     /// No damping.
@@ -94,18 +91,10 @@ impl<const N: usize> GroupDamping<N> {
     pub(crate) fn solve_body(&mut self, body: usize, h: f64, p: &[f64], y: &mut [f64]) {
         let DampingBlock { full, implicit } = &self.bodies[body];
         let n = full.nrows();
-        if n <= CLOSED {
-            let [mut all, mut share] = [[[0.0; CLOSED]; CLOSED]; 2];
-            let [mut ahead, mut right] = [[0.0; CLOSED]; 2];
-            ahead[..n].copy_from_slice(&p[..n]);
-            right[..n].copy_from_slice(&y[..n]);
-            for k in 0..n {
-                for i in 0..n {
-                    (all[i][k], share[i][k]) = (full[(i, k)], implicit[(i, k)]);
-                }
-            }
-            let x = solve::<f64, CLOSED>(&share, &all, h, ahead, right);
-            return y.copy_from_slice(&x[..n]);
+        match n {
+            2 => return step_closed::<2>(&self.bodies[body], h, p, y),
+            3 => return step_closed::<3>(&self.bodies[body], h, p, y),
+            _ => {}
         }
         let Elimination { matrix, size, scales: [columns, weights], order, x } = &mut self.elimination;
         for i in 0..n {
@@ -138,6 +127,22 @@ impl<const N: usize> GroupDamping<N> {
     ) {
         dispatch(instructions, Solve { damping: self, h, p, y });
     }
+}
+
+/// The step of a body of M velocities, at most three, by the closed form.
+fn step_closed<const M: usize>(block: &DampingBlock, h: f64, p: &[f64], y: &mut [f64]) {
+    let (mut implicit, mut full) = ([[0.0; 3]; 3], [[0.0; 3]; 3]);
+    for (rows, matrix) in [(&mut implicit, &block.implicit), (&mut full, &block.full)] {
+        for (k, column) in matrix.as_slice().as_chunks::<M>().0.iter().enumerate().take(M) {
+            for i in 0..M {
+                rows[i][k] = column[i];
+            }
+        }
+    }
+    let (mut ahead, mut right) = ([0.0; 3], [0.0; 3]);
+    ahead[..M].copy_from_slice(&p[..M]);
+    right[..M].copy_from_slice(&y[..M]);
+    y[..M].copy_from_slice(&solve(&implicit, &full, h, ahead, right)[..M]);
 }
 
 struct Solve<'a, const N: usize> {

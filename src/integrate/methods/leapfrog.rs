@@ -164,7 +164,8 @@ impl<S: Split<N> + Observed, const N: usize> Stepper<S> for Leapfrog<N> {
         }
         let Structure { hub, bodies, .. } = &self.structure;
         for (body, places) in bodies.iter().enumerate() {
-            let [right, ahead] = self.of_body.each_mut().map(|column| &mut column[..places.len()]);
+            let [right, ahead] = &mut self.of_body;
+            let (right, ahead) = (&mut right[..places.len()], &mut ahead[..places.len()]);
             let at = &hub[places.clone()];
             for ((right, ahead), &i) in right.iter_mut().zip(ahead.iter_mut()).zip(at) {
                 (*right, *ahead) = (self.a[i], self.predicted[i] - v[i]);

@@ -14,8 +14,10 @@ use nalgebra::{Matrix3, Vector3};
 
 impl Model {
     /// Damping of every group for a step of size `h` (s).
-    pub(crate) fn damping(&self, h: f64, ws: &Workspace, out: &mut Damping) {
-        self.element_damping(h, ws, out);
+    pub(crate) fn damping(&self, h: f64, ws: &mut Workspace, out: &mut Damping) {
+        self.find_shares(h, ws);
+        let ws = &*ws;
+        self.element_damping(ws, out);
         let mut slopes = [Matrix3::zeros(); SHARED];
         for (pair, info) in self.between.iter().zip(&self.between_infos) {
             for (body, slope) in info.bodies.into_iter().zip(pair.damping(&ws.motions.shared, ws.fluid)) {
@@ -38,13 +40,15 @@ impl Model {
             full.as_mut_slice().chunks_exact_mut(n).for_each(|column| body.respond(column, angle));
             let largest = (0..n).fold(0.0, |largest: f64, i| largest.max(full[(i, i)].abs()));
             let share = self.shared_share(h * largest);
-            block.implicit.zip_apply(full, |implicit, full| *implicit = full * share);
+            let pairs = block.implicit.as_mut_slice().iter_mut().zip(full.as_slice());
+            pairs.for_each(|(implicit, full)| *implicit = full * share);
         }
+        self.node_damping(h, ws, out);
     }
 
     /// That of each element over (radial speed, orbit speed, spin speed): contact damping, half of it implicit, and the secant
     /// slope of friction.
-    fn element_damping(&self, h: f64, ws: &Workspace, out: &mut Damping) {
+    fn element_damping(&self, ws: &Workspace, out: &mut Damping) {
         if self.elements.inertia().is_none() {
             return;
         }
@@ -54,10 +58,10 @@ impl Model {
         }
         // Upper triangles.
         let Damping { full, implicit, .. } = out;
-        for batch in &ws.contacts.batches {
-            for (site, [damping, secant]) in batch.damping() {
+        for (batch, shares) in ws.contacts.batches.iter().zip(&ws.changes.shares) {
+            for ((site, [damping, secant]), share) in batch.damping().zip(shares) {
                 let [nr, nc] = site.grip.normal_on_element();
-                let (n, t, share) = ([nr, nc, 0.0], [-nc, nr, site.grip.arm], self.friction_share(h, secant));
+                let (n, t) = ([nr, nc, 0.0], [-nc, nr, site.grip.arm]);
                 for (i, k) in UPPER {
                     let (normal, friction) = (damping * n[i] * n[k], secant * t[i] * t[k]);
                     full[i][k][site.element] += normal + friction;
@@ -74,12 +78,6 @@ impl Model {
         let moves = |body: &usize| self.layout.shared(*body).is_some();
         let both_move = self.between_infos.iter().any(|info| info.bodies.iter().all(moves));
         implicit_share(z) * if both_move { 2.0 } else { 1.0 }
-    }
-
-    /// Share of the change of slip in a step of size `h` (s) at which friction of slope `secant` (N s/m) acts.
-    #[inline]
-    pub(in crate::model) fn friction_share(&self, h: f64, secant: f64) -> f64 {
-        implicit_share(h * secant * self.mobility)
     }
 }
 

@@ -89,6 +89,7 @@ impl Model {
             };
             if state.is_rate() { unit * RATE_SCALE } else { unit }
         });
-        scales.collect()
+        let of_nodes = self.nodes.iter().flat_map(|node| node.states().iter().map(|state| state.error_unit));
+        scales.chain(of_nodes).collect()
     }
 }

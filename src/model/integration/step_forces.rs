@@ -7,12 +7,12 @@
 //!
 //! v* velocities of the evaluation, c normal damping, s secant slope of friction; by the motion of the elements.
 
-use crate::bodies::{Motions, OF_ELEMENT, SHARED};
-use crate::integrate::SemiImplicit;
+use crate::bodies::{OF_ELEMENT, SHARED};
+use crate::integrate::{SemiImplicit, implicit_share};
 use crate::laws::contact_pair::ContactForce;
 use crate::model::Model;
 use crate::model::workspace::Workspace;
-use crate::pairs::{Batch, Site};
+use crate::pairs::Batch;
 use crate::space::Wrench;
 
 /// Changes of the speeds of one contact, m/s: mean over the step, and slip at which friction acts.
@@ -26,21 +26,28 @@ pub(in crate::model) struct Changes {
 /// Those of all contacts, by batch, in the step from the last evaluated state.
 #[derive(Clone, Debug)]
 pub(in crate::model) struct StepChanges {
+    /// Of the speeds of every element in its local frame: mean over the step, and to its end.
+    of_elements: Vec<[[f64; OF_ELEMENT]; 2]>,
     of_batches: Vec<Vec<Changes>>,
+    /// Shares of the change of slip at which the friction of all contacts acts, for a step of this size in s.
+    pub(in crate::model) shares: Vec<Vec<f64>>,
+    h: f64,
     /// Whether they are those of the last evaluated state.
     found: bool,
 }
 
 impl StepChanges {
-    /// Memory for so many contacts in each batch.
-    pub(in crate::model) fn new(most: impl Iterator<Item = usize>) -> Self {
-        Self { of_batches: most.map(Vec::with_capacity).collect(), found: false }
+    /// Memory for these elements, and for so many contacts in each batch.
+    pub(in crate::model) fn new(elements: usize, most: impl Iterator<Item = usize>) -> Self {
+        let of_elements = vec![[[0.0; OF_ELEMENT]; 2]; elements];
+        let (of_batches, shares) = most.map(|n| (Vec::with_capacity(n), Vec::with_capacity(n))).unzip();
+        Self { of_elements, of_batches, shares, h: f64::NAN, found: false }
     }
 
     /// Forgets them, as another state is evaluated.
     #[inline]
     pub(in crate::model) fn forget(&mut self) {
-        self.found = false;
+        (self.h, self.found) = (f64::NAN, false);
     }
 
     /// Of contact `i` of a batch in its step; none without a step.
@@ -98,52 +105,55 @@ impl Model {
         }
     }
 
-    /// Finds the changes in the step, if there is one and they are not known yet.
+    /// Finds the shares of the change of slip at which friction acts in a step of size `h` (s), unless they are known.
+    pub(in crate::model) fn find_shares(&self, h: f64, ws: &mut Workspace) {
+        if ws.changes.h == h {
+            return;
+        }
+        ws.changes.h = h;
+        for (batch, shares) in ws.contacts.batches.iter().zip(&mut ws.changes.shares) {
+            let secants = &batch.force.friction_secant[..batch.len()];
+            shares.clear();
+            shares.extend(secants.iter().map(|secant| implicit_share(h * secant * self.mobility)));
+        }
+    }
+
+    /// Finds the changes in the step, if there is one and they are not known yet: by the motion of the elements; none where
+    /// that is prescribed.
     pub(in crate::model) fn find_changes(
         &self,
         v: &[f64],
         step: Option<&SemiImplicit<'_>>,
         ws: &mut Workspace,
     ) {
+        let Some(step) = step.filter(|_| !ws.changes.found) else { return };
+        self.find_shares(step.h, ws);
         let Workspace { contacts, motions, changes, .. } = ws;
-        let Some(step) = step.filter(|_| !changes.found) else { return };
-        for (batch, out) in contacts.batches.iter().zip(&mut changes.of_batches) {
+        let StepChanges { of_elements, of_batches, shares, found, .. } = changes;
+        *found = true;
+        for (j, out) in of_elements.iter_mut().enumerate() {
+            let ([a, b, c], element) = (self.layout.of_element(j), motions.element(j));
+            let change = |to: &[f64]| element.local_speeds([to[a] - v[a], to[b] - v[b], to[c] - v[c]]);
+            *out = [change(step.mean), change(step.end)];
+        }
+        for ((batch, shares), out) in contacts.batches.iter().zip(shares).zip(of_batches) {
             out.clear();
-            out.extend(
-                batch.damping().map(|(site, [_, secant])| self.changes_of(site, secant, v, step, motions)),
-            );
-        }
-        changes.found = true;
-    }
-
-    /// How the speeds of a contact whose friction has the slope `secant` change from the evaluated velocities `v` to those of
-    /// the step, by the motion of its element; not at all where that is prescribed.
-    #[inline]
-    fn changes_of(
-        &self,
-        site: &Site,
-        secant: f64,
-        v: &[f64],
-        step: &SemiImplicit<'_>,
-        motions: &Motions,
-    ) -> Changes {
-        if site.element >= self.layout.count {
-            return Changes::default();
-        }
-        let [nr, nc] = site.grip.normal_on_element();
-        let [a, b, c] = self.layout.of_element(site.element);
-        let element = motions.element(site.element);
-        let change = |to: &[f64]| element.local_speeds([to[a] - v[a], to[b] - v[b], to[c] - v[c]]);
-        let slip = |[radial, across, turning]: [f64; OF_ELEMENT]| {
-            nr * across - nc * radial + site.grip.arm * turning
-        };
-        let mean = change(step.mean);
-        let [mean_slip, end_slip] = [slip(mean), slip(change(step.end))];
-        let beyond = 2.0 * self.friction_share(step.h, secant) - 1.0;
-        Changes {
-            approach_speed: nr * mean[0] + nc * mean[1],
-            slip: mean_slip,
-            acting_slip: mean_slip + beyond * (end_slip - mean_slip),
+            for (site, share) in batch.sites.iter().zip(shares) {
+                let of_element = of_elements.get(site.element);
+                out.push(of_element.map_or_else(Changes::default, |[mean, end]| {
+                    let [nr, nc] = site.grip.normal_on_element();
+                    let slip = |[radial, across, turning]: &[f64; OF_ELEMENT]| {
+                        nr * across - nc * radial + site.grip.arm * turning
+                    };
+                    let [mean_slip, end_slip] = [slip(mean), slip(end)];
+                    let beyond = 2.0 * *share - 1.0;
+                    Changes {
+                        approach_speed: nr * mean[0] + nc * mean[1],
+                        slip: mean_slip,
+                        acting_slip: mean_slip + beyond * (end_slip - mean_slip),
+                    }
+                }));
+            }
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Names of bodies, states, inputs and contacts.
 
-use crate::bodies::{ForceSource, State, states_of};
+use crate::bodies::{ForceSource, Owner, State, states_of};
 use crate::model::Model;
 use crate::pairs::{ContactLaw, Law, Site};
 
@@ -35,11 +35,11 @@ impl Model {
 
     /// Name of the body of a group of velocities: see [`crate::integrate::System::groups`].
     pub(crate) fn group_name(&self, group: usize) -> Option<String> {
-        if group < self.layout.count {
-            return Some(format!("{}[{group}]", self.element_kind()));
+        match self.layout.owner_of_group(group) {
+            Owner::Element(j) => Some(format!("{}[{j}]", self.element_kind())),
+            Owner::Shared(body) => self.shared[body].as_ref().map(|body| body.name().to_owned()),
+            Owner::Node(node) => self.nodes.get(node).map(|node| node.name().to_owned()),
         }
-        let body = self.layout.body_of_group(group)?;
-        self.shared[body].as_ref().map(|body| body.name().to_owned())
     }
 
     /// What the elements are called in names.
@@ -57,7 +57,13 @@ impl Model {
             };
             StateInfo { name: format!("{body}.{name}"), unit, description }
         });
-        named.collect()
+        let of_nodes = self.nodes.iter().flat_map(|node| {
+            node.states().iter().map(|state| {
+                let [name, unit, description] = state.name;
+                StateInfo { name: format!("{}.{name}", node.name()), unit, description }
+            })
+        });
+        named.chain(of_nodes).collect()
     }
 
     /// The inputs.

@@ -51,7 +51,7 @@ fn follow(case: &Case, solver: &Value) -> Record {
     let bodies = Bodies::new(&case.scene);
     let mut sim = simulate(&case.scene, solver);
     let model = sim.model().clone();
-    let layout = *model.layout();
+    let layout = model.layout().clone();
     let start = bodies.balance(&layout, sim.state());
     let spins = spins(&sim);
     let flatness = model.reference_length() / model.pitch_radius();
@@ -220,7 +220,7 @@ fn nothing_turns_a_balanced_cage_on_its_guide() {
     solvers.push(("leapfrog", leapfrog(5e-6)));
     for (method, solver) in solvers {
         let mut sim = simulate(&case.scene, &solver);
-        let layout = *sim.model().layout();
+        let layout = sim.model().layout().clone();
         let speed = sim.state()[layout.positions() + 2];
         sim.advance_to(case.duration).expect("a run");
         assert_eq!(sim.state()[layout.positions() + 2], speed, "{method}");

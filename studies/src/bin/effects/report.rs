@@ -41,7 +41,7 @@ impl Report {
 
     /// Number of states of line `i`.
     fn states(&self, i: usize) -> Option<usize> {
-        let layout = *self.outcomes[i].model.as_ref()?.layout();
+        let layout = self.outcomes[i].model.as_ref()?.layout();
         Some(layout.positions() + layout.velocities())
     }
 

@@ -1,0 +1,178 @@
+//! States that are no motion: their rates from the powers of the last evaluated state, and what methods ask of them.
+
+use super::{Model, Workspace};
+use crate::bodies::{Damping, Node, OF_ELEMENT};
+use crate::integrate::{Linearization, implicit_share};
+use std::ops::Range;
+
+impl Model {
+    /// The nodes, with their states in `v`.
+    fn nodes_in(&self) -> impl Iterator<Item = (&dyn Node, Range<usize>)> {
+        self.nodes.iter().map(|node| &**node).zip(self.layout.nodes())
+    }
+
+    /// Sets their values at the start of a run.
+    pub(super) fn start_nodes(&self, v: &mut [f64]) {
+        for (node, at) in self.nodes_in() {
+            v[at].iter_mut().zip(node.states()).for_each(|(x, state)| *x = state.start);
+        }
+    }
+
+    /// Writes their rates at the last evaluated state, whose velocities are `v`, into the accelerations `a`.
+    #[inline]
+    pub(super) fn find_node_rates(&self, v: &[f64], ws: &mut Workspace, a: &mut [f64]) {
+        if self.nodes.is_empty() {
+            return;
+        }
+        let mut powers = std::mem::take(&mut ws.powers);
+        self.powers(v, None, ws, &mut powers);
+        ws.powers = powers;
+        let first = v.len() - ws.nodes.len();
+        ws.nodes.copy_from_slice(&v[first..]);
+        for (node, at) in self.nodes_in() {
+            node.rates(&v[at.clone()], &ws.powers, &mut a[at]);
+        }
+    }
+
+    /// Adds the derivatives of their rates at the last evaluated state.
+    pub(super) fn add_node_slopes(&self, ws: &Workspace, out: &mut Linearization<OF_ELEMENT>) {
+        let of_shared = self.layout.of_shared();
+        for (node, at) in self.nodes_in() {
+            let (place, n) = (self.layout.in_hub(at.start), at.len());
+            let x = &ws.nodes[place - of_shared..][..n];
+            node.add_slopes(x, out.over_velocities.hub.view_mut((place, place), (n, n)));
+        }
+    }
+
+    /// How their rates oppose their own values, for a step of size `h` (s).
+    pub(super) fn node_damping(&self, h: f64, ws: &Workspace, out: &mut Damping) {
+        let (of_shared, first) = (self.layout.of_shared(), self.layout.free().count());
+        for ((node, at), block) in self.nodes_in().zip(&mut out.bodies[first..]) {
+            let (full, n) = (&mut block.full, at.len());
+            let place = self.layout.in_hub(at.start) - of_shared;
+            full.fill(0.0);
+            node.add_slopes(&ws.nodes[place..][..n], full.as_view_mut());
+            full.neg_mut();
+            let largest = (0..n).fold(0.0, |largest: f64, i| largest.max(full[(i, i)].abs()));
+            let share = implicit_share(h * largest);
+            block.implicit.zip_apply(full, |implicit, full| *implicit = full * share);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bodies::{NodeState, Power, layout_of};
+    use crate::{Scene, Sim};
+    use nalgebra::DMatrixViewMut;
+    use std::sync::Arc;
+
+    /// The layer of a greased guide as two lumps: it is heated by what its film takes and cooled by a ring of constant
+    /// temperature, and warms a second one.
+    #[derive(Debug)]
+    struct Layer;
+
+    const CAPACITIES: [f64; 2] = [1e-4, 3e-4];
+    const CONDUCTANCE: f64 = 0.02;
+    const AROUND: f64 = 300.0;
+
+    const fn temperature(name: &'static str) -> NodeState {
+        NodeState { name: [name, "K", "temperature"], error_unit: 1.0, start: AROUND }
+    }
+
+    const STATES: [NodeState; 2] = [temperature("film"), temperature("wall")];
+
+    impl Node for Layer {
+        fn name(&self) -> &'static str {
+            "layer"
+        }
+
+        fn states(&self) -> &[NodeState] {
+            &STATES
+        }
+
+        fn rates(&self, x: &[f64], powers: &[f64], out: &mut [f64]) {
+            let through = CONDUCTANCE * (x[0] - x[1]);
+            let heat = -powers[Power::GuideFilm as usize];
+            out[0] = (heat - through) / CAPACITIES[0];
+            out[1] = (through - CONDUCTANCE * (x[1] - AROUND)) / CAPACITIES[1];
+        }
+
+        fn add_slopes(&self, _: &[f64], mut out: DMatrixViewMut<'_, f64>) {
+            let [film, wall] = CAPACITIES.map(|c| CONDUCTANCE / c);
+            out[(0, 0)] -= film;
+            out[(0, 1)] += film;
+            out[(1, 0)] += wall;
+            out[(1, 1)] -= 2.0 * wall;
+        }
+    }
+
+    /// A run of the greased guide with the layer for 20 ms: its simulation, and the heat that went into the wall around, J.
+    fn run(method: &str) -> (Sim, f64) {
+        let text = include_str!("../../scenes/grease_guide.json");
+        let scene =
+            Scene::from_json_with(text, [("solver", format!(r#"{{"method": {method}}}"#).as_str())]).unwrap();
+        let mut model = Model::new(scene).unwrap();
+        model.nodes.push(Box::new(Layer));
+        model.layout = layout_of(&model.shared, &*model.elements, &model.nodes);
+        let mut sim = Sim::new(Arc::new(model)).unwrap();
+        let wall = sim.state().len() - 1;
+        let (mut lost, samples) = (0.0, 4000);
+        for i in 1..=samples {
+            let before = sim.state()[wall];
+            sim.advance_to(20e-3 * f64::from(i) / f64::from(samples)).unwrap();
+            lost += CONDUCTANCE * (0.5 * (before + sim.state()[wall]) - AROUND) * 20e-3 / f64::from(samples);
+        }
+        (sim, lost)
+    }
+
+    #[test]
+    fn a_state_that_is_no_motion_is_integrated_by_every_method() {
+        let (mut ends, mut balanced) = (Vec::new(), 0);
+        let methods = [
+            r#"{"dormand_prince": {"tolerance": 1e-7}}"#,
+            r#"{"rosenbrock": {"tolerance": 1e-7}}"#,
+            r#"{"auto": {}}"#,
+        ];
+        for method in methods
+            .into_iter()
+            .chain([r#"{"radau": {"tolerance": 1e-7}}"#, r#"{"leapfrog": {"step": 2e-6}}"#])
+        {
+            let (mut sim, lost) = run(method);
+            let &[.., film, wall] = sim.state() else { unreachable!() };
+            let stored: f64 = CAPACITIES.iter().zip([film, wall]).map(|(c, t)| c * (t - AROUND)).sum();
+            assert!(film - AROUND > 1.0, "{method}: {film}");
+            // The works belong to the time that the integration has reached; `auto` runs ahead by a stretch.
+            let balance = sim.power_balance().unwrap();
+            if balance.to < 1.001 * sim.time() {
+                let heat = -balance.work[Power::GuideFilm as usize];
+                assert!(((stored + lost) / heat - 1.0).abs() < 5e-3, "{method}: {stored} {lost} {heat}");
+                balanced += 1;
+            }
+            ends.push((method, film, wall));
+        }
+        assert_eq!(balanced, 4);
+        let [(_, film, wall), others @ ..] = &ends[..] else { unreachable!() };
+        for (method, other_film, other_wall) in others {
+            let error =
+                ((other_film - film) / (film - AROUND)).abs() + ((other_wall - wall) / (wall - AROUND)).abs();
+            assert!(error < 1e-2, "{method}: {error}");
+        }
+    }
+
+    #[test]
+    fn its_names_units_and_groups_are_its_own() {
+        let (sim, _) = run(r#"{"auto": {}}"#);
+        let model = sim.model();
+        let names: Vec<_> = model.state_infos().into_iter().map(|info| (info.name, info.unit)).collect();
+        assert_eq!(
+            names[names.len() - 2..],
+            [("layer.film".to_owned(), "K"), ("layer.wall".to_owned(), "K")]
+        );
+        assert_eq!(model.state_scales()[names.len() - 1], 1.0);
+        let groups = model.structure().groups();
+        assert_eq!(model.group_name(groups.len() - 1).as_deref(), Some("layer"));
+        assert_eq!(groups.last().map(Vec::len), Some(2));
+    }
+}
