@@ -10,13 +10,19 @@ use crate::laws::line_contact::LineContact;
 use crate::laws::line_contact::tests::raceway;
 use crate::laws::traction::solid_friction::SolidFriction;
 
-#[allow(dead_code)] // used in part
-#[path = "../../studies/src/random.rs"]
-mod random;
-
-use random::Random;
+/// Repeatable random arguments.
+struct Random(fastrand::Rng);
 
 impl Random {
+    fn new(seed: u64) -> Self {
+        Self(fastrand::Rng::with_seed(seed))
+    }
+
+    /// Uniform in [0, 1).
+    fn unit(&mut self) -> f64 {
+        self.0.f64()
+    }
+
     /// A number of any size up to `largest`; now and then zero, or as small as numbers are.
     fn positive(&mut self, largest: f64) -> f64 {
         match self.unit() {

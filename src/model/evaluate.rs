@@ -154,7 +154,7 @@ impl Model {
     fn count(&self, ws: &mut Workspace) {
         let counts = &mut ws.counts;
         for ((info, parts), of_pair) in self.infos.iter().zip(&self.parts).zip(&ws.contacts.counts) {
-            for (law, n) in info.laws.iter().zip(of_pair) {
+            for (law, n) in info.laws.iter().flatten().zip(of_pair) {
                 counts[*law as usize] += n;
             }
             // Edges have no film, nor what belongs to it.

@@ -36,6 +36,7 @@ use crate::laws::line_contact::LineContact;
 use crate::registry::registry;
 use crate::scene::Scene;
 use crate::space::{Frame, Motion, Wrench};
+use contacts::LAWS_OF_PAIR;
 use line_laws::LawBuilder;
 use nalgebra::Matrix3;
 use std::fmt::Debug;
@@ -88,8 +89,8 @@ pub(crate) struct PairInfo {
     pub(crate) source: ForceSource,
     /// Names of the contacts that an element can have with it.
     pub(crate) contacts: &'static [&'static str],
-    /// Laws that its contacts are counted by, at most [`contacts::LAWS_OF_PAIR`]: of walls, of edges.
-    pub(crate) laws: &'static [Law],
+    /// Laws that its contacts are counted by: of walls, and of edges, if it has any.
+    pub(crate) laws: [Option<Law>; LAWS_OF_PAIR],
     /// Powers that its damping and its friction belong to.
     pub(crate) powers: [Power; 2],
     /// Whether elements roll on it under load. Then its vibration is that of the bearing, rolling resistance has a power of its

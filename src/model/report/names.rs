@@ -120,7 +120,7 @@ impl Model {
     pub fn laws_in_use(&self) -> Vec<(&'static str, usize)> {
         let mut most = [0; Law::ALL.len()];
         for (info, parts) in self.infos.iter().zip(&self.parts) {
-            for law in info.laws.iter().chain(parts) {
+            for law in info.laws.iter().flatten().chain(parts) {
                 most[*law as usize] += self.element_count() * info.contacts.len();
             }
         }

@@ -227,7 +227,6 @@ impl Contacts {
                 }
             }
         }
-        debug_assert!(pairs.iter().all(|pair| pair.info().laws.len() <= LAWS_OF_PAIR));
         let room = elements.next_multiple_of(WIDEST);
         Self {
             batches: groups.iter().map(|(n, laws)| Batch::new(*n, laws)).collect(),

@@ -103,7 +103,7 @@ static INFO: PairInfo = PairInfo {
     mate: CAGE,
     source: ForceSource::Pocket,
     contacts: &["pocket_front", "pocket_back"],
-    laws: &[Law::PocketWall, Law::PocketEdge],
+    laws: [Some(Law::PocketWall), Some(Law::PocketEdge)],
     powers: [Power::PocketDamping, Power::PocketFriction],
     rolls: false,
 };

@@ -59,7 +59,7 @@ static INFO: PairInfo = PairInfo {
     mate: CAGE,
     source: ForceSource::Pocket,
     contacts: &["pocket_front", "pocket_back"],
-    laws: &[Law::PocketPlane],
+    laws: [Some(Law::PocketPlane), None],
     powers: [Power::PocketDamping, Power::PocketFriction],
     rolls: false,
 };

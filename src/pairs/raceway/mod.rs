@@ -28,7 +28,7 @@ static OUTER: PairInfo = PairInfo {
     mate: OUTER_RING,
     source: ForceSource::OuterRaceway,
     contacts: &["outer_raceway"],
-    laws: &[Law::OuterRaceway],
+    laws: [Some(Law::OuterRaceway), None],
     powers: [Power::RacewayDamping, Power::RacewayFriction],
     rolls: true,
 };
@@ -37,7 +37,7 @@ static INNER: PairInfo = PairInfo {
     mate: INNER_RING,
     source: ForceSource::InnerRaceway,
     contacts: &["inner_raceway"],
-    laws: &[Law::InnerRaceway],
+    laws: [Some(Law::InnerRaceway), None],
     powers: [Power::RacewayDamping, Power::RacewayFriction],
     rolls: true,
 };
