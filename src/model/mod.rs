@@ -18,6 +18,7 @@ mod compile;
 mod evaluate;
 mod initial;
 mod integration;
+mod inverse_inertia;
 mod linearize;
 mod nodes;
 mod report;
@@ -37,9 +38,9 @@ pub use report::{
     CONTACT_QUANTITIES, Channel, ContactForces, FORCE_COMPONENTS, Forces, GuideReport, Quantity, StateInfo,
 };
 pub use works::Energy;
-pub(crate) use works::{AT_FLOOR, RATES};
 #[doc(hidden)]
 pub use workspace::Workspace;
+pub(crate) use workspace::{AT_FLOOR, RATES};
 
 use crate::bodies::{CAGE, Elements, ForceSource, INNER_RING, Node, OUTER_RING, SHARED, SharedBodies};
 use crate::error::{Error, Result, Status};

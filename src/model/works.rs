@@ -12,18 +12,13 @@
 //! the power that the bearing takes from the shaft.
 
 use super::Model;
-use super::integration::step_forces::Changes;
-use super::workspace::Workspace;
-use crate::bodies::{INNER_RING, Input, POWERS, Power};
+use super::integration::step_changes::Changes;
+use super::workspace::{AT_FLOOR, Workspace};
+use crate::bodies::{INNER_RING, Input, Power};
 use crate::integrate::SemiImplicit;
 use crate::laws::contact_pair::ContactForce;
 use crate::pairs::{Batch, Site};
 use crate::space::Wrench;
-
-/// Behind the powers: 1 while a law between rollers and raceways is at a floor, else 0.
-pub(crate) const AT_FLOOR: usize = POWERS.len();
-/// Number of the powers and what is behind them.
-pub(crate) const RATES: usize = AT_FLOOR + 1;
 
 /// Energy of a state, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -164,7 +159,9 @@ struct ContactPower {
 mod tests {
     use super::*;
     use crate::Sim;
+    use crate::bodies::POWERS;
     use crate::model::HostInputs;
+    use crate::model::workspace::RATES;
     use std::sync::Arc;
 
     /// Runs a scene and compares the powers with the change of the energy along the motion.

@@ -1,14 +1,18 @@
 //! Memory of a force evaluation: motion of the bodies, touching contacts, and all forces.
 
-use super::integration::step_forces::StepChanges;
-use super::linearize::InverseInertia;
-use super::works::RATES;
+use super::integration::step_changes::StepChanges;
+use super::inverse_inertia::InverseInertia;
 use super::{InputValues, Model};
-use crate::bodies::{Motions, SHARED};
+use crate::bodies::{Motions, POWERS, SHARED};
 use crate::integrate::Vibration;
 use crate::laws::fluid::Fluid;
 use crate::pairs::{Batch, Contacts, LAWS, LawCounts, PairInfo, SharedForce};
 use crate::space::Wrench;
+
+/// Behind the powers: 1 while a law between rollers and raceways is at a floor, else 0.
+pub(crate) const AT_FLOOR: usize = POWERS.len();
+/// Number of the powers and what is behind them.
+pub(crate) const RATES: usize = AT_FLOOR + 1;
 
 /// Memory of a force evaluation and its results. One per simulation; never shared.
 #[derive(Clone, Debug)]

@@ -7,6 +7,7 @@
 //!
 //! v* velocities of the evaluation, c normal damping, s secant slope of friction; by the motion of the elements.
 
+use super::step_changes::{Changes, StepChanges};
 use crate::bodies::{OF_ELEMENT, SHARED};
 use crate::integrate::{SemiImplicit, implicit_share};
 use crate::laws::contact_pair::ContactForce;
@@ -14,48 +15,6 @@ use crate::model::Model;
 use crate::model::workspace::Workspace;
 use crate::pairs::Batch;
 use crate::space::Wrench;
-
-/// Changes of the speeds of one contact, m/s: mean over the step, and slip at which friction acts.
-#[derive(Clone, Copy, Debug, Default)]
-pub(in crate::model) struct Changes {
-    pub(in crate::model) approach_speed: f64,
-    pub(in crate::model) slip: f64,
-    pub(in crate::model) acting_slip: f64,
-}
-
-/// Those of all contacts, by batch, in the step from the last evaluated state.
-#[derive(Clone, Debug)]
-pub(in crate::model) struct StepChanges {
-    /// Of the speeds of every element in its local frame: mean over the step, and to its end.
-    of_elements: Vec<[[f64; OF_ELEMENT]; 2]>,
-    of_batches: Vec<Vec<Changes>>,
-    /// Shares of the change of slip at which the friction of all contacts acts, for a step of this size in s.
-    pub(in crate::model) shares: Vec<Vec<f64>>,
-    h: f64,
-    /// Whether they are those of the last evaluated state.
-    found: bool,
-}
-
-impl StepChanges {
-    /// Memory for these elements, and for so many contacts in each batch.
-    pub(in crate::model) fn new(elements: usize, most: impl Iterator<Item = usize>) -> Self {
-        let of_elements = vec![[[0.0; OF_ELEMENT]; 2]; elements];
-        let (of_batches, shares) = most.map(|n| (Vec::with_capacity(n), Vec::with_capacity(n))).unzip();
-        Self { of_elements, of_batches, shares, h: f64::NAN, found: false }
-    }
-
-    /// Forgets them, as another state is evaluated.
-    #[inline]
-    pub(in crate::model) fn forget(&mut self) {
-        (self.h, self.found) = (f64::NAN, false);
-    }
-
-    /// Of contact `i` of a batch in its step; none without a step.
-    #[inline]
-    pub(in crate::model) fn of(&self, batch: usize, i: usize, step: Option<&SemiImplicit<'_>>) -> Changes {
-        if step.is_some() { self.of_batches[batch][i] } else { Changes::default() }
-    }
-}
 
 impl Model {
     /// Adds to the accelerations `a` of the shared bodies what the forces on them have become in the step of the elements.
