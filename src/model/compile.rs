@@ -21,6 +21,8 @@ pub(super) fn compile(scene: Scene) -> Result<Model> {
         (pairs::element_pairs(&scene, viscosity)?, pairs::shared_pairs(&scene, viscosity)?);
     let radius = elements.set().radius;
     let mut model = Model {
+        masses: shared.each_ref().map(|body| body.as_ref().and_then(|b| b.mass()).unwrap_or(f64::INFINITY)),
+        onsets: pairs.iter().any(|pair| pair.has_onset()),
         layout: bodies::layout_of(&shared, &*elements, &nodes),
         gravity: scene.gravity.map_or([0.0; 2], |g| [g.y, g.z]),
         shared,

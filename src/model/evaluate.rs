@@ -150,18 +150,23 @@ impl Model {
         self.elements.accelerate(&self.layout, motions, on_elements, self.gravity, a);
     }
 
+    /// The laws that contacts of elements are counted by, each with its pair and the kind of contact.
+    pub(super) fn laws_of_contacts(&self) -> impl Iterator<Item = (Law, [usize; 2])> {
+        self.infos.iter().zip(&self.parts).enumerate().flat_map(|(pair, (info, parts))| {
+            let own = info.laws.iter().flatten().enumerate().map(move |(kind, law)| (*law, [pair, kind]));
+            // Edges have no film, nor what belongs to it.
+            own.chain(parts.iter().map(move |law| (*law, [pair, 0])))
+        })
+    }
+
     /// Counts the evaluations of this pass; laws that the scene does not use cost nothing here.
     fn count(&self, ws: &mut Workspace) {
-        let counts = &mut ws.counts;
-        for ((info, parts), of_pair) in self.infos.iter().zip(&self.parts).zip(&ws.contacts.counts) {
-            for (law, n) in info.laws.iter().flatten().zip(of_pair) {
-                counts[*law as usize] += n;
-            }
-            // Edges have no film, nor what belongs to it.
-            for part in parts {
-                counts[*part as usize] += of_pair[0];
+        for (sums, of_pair) in ws.touched.iter_mut().zip(&ws.contacts.counts) {
+            for (sum, n) in sums.iter_mut().zip(of_pair) {
+                *sum += n;
             }
         }
+        let counts = &mut ws.counts;
         for ((pair, info), force) in self.between.iter().zip(&self.between_infos).zip(&ws.between) {
             for (law, acts) in info.laws.into_iter().zip(pair.acting(force)) {
                 if let Some(law) = law {

@@ -60,6 +60,10 @@ pub struct Model {
     shared: SharedBodies,
     elements: Box<dyn Elements>,
     nodes: Vec<Box<dyn Node>>,
+    /// Masses of the shared bodies, kg; infinite where one is not free.
+    masses: [f64; SHARED],
+    /// Whether the law of a pair of elements sets in abruptly.
+    onsets: bool,
     /// Slip speed that a tangential impulse of 1 N s gives a free element, m/(N s^2).
     mobility: f64,
     pairs: Vec<Box<dyn ElementPair>>,

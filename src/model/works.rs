@@ -55,7 +55,8 @@ impl Model {
         let mut on_ring = 0.0;
         for (place, batch) in ws.contacts.batches.iter().enumerate() {
             for (i, site) in batch.sites.iter().enumerate() {
-                let (power, on_surfaces) = self.contact_power(batch, i, ws.changes.of(place, i, step));
+                let changes = ws.changes.of(place, i, step);
+                let (power, on_surfaces) = self.contact_power(batch, i, changes);
                 let info = self.infos[site.pair];
                 let [damping, friction] = info.powers;
                 p[damping as usize] += power.damping;

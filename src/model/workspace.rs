@@ -6,7 +6,7 @@ use super::{InputValues, Model};
 use crate::bodies::{Motions, POWERS, SHARED};
 use crate::integrate::Vibration;
 use crate::laws::fluid::Fluid;
-use crate::pairs::{Batch, Contacts, LAWS, LawCounts, PairInfo, SharedForce};
+use crate::pairs::{Batch, Contacts, LAWS, LAWS_OF_PAIR, Law, LawCounts, PairInfo, SharedForce};
 use crate::space::Wrench;
 
 /// Behind the powers: 1 while a law between rollers and raceways is at a floor, else 0.
@@ -35,8 +35,10 @@ pub struct Workspace {
     /// Powers, where nodes follow from them, and the values of these.
     pub(super) powers: Vec<f64>,
     pub(super) nodes: Vec<f64>,
-    /// Evaluations per law.
+    /// Evaluations per law, but for those of the contacts of elements: these by pair, and which laws they stand for.
     pub(super) counts: LawCounts,
+    pub(super) touched: Vec<[u64; LAWS_OF_PAIR]>,
+    of_contacts: Vec<(Law, [usize; 2])>,
     /// Whether evaluations are counted now.
     pub(super) counting: bool,
     /// Whether evaluations find the derivatives of line contacts in the same pass.
@@ -64,6 +66,8 @@ impl Workspace {
             powers: vec![0.0; RATES],
             nodes: vec![0.0; model.layout.nodes().map(|states| states.len()).sum()],
             counts: [0; LAWS.len()],
+            touched: vec![[0; LAWS_OF_PAIR]; model.pairs.len()],
+            of_contacts: model.laws_of_contacts().collect(),
             counting: true,
             differentiating: false,
             temperature: model.inputs.oil.map_or(f64::NAN, |oil| oil.built_at.0),
@@ -71,26 +75,26 @@ impl Workspace {
         }
     }
 
-    /// Contacts of the pairs that elements roll on, in their batches.
-    fn rolling(&self) -> impl Iterator<Item = (&Batch, std::ops::Range<usize>)> {
-        let pairs = self.infos.iter().enumerate().filter(|(_, info)| info.rolls);
-        pairs.map(|(pair, _)| self.contacts.range(pair))
-    }
-
-    /// Normal speeds of the touching raceway contacts at the last evaluated state.
+    /// Normal speeds of the touching contacts that elements roll in, at the last evaluated state.
     pub(crate) fn vibration(&self) -> Vibration {
-        let speeds = self.rolling().flat_map(|(batch, range)| &batch.motion.delta_dot[range]);
-        let (mut squares, mut count) = (0.0, 0.0);
-        for v in speeds {
-            squares += v * v;
-            count += 1.0;
+        let mut sum = Vibration::default();
+        for (pair, _) in self.infos.iter().enumerate().filter(|(_, info)| info.rolls) {
+            let (batch, contacts) = self.contacts.range(pair);
+            sum.count += contacts.len() as f64;
+            for speed in &batch.motion.delta_dot[contacts] {
+                sum.squares += speed * speed;
+            }
         }
-        Vibration { squares, count }
+        sum
     }
 
     /// Number of evaluations of each law since the workspace was made or the counts were set, in the order of [`LAWS`].
-    pub fn law_counts(&self) -> &LawCounts {
-        &self.counts
+    pub fn law_counts(&self) -> LawCounts {
+        let mut counts = self.counts;
+        for (law, [pair, kind]) in &self.of_contacts {
+            counts[*law as usize] += self.touched[*pair][*kind];
+        }
+        counts
     }
 
     /// Whether the next evaluations count; they do at first.
@@ -112,5 +116,6 @@ impl Workspace {
     /// Sets the counts.
     pub fn set_law_counts(&mut self, counts: LawCounts) {
         self.counts = counts;
+        self.touched.fill([0; LAWS_OF_PAIR]);
     }
 }

@@ -21,7 +21,7 @@ mod pocket;
 pub(crate) mod raceway;
 mod slope_sums;
 
-pub(crate) use contacts::{Batch, Contacts, Loaded, Search, Site};
+pub(crate) use contacts::{Batch, Contacts, LAWS_OF_PAIR, Loaded, Search, Site};
 pub(crate) use grip::{Grip, MateLever};
 pub(crate) use slope_sums::SlopeSums;
 
@@ -36,7 +36,6 @@ use crate::laws::line_contact::LineContact;
 use crate::registry::registry;
 use crate::scene::Scene;
 use crate::space::{Frame, Motion, Wrench};
-use contacts::LAWS_OF_PAIR;
 use line_laws::LawBuilder;
 use nalgebra::Matrix3;
 use std::fmt::Debug;
@@ -180,7 +179,7 @@ pub(crate) struct Ahead<'a> {
     pub(crate) v: &'a [f64],
     pub(crate) inputs: &'a InputValues,
     /// Masses of the shared bodies, kg; infinite where one is not free.
-    pub(crate) masses: [f64; SHARED],
+    pub(crate) masses: &'a [f64; SHARED],
     /// Step that is wanted, s.
     pub(crate) wanted: f64,
     pub(crate) tuning: &'a Tuning,

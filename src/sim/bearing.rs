@@ -84,7 +84,7 @@ impl Bearing {
         self.evaluations
     }
 
-    pub(super) fn law_counts(&self) -> &LawCounts {
+    pub(super) fn law_counts(&self) -> LawCounts {
         self.workspace.law_counts()
     }
 

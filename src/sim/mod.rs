@@ -374,7 +374,7 @@ impl Sim {
             faults: *self.bearing.fault_counts(),
             evaluations: self.bearing.evaluations(),
             jacobians: self.bearing.jacobians(),
-            laws: *self.bearing.law_counts(),
+            laws: self.bearing.law_counts(),
         }
     }
 

@@ -40,7 +40,7 @@ impl Sim {
         Content {
             time: self.time,
             counts: [bearing.evaluations(), bearing.jacobians()],
-            laws: *bearing.law_counts(),
+            laws: bearing.law_counts(),
             faults: *bearing.fault_counts(),
             rejections: bearing.rejections().to_vec(),
             host: *bearing.host(),

@@ -25,14 +25,12 @@ impl Model {
         tuning: &Tuning,
     ) -> f64 {
         let mut longest = self.inputs.shortest_period(host) / tuning.steps_per_period;
-        let onsets = self.pairs.iter().any(|pair| pair.has_onset());
-        if self.between.is_empty() && !onsets {
+        if self.between.is_empty() && !self.onsets {
             return longest;
         }
         // A ring that stands guides at no input.
         let moved = self.between_infos.iter().any(|info| info.bodies.contains(&INNER_RING));
-        let inputs = if moved || onsets { self.inputs_at(t, host) } else { InputValues::default() };
-        let mass = |body: usize| self.shared[body].as_ref().and_then(|body| body.mass());
+        let inputs = if moved || self.onsets { self.inputs_at(t, host) } else { InputValues::default() };
         let shared = self.motions_at(q, v, &inputs);
         let ahead = Ahead {
             shared: &shared,
@@ -41,12 +39,12 @@ impl Model {
             q,
             v,
             inputs: &inputs,
-            masses: std::array::from_fn(|body| mass(body).unwrap_or(f64::INFINITY)),
+            masses: &self.masses,
             wanted,
             tuning,
         };
         longest = self.between.iter().map(|pair| pair.longest_step(&ahead)).fold(longest, f64::min);
-        if !onsets {
+        if !self.onsets {
             return longest;
         }
         self.pairs.iter().map(|pair| pair.longest_step(&ahead)).fold(longest, f64::min)

@@ -98,20 +98,21 @@ impl Model {
         for ((batch, shares), out) in contacts.batches.iter().zip(shares).zip(of_batches) {
             out.clear();
             for (site, share) in batch.sites.iter().zip(shares) {
-                let of_element = of_elements.get(site.element);
-                out.push(of_element.map_or_else(Changes::default, |[mean, end]| {
-                    let [nr, nc] = site.grip.normal_on_element();
-                    let slip = |[radial, across, turning]: &[f64; OF_ELEMENT]| {
-                        nr * across - nc * radial + site.grip.arm * turning
-                    };
-                    let [mean_slip, end_slip] = [slip(mean), slip(end)];
-                    let beyond = 2.0 * *share - 1.0;
-                    Changes {
-                        approach_speed: nr * mean[0] + nc * mean[1],
-                        slip: mean_slip,
-                        acting_slip: mean_slip + beyond * (end_slip - mean_slip),
-                    }
-                }));
+                let Some([mean, end]) = of_elements.get(site.element) else {
+                    out.push(Changes::default());
+                    continue;
+                };
+                let [nr, nc] = site.grip.normal_on_element();
+                let slip = |[radial, across, turning]: &[f64; OF_ELEMENT]| {
+                    nr * across - nc * radial + site.grip.arm * turning
+                };
+                let (mean_slip, end_slip) = (slip(mean), slip(end));
+                let beyond = 2.0 * *share - 1.0;
+                out.push(Changes {
+                    approach_speed: nr * mean[0] + nc * mean[1],
+                    slip: mean_slip,
+                    acting_slip: mean_slip + beyond * (end_slip - mean_slip),
+                });
             }
         }
     }
