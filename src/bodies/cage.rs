@@ -7,8 +7,8 @@
 //! Coordinates are those of the geometric centre, which turns about s.
 
 use super::{
-    BodyEnergy, BodyForces, CENTRE, Coordinate, Fault, ForceSource, Input, InputValues, Moves, Power,
-    SharedBody, weight,
+    BodyEnergy, BodyForces, BodyState, CENTRE, Coordinate, Fault, ForceSource, Input, InputValues, Moves,
+    Power, SharedBody, weight,
 };
 use crate::scalar::math;
 use crate::scene::Scene;
@@ -85,7 +85,7 @@ impl SharedBody for Cage {
         "cage"
     }
 
-    fn coordinates(&self) -> &'static [Coordinate] {
+    fn coordinates(&self) -> &[Coordinate] {
         &COORDINATES
     }
 
@@ -102,33 +102,33 @@ impl SharedBody for Cage {
         Some(self.mass)
     }
 
-    fn add_external(&self, _motion: &Motion<f64>, inputs: &InputValues, on_body: &mut Wrench<f64>) {
+    fn add_external(&self, _state: &BodyState<'_>, inputs: &InputValues, on_body: &mut Wrench<f64>) {
         if self.loaded {
             let [y, z, moment] = LOADS.map(|input| inputs.of(input));
             on_body.add(&Wrench { force: [y, z], moment });
         }
     }
 
-    fn respond(&self, forces: &mut [f64], angle: f64) {
+    fn respond(&self, forces: &mut [f64], q: &[f64]) {
         let on_cage = Wrench { force: [forces[0], forces[1]], moment: forces[2] };
-        forces.copy_from_slice(&self.response_at(&on_cage, self.mass_offset(angle)));
+        forces.copy_from_slice(&self.response_at(&on_cage, self.mass_offset(q[2])));
     }
 
-    fn accelerate(&self, on_body: &Wrench<f64>, motion: &Motion<f64>, gravity: [f64; 2], a: &mut [f64]) {
-        let offset = self.mass_offset(motion.angle);
+    fn accelerate(&self, on_body: &Wrench<f64>, state: &BodyState<'_>, gravity: [f64; 2], a: &mut [f64]) {
+        let offset = self.mass_offset(state.q[2]);
         a[..3].copy_from_slice(&self.response_at(on_body, offset));
         a[0] += gravity[0];
         a[1] += gravity[1];
         if let Some([uy, uz]) = offset {
-            let speed = motion.speed;
+            let speed = state.v[2];
             a[0] += speed * speed * uy;
             a[1] += speed * speed * uz;
         }
     }
 
-    fn wrench_for(&self, a: &dyn Fn(usize) -> f64, motion: &Motion<f64>, gravity: [f64; 2]) -> Wrench<f64> {
-        let [uy, uz] = self.mass_offset(motion.angle).unwrap_or_default();
-        let ([ay, az, turning], square) = ([0, 1, 2].map(a), motion.speed * motion.speed);
+    fn wrench_for(&self, a: &dyn Fn(usize) -> f64, state: &BodyState<'_>, gravity: [f64; 2]) -> Wrench<f64> {
+        let [uy, uz] = self.mass_offset(state.q[2]).unwrap_or_default();
+        let ([ay, az, turning], square) = ([0, 1, 2].map(a), state.v[2] * state.v[2]);
         let force = [
             self.mass * (ay - gravity[0] - turning * uz - square * uy),
             self.mass * (az - gravity[1] + turning * uy - square * uz),
@@ -144,16 +144,16 @@ impl SharedBody for Cage {
     fn add_inertial_slopes(
         &self,
         on_body: &Wrench<f64>,
-        motion: &Motion<f64>,
+        state: &BodyState<'_>,
         mut over_position: DMatrixViewMut<'_, f64>,
         mut over_velocity: DMatrixViewMut<'_, f64>,
     ) {
-        let Some([uy, uz]) = self.mass_offset(motion.angle) else { return };
+        let Some([uy, uz]) = self.mass_offset(state.q[2]) else { return };
         let [fy, fz] = on_body.force;
         let turning = self.turning(on_body, [uy, uz]);
         // The offset turns: du = (-uz, uy) dangle.
         let turning_rate = (uz * fz + uy * fy) / self.inertia;
-        let speed = motion.speed;
+        let speed = state.v[2];
         over_position[(2, 2)] += turning_rate;
         over_position[(0, 2)] += turning_rate * uz + turning * uy - speed * speed * uz;
         over_position[(1, 2)] += speed * speed * uy + turning * uz - turning_rate * uy;
@@ -161,9 +161,9 @@ impl SharedBody for Cage {
         over_velocity[(1, 2)] += 2.0 * speed * uz;
     }
 
-    fn energy(&self, motion: &Motion<f64>, gravity: [f64; 2]) -> BodyEnergy {
-        let [uy, uz] = self.mass_offset(motion.angle).unwrap_or_default();
-        let (position, velocity, speed) = (motion.position, motion.velocity, motion.speed);
+    fn energy(&self, state: &BodyState<'_>, gravity: [f64; 2]) -> BodyEnergy {
+        let [uy, uz] = self.mass_offset(state.q[2]).unwrap_or_default();
+        let (position, velocity, speed) = (state.motion.position, state.motion.velocity, state.v[2]);
         let (y, z) = (velocity[0] - speed * uz, velocity[1] + speed * uy);
         BodyEnergy {
             kinetic: 0.5 * (self.mass * (y * y + z * z) + self.inertia * speed * speed),
@@ -171,18 +171,18 @@ impl SharedBody for Cage {
         }
     }
 
-    fn add_powers(&self, motion: &Motion<f64>, inputs: &InputValues, powers: &mut [f64]) {
+    fn add_powers(&self, state: &BodyState<'_>, inputs: &InputValues, powers: &mut [f64]) {
         if self.loaded {
-            let [vy, vz] = motion.velocity;
-            let speeds = [vy, vz, motion.speed];
+            let [vy, vz] = state.motion.velocity;
+            let speeds = [vy, vz, state.v[2]];
             powers[Power::Loads as usize] +=
                 LOADS.iter().zip(speeds).map(|(input, v)| inputs.of(*input) * v).sum::<f64>();
         }
     }
 
-    fn report(&self, motion: &Motion<f64>, inputs: &InputValues, gravity: [f64; 2], out: &mut BodyForces) {
+    fn report(&self, state: &BodyState<'_>, inputs: &InputValues, gravity: [f64; 2], out: &mut BodyForces) {
         let [y, z, _] = weight(self.mass, gravity);
-        let [uy, uz] = self.mass_offset(motion.angle).unwrap_or_default();
+        let [uy, uz] = self.mass_offset(state.q[2]).unwrap_or_default();
         out[ForceSource::Gravity as usize] = [y, z, uy * z - uz * y];
         if self.loaded {
             out[ForceSource::Load as usize] = LOADS.map(|input| inputs.of(input));

@@ -8,9 +8,9 @@
 //! | elements of prescribed motion | `elements/kinematic` | none |
 //! | nodes | `nodes` | states that are no motion |
 //!
-//! Rings and cage are shared: there is one of each, and every element can touch it. Pairs of bodies see [`Motions`] only and
-//! act on bodies by wrenches only. A new body is a file with one of the two traits and a line in [`shared_bodies`] or
-//! [`elements()`].
+//! Rings and cage are shared: every element can touch them. Pairs see [`Motions`] and act on bodies by wrenches. A new body is a
+//! file with one of the traits [`SharedBody`], [`Elements`] and [`Node`] and a line in [`shared_bodies`], [`elements()`] or
+//! [`nodes()`].
 
 mod cage;
 mod elements;
@@ -157,13 +157,21 @@ impl BodyEnergy {
     }
 }
 
-/// A body of which there is one and that every element can touch. Slices of its coordinates begin with its first.
+/// A shared body at one state: its motion, and its coordinates and their rates, none if it is held.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BodyState<'a> {
+    pub(crate) motion: &'a Motion<f64>,
+    pub(crate) q: &'a [f64],
+    pub(crate) v: &'a [f64],
+}
+
+/// A body that every element can touch. Slices of its coordinates begin with its first.
 pub(crate) trait SharedBody: Debug + Send + Sync {
     /// Name of the body.
     fn name(&self) -> &'static str;
 
     /// Its coordinates; none if it is held. The first are those of its motion, in the order of its wrench.
-    fn coordinates(&self) -> &'static [Coordinate];
+    fn coordinates(&self) -> &[Coordinate];
 
     /// Its motion at these positions, velocities and inputs.
     fn motion(&self, q: &[f64], v: &[f64], inputs: &InputValues) -> Motion<f64>;
@@ -175,17 +183,17 @@ pub(crate) trait SharedBody: Debug + Send + Sync {
     fn mass(&self) -> Option<f64>;
 
     /// Adds loads and supports to the wrench on it.
-    fn add_external(&self, motion: &Motion<f64>, inputs: &InputValues, on_body: &mut Wrench<f64>);
+    fn add_external(&self, state: &BodyState<'_>, inputs: &InputValues, on_body: &mut Wrench<f64>);
 
-    /// Makes forces over its coordinates, with the body at the angle `angle` (rad), the accelerations that they alone give it.
-    fn respond(&self, forces: &mut [f64], angle: f64);
+    /// Makes forces over its coordinates, with the body at these, the accelerations that they alone give it.
+    fn respond(&self, forces: &mut [f64], q: &[f64]);
 
     /// Accelerations `a` of its coordinates by all other forces on it and its weight.
-    fn accelerate(&self, on_body: &Wrench<f64>, motion: &Motion<f64>, gravity: [f64; 2], a: &mut [f64]);
+    fn accelerate(&self, on_body: &Wrench<f64>, state: &BodyState<'_>, gravity: [f64; 2], a: &mut [f64]);
 
     /// The wrench beside the weight that makes these accelerations of its coordinates: what [`SharedBody::accelerate`] turns
     /// round.
-    fn wrench_for(&self, a: &dyn Fn(usize) -> f64, motion: &Motion<f64>, gravity: [f64; 2]) -> Wrench<f64>;
+    fn wrench_for(&self, a: &dyn Fn(usize) -> f64, state: &BodyState<'_>, gravity: [f64; 2]) -> Wrench<f64>;
 
     /// Whether forces accelerate each coordinate by itself.
     fn is_balanced(&self) -> bool {
@@ -200,20 +208,20 @@ pub(crate) trait SharedBody: Debug + Send + Sync {
     fn add_inertial_slopes(
         &self,
         _on_body: &Wrench<f64>,
-        _motion: &Motion<f64>,
+        _state: &BodyState<'_>,
         _over_position: DMatrixViewMut<'_, f64>,
         _over_velocity: DMatrixViewMut<'_, f64>,
     ) {
     }
 
     /// Energy of its motion and its weight.
-    fn energy(&self, motion: &Motion<f64>, gravity: [f64; 2]) -> BodyEnergy;
+    fn energy(&self, state: &BodyState<'_>, gravity: [f64; 2]) -> BodyEnergy;
 
     /// Adds the powers of its loads and supports, W, by [`Power`].
-    fn add_powers(&self, motion: &Motion<f64>, inputs: &InputValues, powers: &mut [f64]);
+    fn add_powers(&self, state: &BodyState<'_>, inputs: &InputValues, powers: &mut [f64]);
 
     /// Writes weight, loads and supports into a report.
-    fn report(&self, motion: &Motion<f64>, inputs: &InputValues, gravity: [f64; 2], out: &mut BodyForces);
+    fn report(&self, state: &BodyState<'_>, inputs: &InputValues, gravity: [f64; 2], out: &mut BodyForces);
 
     /// Inputs that are its load: to the right, upwards, moment.
     fn load_inputs(&self) -> [Option<Input>; 3];

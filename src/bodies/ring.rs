@@ -7,8 +7,8 @@
 //! P load, c damping of the support. What turns the ring is no state: it takes the moment that the speed needs.
 
 use super::{
-    BodyEnergy, BodyForces, CENTRE, Coordinate, Fault, ForceSource, Input, InputValues, Power, SharedBody,
-    weight,
+    BodyEnergy, BodyForces, BodyState, CENTRE, Coordinate, Fault, ForceSource, Input, InputValues, Power,
+    SharedBody, weight,
 };
 use crate::scene::{RingMotion, Scene};
 use crate::space::{Motion, Wrench};
@@ -62,7 +62,7 @@ impl SharedBody for Ring {
         self.name
     }
 
-    fn coordinates(&self) -> &'static [Coordinate] {
+    fn coordinates(&self) -> &[Coordinate] {
         match self.held {
             Held::At(_) => &[],
             Held::Free { .. } => &CENTRE,
@@ -89,26 +89,26 @@ impl SharedBody for Ring {
         }
     }
 
-    fn add_external(&self, motion: &Motion<f64>, inputs: &InputValues, on_body: &mut Wrench<f64>) {
+    fn add_external(&self, state: &BodyState<'_>, inputs: &InputValues, on_body: &mut Wrench<f64>) {
         let load = [inputs.of(Input::LoadY), inputs.of(Input::LoadZ)];
-        for ((force, load), v) in on_body.force.iter_mut().zip(load).zip(motion.velocity) {
+        for ((force, load), v) in on_body.force.iter_mut().zip(load).zip(state.motion.velocity) {
             *force = *force + load - self.support_damping() * v;
         }
     }
 
-    fn respond(&self, forces: &mut [f64], _angle: f64) {
+    fn respond(&self, forces: &mut [f64], _q: &[f64]) {
         let mass = self.mass().unwrap_or(f64::INFINITY);
         forces.iter_mut().for_each(|force| *force /= mass);
     }
 
-    fn accelerate(&self, on_body: &Wrench<f64>, _motion: &Motion<f64>, gravity: [f64; 2], a: &mut [f64]) {
+    fn accelerate(&self, on_body: &Wrench<f64>, _state: &BodyState<'_>, gravity: [f64; 2], a: &mut [f64]) {
         let Some(mass) = self.mass() else { return };
         for k in 0..2 {
             a[k] = on_body.force[k] / mass + gravity[k];
         }
     }
 
-    fn wrench_for(&self, a: &dyn Fn(usize) -> f64, _motion: &Motion<f64>, gravity: [f64; 2]) -> Wrench<f64> {
+    fn wrench_for(&self, a: &dyn Fn(usize) -> f64, _state: &BodyState<'_>, gravity: [f64; 2]) -> Wrench<f64> {
         let mass = self.mass().unwrap_or(0.0);
         Wrench { force: [mass * (a(0) - gravity[0]), mass * (a(1) - gravity[1])], moment: 0.0 }
     }
@@ -119,26 +119,26 @@ impl SharedBody for Ring {
         }
     }
 
-    fn energy(&self, motion: &Motion<f64>, gravity: [f64; 2]) -> BodyEnergy {
+    fn energy(&self, state: &BodyState<'_>, gravity: [f64; 2]) -> BodyEnergy {
         let mass = self.mass().unwrap_or(0.0);
-        let [y, z] = motion.velocity;
+        let [y, z] = state.motion.velocity;
         BodyEnergy {
             kinetic: 0.5 * mass * (y * y + z * z),
-            potential: BodyEnergy::of_weight(mass, gravity, motion.position),
+            potential: BodyEnergy::of_weight(mass, gravity, state.motion.position),
         }
     }
 
-    fn add_powers(&self, motion: &Motion<f64>, inputs: &InputValues, powers: &mut [f64]) {
+    fn add_powers(&self, state: &BodyState<'_>, inputs: &InputValues, powers: &mut [f64]) {
         if self.mass().is_some() {
-            let [y, z] = motion.velocity;
+            let [y, z] = state.motion.velocity;
             powers[Power::Loads as usize] += inputs.of(Input::LoadY) * y + inputs.of(Input::LoadZ) * z;
             powers[Power::RingSupport as usize] -= self.support_damping() * (y * y + z * z);
         }
     }
 
-    fn report(&self, motion: &Motion<f64>, inputs: &InputValues, gravity: [f64; 2], out: &mut BodyForces) {
+    fn report(&self, state: &BodyState<'_>, inputs: &InputValues, gravity: [f64; 2], out: &mut BodyForces) {
         if let Held::Free { mass, damping } = self.held {
-            let [y, z] = motion.velocity;
+            let [y, z] = state.motion.velocity;
             out[ForceSource::Gravity as usize] = weight(mass, gravity);
             out[ForceSource::Load as usize] = [inputs.of(Input::LoadY), inputs.of(Input::LoadZ), 0.0];
             out[ForceSource::Support as usize] = [-damping * y, -damping * z, 0.0];

@@ -27,7 +27,7 @@ impl State {
 pub(crate) fn states_of<'a>(
     bodies: &'a SharedBodies,
     elements: &'a dyn Elements,
-) -> impl Iterator<Item = (State, String, &'static Coordinate)> + 'a {
+) -> impl Iterator<Item = (State, String, &'a Coordinate)> + 'a {
     let (kind, count) = (elements.kind(), elements.set().count);
     let coordinates = move |states: &'static [State], with_position: bool| {
         let of_shared = bodies.iter().flatten().flat_map(|body| {

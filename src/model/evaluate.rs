@@ -5,7 +5,7 @@
 
 use super::workspace::Workspace;
 use super::{Fault, Input, InputValues, Model};
-use crate::bodies::SHARED;
+use crate::bodies::{BodyState, SHARED};
 use crate::laws::contact_pair::ContactForce;
 use crate::laws::fluid::Fluid;
 use crate::pairs::Law;
@@ -62,7 +62,9 @@ impl Model {
 
     /// Finds the motion of all bodies and the contacts that touch.
     pub(super) fn locate(&self, q: &[f64], v: &[f64], ws: &mut Workspace) -> Result<(), Fault> {
-        let Workspace { motions, contacts, changes, inputs, .. } = ws;
+        let Workspace { motions, of_shared: [shared_q, shared_v, _], contacts, changes, inputs, .. } = ws;
+        shared_q.copy_from_slice(&q[..self.layout.of_shared()]);
+        shared_v.copy_from_slice(&v[..self.layout.of_shared()]);
         contacts.clear();
         changes.forget();
         let reach = LOST_BODY * self.pitch_radius();
@@ -120,7 +122,16 @@ impl Model {
 
     /// Collects forces on the bodies and lets them accelerate.
     pub(super) fn assemble(&self, ws: &mut Workspace, a: &mut [f64]) {
-        let Workspace { motions, contacts, between, on_elements, on_shared, inputs, .. } = ws;
+        let Workspace {
+            motions,
+            of_shared: [q, v, _],
+            contacts,
+            between,
+            on_elements,
+            on_shared,
+            inputs,
+            ..
+        } = ws;
         let mut on = [Wrench::default(); SHARED];
         on_elements.fill(Wrench::default());
         for batch in &contacts.batches {
@@ -141,9 +152,14 @@ impl Model {
             }
         }
         for (place, body) in self.shared.iter().enumerate() {
-            if let (Some(body), Some(first)) = (body, self.layout.shared(place)) {
-                body.add_external(&motions.shared[place], inputs, &mut on[place]);
-                body.accelerate(&on[place], &motions.shared[place], self.gravity, &mut a[first..]);
+            let at = self.layout.range(place);
+            if let Some(body) = body
+                && !at.is_empty()
+            {
+                let state =
+                    BodyState { motion: &motions.shared[place], q: &q[at.clone()], v: &v[at.clone()] };
+                body.add_external(&state, inputs, &mut on[place]);
+                body.accelerate(&on[place], &state, self.gravity, &mut a[at]);
             }
         }
         *on_shared = on;

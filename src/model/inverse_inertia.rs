@@ -26,14 +26,14 @@ impl InverseInertia {
         self.balanced = true;
     }
 
-    /// Adds that of a body at the angle `angle` (rad) whose coordinates are these.
-    pub(super) fn add(&mut self, body: &dyn SharedBody, at: Range<usize>, angle: f64) {
+    /// Adds that of a body whose coordinates stand at these places and are `q`.
+    pub(super) fn add(&mut self, body: &dyn SharedBody, at: Range<usize>, q: &[f64]) {
         let width = self.diagonal.len();
         self.balanced &= body.is_balanced();
         for k in at.clone() {
             let column = &mut self.columns[k * width..(k + 1) * width];
             column[k] = 1.0;
-            body.respond(&mut column[at.clone()], angle);
+            body.respond(&mut column[at.clone()], q);
             self.diagonal[k] = column[k];
         }
     }

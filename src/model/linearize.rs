@@ -74,7 +74,7 @@ impl Model {
         let (inverse, width) = (&mut ws.inverse_inertia, self.layout.hub());
         let of_shared = self.layout.of_shared();
         inverse.clear();
-        for (place, body, at) in self.free_bodies() {
+        for (_, body, at) in self.free_bodies() {
             // External loads change by themselves.
             for (rate, input) in over_time[at.clone()].iter_mut().zip(body.load_inputs()) {
                 *rate += input.map_or(0.0, |input| rates.of(input));
@@ -82,7 +82,7 @@ impl Model {
             body.add_damping(&mut |[i, k], damping| {
                 over_velocities.hub[(at.start + i, at.start + k)] -= damping;
             });
-            inverse.add(body, at, ws.motions.shared[place].angle);
+            inverse.add(body, at.clone(), &ws.of_shared[0][at]);
         }
         inverse.multiply(&mut over_time[..of_shared], of_shared);
         for part in [&mut *over_positions, &mut *over_velocities] {
@@ -90,10 +90,10 @@ impl Model {
             inverse.multiply(hub, width);
             inverse.multiply(to_hub, width);
         }
-        for (place, body, at) in self.free_bodies().filter(|(_, body, _)| !body.is_balanced()) {
+        for (place, body, at) in self.free_bodies() {
             let [k, d] = [&mut *over_positions, &mut *over_velocities]
                 .map(|part| part.hub.view_mut((at.start, at.start), (at.len(), at.len())));
-            body.add_inertial_slopes(&ws.on_shared[place], &ws.motions.shared[place], k, d);
+            body.add_inertial_slopes(&ws.on_shared[place], &ws.body(place, at), k, d);
         }
         for (j, on_element) in ws.on_elements.iter().enumerate() {
             let element = ws.motions.element(j);

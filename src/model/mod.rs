@@ -20,6 +20,8 @@ mod initial;
 mod integration;
 mod inverse_inertia;
 mod linearize;
+#[cfg(test)]
+mod more_coordinates;
 mod nodes;
 mod report;
 mod signals;

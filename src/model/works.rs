@@ -41,7 +41,6 @@ impl Energy {
 impl Model {
     /// Powers at the last evaluated state of `ws`, whose velocities are `v`, W, in the order of [`POWERS`], and last whether a law
     /// is at a floor (1 or 0). With a semi-implicit step those of its forces, which differ from the evaluated ones.
-    #[doc(hidden)]
     ///
     /// # Panics
     /// When `p` is shorter than that.
@@ -83,9 +82,9 @@ impl Model {
                 on_ring += if *body == INNER_RING { on_body.moment } else { 0.0 };
             }
         }
-        for (body, motion) in self.shared.iter().zip(&motions.shared) {
+        for (place, body) in self.shared.iter().enumerate() {
             if let Some(body) = body {
-                body.add_powers(motion, &ws.inputs, p);
+                body.add_powers(&ws.body(place, self.layout.range(place)), &ws.inputs, p);
             }
         }
         p[Power::RingDrive as usize] = -on_ring * ws.inputs.of(Input::RingSpeed);
@@ -133,11 +132,9 @@ impl Model {
     #[doc(hidden)]
     pub fn energy(&self, ws: &Workspace) -> Energy {
         let mut e = Energy::default();
-        let of_shared = self
-            .shared
-            .iter()
-            .zip(&ws.motions.shared)
-            .filter_map(|(body, motion)| Some(body.as_ref()?.energy(motion, self.gravity)));
+        let of_shared = self.shared.iter().enumerate().filter_map(|(place, body)| {
+            Some(body.as_ref()?.energy(&ws.body(place, self.layout.range(place)), self.gravity))
+        });
         let free = (0..self.layout.count).map(|j| ws.motions.element(j));
         let of_elements = free.map(|element| self.elements.energy(&element, self.gravity));
         for energy in of_shared.chain(of_elements) {

@@ -3,11 +3,12 @@
 use super::integration::step_changes::StepChanges;
 use super::inverse_inertia::InverseInertia;
 use super::{InputValues, Model};
-use crate::bodies::{Motions, POWERS, SHARED};
+use crate::bodies::{BodyState, Motions, POWERS, SHARED};
 use crate::integrate::Vibration;
 use crate::laws::fluid::Fluid;
 use crate::pairs::{Batch, Contacts, LAWS, LAWS_OF_PAIR, Law, LawCounts, PairInfo, SharedForce};
 use crate::space::Wrench;
+use std::ops::Range;
 
 /// Behind the powers: 1 while a law between rollers and raceways is at a floor, else 0.
 pub(crate) const AT_FLOOR: usize = POWERS.len();
@@ -18,6 +19,8 @@ pub(crate) const RATES: usize = AT_FLOOR + 1;
 #[derive(Clone, Debug)]
 pub struct Workspace {
     pub(super) motions: Motions,
+    /// Positions and velocities of the shared bodies, and memory for as many.
+    pub(super) of_shared: [Vec<f64>; 3],
     pub(super) contacts: Contacts,
     /// Of their speeds in the step from the last evaluated state.
     pub(super) changes: StepChanges,
@@ -56,6 +59,7 @@ impl Workspace {
         Self {
             changes: StepChanges::new(model.layout.count, contacts.batches.iter().map(Batch::room)),
             motions: Motions::new(model.elements.set()),
+            of_shared: std::array::from_fn(|_| vec![0.0; model.layout.of_shared()]),
             contacts,
             infos: model.infos.clone(),
             between: vec![SharedForce::default(); model.between.len()],
@@ -73,6 +77,13 @@ impl Workspace {
             temperature: model.inputs.oil.map_or(f64::NAN, |oil| oil.built_at.0),
             fluid: Fluid::SAME,
         }
+    }
+
+    /// A shared body, whose coordinates are these, at the last evaluated state.
+    #[inline]
+    pub(super) fn body(&self, place: usize, at: Range<usize>) -> BodyState<'_> {
+        let [q, v, _] = &self.of_shared;
+        BodyState { motion: &self.motions.shared[place], q: &q[at.clone()], v: &v[at] }
     }
 
     /// Normal speeds of the touching contacts that elements roll in, at the last evaluated state.

@@ -30,14 +30,14 @@ impl Model {
             if self.elements.inertia().is_none() {
                 slope += contact_damping(place, ws);
             }
-            let (full, angle) = (&mut block.full, ws.motions.shared[place].angle);
+            let (full, q) = (&mut block.full, &ws.of_shared[0][self.layout.range(place)]);
             let n = full.nrows();
             full.fill(0.0);
             for (column, own) in full.as_mut_slice().chunks_exact_mut(n).zip(&slope.data.0) {
                 column.iter_mut().zip(own).for_each(|(x, slope)| *x = *slope);
             }
             body.add_damping(&mut |[i, k], damping| full[(i, k)] += damping);
-            full.as_mut_slice().chunks_exact_mut(n).for_each(|column| body.respond(column, angle));
+            full.as_mut_slice().chunks_exact_mut(n).for_each(|column| body.respond(column, q));
             let largest = (0..n).fold(0.0, |largest: f64, i| largest.max(full[(i, i)].abs()));
             let share = self.shared_share(h * largest);
             let pairs = block.implicit.as_mut_slice().iter_mut().zip(full.as_slice());

@@ -40,13 +40,16 @@ impl Model {
             }
         }
         for (place, body) in self.shared.iter().enumerate() {
-            if let (Some(body), Some(first)) = (body, self.layout.shared(place)) {
-                let mut change = on[place].components();
-                let change = &mut change[..body.coordinates().len()];
-                body.respond(change, ws.motions.shared[place].angle);
-                for (a, change) in a[first..].iter_mut().zip(change) {
-                    *a += *change;
-                }
+            let at = self.layout.range(place);
+            if let Some(body) = body
+                && !at.is_empty()
+            {
+                let [q, _, change] = &mut ws.of_shared;
+                let change = &mut change[at.clone()];
+                change.fill(0.0);
+                change.iter_mut().zip(on[place].components()).for_each(|(change, on_body)| *change = on_body);
+                body.respond(change, &q[at.clone()]);
+                a[at].iter_mut().zip(change).for_each(|(a, change)| *a += *change);
             }
         }
     }
@@ -103,10 +106,8 @@ impl Model {
                     continue;
                 };
                 let [nr, nc] = site.grip.normal_on_element();
-                let slip = |[radial, across, turning]: &[f64; OF_ELEMENT]| {
-                    nr * across - nc * radial + site.grip.arm * turning
-                };
-                let (mean_slip, end_slip) = (slip(mean), slip(end));
+                let (mean_slip, end_slip) =
+                    (slip([nr, nc], site.grip.arm, mean), slip([nr, nc], site.grip.arm, end));
                 let beyond = 2.0 * *share - 1.0;
                 out.push(Changes {
                     approach_speed: nr * mean[0] + nc * mean[1],
@@ -116,6 +117,12 @@ impl Model {
             }
         }
     }
+}
+
+/// Speed of the contact point along the tangent, m/s.
+#[inline(always)]
+fn slip([nr, nc]: [f64; 2], arm: f64, [radial, across, turning]: &[f64; OF_ELEMENT]) -> f64 {
+    nr * across - nc * radial + arm * turning
 }
 
 /// Force of contact `i` of a batch, or what a semi-implicit step has made of it by these changes.

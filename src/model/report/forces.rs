@@ -1,6 +1,6 @@
 //! Force report: every contact and every contribution to every body at one state.
 
-use crate::bodies::{BodyForces, CAGE};
+use crate::bodies::{BodyForces, BodyState, CAGE};
 use crate::laws::guide::GuideForce;
 use crate::model::Model;
 use crate::model::Workspace;
@@ -136,9 +136,11 @@ impl Model {
             out.guide.velocity = std::array::from_fn(|k| body.velocity[k] - ring.velocity[k]);
         }
         let present =
-            self.shared.iter().zip(&shared).filter_map(|(body, motion)| Some((body.as_ref()?, motion)));
-        for ((body, motion), out) in present.zip(&mut out.bodies) {
-            body.report(motion, &ws.inputs, self.gravity, out);
+            self.shared.iter().enumerate().filter_map(|(place, body)| Some((place, body.as_ref()?)));
+        for ((place, body), out) in present.zip(&mut out.bodies) {
+            let at = self.layout.range(place);
+            let state = BodyState { motion: &shared[place], q: &q[at.clone()], v: &v[at] };
+            body.report(&state, &ws.inputs, self.gravity, out);
         }
         let first = self.element_body(0);
         for out in &mut out.bodies[first..] {

@@ -10,7 +10,7 @@ use crate::model::Model;
 use crate::model::Workspace;
 use crate::model::integration::step_forces::force_in_step;
 use crate::pairs::PairInfo;
-use crate::space::{Motion, Wrench};
+use crate::space::Wrench;
 
 /// What is followed.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -143,8 +143,7 @@ impl Model {
         let guiding = self.guiding_ring();
         let [body, ring] = [&motions.shared[CAGE], &motions.shared[guiding]];
         let offset = [body.position[0] - ring.position[0], body.position[1] - ring.position[1]];
-        let guide =
-            if watch.guide { self.guide_in_step(body, step, &on[CAGE], ws) } else { Wrench::default() };
+        let guide = if watch.guide { self.guide_in_step(step, &on[CAGE], ws) } else { Wrench::default() };
         let on_cage = on[CAGE];
         on[guiding].moment -= guide.moment + offset[0] * guide.force[1] - offset[1] * guide.force[0];
         for (place, source) in &self.selection.watch.others {
@@ -175,7 +174,6 @@ impl Model {
     /// Force of the guide on the cage, moment about the centre of the cage, whose pockets push with `pockets`.
     fn guide_in_step(
         &self,
-        motion: &Motion<f64>,
         step: Option<&SemiImplicit<'_>>,
         pockets: &Wrench<f64>,
         ws: &Workspace,
@@ -188,9 +186,10 @@ impl Model {
         };
         let Some(step) = step else { return force.on[0] };
         let gained = |k: usize| 2.0 * (step.end[c + k] - step.mean[c + k]) / step.h;
-        let all = cage.wrench_for(&gained, motion, self.gravity);
+        let state = ws.body(CAGE, self.layout.range(CAGE));
+        let all = cage.wrench_for(&gained, &state, self.gravity);
         let mut other = Wrench::default();
-        cage.add_external(motion, &ws.inputs, &mut other);
+        cage.add_external(&state, &ws.inputs, &mut other);
         other.add(pockets);
         Wrench {
             force: [all.force[0] - other.force[0], all.force[1] - other.force[1]],
