@@ -4,7 +4,7 @@
 pub trait Stored {
     /// Appends its numbers; always as many.
     fn save(&self, out: &mut Vec<f64>);
-    /// Takes back what [`Stored::save`] wrote; `None` if it does not fit.
+    /// Takes back what [`Stored::save`] wrote; `None` if it does not fit, and the state is then of no use.
     fn load(&mut self, from: &mut Reader<'_>) -> Option<()>;
 }
 
@@ -39,7 +39,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Derives [`Stored`] of a type from its fields. After loading, fields behind `then` have these values, and the whole must fulfil
+/// Derives [`Stored`] of a type from its fields; `field[0]` is the first item of one. After loading, fields behind `then` have these values, and the whole must fulfil
 /// the condition behind `if`.
 macro_rules! stored {
     (
@@ -68,7 +68,7 @@ macro_rules! stored {
 }
 pub(crate) use stored;
 
-/// Derives [`Stored`] of an enumeration without data from the list of its items in their order.
+/// Derives [`Stored`] of an enumeration without data from the list of all its items in the order of its definition.
 macro_rules! stored_choice {
     ($type:ty, $all:expr) => {
         impl $crate::stored::Stored for $type {

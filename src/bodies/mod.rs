@@ -9,8 +9,8 @@
 //! | nodes | `nodes` | states that are no motion |
 //!
 //! Rings and cage are shared: every element can touch them. Pairs see [`Motions`] and act on bodies by wrenches. A new body is a
-//! file with one of the traits [`SharedBody`], [`Elements`] and [`Node`] and a line in [`shared_bodies`], [`elements()`] or
-//! [`nodes()`].
+//! file with one of the traits `SharedBody`, `Elements` and `Node` and a line in `shared_bodies`, `elements` or
+//! `nodes`.
 
 mod cage;
 mod elements;
@@ -27,7 +27,7 @@ pub use fault::{FAULTS, Fault, FaultCounts};
 pub use inputs::{HostInputs, INPUTS, Input, InputValues};
 pub use layout::Layout;
 
-pub(crate) use elements::{Damping, ElementSlopes, Elements, Inertia, UPPER};
+pub(crate) use elements::{Damping, ElementSlopes, Elements, UPPER};
 pub(crate) use layout::{OF_ELEMENT, Owner};
 pub(crate) use motions::{Element, ElementMotion, ElementSet, Motions};
 #[cfg(test)]
@@ -170,7 +170,8 @@ pub(crate) trait SharedBody: Debug + Send + Sync {
     /// Name of the body.
     fn name(&self) -> &'static str;
 
-    /// Its coordinates; none if it is held. The first are those of its motion, in the order of its wrench.
+    /// Its coordinates, each with a position; none if it is held. The first are those of its motion, in the order of its wrench:
+    /// y, y and z, or y, z and angle.
     fn coordinates(&self) -> &[Coordinate];
 
     /// Its motion at these positions, velocities and inputs.

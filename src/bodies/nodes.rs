@@ -4,8 +4,10 @@
 //! x' = f(x, powers of the bearing)
 //! ```
 //!
-//! Their states are velocities without position behind all others. They follow from the motion and may act on it by what laws see
-//! of them; the derivatives of their rates are those over their own values, since powers change them slowly.
+//! Their states are velocities without position behind all others. Powers are positive where they drive the bearing, so heat is
+//! the negative of what forces inside take; they are those of evaluations, also in a semi-implicit step, whose booked works are
+//! those of the step. The derivatives that a node tells are those over its own values: how powers change with the motion is left
+//! out of the linear systems of integrators and hosts, as it changes a node slowly.
 
 use crate::scene::Scene;
 use nalgebra::DMatrixViewMut;
@@ -16,7 +18,7 @@ pub(crate) fn nodes(_scene: &Scene) -> Vec<Box<dyn Node>> {
     Vec::new()
 }
 
-/// A value of a node.
+/// What is said of a value of a node.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NodeState {
     /// Name, SI unit and meaning.
@@ -32,7 +34,7 @@ pub(crate) trait Node: Debug + Send + Sync {
     /// Name of the node.
     fn name(&self) -> &'static str;
 
-    /// Its values.
+    /// What is said of its values.
     fn states(&self) -> &[NodeState];
 
     /// Rates of its values `x`, per second, while forces have these powers, W, by [`super::Power`].

@@ -6,6 +6,10 @@ use super::{Coordinate, Elements, Layout, Node, SharedBodies};
 pub(crate) fn layout_of(bodies: &SharedBodies, elements: &dyn Elements, nodes: &[Box<dyn Node>]) -> Layout {
     let widths = bodies.each_ref().map(|body| body.as_ref().map_or(0, |b| b.coordinates().len()));
     let free = !elements.coordinates().is_empty();
+    // Of the coordinates of shared bodies none is without position: such a state is one of a node.
+    debug_assert!(
+        bodies.iter().flatten().all(|body| body.coordinates().iter().all(|c| c.position.is_some()))
+    );
     let nodes = nodes.iter().map(|node| node.states().len()).collect();
     Layout::new(widths, if free { elements.set().count } else { 0 }, nodes)
 }

@@ -9,7 +9,7 @@
 //! | `auto/` | the choice among them, its monitors and its constants |
 //! | `linear/` | structured linear systems |
 //!
-//! A new method is a file in `methods/` and a line in `sim/method.rs`.
+//! A new method is a file in `methods/`, its name here, in `methods!` of `scene/run.rs` and in `sim/method.rs`.
 
 pub mod auto;
 mod driver;

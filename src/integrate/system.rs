@@ -81,8 +81,8 @@ pub trait Observed: System {
     fn power_count(&self) -> [usize; 2] {
         [0; 2]
     }
-    /// Those powers (W) and rates at the last evaluated state (`q`, `v`), or for a step from there: the only one, in which the spokes
-    /// move as [`Split::react`] was told.
+    /// Those powers (W) and rates at the last evaluated state (`q`, `v`), or in a step from there. A system may keep what it has
+    /// found of a step until its next evaluation, so this and [`Split::react`] are told the same one.
     fn powers(&mut self, _q: &[f64], _v: &[f64], _step: Option<&SemiImplicit<'_>>, _out: &mut [f64]) {}
     /// Kinds of energy stored at the last evaluated state (`q`, `v`), J. Their rate is the sum of the powers.
     fn energy(&self, _q: &[f64], _v: &[f64]) -> [f64; 3] {

@@ -1,4 +1,4 @@
-//! From the scene to bodies, coordinates and inputs.
+//! From the scene to bodies, pairs, coordinates and inputs.
 
 use super::report::Selection;
 use super::signals::{InputSignals, InputSource, Oil, Orbit};
@@ -19,14 +19,13 @@ pub(super) fn compile(scene: Scene) -> Result<Model> {
     let viscosity = viscosity_at_start(&scene, &inputs);
     let (pairs, between) =
         (pairs::element_pairs(&scene, viscosity)?, pairs::shared_pairs(&scene, viscosity)?);
-    let radius = elements.set().radius;
     let mut model = Model {
         masses: shared.each_ref().map(|body| body.as_ref().and_then(|b| b.mass()).unwrap_or(f64::INFINITY)),
         onsets: pairs.iter().any(|pair| pair.has_onset()),
         layout: bodies::layout_of(&shared, &*elements, &nodes),
         gravity: scene.gravity.map_or([0.0; 2], |g| [g.y, g.z]),
         shared,
-        mobility: elements.inertia().map_or(0.0, |i| 1.0 / i.mass + radius * radius / i.moment),
+        mobility: elements.mobility(),
         elements,
         nodes,
         infos: pairs.iter().map(|pair| pair.info()).collect(),

@@ -46,7 +46,9 @@ impl Model {
         }
         self.place_cage(cage, q);
         self.start_nodes(v);
-        let Some(inertia) = self.elements.inertia() else { return Ok(state) };
+        if !self.has_rollers() {
+            return Ok(state);
+        }
         for j in 0..layout.count {
             v[layout.element(j) + 1] = orbit;
             v[layout.spin(j)] = spin;
@@ -63,7 +65,7 @@ impl Model {
                 inputs.of(Input::LoadY) + mass * self.gravity[0],
                 inputs.of(Input::LoadZ) + mass * self.gravity[1],
             ];
-            let centrifugal = inertia.mass * geometry.pitch_radius * orbit * orbit;
+            let centrifugal = self.elements.centrifugal(orbit);
             let find =
                 |q: &[f64]| StillBearing { model: self, geometry, laws, q, centrifugal }.equilibrium(load);
             let mut ring = find(q)?;

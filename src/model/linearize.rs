@@ -14,7 +14,7 @@ use crate::pairs::SlopeSums;
 use std::ops::Range;
 
 impl Model {
-    /// Which velocities are coupled: shared bodies are the hub, rollers the spokes.
+    /// Which velocities are coupled: shared bodies and nodes are the hub, elements the spokes.
     #[doc(hidden)]
     pub fn structure(&self) -> Structure<OF_ELEMENT> {
         self.layout.structure()

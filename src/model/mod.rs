@@ -183,7 +183,7 @@ impl Model {
 
     /// Whether the elements move freely and are rollers; otherwise their motion is prescribed.
     pub fn has_rollers(&self) -> bool {
-        self.elements.inertia().is_some()
+        self.elements.mass().is_some()
     }
 
     /// Radius of the pitch circle, m.
@@ -236,7 +236,8 @@ impl Model {
         self.shared[CAGE].is_some()
     }
 
-    /// Place of the guide among the pairs of shared bodies, and what it says of itself.
+    /// Place of the guide among the pairs of shared bodies, and what it says of itself: the first, if there are several, whose
+    /// parts the channels show.
     fn guide(&self) -> Option<(usize, &SharedInfo)> {
         self.between_infos.iter().enumerate().find(|(_, info)| info.source == ForceSource::Guide)
     }

@@ -2,7 +2,7 @@
 
 use super::{Model, Workspace};
 use crate::bodies::{Damping, Node, OF_ELEMENT};
-use crate::integrate::{Linearization, implicit_share};
+use crate::integrate::Linearization;
 use std::ops::Range;
 
 impl Model {
@@ -53,9 +53,7 @@ impl Model {
             full.fill(0.0);
             node.add_slopes(&ws.nodes[place..][..n], full.as_view_mut());
             full.neg_mut();
-            let largest = (0..n).fold(0.0, |largest: f64, i| largest.max(full[(i, i)].abs()));
-            let share = implicit_share(h * largest);
-            block.implicit.zip_apply(full, |implicit, full| *implicit = full * share);
+            block.split(h, 1.0);
         }
     }
 }

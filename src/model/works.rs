@@ -88,7 +88,7 @@ impl Model {
             }
         }
         p[Power::RingDrive as usize] = -on_ring * ws.inputs.of(Input::RingSpeed);
-        if self.elements.inertia().is_none() {
+        if self.elements.mass().is_none() {
             p[Power::ElementDrive as usize] = -self.power_on_elements(ws);
         }
     }

@@ -317,7 +317,7 @@ impl SharedPair for Guide {
     /// Bodies move on straight lines for this.
     fn longest_step(&self, ahead: &Ahead<'_>) -> f64 {
         let [body, ring] = [&ahead.shared[CAGE], &ahead.shared[self.ring]];
-        let relative = JournalPlace {
+        let relative = CagePlace {
             position: difference(body.position, ring.position),
             velocity: difference(body.velocity, ring.velocity),
         };
@@ -353,8 +353,8 @@ fn highest_place(roundness: &[Harmonic]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// The same from the centre of the guiding ring.
-struct JournalPlace {
+/// Place (m) and velocity (m/s) of the cage seen from the centre of the guiding ring.
+struct CagePlace {
     position: [f64; 2],
     velocity: [f64; 2],
 }
@@ -363,8 +363,8 @@ struct JournalPlace {
 ///
 /// From outside an onset, a step ends no further behind it than a share of what the law needs to become itself; within a gap
 /// it uses up at most a share of what is left. So no law is passed between two states that both are outside of it.
-fn longest_step(guide: &GuideLaw, mass: f64, place: &JournalPlace, tuning: &Tuning) -> f64 {
-    let JournalPlace { position, velocity } = *place;
+fn longest_step(guide: &GuideLaw, mass: f64, place: &CagePlace, tuning: &Tuning) -> f64 {
+    let CagePlace { position, velocity } = *place;
     let share = tuning.onset_share;
     let e = math::hypot(position[0], position[1]);
     let speed = math::hypot(velocity[0], velocity[1]);

@@ -10,7 +10,8 @@
 //! A pair of elements finds its touching contacts and hands motion and `Grip` of each to `Contacts`. Wrenches, powers,
 //! damping, the change of forces in a step and the reaction follow from these by the same code for all pairs
 //! (`model/evaluate`, `model/works`, `model/integration`). A pair of two shared bodies gives wrenches on both. A new pair is a
-//! file with the trait `ElementPair` and a line in `element_pairs`, or with `SharedPair` and a line in `shared_pairs`.
+//! file with the trait `ElementPair` and a line in `element_pairs`, or with `SharedPair` and a line in `shared_pairs`; and the
+//! names that it is counted and reported by, in `Law`, `ForceSource` and `Power`.
 
 mod contacts;
 pub(crate) mod grip;
@@ -177,6 +178,7 @@ pub(crate) struct Ahead<'a> {
     pub(crate) layout: &'a Layout,
     pub(crate) q: &'a [f64],
     pub(crate) v: &'a [f64],
+    /// Zero where neither the inner ring guides nor a law sets in abruptly.
     pub(crate) inputs: &'a InputValues,
     /// Masses of the shared bodies, kg; infinite where one is not free.
     pub(crate) masses: &'a [f64; SHARED],
@@ -188,7 +190,7 @@ pub(crate) struct Ahead<'a> {
 impl Ahead<'_> {
     /// Smaller of the masses of this shared body and of a free element, kg.
     pub(crate) fn lightest(&self, mate: usize) -> f64 {
-        self.elements.inertia().map_or(self.masses[mate], |inertia| inertia.mass.min(self.masses[mate]))
+        self.elements.mass().map_or(self.masses[mate], |mass| mass.min(self.masses[mate]))
     }
 }
 
@@ -236,7 +238,7 @@ pub(crate) trait ElementPair: Debug + Send + Sync {
 /// What a pair of shared bodies is called and where its forces count.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SharedInfo {
-    /// Places of the bodies.
+    /// Places of the bodies; of a guide the cage first.
     pub(crate) bodies: [usize; 2],
     /// Under which its forces are reported.
     pub(crate) source: ForceSource,

@@ -262,7 +262,7 @@ impl System for Bearing {
         self.model.longest_step(t, [q, v], &self.host, wanted, &self.tuning)
     }
 
-    /// Rollers, then the ring and the cage, whichever exist.
+    /// Rollers, then the ring, the cage and nodes, whichever exist.
     fn groups(&self) -> Vec<Vec<usize>> {
         self.structure().groups()
     }

@@ -2,7 +2,7 @@
 
 use super::{Damping, ElementSlopes};
 use crate::bodies::{
-    BodyEnergy, BodyForces, Coordinate, Element, ElementMotion, ElementSet, Elements, Fault, Inertia, Input,
+    BodyEnergy, BodyForces, Coordinate, Element, ElementMotion, ElementSet, Elements, Fault, Input,
     InputValues, Layout, Motions, OF_ELEMENT,
 };
 use crate::scene::Scene;
@@ -34,8 +34,16 @@ impl Elements for KinematicElements {
         &[]
     }
 
-    fn inertia(&self) -> Option<Inertia> {
+    fn mass(&self) -> Option<f64> {
         None
+    }
+
+    fn mobility(&self) -> f64 {
+        0.0
+    }
+
+    fn centrifugal(&self, _orbit_speed: f64) -> f64 {
+        0.0
     }
 
     fn kinematic_speeds(&self, inputs: &InputValues) -> [f64; 2] {

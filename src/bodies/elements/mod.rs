@@ -21,15 +21,8 @@ pub(crate) struct ElementSlopes<'a> {
     pub(crate) over_hub: &'a mut [[f64; OF_ELEMENT]],
 }
 
-/// Damping of all elements and shared bodies.
+/// Damping of all elements, shared bodies and nodes.
 pub(crate) type Damping = GroupDamping<OF_ELEMENT>;
-
-/// Mass in kg and moment of inertia in kg m^2 of an element.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Inertia {
-    pub(crate) mass: f64,
-    pub(crate) moment: f64,
-}
 
 /// The rolling elements of a bearing, all of one kind.
 pub(crate) trait Elements: Debug + Send + Sync {
@@ -42,8 +35,14 @@ pub(crate) trait Elements: Debug + Send + Sync {
     /// Coordinates of one; none if the motion is prescribed.
     fn coordinates(&self) -> &'static [Coordinate];
 
-    /// Inertia of one, if it moves freely.
-    fn inertia(&self) -> Option<Inertia>;
+    /// Mass of one in kg, if it moves freely; otherwise its motion is prescribed.
+    fn mass(&self) -> Option<f64>;
+
+    /// Slip speed that a tangential impulse of 1 N s on its surface gives one, m/(N s^2).
+    fn mobility(&self) -> f64;
+
+    /// Centrifugal force in N on one on the pitch circle at this orbit speed in rad/s.
+    fn centrifugal(&self, orbit_speed: f64) -> f64;
 
     /// Orbit and spin speed without slip at these inputs, rad/s: of elements that touch both raceways, or as prescribed.
     fn kinematic_speeds(&self, inputs: &InputValues) -> [f64; 2];
@@ -77,7 +76,7 @@ pub(crate) trait Elements: Debug + Send + Sync {
         a: &mut [f64],
     );
 
-    /// Makes derivatives of the wrench on element `j` over positions and velocities those of its accelerations, and adds
+    /// Makes derivatives of the wrench on an element over positions and velocities those of its accelerations, and adds
     /// how these change at constant wrenches. Returns the factors from forces to accelerations.
     fn slopes(
         &self,

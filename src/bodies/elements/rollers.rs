@@ -9,7 +9,7 @@
 use super::{Damping, ElementSlopes, UPPER, scale_rows};
 use crate::bodies::{
     BodyEnergy, BodyForces, Coordinate, Element, ElementMotion, ElementSet, Elements, Fault, ForceSource,
-    Inertia, Input, InputValues, Layout, Motions, Moves, OF_ELEMENT, weight,
+    Input, InputValues, Layout, Motions, Moves, OF_ELEMENT, weight,
 };
 use crate::scalar::{Columns, Pack, dispatch};
 use crate::scene::Scene;
@@ -18,6 +18,13 @@ use pulp::Simd;
 
 /// A roller this far from the pitch circle, in pitch radii, has left the bearing.
 const LOST_ROLLER: f64 = 0.25;
+
+/// Mass in kg and moment of inertia in kg m^2 of a roller.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Inertia {
+    mass: f64,
+    moment: f64,
+}
 
 /// Rollers with states of their own.
 #[derive(Debug)]
@@ -80,8 +87,17 @@ impl Elements for Rollers {
         &COORDINATES
     }
 
-    fn inertia(&self) -> Option<Inertia> {
-        Some(self.inertia)
+    fn mass(&self) -> Option<f64> {
+        Some(self.inertia.mass)
+    }
+
+    fn mobility(&self) -> f64 {
+        let (Inertia { mass, moment }, radius) = (self.inertia, self.set.radius);
+        1.0 / mass + radius * radius / moment
+    }
+
+    fn centrifugal(&self, orbit_speed: f64) -> f64 {
+        self.inertia.mass * self.set.pitch_radius * orbit_speed * orbit_speed
     }
 
     fn kinematic_speeds(&self, inputs: &InputValues) -> [f64; 2] {

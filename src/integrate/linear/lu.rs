@@ -29,7 +29,7 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// What pivots are chosen and judged by.
 pub(crate) struct Scales<'a> {
-    /// Magnitude of the terms that each entry is a sum of.
+    /// Magnitude of the terms that each entry is a sum of, as far as it is known.
     pub(crate) size: &'a mut [f64],
     /// Memory for a number of each column, and of each row.
     pub(crate) columns: &'a mut [f64],

@@ -13,8 +13,20 @@ pub struct DampingBlock {
     /// D, all of it.
     pub full: DMatrix<f64>,
     /// D_i, the share of it that acts on the change of the step: half for the trapezoidal rule, all where rates exceed 1/h by
-    /// far. See [`implicit_share`].
+    /// far, and up to twice as much where two bodies damp each other. See [`implicit_share`].
     pub implicit: DMatrix<f64>,
+}
+
+impl DampingBlock {
+    /// Finds the implicit share of it for a step of size `h` (s) from its largest diagonal entry, times `factor`.
+    pub fn split(&mut self, h: f64, factor: f64) {
+        let n = self.full.nrows();
+        let largest = (0..n).fold(0.0, |largest: f64, i| largest.max(self.full[(i, i)].abs()));
+        let share = implicit_share(h * largest) * factor;
+        for (implicit, full) in self.implicit.as_mut_slice().iter_mut().zip(self.full.as_slice()) {
+            *implicit = full * share;
+        }
+    }
 }
 
 /// Share of the change in a step at which a decay at rate r acts, z = h r >= 0: `(3 + 2 z + z^2)/(6 + 3 z + z^2)`.

@@ -115,7 +115,7 @@ impl<S: Split<N> + Observed, const N: usize> Stepper<S> for Leapfrog<N> {
     fn refresh(&mut self, system: &mut S, t: f64) -> Result<(), S::Fault> {
         let (q, v) = self.end.split_at(self.positions);
         system.accelerations(t, q, v, &mut self.a)?;
-        // Those without a position may be about to jump to what friction wants.
+        // Those without a position, such as spins, may be about to jump to what friction wants.
         let (moving, spinning) = self.mean_a.split_at_mut(self.positions);
         moving.copy_from_slice(&self.a[..self.positions]);
         spinning.fill(0.0);

@@ -7,7 +7,6 @@
 //! and of a shared body the guide, exact by dual numbers, and the contacts with elements of prescribed motion.
 
 use crate::bodies::{Damping, SHARED, UPPER};
-use crate::integrate::implicit_share;
 use crate::model::Model;
 use crate::model::workspace::Workspace;
 use nalgebra::{Matrix3, Vector3};
@@ -24,10 +23,11 @@ impl Model {
                 slopes[body] += slope;
             }
         }
+        let factor = self.exchange_factor();
         for (place, block) in self.layout.free().zip(&mut out.bodies) {
             let Some(body) = &self.shared[place] else { continue };
             let mut slope = slopes[place];
-            if self.elements.inertia().is_none() {
+            if self.elements.mass().is_none() {
                 slope += contact_damping(place, ws);
             }
             let (full, q) = (&mut block.full, &ws.of_shared[0][self.layout.range(place)]);
@@ -38,10 +38,7 @@ impl Model {
             }
             body.add_damping(&mut |[i, k], damping| full[(i, k)] += damping);
             full.as_mut_slice().chunks_exact_mut(n).for_each(|column| body.respond(column, q));
-            let largest = (0..n).fold(0.0, |largest: f64, i| largest.max(full[(i, i)].abs()));
-            let share = self.shared_share(h * largest);
-            let pairs = block.implicit.as_mut_slice().iter_mut().zip(full.as_slice());
-            pairs.for_each(|(implicit, full)| *implicit = full * share);
+            block.split(h, factor);
         }
         self.node_damping(h, ws, out);
     }
@@ -49,7 +46,7 @@ impl Model {
     /// That of each element over (radial speed, orbit speed, spin speed): contact damping, half of it implicit, and the secant
     /// slope of friction.
     fn element_damping(&self, ws: &Workspace, out: &mut Damping) {
-        if self.elements.inertia().is_none() {
+        if self.elements.mass().is_none() {
             return;
         }
         for (i, k) in UPPER {
@@ -72,12 +69,12 @@ impl Model {
         self.elements.accelerations_of(&ws.motions, out);
     }
 
-    /// Share of the damping of pairs of shared bodies to take at the end of a step. Where both bodies move, each takes the
-    /// other's predicted velocity, and only twice the share keeps the exchange stable.
-    fn shared_share(&self, z: f64) -> f64 {
+    /// Factor of the share of damping to take at the end of a step. Where both bodies of a pair move, each takes the other's
+    /// predicted velocity, and only twice the share keeps the exchange stable.
+    fn exchange_factor(&self) -> f64 {
         let moves = |body: &usize| self.layout.shared(*body).is_some();
         let both_move = self.between_infos.iter().any(|info| info.bodies.iter().all(moves));
-        implicit_share(z) * if both_move { 2.0 } else { 1.0 }
+        if both_move { 2.0 } else { 1.0 }
     }
 }
 

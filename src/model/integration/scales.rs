@@ -48,7 +48,7 @@ impl Model {
 
     /// Highest squared frequency of rollers and ring in 1/s^2, and the largest roller load in N; `None` without raceways.
     fn roller_frequencies(&self) -> Option<(f64, f64)> {
-        let inertia = self.elements.inertia()?;
+        let mass = self.elements.mass()?;
         let rolling = || self.infos.iter().zip(&self.laws).filter(|(info, _)| info.rolls).map(|(_, law)| law);
         let inner = self.law_of(ForceSource::InnerRaceway)?;
         let largest = |input| self.inputs.largest(input);
@@ -56,14 +56,14 @@ impl Model {
         let ring_mass = ring.and_then(|ring| ring.mass());
         let weight = ring_mass.unwrap_or(0.0) * math::hypot(self.gravity[0], self.gravity[1]);
         let orbit = largest(Input::RingSpeed) * self.elements.orbit_ratio();
-        let centrifugal = inertia.mass * self.pitch_radius() * orbit * orbit;
+        let centrifugal = self.elements.centrifugal(orbit);
         let preload = inner.spring((-self.scene.radial_clearance() / 4.0).max(0.0))[0];
         // 4.1 F/Z is the largest roller load of a line contact bearing without clearance; 1 N keeps it positive.
         let per_roller = 4.1 / count.max(4.1);
         let load = math::hypot(largest(Input::LoadY), largest(Input::LoadZ)) + weight;
         let q = per_roller * load + centrifugal + preload + 1.0;
         let stiffness: f64 = rolling().map(|law| law.stiffness_at_load(q)).sum();
-        let roller = stiffness / inertia.mass;
+        let roller = stiffness / mass;
         let ring = ring_mass.map_or(0.0, |mass| inner.stiffness_at_load(q) * 0.5 * count.max(2.0) / mass);
         Some((roller.max(ring), q))
     }
@@ -76,7 +76,7 @@ impl Model {
     }
 
     /// What counts as one unit of error for every state: the reference length for positions, divided by a radius
-    /// for angles, times 1e4 1/s for velocities.
+    /// for angles, times 1e4 1/s for velocities; what nodes say of theirs.
     #[doc(hidden)]
     pub fn state_scales(&self) -> Vec<f64> {
         let length = self.reference_length();

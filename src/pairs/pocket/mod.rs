@@ -9,6 +9,7 @@ pub(super) use cylinder::new as cylinder;
 pub(super) use plane::new as plane;
 
 use crate::bodies::{CAGE, Fault, Motions};
+use crate::pairs::contacts::GAPS;
 use crate::pairs::{Ahead, Batch, ContactLaw, Cost, ElementPair, ElementPlace, PairInfo, Search, SlopeSums};
 use crate::scalar::elementary::sin_cos;
 use crate::scalar::{Columns, Pack, dispatch, math};
@@ -124,7 +125,7 @@ struct Offsets<'a> {
     /// Lead of all elements, where it is the same.
     together: Option<Frame<f64>>,
     /// Offset, then sine and cosine of the lead where it is not the same.
-    gaps: &'a mut [Vec<f64>; 4],
+    gaps: &'a mut [Vec<f64>; GAPS],
 }
 
 impl Columns for Offsets<'_> {

@@ -111,8 +111,8 @@ impl Pair {
         Self { motion, frame, lead, cage }
     }
 
-    /// The contact with one pillar, with its forces and their derivatives over what its law sees, while the logarithm of the viscosity changes at the rate `ln_viscosity_rate` (1/s). `None` when
-    /// they are apart.
+    /// The contact with one pillar, with its forces and their derivatives over what its law sees, while the logarithm of the
+    /// viscosity changes at the rate `ln_viscosity_rate` (1/s). `None` when they are apart.
     fn pocket<S: PocketShape>(
         &self,
         shape: &S,

@@ -1,5 +1,5 @@
 //! The linear systems of implicit integrators, `(I - gamma J) x = b`, for hosts that bring their own: solved through the
-//! structure of J, in time and memory proportional to the number of rollers.
+//! structure of J, in time and memory proportional to the number of rollers; as a dense matrix where a block of it is singular.
 
 use crate::error::{Error, Result, Status};
 use crate::integrate::linear::shifted::Shifted;
