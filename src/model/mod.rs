@@ -20,11 +20,11 @@ mod initial;
 mod integration;
 mod inverse_inertia;
 mod linearize;
-#[cfg(test)]
-mod more_coordinates;
 mod nodes;
 mod report;
 mod signals;
+#[cfg(test)]
+mod tests;
 mod works;
 mod workspace;
 
