@@ -66,7 +66,8 @@ pub fn rollers(count: u32) -> Result<Scene> {
         ("inner_ring.motion.free.load.z.constant", format!("{:e}", -4900.0 * factor)),
         ("cage.mass", format!("{:e}", 0.37 * factor)),
         ("cage.inertia", format!("{:e}", 6.311e-4 * factor.powi(3))),
-        ("cage.guide.guide_radius", format!("{:e}", 45e-3 * factor)),
+        // On the shoulder, which stays beside the rollers.
+        ("cage.guide.guide_radius", format!("{:e}", factor * pitch + 5e-3)),
     ];
     let sets: Vec<Set<'_>> = texts.iter().map(|(path, value)| (*path, value.as_str())).collect();
     nu2310(&sets)
@@ -128,4 +129,20 @@ pub fn twelve() -> Result<Vec<Scene>> {
         nu2310(&values.iter().map(|(path, value)| (path.as_str(), value.as_str())).collect::<Vec<_>>())
     };
     cases.iter().map(scene).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::size::COUNTS;
+    use cagedyn::Model;
+
+    #[test]
+    fn scenes_of_the_study_can_be_made() {
+        let larger = COUNTS.into_iter().map(|count| rollers(count).unwrap());
+        let others = [nu2310(&[]).unwrap(), grease_guide().unwrap(), spring().unwrap()];
+        for scene in larger.chain(others).chain(twelve().unwrap()) {
+            Model::new(scene).unwrap();
+        }
+    }
 }

@@ -11,7 +11,7 @@ use cagedyn_studies::statistics::table::Table;
 use std::sync::Arc;
 
 /// Numbers of rollers.
-const COUNTS: [u32; 4] = [12, 50, 100, 200];
+pub const COUNTS: [u32; 4] = [12, 50, 100, 200];
 /// Simulated time, s, after the settling.
 const DURATION: f64 = 2e-3;
 const SETTLING: f64 = 5e-3;
