@@ -75,6 +75,12 @@ impl Layout {
         self.positions() + self.count
     }
 
+    /// Number of states of all nodes.
+    #[inline]
+    pub(crate) fn of_nodes(&self) -> usize {
+        self.nodes.iter().sum()
+    }
+
     /// States of each node in `v`.
     pub(crate) fn nodes(&self) -> impl Iterator<Item = Range<usize>> {
         self.nodes.iter().scan(self.first_of_nodes(), |next, width| {
@@ -97,7 +103,7 @@ impl Layout {
     /// Number of places in the hub.
     #[inline]
     pub(crate) fn hub(&self) -> usize {
-        self.elements + self.velocities() - self.first_of_nodes()
+        self.elements + self.of_nodes()
     }
 
     /// The shared bodies that are free.
@@ -113,7 +119,7 @@ impl Layout {
 
     /// Number of velocities.
     pub fn velocities(&self) -> usize {
-        self.first_of_nodes() + self.nodes.iter().sum::<usize>()
+        self.first_of_nodes() + self.of_nodes()
     }
 
     /// Length of the state vector (q, v).

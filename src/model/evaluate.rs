@@ -69,12 +69,9 @@ impl Model {
         changes.forget();
         let reach = LOST_BODY * self.pitch_radius();
         motions.shared = self.motions_at(q, v, inputs);
-        for (place, body) in self.shared.iter().enumerate() {
+        for (place, body, _) in self.free_bodies() {
             let [y, z] = motions.shared[place].position;
-            if let Some(body) = body
-                && self.layout.shared(place).is_some()
-                && math::hypot(y, z) > reach
-            {
+            if math::hypot(y, z) > reach {
                 return Err(body.lost());
             }
         }
@@ -151,16 +148,10 @@ impl Model {
                 on[body].add(on_body);
             }
         }
-        for (place, body) in self.shared.iter().enumerate() {
-            let at = self.layout.range(place);
-            if let Some(body) = body
-                && !at.is_empty()
-            {
-                let state =
-                    BodyState { motion: &motions.shared[place], q: &q[at.clone()], v: &v[at.clone()] };
-                body.add_external(&state, inputs, &mut on[place]);
-                body.accelerate(&on[place], &state, self.gravity, &mut a[at]);
-            }
+        for (place, body, at) in self.free_bodies() {
+            let state = BodyState { motion: &motions.shared[place], q: &q[at.clone()], v: &v[at.clone()] };
+            body.add_external(&state, inputs, &mut on[place]);
+            body.accelerate(&on[place], &state, self.gravity, &mut a[at]);
         }
         *on_shared = on;
         self.elements.accelerate(&self.layout, motions, on_elements, self.gravity, a);

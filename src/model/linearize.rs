@@ -8,10 +8,9 @@
 
 use super::workspace::Workspace;
 use super::{Input, InputValues, Model};
-use crate::bodies::{ElementSlopes, OF_ELEMENT, SharedBody};
+use crate::bodies::{ElementSlopes, OF_ELEMENT};
 use crate::integrate::{Linearization, Structure};
 use crate::pairs::SlopeSums;
-use std::ops::Range;
 
 impl Model {
     /// Which velocities are coupled: shared bodies and nodes are the hub, elements the spokes.
@@ -46,12 +45,6 @@ impl Model {
         }
         self.divide_by_inertias(ws, rates, out);
         self.add_node_slopes(ws, out);
-    }
-
-    /// The shared bodies that move freely: place, body, coordinates.
-    fn free_bodies(&self) -> impl Iterator<Item = (usize, &dyn SharedBody, Range<usize>)> {
-        let free = self.layout.free();
-        free.filter_map(|place| Some((place, self.shared[place].as_deref()?, self.layout.range(place))))
     }
 
     /// Rate of the logarithm of the viscosity, 1/s.

@@ -44,7 +44,9 @@ pub use works::Energy;
 pub use workspace::Workspace;
 pub(crate) use workspace::{AT_FLOOR, RATES};
 
-use crate::bodies::{CAGE, Elements, ForceSource, INNER_RING, Node, OUTER_RING, SHARED, SharedBodies};
+use crate::bodies::{
+    CAGE, Elements, ForceSource, INNER_RING, Node, OUTER_RING, SHARED, SharedBodies, SharedBody,
+};
 use crate::error::{Error, Result, Status};
 use crate::pairs::raceway::RacewayGeometry;
 use crate::pairs::{ContactLaw, ElementPair, PairInfo, SharedInfo, SharedPair};
@@ -52,6 +54,7 @@ use crate::scene::{FORCE, SPEED, Scene, TEMPERATURE, TORQUE, VISCOSITY};
 use crate::space::Motion;
 use report::Selection;
 use signals::InputSignals;
+use std::ops::Range;
 
 /// A compiled scene.
 #[derive(Debug)]
@@ -234,6 +237,13 @@ impl Model {
     /// Whether there is a cage.
     fn has_cage(&self) -> bool {
         self.shared[CAGE].is_some()
+    }
+
+    /// The shared bodies that move freely: place, body, coordinates.
+    #[inline]
+    fn free_bodies(&self) -> impl Iterator<Item = (usize, &dyn SharedBody, Range<usize>)> {
+        let free = self.layout.free();
+        free.filter_map(|place| Some((place, self.shared[place].as_deref()?, self.layout.range(place))))
     }
 
     /// Place of the guide among the pairs of shared bodies, and what it says of itself: the first, if there are several, whose

@@ -68,7 +68,7 @@ impl Workspace {
             on_shared: [Wrench::default(); SHARED],
             inverse_inertia: InverseInertia::new(model.layout.of_shared()),
             powers: vec![0.0; RATES],
-            nodes: vec![0.0; model.layout.nodes().map(|states| states.len()).sum()],
+            nodes: vec![0.0; model.layout.of_nodes()],
             counts: [0; LAWS.len()],
             touched: vec![[0; LAWS_OF_PAIR]; model.pairs.len()],
             of_contacts: model.laws_of_contacts().collect(),

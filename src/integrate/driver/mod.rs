@@ -290,11 +290,6 @@ impl<S: Observed> Driver<S> {
         add_weighted(out, if step > 0.0 { ((t - from) / step).clamp(0.0, 1.0) } else { 1.0 }, last);
     }
 
-    /// Number of those works, and of the integrals of other rates behind them.
-    pub fn work_count(&self) -> usize {
-        self.spare.len()
-    }
-
     /// Begins the interval of [`Driver::total_at`] at time `t` (s) within the last step or stretch.
     pub fn begin_interval(&mut self, t: f64) {
         self.tally_to(t);

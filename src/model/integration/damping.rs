@@ -14,9 +14,8 @@ use nalgebra::{Matrix3, Vector3};
 impl Model {
     /// Damping of every group for a step of size `h` (s).
     pub(crate) fn damping(&self, h: f64, ws: &mut Workspace, out: &mut Damping) {
-        self.find_shares(h, ws);
+        self.element_damping(h, ws, out);
         let ws = &*ws;
-        self.element_damping(ws, out);
         let mut slopes = [Matrix3::zeros(); SHARED];
         for (pair, info) in self.between.iter().zip(&self.between_infos) {
             for (body, slope) in info.bodies.into_iter().zip(pair.damping(&ws.motions.shared, ws.fluid)) {
@@ -24,13 +23,12 @@ impl Model {
             }
         }
         let factor = self.exchange_factor();
-        for (place, block) in self.layout.free().zip(&mut out.bodies) {
-            let Some(body) = &self.shared[place] else { continue };
+        for ((place, body, at), block) in self.free_bodies().zip(&mut out.bodies) {
             let mut slope = slopes[place];
             if self.elements.mass().is_none() {
                 slope += contact_damping(place, ws);
             }
-            let (full, q) = (&mut block.full, &ws.of_shared[0][self.layout.range(place)]);
+            let (full, q) = (&mut block.full, &ws.of_shared[0][at]);
             let n = full.nrows();
             full.fill(0.0);
             for (column, own) in full.as_mut_slice().chunks_exact_mut(n).zip(&slope.data.0) {
@@ -45,10 +43,11 @@ impl Model {
 
     /// That of each element over (radial speed, orbit speed, spin speed): contact damping, half of it implicit, and the secant
     /// slope of friction.
-    fn element_damping(&self, ws: &Workspace, out: &mut Damping) {
+    fn element_damping(&self, h: f64, ws: &mut Workspace, out: &mut Damping) {
         if self.elements.mass().is_none() {
             return;
         }
+        self.find_shares(h, ws);
         for (i, k) in UPPER {
             out.full[i][k].fill(0.0);
             out.implicit[i][k].fill(0.0);

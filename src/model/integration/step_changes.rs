@@ -38,9 +38,9 @@ impl StepChanges {
         (self.h, self.found) = (f64::NAN, false);
     }
 
-    /// Of contact `i` of a batch in its step; none without a step.
+    /// Of contact `i` of a batch in its step; none without a step, or where the motion of elements is prescribed.
     #[inline]
     pub(in crate::model) fn of(&self, batch: usize, i: usize, step: Option<&SemiImplicit<'_>>) -> Changes {
-        if step.is_some() { self.of_batches[batch][i] } else { Changes::default() }
+        step.and_then(|_| self.of_batches[batch].get(i).copied()).unwrap_or_default()
     }
 }

@@ -39,18 +39,13 @@ impl Model {
                 on[site.mate].add(&Wrench { force, ..on_mate });
             }
         }
-        for (place, body) in self.shared.iter().enumerate() {
-            let at = self.layout.range(place);
-            if let Some(body) = body
-                && !at.is_empty()
-            {
-                let [q, _, change] = &mut ws.of_shared;
-                let change = &mut change[at.clone()];
-                change.fill(0.0);
-                change.iter_mut().zip(on[place].components()).for_each(|(change, on_body)| *change = on_body);
-                body.respond(change, &q[at.clone()]);
-                a[at].iter_mut().zip(change).for_each(|(a, change)| *a += *change);
-            }
+        for (place, body, at) in self.free_bodies() {
+            let [q, _, change] = &mut ws.of_shared;
+            let change = &mut change[at.clone()];
+            change.fill(0.0);
+            change.iter_mut().zip(on[place].components()).for_each(|(change, on_body)| *change = on_body);
+            body.respond(change, &q[at.clone()]);
+            a[at].iter_mut().zip(change).for_each(|(a, change)| *a += *change);
         }
     }
 
@@ -80,15 +75,14 @@ impl Model {
         }
     }
 
-    /// Finds the changes in the step, if there is one and they are not known yet: by the motion of the elements; none where
-    /// that is prescribed.
+    /// Finds the changes in the step by the motion of the elements, if there is one and they are not known yet.
     pub(in crate::model) fn find_changes(
         &self,
         v: &[f64],
         step: Option<&SemiImplicit<'_>>,
         ws: &mut Workspace,
     ) {
-        let Some(step) = step.filter(|_| !ws.changes.found) else { return };
+        let Some(step) = step.filter(|_| !ws.changes.found && self.layout.count > 0) else { return };
         self.find_shares(step.h, ws);
         let Workspace { contacts, motions, changes, .. } = ws;
         let StepChanges { of_elements, of_batches, shares, found, .. } = changes;
@@ -101,10 +95,7 @@ impl Model {
         for ((batch, shares), out) in contacts.batches.iter().zip(shares).zip(of_batches) {
             out.clear();
             for (site, share) in batch.sites.iter().zip(shares) {
-                let Some([mean, end]) = of_elements.get(site.element) else {
-                    out.push(Changes::default());
-                    continue;
-                };
+                let [mean, end] = &of_elements[site.element];
                 let [nr, nc] = site.grip.normal_on_element();
                 let (mean_slip, end_slip) =
                     (slip([nr, nc], site.grip.arm, mean), slip([nr, nc], site.grip.arm, end));
