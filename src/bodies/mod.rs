@@ -29,7 +29,7 @@ pub use layout::Layout;
 
 pub(crate) use elements::{Damping, ElementSlopes, Elements, UPPER};
 pub(crate) use layout::{OF_ELEMENT, Owner};
-pub(crate) use motions::{Element, ElementMotion, ElementSet, Motions};
+pub(crate) use motions::{Element, ElementBlock, ElementMotion, ElementSet, Motions, WrenchLanes};
 #[cfg(test)]
 pub(crate) use nodes::NodeState;
 pub(crate) use nodes::{Node, nodes};

@@ -1,6 +1,6 @@
 //! What contact laws share: the motion of a pair of surfaces in, normal and tangential force out.
 
-use crate::scalar::{Numeric, Pack};
+use crate::scalar::{Lanes, Numeric, Pack, WIDEST};
 use pulp::Simd;
 
 /// Motion of a contact pair, as the laws see it.
@@ -73,41 +73,50 @@ impl<T> ContactForce<T> {
     }
 }
 
-impl ContactMotion<Vec<f64>> {
-    /// Sets the motion of contact `i`.
-    ///
-    /// # Panics
-    /// If there is no such place.
+impl ContactMotion<Lanes> {
+    /// Sets the motion at a place of the lanes.
     #[inline(always)]
-    pub fn set(&mut self, i: usize, motion: &ContactMotion<f64>) {
+    pub fn set(&mut self, lane: usize, motion: &ContactMotion<f64>) {
+        let i = lane % WIDEST;
         self.delta[i] = motion.delta;
         self.delta_dot[i] = motion.delta_dot;
         self.u1[i] = motion.u1;
         self.u2[i] = motion.u2;
     }
 
-    /// Motions of the contacts from the first one on, as many as fit.
-    ///
-    /// # Panics
-    /// If there are not as many.
+    /// Motion at a place of the lanes.
     #[inline(always)]
-    pub fn load<S: Simd, const K: usize>(&self, simd: S, first: usize) -> ContactMotion<Pack<S, K>> {
+    pub fn of(&self, lane: usize) -> ContactMotion<f64> {
+        let i = lane % WIDEST;
+        ContactMotion { delta: self.delta[i], delta_dot: self.delta_dot[i], u1: self.u1[i], u2: self.u2[i] }
+    }
+
+    /// Motions from this place of the lanes on, as many as fit.
+    #[inline(always)]
+    pub fn load<S: Simd, const K: usize>(&self, simd: S, lane: usize) -> ContactMotion<Pack<S, K>> {
         ContactMotion {
-            delta: Pack::load(simd, &self.delta[first..]),
-            delta_dot: Pack::load(simd, &self.delta_dot[first..]),
-            u1: Pack::load(simd, &self.u1[first..]),
-            u2: Pack::load(simd, &self.u2[first..]),
+            delta: Pack::load(simd, &self.delta[lane..]),
+            delta_dot: Pack::load(simd, &self.delta_dot[lane..]),
+            u1: Pack::load(simd, &self.u1[lane..]),
+            u2: Pack::load(simd, &self.u2[lane..]),
         }
+    }
+
+    /// Sets the motions from this place of the lanes on.
+    #[inline(always)]
+    pub fn store<S: Simd, const K: usize>(&mut self, lane: usize, motion: &ContactMotion<Pack<S, K>>) {
+        motion.delta.store(&mut self.delta[lane..]);
+        motion.delta_dot.store(&mut self.delta_dot[lane..]);
+        motion.u1.store(&mut self.u1[lane..]);
+        motion.u2.store(&mut self.u2[lane..]);
     }
 }
 
-impl ContactForce<Vec<f64>> {
-    /// Sets the force of contact `i`.
-    ///
-    /// # Panics
-    /// If there is no such place.
+impl ContactForce<Lanes> {
+    /// Sets the force at a place of the lanes.
     #[inline(always)]
-    pub fn set(&mut self, i: usize, force: &ContactForce<f64>) {
+    pub fn set(&mut self, lane: usize, force: &ContactForce<f64>) {
+        let i = lane % WIDEST;
         self.normal[i] = force.normal;
         self.stiffness[i] = force.stiffness;
         self.damping[i] = force.damping;
@@ -120,26 +129,29 @@ impl ContactForce<Vec<f64>> {
         self.rolling_resistance[i] = force.rolling_resistance;
     }
 
-    /// Sets the forces of the contacts from the first one on, without their derivatives if they have any.
-    ///
-    /// # Panics
-    /// If there are not as many places.
+    /// Force at a place of the lanes.
+    #[inline(always)]
+    pub fn of(&self, lane: usize) -> ContactForce<f64> {
+        self.map(|column| column[lane % WIDEST])
+    }
+
+    /// Sets the forces from this place of the lanes on, without their derivatives if they have any.
     #[inline(always)]
     pub fn store<S: Simd, const K: usize, T: Numeric<Base = Pack<S, K>>>(
         &mut self,
-        first: usize,
+        lane: usize,
         force: &ContactForce<T>,
     ) {
-        force.normal.base().store(&mut self.normal[first..]);
-        force.stiffness.base().store(&mut self.stiffness[first..]);
-        force.damping.base().store(&mut self.damping[first..]);
-        force.film.base().store(&mut self.film[first..]);
-        force.film_ratio.base().store(&mut self.film_ratio[first..]);
-        force.temperature_rise.base().store(&mut self.temperature_rise[first..]);
-        force.friction_coefficient.base().store(&mut self.friction_coefficient[first..]);
-        force.friction.base().store(&mut self.friction[first..]);
-        force.friction_secant.base().store(&mut self.friction_secant[first..]);
-        force.rolling_resistance.base().store(&mut self.rolling_resistance[first..]);
+        force.normal.base().store(&mut self.normal[lane..]);
+        force.stiffness.base().store(&mut self.stiffness[lane..]);
+        force.damping.base().store(&mut self.damping[lane..]);
+        force.film.base().store(&mut self.film[lane..]);
+        force.film_ratio.base().store(&mut self.film_ratio[lane..]);
+        force.temperature_rise.base().store(&mut self.temperature_rise[lane..]);
+        force.friction_coefficient.base().store(&mut self.friction_coefficient[lane..]);
+        force.friction.base().store(&mut self.friction[lane..]);
+        force.friction_secant.base().store(&mut self.friction_secant[lane..]);
+        force.rolling_resistance.base().store(&mut self.rolling_resistance[lane..]);
     }
 }
 

@@ -5,11 +5,11 @@
 
 use super::workspace::Workspace;
 use super::{Fault, Input, InputValues, Model};
-use crate::bodies::{BodyState, SHARED};
+use crate::bodies::{BodyState, OF_ELEMENT, SHARED, WrenchLanes};
 use crate::laws::contact_pair::ContactForce;
 use crate::laws::fluid::Fluid;
-use crate::pairs::Law;
-use crate::scalar::math;
+use crate::pairs::{ContactBlock, Law};
+use crate::scalar::{ZEROS, math};
 use crate::space::Wrench;
 
 /// A ring or cage this far from the centre, in pitch radii, has left the bearing.
@@ -62,11 +62,11 @@ impl Model {
 
     /// Finds the motion of all bodies and the contacts that touch.
     pub(super) fn locate(&self, q: &[f64], v: &[f64], ws: &mut Workspace) -> Result<(), Fault> {
-        let Workspace { motions, of_shared: [shared_q, shared_v, _], contacts, changes, inputs, .. } = ws;
+        let Workspace { motions, of_shared: [shared_q, shared_v, _], contacts, step, inputs, .. } = ws;
         shared_q.copy_from_slice(&q[..self.layout.of_shared()]);
         shared_v.copy_from_slice(&v[..self.layout.of_shared()]);
         contacts.clear();
-        changes.forget();
+        step.forget();
         let reach = LOST_BODY * self.pitch_radius();
         motions.shared = self.motions_at(q, v, inputs);
         for (place, body, _) in self.free_bodies() {
@@ -77,7 +77,7 @@ impl Model {
         }
         self.elements.find(&self.layout, q, v, inputs, motions)?;
         for (place, pair) in self.pairs.iter().enumerate() {
-            pair.find(motions, &mut contacts.of(place, self.infos[place].mate))?;
+            pair.find(motions, &mut contacts.of(place, self.infos[place].mate, motions))?;
         }
         Ok(())
     }
@@ -119,30 +119,13 @@ impl Model {
 
     /// Collects forces on the bodies and lets them accelerate.
     pub(super) fn assemble(&self, ws: &mut Workspace, a: &mut [f64]) {
-        let Workspace {
-            motions,
-            of_shared: [q, v, _],
-            contacts,
-            between,
-            on_elements,
-            on_shared,
-            inputs,
-            ..
-        } = ws;
         let mut on = [Wrench::default(); SHARED];
-        on_elements.fill(Wrench::default());
-        for batch in &contacts.batches {
-            for (site, force) in batch.forces() {
-                let [on_element, on_mate] = site.grip.wrenches(&force);
-                if self.layout.shared(site.mate).is_some() {
-                    let force = motions.frame(site.element).to_global(on_mate.force);
-                    on[site.mate].add(&Wrench { force, ..on_mate });
-                }
-                if let Some(sum) = on_elements.get_mut(site.element) {
-                    sum.add(&on_element);
-                }
-            }
+        ws.on_elements.fill([ZEROS; OF_ELEMENT]);
+        for batch in &mut ws.contacts.batches {
+            batch.add_wrenches(ws.motions.instructions, &mut ws.on_elements);
         }
+        self.add_on_mates(ws, &mut on, |block| &block.on_mates);
+        let Workspace { motions, of_shared: [q, v, _], between, on_elements, on_shared, inputs, .. } = ws;
         for (info, force) in self.between_infos.iter().zip(between) {
             for (body, on_body) in info.bodies.into_iter().zip(&force.on) {
                 on[body].add(on_body);
@@ -155,6 +138,24 @@ impl Model {
         }
         *on_shared = on;
         self.elements.accelerate(&self.layout, motions, on_elements, self.gravity, a);
+    }
+
+    /// Adds what all contacts do to those mates that are free, from the wrenches in their blocks.
+    pub(super) fn add_on_mates(
+        &self,
+        ws: &Workspace,
+        on: &mut [Wrench<f64>; SHARED],
+        wrenches: impl Fn(&ContactBlock) -> &WrenchLanes,
+    ) {
+        let pairs = ws.contacts.by_pair(&self.infos);
+        for (batch, info, contacts) in pairs.filter(|(_, info, _)| self.layout.shared(info.mate).is_some()) {
+            let sum = &mut on[info.mate];
+            for i in contacts {
+                let (block, lane) = batch.at(i);
+                let [y, z, moment] = wrenches(block);
+                sum.add(&Wrench { force: [y[lane], z[lane]], moment: moment[lane] });
+            }
+        }
     }
 
     /// The laws that contacts of elements are counted by, each with its pair and the kind of contact.

@@ -11,6 +11,8 @@ use super::{Input, InputValues, Model};
 use crate::bodies::{ElementSlopes, OF_ELEMENT};
 use crate::integrate::{Linearization, Structure};
 use crate::pairs::SlopeSums;
+use crate::scalar::place_of;
+use crate::space::Wrench;
 
 impl Model {
     /// Which velocities are coupled: shared bodies and nodes are the hub, elements the spokes.
@@ -88,7 +90,10 @@ impl Model {
                 .map(|part| part.hub.view_mut((at.start, at.start), (at.len(), at.len())));
             body.add_inertial_slopes(&ws.on_shared[place], &ws.body(place, at), k, d);
         }
-        for (j, on_element) in ws.on_elements.iter().enumerate() {
+        for j in 0..self.layout.count {
+            let (block, lane) = place_of(j);
+            let [radial, across, moment] = ws.on_elements[block].map(|column| column[lane]);
+            let on_element = &Wrench { force: [radial, across], moment };
             let element = ws.motions.element(j);
             let [k, d] = [&mut *over_positions, &mut *over_velocities].map(|part| {
                 let [_, own, _, over_hub] = part.blocks_mut();

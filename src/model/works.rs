@@ -12,12 +12,10 @@
 //! the power that the bearing takes from the shaft.
 
 use super::Model;
-use super::integration::step_changes::Changes;
 use super::workspace::{AT_FLOOR, Workspace};
 use crate::bodies::{INNER_RING, Input, Power};
 use crate::integrate::SemiImplicit;
-use crate::laws::contact_pair::ContactForce;
-use crate::pairs::{Batch, Site};
+use crate::pairs::{Batch, ContactBlock, Loaded};
 use crate::space::Wrench;
 
 /// Energy of a state, J.
@@ -47,27 +45,26 @@ impl Model {
     #[doc(hidden)]
     pub fn powers(&self, v: &[f64], step: Option<&SemiImplicit<'_>>, ws: &mut Workspace, p: &mut [f64]) {
         p.fill(0.0);
-        self.find_changes(v, step, ws);
+        self.find_step(v, step, ws);
         let ws = &*ws;
         let motions = &ws.motions;
         // Moment on the inner ring, which its drive holds up.
         let mut on_ring = 0.0;
-        for (place, batch) in ws.contacts.batches.iter().enumerate() {
-            for (i, site) in batch.sites.iter().enumerate() {
-                let changes = ws.changes.of(place, i, step);
-                let (power, on_surfaces) = self.contact_power(batch, i, changes);
-                let info = self.infos[site.pair];
-                let [damping, friction] = info.powers;
-                p[damping as usize] += power.damping;
-                p[friction as usize] += power.friction;
+        for (batch, info, contacts) in ws.contacts.by_pair(&self.infos) {
+            let [of_damping, of_friction] = info.powers;
+            for i in contacts {
+                let (ContactBlock { step, .. }, lane) = batch.at(i);
+                let [damping, friction, rolling] = &step.powers;
+                p[of_damping as usize] += damping[lane];
+                p[of_friction as usize] += friction[lane];
                 if info.rolls {
-                    p[Power::RollingResistance as usize] += power.rolling;
+                    p[Power::RollingResistance as usize] += rolling[lane];
                     if self.is_at_floor(batch, i, ws.fluid.ln_viscosity) {
                         p[AT_FLOOR] = 1.0;
                     }
                 }
-                if site.mate == INNER_RING {
-                    on_ring += site.grip.wrenches(&on_surfaces)[1].moment;
+                if info.mate == INNER_RING {
+                    on_ring += step.surface_moment[lane];
                 }
             }
         }
@@ -95,37 +92,21 @@ impl Model {
 
     /// Power of contact forces on elements whose motion is prescribed, W.
     fn power_on_elements(&self, ws: &Workspace) -> f64 {
-        let on_element = |(site, force): (&Site, ContactForce<f64>)| {
-            ws.motions.element(site.element).power(&site.grip.wrenches(&force)[0])
+        let on_element = |contact: Loaded<'_>| {
+            ws.motions.element(contact.site.element).power(&contact.grip.wrenches(&contact.force)[0])
         };
-        ws.contacts.batches.iter().flat_map(|batch| batch.forces()).map(on_element).sum()
-    }
-
-    /// Power of contact `i`, whose speeds and forces a semi-implicit step has changed, and the forces on its surfaces.
-    fn contact_power(&self, batch: &Batch, i: usize, changes: Changes) -> (ContactPower, ContactForce<f64>) {
-        let (f, m) = (&batch.force, &batch.motion);
-        let Changes { approach_speed, slip, acting_slip } = changes;
-        let approach_speed = m.delta_dot[i] + approach_speed;
-        let friction = f.friction[i] - f.friction_secant[i] * acting_slip;
-        let damping = if f.normal[i] == 0.0 && m.delta[i] > 0.0 {
-            // Damping has cut off the force, and the spring loses what it held.
-            self.laws[batch.sites[i].pair].spring(m.delta[i])[0] * approach_speed
-        } else {
-            -f.damping[i] * approach_speed * approach_speed
-        };
-        let rolling_resistance = f.rolling_resistance[i];
-        let power = ContactPower {
-            damping,
-            friction: friction * (m.u1[i] - m.u2[i] + slip),
-            rolling: rolling_resistance * (m.u1[i] + m.u2[i]),
-        };
-        (power, ContactForce { friction, rolling_resistance, ..ContactForce::none(0.0) })
+        ws.contacts.iter().map(on_element).sum()
     }
 
     /// Whether a law of contact `i` is at a floor.
     fn is_at_floor(&self, batch: &Batch, i: usize, ln_viscosity: f64) -> bool {
-        let law = &self.laws[batch.sites[i].pair];
-        law.is_at_floor(&batch.motion.map(|x| x[i]), ln_viscosity, &batch.force.map(|x| x[i]))
+        // A resistance is at its floor where there is none.
+        let (block, lane) = batch.at(i);
+        if block.force.rolling_resistance[lane] != 0.0 {
+            return false;
+        }
+        let contact = batch.loaded(i);
+        self.laws[contact.site.pair].is_at_floor(&contact.motion, ln_viscosity, &contact.force)
     }
 
     /// Energy of the last evaluated state of `ws`.
@@ -144,13 +125,6 @@ impl Model {
         e.elastic = ws.contacts.iter().map(|c| self.laws[c.site.pair].spring(c.motion.delta)[1]).sum();
         e
     }
-}
-
-/// Power of one contact, W.
-struct ContactPower {
-    damping: f64,
-    friction: f64,
-    rolling: f64,
 }
 
 #[cfg(test)]

@@ -1,12 +1,13 @@
 //! Memory of a force evaluation: motion of the bodies, touching contacts, and all forces.
 
-use super::integration::step_changes::StepChanges;
+use super::integration::step_forces::StepMemory;
 use super::inverse_inertia::InverseInertia;
 use super::{InputValues, Model};
-use crate::bodies::{BodyState, Motions, POWERS, SHARED};
+use crate::bodies::{BodyState, Motions, OF_ELEMENT, POWERS, SHARED, WrenchLanes};
 use crate::integrate::Vibration;
 use crate::laws::fluid::Fluid;
-use crate::pairs::{Batch, Contacts, LAWS, LAWS_OF_PAIR, Law, LawCounts, PairInfo, SharedForce};
+use crate::pairs::{Contacts, LAWS, LAWS_OF_PAIR, Law, LawCounts, PairInfo, SharedForce};
+use crate::scalar::{ZEROS, blocks_for};
 use crate::space::Wrench;
 use std::ops::Range;
 
@@ -22,15 +23,15 @@ pub struct Workspace {
     /// Positions and velocities of the shared bodies, and memory for as many.
     pub(super) of_shared: [Vec<f64>; 3],
     pub(super) contacts: Contacts,
-    /// Of their speeds in the step from the last evaluated state.
-    pub(super) changes: StepChanges,
+    /// Of the step from the last evaluated state.
+    pub(super) step: StepMemory,
     /// What the pairs say of themselves.
     infos: Vec<&'static PairInfo>,
     /// Forces of the pairs of shared bodies.
     pub(super) between: Vec<SharedForce>,
     pub(super) inputs: InputValues,
     /// Contact forces on each element that moves freely, local frame.
-    pub(super) on_elements: Vec<Wrench<f64>>,
+    pub(super) on_elements: Vec<WrenchLanes>,
     /// Forces on the shared bodies but their weight, moments about their geometric centres, global frame.
     pub(super) on_shared: [Wrench<f64>; SHARED],
     /// Memory for derivatives.
@@ -57,14 +58,14 @@ impl Workspace {
     pub fn new(model: &Model) -> Self {
         let contacts = Contacts::new(&model.pairs, model.element_count());
         Self {
-            changes: StepChanges::new(model.layout.count, contacts.batches.iter().map(Batch::room)),
+            step: StepMemory::new(model.layout.count),
             motions: Motions::new(model.elements.set()),
             of_shared: std::array::from_fn(|_| vec![0.0; model.layout.of_shared()]),
             contacts,
             infos: model.infos.clone(),
             between: vec![SharedForce::default(); model.between.len()],
             inputs: InputValues::default(),
-            on_elements: vec![Wrench::default(); model.layout.count],
+            on_elements: vec![[ZEROS; OF_ELEMENT]; blocks_for(model.layout.count)],
             on_shared: [Wrench::default(); SHARED],
             inverse_inertia: InverseInertia::new(model.layout.of_shared()),
             powers: vec![0.0; RATES],
@@ -89,11 +90,11 @@ impl Workspace {
     /// Normal speeds of the touching contacts that elements roll in, at the last evaluated state.
     pub(crate) fn vibration(&self) -> Vibration {
         let mut sum = Vibration::default();
-        for (pair, _) in self.infos.iter().enumerate().filter(|(_, info)| info.rolls) {
-            let (batch, contacts) = self.contacts.range(pair);
+        for (batch, _, contacts) in self.contacts.by_pair(&self.infos).filter(|(_, info, _)| info.rolls) {
             sum.count += contacts.len() as f64;
-            for speed in &batch.motion.delta_dot[contacts] {
-                sum.squares += speed * speed;
+            for i in contacts {
+                let (block, lane) = batch.at(i);
+                sum.squares += block.motion.delta_dot[lane] * block.motion.delta_dot[lane];
             }
         }
         sum

@@ -22,8 +22,10 @@ mod pocket;
 pub(crate) mod raceway;
 mod slope_sums;
 
-pub(crate) use contacts::{Batch, Contacts, LAWS_OF_PAIR, Loaded, Search, Site};
-pub(crate) use grip::{Grip, MateLever};
+pub(crate) use contacts::{
+    Batch, ContactBlock, Contacts, Found, LAWS_OF_PAIR, Loaded, Search, Site, SpeedChanges,
+};
+pub(crate) use grip::Grip;
 pub(crate) use slope_sums::SlopeSums;
 
 use crate::bodies::{Elements, Fault, ForceSource, InputValues, Layout, Motions, Power, SHARED};

@@ -7,6 +7,23 @@ use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Sub, SubAssign};
 
 /// Largest number of numbers in a group.
 pub const WIDEST: usize = 16;
+/// A column of numbers that stands in one piece, as long as the widest group. Columns of more rows come in blocks of these:
+/// what belongs together is then at constant distances, and its place needs no check.
+pub type Lanes = [f64; WIDEST];
+/// A column of zeros.
+pub const ZEROS: Lanes = [0.0; WIDEST];
+
+/// Number of blocks for so many rows.
+pub const fn blocks_for(rows: usize) -> usize {
+    rows.div_ceil(WIDEST)
+}
+
+/// Block of row `i`, and its place there.
+#[inline(always)]
+pub const fn place_of(i: usize) -> (usize, usize) {
+    (i / WIDEST, i % WIDEST)
+}
+
 /// Largest number of registers of a group.
 const LARGEST_GROUP: usize = 2;
 

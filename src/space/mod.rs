@@ -3,7 +3,8 @@
 //! Everything that knows how many directions there are is here: motions, frames and wrenches. docs/design-space.md shows
 //! what takes their place with three more.
 
-use crate::scalar::{Numeric, Real};
+use crate::scalar::{Lanes, Numeric, Pack, Real, WIDEST, ZEROS};
+use pulp::Simd;
 
 /// Motion of a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -84,6 +85,38 @@ impl<T: Real> Frame<T> {
     #[inline]
     pub fn turning(at: Frame<f64>, angle: T) -> Self {
         Self { sin: angle * at.cos + at.sin, cos: -(angle * at.sin) + at.cos }
+    }
+}
+
+impl Frame<Lanes> {
+    /// Global axes.
+    pub const GLOBAL_LANES: Self = Self { sin: ZEROS, cos: [1.0; WIDEST] };
+
+    /// Frame at a place of the lanes.
+    #[inline(always)]
+    pub fn of(&self, lane: usize) -> Frame<f64> {
+        let i = lane % WIDEST;
+        Frame { sin: self.sin[i], cos: self.cos[i] }
+    }
+
+    /// Sets the frame at a place of the lanes.
+    #[inline(always)]
+    pub fn set(&mut self, lane: usize, frame: Frame<f64>) {
+        let i = lane % WIDEST;
+        (self.sin[i], self.cos[i]) = (frame.sin, frame.cos);
+    }
+
+    /// Frames from this place of the lanes on, as many as fit.
+    #[inline(always)]
+    pub fn load<S: Simd, const K: usize>(&self, simd: S, lane: usize) -> Frame<Pack<S, K>> {
+        Frame { sin: Pack::load(simd, &self.sin[lane..]), cos: Pack::load(simd, &self.cos[lane..]) }
+    }
+
+    /// Sets the frames from this place of the lanes on.
+    #[inline(always)]
+    pub fn store<S: Simd, const K: usize>(&mut self, lane: usize, frame: Frame<Pack<S, K>>) {
+        frame.sin.store(&mut self.sin[lane..]);
+        frame.cos.store(&mut self.cos[lane..]);
     }
 }
 

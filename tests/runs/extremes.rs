@@ -45,12 +45,16 @@ fn extremes_do_not_depend_on_the_interval_of_records() {
         let mut sim = sim(&[]);
         let mut recording = Recording::default();
         recording.run(&mut sim, 0.04, interval, |_, _| true).unwrap();
-        let place = channel(&sim, "roller[3].pocket_force");
-        sampled.push(recording.columns[place].iter().fold(0.0, |m: f64, x| m.max(x.abs())));
+        let of = |j: usize| &recording.columns[channel(&sim, &format!("roller[{j}].pocket_force"))];
+        let largest = |j: usize| of(j).iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        sampled.push((0..12).map(largest).collect::<Vec<_>>());
     }
-    // What records alone see of the peak.
-    let peak = finest[3].max.max(-finest[3].min);
-    assert!(sampled.iter().all(|s| *s < 0.99 * peak), "{sampled:?} {peak}");
+    // Records alone see less of the peaks of most rollers.
+    let peaks = finest[..12].iter().map(|all| all.max.max(-all.min));
+    for sampled in sampled {
+        let missed = sampled.iter().zip(peaks.clone()).filter(|(seen, peak)| **seen < 0.99 * peak).count();
+        assert!(missed >= 6, "{sampled:?}");
+    }
 }
 
 /// The cage turns by exactly what pockets and guide gave it, in every method.

@@ -2,8 +2,8 @@
 
 use super::{Damping, ElementSlopes};
 use crate::bodies::{
-    BodyEnergy, BodyForces, Coordinate, Element, ElementMotion, ElementSet, Elements, Fault, Input,
-    InputValues, Layout, Motions, OF_ELEMENT,
+    BodyEnergy, BodyForces, Coordinate, Element, ElementSet, Elements, Fault, Input, InputValues, Layout,
+    Motions, OF_ELEMENT, WrenchLanes,
 };
 use crate::scene::Scene;
 use crate::space::Wrench;
@@ -63,11 +63,11 @@ impl Elements for KinematicElements {
         out: &mut Motions,
     ) -> Result<(), Fault> {
         let [orbit_speed, spin_speed] = self.kinematic_speeds(inputs);
-        let motion = ElementMotion { radial_offset: 0.0, radial_speed: 0.0, orbit_speed, spin_speed };
-        if out.elements.first() != Some(&motion) {
-            out.elements.fill(motion);
+        for block in &mut out.blocks {
+            block.motion.orbit_speed.fill(orbit_speed);
+            block.motion.spin_speed.fill(spin_speed);
         }
-        out.places.turn_together(&self.set, inputs.orbit_travel, out.instructions);
+        out.turn_together(&self.set, inputs.orbit_travel);
         Ok(())
     }
 
@@ -75,7 +75,7 @@ impl Elements for KinematicElements {
         [inputs.orbit_travel, 0.0]
     }
 
-    fn accelerate(&self, _: &Layout, _: &Motions, _: &[Wrench<f64>], _: [f64; 2], _: &mut [f64]) {}
+    fn accelerate(&self, _: &Layout, _: &Motions, _: &[WrenchLanes], _: [f64; 2], _: &mut [f64]) {}
 
     fn slopes(
         &self,

@@ -8,6 +8,7 @@ pub(super) use rollers::Rollers;
 
 use crate::bodies::{
     BodyEnergy, BodyForces, Coordinate, Element, ElementSet, Fault, InputValues, Layout, Motions, OF_ELEMENT,
+    WrenchLanes,
 };
 use crate::integrate::GroupDamping;
 use crate::scalar::math;
@@ -71,7 +72,7 @@ pub(crate) trait Elements: Debug + Send + Sync {
         &self,
         layout: &Layout,
         motions: &Motions,
-        on_elements: &[Wrench<f64>],
+        on_elements: &[WrenchLanes],
         gravity: [f64; 2],
         a: &mut [f64],
     );

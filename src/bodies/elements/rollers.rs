@@ -8,10 +8,11 @@
 
 use super::{Damping, ElementSlopes, UPPER, scale_rows};
 use crate::bodies::{
-    BodyEnergy, BodyForces, Coordinate, Element, ElementMotion, ElementSet, Elements, Fault, ForceSource,
-    Input, InputValues, Layout, Motions, Moves, OF_ELEMENT, weight,
+    BodyEnergy, BodyForces, Coordinate, Element, ElementSet, Elements, Fault, ForceSource, Input,
+    InputValues, Layout, Motions, Moves, OF_ELEMENT, WrenchLanes, weight,
 };
-use crate::scalar::{Columns, Pack, dispatch};
+use crate::integrate::SpokeDamping;
+use crate::scalar::{Columns, Lanes, Pack, WIDEST, ZEROS, dispatch, place_of};
 use crate::scene::Scene;
 use crate::space::Wrench;
 use pulp::Simd;
@@ -120,28 +121,31 @@ impl Elements for Rollers {
         out: &mut Motions,
     ) -> Result<(), Fault> {
         let n = layout.count;
-        let Motions { elements, places, instructions, .. } = out;
-        let states = q[layout.elements..].chunks_exact(2).zip(&self.set.reference_angles);
-        let columns = places.radial_offset.iter_mut().zip(&mut places.azimuth).zip(&mut places.travel);
-        for (j, (((radial_offset, azimuth), travel), (state, reference))) in columns.zip(states).enumerate() {
-            (*radial_offset, *azimuth, *travel) = (state[0], reference + state[1], state[1]);
-            if state[0].abs() > LOST_ROLLER * self.set.pitch_radius {
-                return Err(Fault::LostRoller { roller: j, radial_offset: state[0] });
-            }
-        }
-        places.find_directions(n, *instructions);
+        let (places, _) = q[layout.elements..].as_chunks::<2>();
         let (rates, spins) = v[layout.elements..].split_at(2 * n);
-        let rates = rates.chunks_exact(2).zip(spins);
-        for ((motion, (rates, spin)), radial_offset) in
-            elements.iter_mut().zip(rates).zip(&places.radial_offset)
+        let (rates, _) = rates.as_chunks::<2>();
+        let mut largest: f64 = 0.0;
+        let rows = places.chunks(WIDEST).zip(rates.chunks(WIDEST)).zip(spins.chunks(WIDEST));
+        for ((block, reference), ((places, rates), spins)) in
+            out.blocks.iter_mut().zip(self.set.reference_angles.chunks(WIDEST)).zip(rows)
         {
-            *motion = ElementMotion {
-                radial_offset: *radial_offset,
-                radial_speed: rates[0],
-                orbit_speed: rates[1],
-                spin_speed: *spin,
-            };
+            let motion = &mut block.motion;
+            for (i, [offset, turned]) in places.iter().enumerate().take(WIDEST) {
+                (motion.radial_offset[i], block.travel[i]) = (*offset, *turned);
+                block.azimuth[i] = reference[i] + turned;
+                largest = largest.max(offset.abs());
+            }
+            for (i, rates) in rates.iter().enumerate().take(WIDEST) {
+                [motion.radial_speed[i], motion.orbit_speed[i]] = *rates;
+            }
+            motion.spin_speed[..reference.len()].copy_from_slice(&spins[..reference.len()]);
         }
+        let limit = LOST_ROLLER * self.set.pitch_radius;
+        if largest > limit {
+            let roller = places.iter().position(|place| place[0].abs() > limit).unwrap_or_default();
+            return Err(Fault::LostRoller { roller, radial_offset: places[roller][0] });
+        }
+        out.find_directions();
         Ok(())
     }
 
@@ -154,22 +158,14 @@ impl Elements for Rollers {
         &self,
         layout: &Layout,
         motions: &Motions,
-        on_elements: &[Wrench<f64>],
+        on_elements: &[WrenchLanes],
         gravity: [f64; 2],
         a: &mut [f64],
     ) {
-        let Inertia { mass, moment } = self.inertia;
-        let (rates, spins) = a[layout.elements..].split_at_mut(2 * layout.count);
-        let rates = rates.chunks_exact_mut(2).zip(spins);
-        for (j, ((rates, spin), wrench)) in rates.zip(on_elements).enumerate() {
-            let element = motions.element(j);
-            let r = element.radius;
-            let weight = element.frame.to_local(gravity);
-            let (radial_speed, orbit) = (element.motion.radial_speed, element.motion.orbit_speed);
-            rates[0] = wrench.force[0] / mass + weight[0] + r * orbit * orbit;
-            rates[1] = (wrench.force[1] / mass + weight[1] - 2.0 * radial_speed * orbit) / r;
-            *spin = wrench.moment / moment;
-        }
+        let a = a[layout.elements..].split_at_mut(2 * layout.count);
+        let work =
+            Accelerate { rollers: self, motions, on_elements, gravity, a: (a.0.as_chunks_mut().0, a.1) };
+        dispatch(motions.instructions, work);
     }
 
     fn slopes(
@@ -199,13 +195,7 @@ impl Elements for Rollers {
     }
 
     fn accelerations_of(&self, motions: &Motions, damping: &mut Damping) {
-        let divide = Divide {
-            inertia: self.inertia,
-            pitch_radius: self.set.pitch_radius,
-            rows: self.set.count,
-            radial_offset: &motions.places.radial_offset,
-            damping,
-        };
+        let divide = Divide { inertia: self.inertia, pitch_radius: self.set.pitch_radius, motions, damping };
         dispatch(motions.instructions, divide);
     }
 
@@ -226,12 +216,52 @@ impl Elements for Rollers {
     }
 }
 
+/// From wrenches in the local frames to accelerations: radial and orbital, spin.
+struct Accelerate<'a> {
+    rollers: &'a Rollers,
+    motions: &'a Motions,
+    on_elements: &'a [WrenchLanes],
+    gravity: [f64; 2],
+    a: (&'a mut [[f64; 2]], &'a mut [f64]),
+}
+
+impl Columns for Accelerate<'_> {
+    const PAIRED: bool = false;
+
+    fn rows(&self) -> usize {
+        self.motions.count
+    }
+
+    #[inline(always)]
+    fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
+        let Self { rollers, motions, on_elements, gravity, a: (rates, spins) } = self;
+        let Inertia { mass, moment } = rollers.inertia;
+        let all = |x: f64| Pack::<S, K>::all(simd, x);
+        let (block, lane) = place_of(first);
+        let load = |column: &Lanes| Pack::load(simd, &column[lane..]);
+        let [radial, across, turning] = &on_elements[block];
+        let block = &motions.blocks[block];
+        let weight = block.frame.load(simd, lane).to_local([all(gravity[0]), all(gravity[1])]);
+        let motion = block.motion.load(simd, lane);
+        let (r, orbit) = (motion.radial_offset + rollers.set.pitch_radius, motion.orbit_speed);
+        let mut columns = [ZEROS; OF_ELEMENT];
+        (load(radial) * (1.0 / mass) + weight[0] + r * orbit * orbit).store(&mut columns[0]);
+        ((load(across) * (1.0 / mass) + weight[1] - motion.radial_speed * orbit * 2.0) / r)
+            .store(&mut columns[1]);
+        (load(turning) * (1.0 / moment)).store(&mut columns[2]);
+        let last = (first + K * S::F64_LANES).min(motions.count);
+        for j in first..last {
+            rates[j] = [columns[0][j - first], columns[1][j - first]];
+            spins[j] = columns[2][j - first];
+        }
+    }
+}
+
 /// From force over speed in the local frame to acceleration over rate of the coordinates.
 struct Divide<'a> {
     inertia: Inertia,
     pitch_radius: f64,
-    rows: usize,
-    radial_offset: &'a [f64],
+    motions: &'a Motions,
     damping: &'a mut Damping,
 }
 
@@ -239,27 +269,29 @@ impl Columns for Divide<'_> {
     const PAIRED: bool = false;
 
     fn rows(&self) -> usize {
-        self.rows
+        self.motions.count
     }
 
     #[inline(always)]
     #[expect(clippy::needless_range_loop, reason = "iterators might not be inlined")]
     fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
-        let Self { inertia, pitch_radius, radial_offset, damping, .. } = self;
+        let Self { inertia, pitch_radius, motions, damping } = self;
         let Inertia { mass, moment } = *inertia;
+        let (block, lane) = place_of(first);
         let all = |x: f64| Pack::<S, K>::all(simd, x);
-        let r = Pack::load(simd, &radial_offset[first..]) + *pitch_radius;
+        let r = Pack::load(simd, &motions.blocks[block].motion.radial_offset[lane..]) + *pitch_radius;
         let speed = [all(1.0), r, all(1.0)];
         let inverse: [_; OF_ELEMENT] = [all(1.0 / mass), all(1.0 / mass) / r, all(1.0 / moment)];
+        let SpokeDamping { full, implicit } = &mut damping.spokes[block];
         for at in 0..UPPER.len() {
             let (i, k) = UPPER[at];
-            let full = Pack::load(simd, &damping.full[i][k][first..]);
-            let implicit = Pack::load(simd, &damping.implicit[i][k][first..]);
+            let all = Pack::load(simd, &full[i][k][lane..]);
+            let share = Pack::load(simd, &implicit[i][k][lane..]);
             let (here, mirrored) = (inverse[i] * speed[k], inverse[k] * speed[i]);
-            (full * here).store(&mut damping.full[i][k][first..]);
-            (full * mirrored).store(&mut damping.full[k][i][first..]);
-            (implicit * here).store(&mut damping.implicit[i][k][first..]);
-            (implicit * mirrored).store(&mut damping.implicit[k][i][first..]);
+            (all * here).store(&mut full[i][k][lane..]);
+            (all * mirrored).store(&mut full[k][i][lane..]);
+            (share * here).store(&mut implicit[i][k][lane..]);
+            (share * mirrored).store(&mut implicit[k][i][lane..]);
         }
     }
 }

@@ -1,15 +1,15 @@
 //! Motion of all bodies at one state: what pairs see of them.
 
 mod element_set;
-mod places;
+mod turning;
 
 pub(crate) use element_set::ElementSet;
 
 use super::SHARED;
 use super::layout::OF_ELEMENT;
+use crate::scalar::{Lanes, Pack, WIDEST, ZEROS, blocks_for, place_of};
 use crate::space::{Frame, Motion, Wrench};
-use places::Places;
-use pulp::Arch;
+use pulp::{Arch, Simd};
 
 /// Motion of one element in cylindrical coordinates about the centre of the bearing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -22,6 +22,34 @@ pub(crate) struct ElementMotion<T> {
     pub(crate) orbit_speed: T,
     /// Spin speed w_b, rad/s.
     pub(crate) spin_speed: T,
+}
+
+impl ElementMotion<Lanes> {
+    const ZERO: Self =
+        Self { radial_offset: ZEROS, radial_speed: ZEROS, orbit_speed: ZEROS, spin_speed: ZEROS };
+
+    /// Motion at a place of the lanes.
+    #[inline(always)]
+    pub(crate) fn of(&self, lane: usize) -> ElementMotion<f64> {
+        let i = lane % WIDEST;
+        ElementMotion {
+            radial_offset: self.radial_offset[i],
+            radial_speed: self.radial_speed[i],
+            orbit_speed: self.orbit_speed[i],
+            spin_speed: self.spin_speed[i],
+        }
+    }
+
+    /// Motions from this place of the lanes on, as many as fit.
+    #[inline(always)]
+    pub(crate) fn load<S: Simd, const K: usize>(&self, simd: S, lane: usize) -> ElementMotion<Pack<S, K>> {
+        ElementMotion {
+            radial_offset: Pack::load(simd, &self.radial_offset[lane..]),
+            radial_speed: Pack::load(simd, &self.radial_speed[lane..]),
+            orbit_speed: Pack::load(simd, &self.orbit_speed[lane..]),
+            spin_speed: Pack::load(simd, &self.spin_speed[lane..]),
+        }
+    }
 }
 
 /// One element: its motion and where it is.
@@ -49,17 +77,44 @@ impl Element {
     }
 }
 
+/// Wrenches on a block of elements in their local frames, or what follows from them.
+pub(crate) type WrenchLanes = [Lanes; OF_ELEMENT];
+
+/// A block of elements: what is beyond the last one is of no meaning, but finite.
+#[derive(Clone, Debug)]
+#[repr(align(64))]
+pub(crate) struct ElementBlock {
+    pub(crate) motion: ElementMotion<Lanes>,
+    /// Axes along their radii and across them.
+    pub(crate) frame: Frame<Lanes>,
+    /// Angle travelled since the start, rad.
+    pub(crate) travel: Lanes,
+    /// Direction from the centre, rad; of elements that move freely.
+    pub(crate) azimuth: Lanes,
+}
+
+impl ElementBlock {
+    const ZERO: Self = Self {
+        motion: ElementMotion::<Lanes>::ZERO,
+        frame: Frame::GLOBAL_LANES,
+        travel: ZEROS,
+        azimuth: ZEROS,
+    };
+}
+
 /// Motion of all bodies at one state: all that pairs see of them.
 #[derive(Clone, Debug)]
 pub(crate) struct Motions {
     /// Of the shared bodies.
     pub(crate) shared: [Motion<f64>; SHARED],
     /// Of the elements.
-    pub(crate) elements: Vec<ElementMotion<f64>>,
+    pub(crate) blocks: Vec<ElementBlock>,
+    /// Number of elements.
+    pub(crate) count: usize,
+    /// The travel of all elements, where it is the same, rad.
+    pub(crate) together: Option<f64>,
     /// r_p, m.
     pitch_radius: f64,
-    /// What pairs need of all elements at once, in columns.
-    pub(crate) places: Places,
     /// Vector instructions of this machine.
     pub(crate) instructions: Arch,
 }
@@ -67,26 +122,36 @@ pub(crate) struct Motions {
 impl Motions {
     /// Memory for the motion of these elements.
     pub(crate) fn new(set: &ElementSet) -> Self {
-        let count = set.count;
         Self {
             shared: [Motion::default(); SHARED],
-            elements: vec![ElementMotion::default(); count],
+            blocks: vec![ElementBlock::ZERO; blocks_for(set.count)],
+            count: set.count,
+            together: None,
             pitch_radius: set.pitch_radius,
-            places: Places::new(count),
             instructions: Arch::new(),
         }
+    }
+
+    /// Angle that element `j` has travelled since the start, rad.
+    #[inline]
+    pub(crate) fn travel(&self, j: usize) -> f64 {
+        let (block, lane) = place_of(j);
+        self.together.unwrap_or(self.blocks[block].travel[lane])
     }
 
     /// Axes of element `j`.
     #[inline]
     pub(crate) fn frame(&self, j: usize) -> Frame<f64> {
-        self.places.frame(j)
+        let (block, lane) = place_of(j);
+        self.blocks[block].frame.of(lane)
     }
 
     /// Element `j`.
     #[inline]
     pub(crate) fn element(&self, j: usize) -> Element {
-        let motion = self.elements[j];
-        Element { motion, frame: self.frame(j), radius: self.pitch_radius + motion.radial_offset }
+        let (block, lane) = place_of(j);
+        let ElementBlock { motion, frame, .. } = &self.blocks[block];
+        let motion = motion.of(lane);
+        Element { motion, frame: frame.of(lane), radius: self.pitch_radius + motion.radial_offset }
     }
 }

@@ -3,7 +3,7 @@
 
 use crate::integrate::Structure;
 use crate::integrate::linear::{Scales, decompose, substitute};
-use crate::scalar::{Columns, Numeric, Pack, WIDEST, dispatch};
+use crate::scalar::{Columns, Lanes, Numeric, Pack, ZEROS, blocks_for, dispatch, place_of};
 use nalgebra::DMatrix;
 use pulp::{Arch, Simd};
 
@@ -33,32 +33,40 @@ impl DampingBlock {
 ///
 /// One half for slow decays (second order), towards one for fast ones. A step of `v' = -r v` leaves
 /// `1/(1 + z + z^2/2 + z^3/6)`: exp(-z) to third order, and never less than zero.
-#[inline]
-pub fn implicit_share(z: f64) -> f64 {
+#[inline(always)]
+pub fn implicit_share<T: Numeric>(z: T) -> T {
+    let share = (z * (z + 2.0) + 3.0) / (z * (z + 3.0) + 6.0);
     // All of it where z is not finite.
-    if z < 1e100 { (3.0 + z * (2.0 + z)) / (6.0 + z * (3.0 + z)) } else { 1.0 }
+    T::select(z.below(1e100), share, z.like(1.0))
 }
 
-/// A matrix for each spoke: a column of numbers for each entry, as long as whole groups of vector instructions need.
-pub type MatrixColumns<const N: usize> = [[Vec<f64>; N]; N];
-/// A vector for each spoke.
-pub type VectorColumns<const N: usize> = [Vec<f64>; N];
+/// A vector for each spoke of a block.
+pub type VectorLanes<const N: usize> = [Lanes; N];
 
 /// Vectors of zeros for `n` spokes.
-pub(crate) fn zero_vectors<const N: usize>(n: usize) -> VectorColumns<N> {
-    std::array::from_fn(|_| vec![0.0; n.next_multiple_of(WIDEST)])
+pub(crate) fn zero_vectors<const N: usize>(n: usize) -> Vec<VectorLanes<N>> {
+    vec![[ZEROS; N]; blocks_for(n)]
 }
 
-/// The damping of every spoke, in columns, and of every body of the hub.
+/// Damping of a block of spokes by row and column of their matrices, 1/s. What is beyond the last spoke is of no meaning, but
+/// finite.
+#[derive(Clone, Debug)]
+pub struct SpokeDamping<const N: usize> {
+    /// D.
+    pub full: [VectorLanes<N>; N],
+    /// D_i.
+    pub implicit: [VectorLanes<N>; N],
+}
+
+/// The damping of every spoke and of every body of the hub.
 #[derive(Clone, Debug)]
 pub struct GroupDamping<const N: usize> {
-    /// D by row and column of the matrix, then spoke, 1/s. What is beyond the last spoke is of no meaning, but finite.
-    pub full: MatrixColumns<N>,
-    /// D_i.
-    pub implicit: MatrixColumns<N>,
+    /// Of the spokes, in blocks.
+    pub spokes: Vec<SpokeDamping<N>>,
     /// Of the bodies of the hub.
     pub bodies: Vec<DampingBlock>,
-    spokes: usize,
+    /// Number of spokes.
+    count: usize,
     /// For bodies of other numbers of velocities than the closed form is for.
     elimination: Elimination,
 }
@@ -76,16 +84,15 @@ struct Elimination {
 impl<const N: usize> GroupDamping<N> {
     /// No damping.
     pub fn new(structure: &Structure<N>) -> Self {
-        let spokes = structure.spokes.len();
-        let zero = std::array::from_fn(|_| zero_vectors(spokes));
+        let count = structure.spokes.len();
+        let zero = SpokeDamping { full: [[ZEROS; N]; N], implicit: [[ZEROS; N]; N] };
         let block = |n: usize| DampingBlock { full: DMatrix::zeros(n, n), implicit: DMatrix::zeros(n, n) };
         let widest = structure.bodies.iter().map(ExactSizeIterator::len).max().unwrap_or(0);
         let (column, square) = (vec![0.0; widest], vec![0.0; widest * widest]);
         Self {
-            full: zero.clone(),
-            implicit: zero,
+            spokes: vec![zero; blocks_for(count)],
             bodies: structure.bodies.iter().map(|body| block(body.len())).collect(),
-            spokes,
+            count,
             elimination: Elimination {
                 matrix: square.clone(),
                 size: square,
@@ -133,8 +140,8 @@ impl<const N: usize> GroupDamping<N> {
     pub(crate) fn solve_spokes(
         &self,
         h: f64,
-        p: &VectorColumns<N>,
-        y: &mut VectorColumns<N>,
+        p: &[VectorLanes<N>],
+        y: &mut [VectorLanes<N>],
         instructions: Arch,
     ) {
         dispatch(instructions, Solve { damping: self, h, p, y });
@@ -160,8 +167,8 @@ fn step_closed<const M: usize>(block: &DampingBlock, h: f64, p: &[f64], y: &mut 
 struct Solve<'a, const N: usize> {
     damping: &'a GroupDamping<N>,
     h: f64,
-    p: &'a VectorColumns<N>,
-    y: &'a mut VectorColumns<N>,
+    p: &'a [VectorLanes<N>],
+    y: &'a mut [VectorLanes<N>],
 }
 
 /// One group, or several at once: three velocities by Cramer's rule, which divides once, others by elimination. Damping and
@@ -227,25 +234,27 @@ impl<const N: usize> Columns for Solve<'_, N> {
     const PAIRED: bool = false;
 
     fn rows(&self) -> usize {
-        self.damping.spokes
+        self.damping.count
     }
 
     #[inline(always)]
     #[expect(clippy::needless_range_loop, reason = "iterators might not be inlined")]
     fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
+        let (block, lane) = place_of(first);
+        let (damping, p_of, y_of) = (&self.damping.spokes[block], &self.p[block], &mut self.y[block]);
         let zero = Pack::<S, K>::all(simd, 0.0);
         let (mut implicit, mut full, mut p, mut y) = ([[zero; N]; N], [[zero; N]; N], [zero; N], [zero; N]);
         for i in 0..N {
-            p[i] = Pack::load(simd, &self.p[i][first..]);
-            y[i] = Pack::load(simd, &self.y[i][first..]);
+            p[i] = Pack::load(simd, &p_of[i][lane..]);
+            y[i] = Pack::load(simd, &y_of[i][lane..]);
             for k in 0..N {
-                implicit[i][k] = Pack::load(simd, &self.damping.implicit[i][k][first..]);
-                full[i][k] = Pack::load(simd, &self.damping.full[i][k][first..]);
+                implicit[i][k] = Pack::load(simd, &damping.implicit[i][k][lane..]);
+                full[i][k] = Pack::load(simd, &damping.full[i][k][lane..]);
             }
         }
         let x = solve(&implicit, &full, self.h, p, y);
         for i in 0..N {
-            x[i].store(&mut self.y[i][first..]);
+            x[i].store(&mut y_of[i][lane..]);
         }
     }
 }
@@ -280,19 +289,22 @@ mod tests {
         let mut expected = Vec::new();
         for g in 0..n {
             let (block, known, ahead, x) = problem(N);
+            let (b, lane) = place_of(g);
             for i in 0..N {
-                (p[i][g], y[i][g]) = (ahead[i], known[i]);
+                (p[b][i][lane], y[b][i][lane]) = (ahead[i], known[i]);
                 for k in 0..N {
-                    damping.full[i][k][g] = block.full[(i, k)];
-                    damping.implicit[i][k][g] = block.implicit[(i, k)];
+                    damping.spokes[b].full[i][k][lane] = block.full[(i, k)];
+                    damping.spokes[b].implicit[i][k][lane] = block.implicit[(i, k)];
                 }
             }
             expected.push(x);
         }
         damping.solve_spokes(h, &p, &mut y, Arch::new());
         for (g, x) in expected.iter().enumerate() {
+            let (b, lane) = place_of(g);
             for k in 0..N {
-                assert!((y[k][g] - x[k]).abs() < 1e-11 * x.norm(), "{g} {k}: {} {}", y[k][g], x[k]);
+                let found = y[b][k][lane];
+                assert!((found - x[k]).abs() < 1e-11 * x.norm(), "{g} {k}: {found} {}", x[k]);
             }
         }
         for (body, n) in bodies.into_iter().enumerate() {

@@ -18,10 +18,11 @@
 //! h = 2/omega of the highest undamped frequency. No error estimate.
 
 use crate::integrate::driver::control::{Estimate, Law};
-use crate::integrate::methods::damping::{VectorColumns, zero_vectors};
+use crate::integrate::methods::damping::{VectorLanes, zero_vectors};
 use crate::integrate::{
     Applied, GroupDamping, Observed, Samples, SemiImplicit, Split, Stepper, Structure, zero_works,
 };
+use crate::scalar::WIDEST;
 use crate::stored::stored;
 use pulp::Arch;
 
@@ -45,7 +46,7 @@ pub struct Leapfrog<const N: usize> {
     /// Velocities of each spoke and of each body of the hub.
     structure: Structure<N>,
     /// Accelerations and predicted changes of velocity, of the spokes and of a body.
-    of_spokes: [VectorColumns<N>; 2],
+    of_spokes: [Vec<VectorLanes<N>>; 2],
     of_body: [Vec<f64>; 2],
     instructions: Arch,
     works: Vec<f64>,
@@ -138,15 +139,20 @@ impl<S: Split<N> + Observed, const N: usize> Stepper<S> for Leapfrog<N> {
         self.trial_a.copy_from_slice(&self.a);
         system.damping(h, q_trial, &self.predicted, &mut self.damping);
         let [known, ahead] = &mut self.of_spokes;
-        for (g, at) in self.structure.spokes.iter().enumerate() {
-            for (k, &i) in at.iter().enumerate() {
-                (known[k][g], ahead[k][g]) = (self.a[i], self.predicted[i] - v[i]);
+        let spokes = self.structure.spokes.chunks(WIDEST);
+        for (spokes, (known, ahead)) in spokes.zip(known.iter_mut().zip(ahead.iter_mut())) {
+            for (lane, at) in spokes.iter().enumerate().take(WIDEST) {
+                for (k, &i) in at.iter().enumerate() {
+                    (known[k][lane], ahead[k][lane]) = (self.a[i], self.predicted[i] - v[i]);
+                }
             }
         }
         self.damping.solve_spokes(h, ahead, known, self.instructions);
-        for (g, at) in self.structure.spokes.iter().enumerate() {
-            for (k, &i) in at.iter().enumerate() {
-                self.trial_a[i] = known[k][g];
+        for (spokes, known) in self.structure.spokes.chunks(WIDEST).zip(known.iter()) {
+            for (lane, at) in spokes.iter().enumerate().take(WIDEST) {
+                for (k, &i) in at.iter().enumerate() {
+                    self.trial_a[i] = known[k][lane];
+                }
             }
         }
         if let Some(i) = self.trial_a.iter().position(|a| !a.is_finite()) {

@@ -1,14 +1,12 @@
 //! How forces oppose velocities at the last evaluated state: what semi-implicit methods take of the change of a step.
 //!
-//! ```text
-//! D = sum over contacts of  c W_n' W_n + s W_t' W_t        W lever rows of the element, c damping, s secant slope of friction
-//! ```
-//!
-//! and of a shared body the guide, exact by dual numbers, and the contacts with elements of prescribed motion.
+//! Of an element that of its contacts (`pairs/contacts/damping`), of a shared body that of the guide, exact by dual numbers, and
+//! of its contacts with elements of prescribed motion.
 
 use crate::bodies::{Damping, SHARED, UPPER};
 use crate::model::Model;
 use crate::model::workspace::Workspace;
+use crate::scalar::ZEROS;
 use nalgebra::{Matrix3, Vector3};
 
 impl Model {
@@ -41,29 +39,19 @@ impl Model {
         self.node_damping(h, ws, out);
     }
 
-    /// That of each element over (radial speed, orbit speed, spin speed): contact damping, half of it implicit, and the secant
-    /// slope of friction.
+    /// That of each element over (radial speed, orbit speed, spin speed).
     fn element_damping(&self, h: f64, ws: &mut Workspace, out: &mut Damping) {
         if self.elements.mass().is_none() {
             return;
         }
-        self.find_shares(h, ws);
-        for (i, k) in UPPER {
-            out.full[i][k].fill(0.0);
-            out.implicit[i][k].fill(0.0);
-        }
         // Upper triangles.
-        let Damping { full, implicit, .. } = out;
-        for (batch, shares) in ws.contacts.batches.iter().zip(&ws.changes.shares) {
-            for ((site, [damping, secant]), share) in batch.damping().zip(shares) {
-                let [nr, nc] = site.grip.normal_on_element();
-                let (n, t) = ([nr, nc, 0.0], [-nc, nr, site.grip.arm]);
-                for (i, k) in UPPER {
-                    let (normal, friction) = (damping * n[i] * n[k], secant * t[i] * t[k]);
-                    full[i][k][site.element] += normal + friction;
-                    implicit[i][k][site.element] += 0.5 * normal + share * friction;
-                }
+        for block in &mut out.spokes {
+            for (i, k) in UPPER {
+                (block.full[i][k], block.implicit[i][k]) = (ZEROS, ZEROS);
             }
+        }
+        for batch in &mut ws.contacts.batches {
+            batch.add_damping(h, self.mobility, ws.motions.instructions, out);
         }
         self.elements.accelerations_of(&ws.motions, out);
     }
@@ -80,13 +68,11 @@ impl Model {
 /// -d(force, moment)/d(velocity, speed) of a shared body by the contacts with elements of prescribed motion, N s/m and its kin.
 fn contact_damping(body: usize, ws: &Workspace) -> Matrix3<f64> {
     let mut slope = Matrix3::zeros();
-    for batch in &ws.contacts.batches {
-        for (site, [damping, secant]) in batch.damping().filter(|(site, _)| site.mate == body) {
-            let frame = ws.motions.frame(site.element);
-            for (direction, rate) in [(site.grip.normal, damping), (site.grip.tangent(), secant)] {
-                let g = Vector3::from(site.grip.row_on_mate(direction, &frame));
-                slope += g * g.transpose() * rate;
-            }
+    for contact in ws.contacts.iter().filter(|contact| contact.site.mate == body) {
+        let rows = contact.grip.rows_on_mate(&ws.motions.frame(contact.site.element));
+        for (row, rate) in rows.into_iter().zip([contact.force.damping, contact.force.friction_secant]) {
+            let g = Vector3::from(row);
+            slope += g * g.transpose() * rate;
         }
     }
     slope

@@ -4,5 +4,4 @@ pub(in crate::model) mod costs;
 pub(in crate::model) mod damping;
 pub(in crate::model) mod onsets;
 pub(in crate::model) mod scales;
-pub(in crate::model) mod step_changes;
 pub(in crate::model) mod step_forces;

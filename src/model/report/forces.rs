@@ -110,7 +110,7 @@ impl Model {
             let source = self.infos[site.pair].source as usize;
             for (body, on_body) in [self.element_body(site.element), site.mate]
                 .into_iter()
-                .zip(site.grip.wrenches(&contact.force))
+                .zip(contact.grip.wrenches(&contact.force))
             {
                 let force = frame.to_global(on_body.force);
                 add(&mut out.bodies[body][source], &Wrench { force, ..on_body });
@@ -163,7 +163,7 @@ fn add(sum: &mut [f64; 3], w: &Wrench<f64>) {
 
 fn quantities(contact: &Loaded<'_>) -> ContactForces {
     let (f, m) = (contact.force, contact.motion);
-    let [pressure_roller, pressure_mate] = contact.site.grip.film_pressure_forces(&f);
+    let [pressure_roller, pressure_mate] = contact.grip.film_pressure_forces(&f);
     [
         f.normal,
         m.delta,

@@ -8,8 +8,7 @@ use crate::bodies::{CAGE, ForceSource, INNER_RING, OUTER_RING, SHARED};
 use crate::integrate::SemiImplicit;
 use crate::model::Model;
 use crate::model::Workspace;
-use crate::model::integration::step_forces::force_in_step;
-use crate::pairs::PairInfo;
+use crate::pairs::{ContactBlock, PairInfo};
 use crate::space::Wrench;
 
 /// What is followed.
@@ -104,35 +103,33 @@ impl Model {
         out: &mut [f64],
     ) {
         out.fill(0.0);
-        self.find_changes(v, step, ws);
+        self.find_step(v, step, ws);
         let ws = &*ws;
         let watch = &self.selection.watch;
         let (direction, motions) = (self.direction(&ws.inputs), &ws.motions);
         let mut on = [Wrench::default(); SHARED];
-        for (pair, info) in self.infos.iter().enumerate() {
+        for (pair, (batch, info, contacts)) in ws.contacts.by_pair(&self.infos).enumerate() {
             let on_cage = info.mate == CAGE;
             if !on_cage && !watch.raceways {
                 continue;
             }
-            let (place, contacts) = ws.contacts.place(pair);
-            let batch = &ws.contacts.batches[place];
             for i in contacts {
-                let site = &batch.sites[i];
-                let force = force_in_step(batch, i, &ws.changes.of(place, i, step));
-                let place = watch.contacts[pair][site.element];
+                let (ContactBlock { step, .. }, lane) = batch.at(i);
+                let element = batch.sites[i].element;
+                let place = watch.contacts[pair][element];
                 if on_cage {
-                    let [on_element, on_mate] = site.grip.wrenches(&force);
+                    let [on_element, on_mate] = batch.grip(i).wrenches(&batch.force_in_step(i));
                     if let Some(place) = place {
                         out[place] -= direction * on_element.force[1];
                     }
-                    let force = motions.frame(site.element).to_global(on_mate.force);
+                    let force = motions.frame(element).to_global(on_mate.force);
                     on[CAGE].add(&Wrench { force, ..on_mate });
                 } else {
                     if let Some(place) = place {
-                        out[place] = force.normal;
+                        out[place] = step.normal[lane];
                     }
                     if watch.torques {
-                        on[info.mate].moment += site.grip.wrenches(&force)[1].moment;
+                        on[info.mate].moment += step.surface_moment[lane];
                     }
                 }
             }

@@ -3,9 +3,9 @@
 //! Contacts of several kinds share a batch if the laws of these kinds have the same parts. They differ in constants only,
 //! which are columns too, so that vector instructions serve all of them at once.
 
-use crate::laws::contact_pair::{ContactForce, ContactMotion};
+use super::ContactBlock;
 use crate::laws::line_contact::LineContact;
-use crate::scalar::{Columns, Pack, dispatch};
+use crate::scalar::{Columns, Lanes, Pack, WIDEST, blocks_for, dispatch, place_of};
 use pulp::{Arch, Simd};
 
 /// The constants of the law of every contact in a batch.
@@ -15,7 +15,8 @@ pub(in crate::pairs) struct LawColumns {
     first: LineContact,
     /// Constants of each kind, in the order of [`LineContact::map`].
     table: Vec<Vec<f64>>,
-    columns: Vec<Vec<f64>>,
+    /// The same of every place, by blocks.
+    blocks: Vec<Vec<Lanes>>,
     /// Kind of each place, whose constants the columns have.
     kind: Vec<usize>,
 }
@@ -29,8 +30,8 @@ impl LawColumns {
             list
         };
         let table: Vec<Vec<f64>> = std::iter::once(&first).chain(others).map(constants).collect();
-        let columns = table[0].iter().map(|x| vec![*x; room]).collect();
-        Self { first, table, columns, kind: vec![0; room] }
+        let block: Vec<Lanes> = table[0].iter().map(|x| [*x; WIDEST]).collect();
+        Self { first, table, blocks: vec![block; blocks_for(room)], kind: vec![0; room] }
     }
 
     /// Makes contact `i` one of this kind.
@@ -38,8 +39,9 @@ impl LawColumns {
     pub(in crate::pairs) fn set(&mut self, i: usize, kind: usize) {
         if self.kind[i] != kind {
             self.kind[i] = kind;
-            for (column, x) in self.columns.iter_mut().zip(&self.table[kind]) {
-                column[i] = *x;
+            let (block, lane) = place_of(i);
+            for (column, x) in self.blocks[block].iter_mut().zip(&self.table[kind]) {
+                column[lane] = *x;
             }
         }
     }
@@ -51,9 +53,10 @@ impl LawColumns {
         simd: S,
         first: usize,
     ) -> LineContact<Pack<S, K>> {
-        let mut columns = self.columns.iter();
+        let (block, lane) = place_of(first);
+        let mut columns = self.blocks[block].iter();
         self.first.map(&mut |_| match columns.next() {
-            Some(column) => Pack::load(simd, &column[first..]),
+            Some(column) => Pack::load(simd, &column[lane..]),
             None => Pack::all(simd, f64::NAN),
         })
     }
@@ -62,23 +65,19 @@ impl LawColumns {
     pub(in crate::pairs) fn apply(
         &self,
         rows: usize,
-        motion: &ContactMotion<Vec<f64>>,
-        edge_share: &[f64],
+        contacts: &mut [ContactBlock],
         ln_viscosity: f64,
-        force: &mut ContactForce<Vec<f64>>,
         instructions: Arch,
     ) {
-        dispatch(instructions, Apply { laws: self, rows, motion, edge_share, ln_viscosity, force });
+        dispatch(instructions, Apply { laws: self, rows, contacts, ln_viscosity });
     }
 }
 
 struct Apply<'a> {
     laws: &'a LawColumns,
     rows: usize,
-    motion: &'a ContactMotion<Vec<f64>>,
-    edge_share: &'a [f64],
+    contacts: &'a mut [ContactBlock],
     ln_viscosity: f64,
-    force: &'a mut ContactForce<Vec<f64>>,
 }
 
 impl Columns for Apply<'_> {
@@ -88,17 +87,19 @@ impl Columns for Apply<'_> {
 
     #[inline(always)]
     fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
+        let (block, lane) = place_of(first);
         let law = self.laws.load::<S, K>(simd, first);
-        let motion = self.motion.load(simd, first);
+        let ContactBlock { motion, edge_share, force, .. } = &mut self.contacts[block];
         let ln_viscosity = Pack::all(simd, self.ln_viscosity);
-        let edge_share = Pack::load(simd, &self.edge_share[first..]);
-        self.force.store(first, &law.force(&motion, ln_viscosity, edge_share));
+        let edge_share = Pack::load(simd, &edge_share[lane..]);
+        force.store(lane, &law.force(&motion.load(simd, lane), ln_viscosity, edge_share));
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::laws::contact_pair::ContactMotion;
     use crate::laws::elastic::line::ElasticLine;
     use crate::laws::line_contact::tests::raceway;
     use crate::laws::traction::solid_friction::SolidFriction;
@@ -117,8 +118,7 @@ mod tests {
         let laws = laws();
         let n = 32;
         let mut columns = LawColumns::new(laws[0], &laws[1..], n);
-        let mut motion = ContactMotion { delta: 0.0, delta_dot: 0.0, u1: 0.0, u2: 0.0 }.map(|_| vec![0.0; n]);
-        let mut force = ContactForce::none(0.0).map(|_| vec![0.0; n]);
+        let mut contacts = vec![ContactBlock::APART; blocks_for(n)];
         // Twice, so that places change their kind.
         for turn in 0..2 {
             let at = |i: usize| {
@@ -127,18 +127,19 @@ mod tests {
                     ContactMotion { delta: 1e-8 * (x * x - 4.0), delta_dot: 0.0, u1: 6.0, u2: 0.3 * x };
                 (motion, 0.1 * ((i * 7) % 12) as f64, (i / 2 + turn) % laws.len())
             };
-            let mut shares = vec![0.0; n];
-            for (i, share) in shares.iter_mut().enumerate() {
+            for i in 0..n {
                 let (contact, edge_share, kind) = at(i);
-                motion.set(i, &contact);
+                let (block, lane) = place_of(i);
+                contacts[block].motion.set(lane, &contact);
+                contacts[block].edge_share[lane] = edge_share;
                 columns.set(i, kind);
-                *share = edge_share;
             }
-            columns.apply(n, &motion, &shares, 0.2, &mut force, Arch::new());
+            columns.apply(n, &mut contacts, 0.2, Arch::new());
             for i in 0..n {
                 let (contact, edge_share, kind) = at(i);
                 let alone = laws[kind].force(&contact, 0.2, edge_share);
-                assert_eq!(force.map(|x| x[i]), alone, "{turn} {i}");
+                let (block, lane) = place_of(i);
+                assert_eq!(contacts[block].force.of(lane), alone, "{turn} {i}");
             }
         }
     }

@@ -1,9 +1,10 @@
 //! Derivatives of contact forces over what their law sees, for a whole batch at once.
 
+use super::ContactBlock;
 use super::law_columns::LawColumns;
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
 use crate::laws::elastic::solid::SolidContact;
-use crate::scalar::{Columns, Dual, Duals, Pack, Real, dispatch};
+use crate::scalar::{Columns, Dual, Duals, Lanes, Pack, Real, ZEROS, blocks_for, dispatch, place_of};
 use pulp::{Arch, Simd};
 
 /// Directions of the derivatives: approach, approach speed, u1, u2, edge share, logarithm of the viscosity.
@@ -16,29 +17,28 @@ pub(in crate::pairs) const FORCES: usize = 3;
 /// Derivatives of the forces of one contact.
 pub(in crate::pairs) type Slopes = [[f64; DIRECTIONS]; FORCES];
 
-/// Derivatives in columns, by force and direction.
+/// Derivatives in blocks of columns, by force and direction.
 #[derive(Clone, Debug, Default)]
-pub(in crate::pairs) struct LawSlopes([[Vec<f64>; DIRECTIONS]; FORCES]);
+pub(in crate::pairs) struct LawSlopes(Vec<[[Lanes; DIRECTIONS]; FORCES]>);
 
 impl LawSlopes {
     /// Room for this many contacts.
     pub(in crate::pairs) fn new(room: usize) -> Self {
-        Self(std::array::from_fn(|_| std::array::from_fn(|_| vec![0.0; room])))
+        Self(vec![[[ZEROS; DIRECTIONS]; FORCES]; blocks_for(room)])
     }
 
-    /// Finds the forces of the first `rows` contacts, for which there must be room, and their derivatives, from their
-    /// motions and edge shares, with the logarithm `ln_viscosity` of the relative viscosity.
+    /// Finds the forces of the first `rows` contacts, for which there must be room, and their derivatives, with the logarithm
+    /// `ln_viscosity` of the relative viscosity.
     pub(in crate::pairs) fn find(
         &mut self,
         laws: &LawColumns,
         rows: usize,
-        (motion, edge_share): (&ContactMotion<Vec<f64>>, &[f64]),
+        contacts: &mut [ContactBlock],
         ln_viscosity: f64,
-        force: &mut ContactForce<Vec<f64>>,
         instructions: Arch,
     ) {
         let slopes = &mut self.0;
-        dispatch(instructions, Differentiate { laws, motion, edge_share, force, slopes, rows, ln_viscosity });
+        dispatch(instructions, Differentiate { laws, contacts, slopes, rows, ln_viscosity });
     }
 
     /// Derivatives alone of the forces of solid contacts, which know neither edges nor a lubricant.
@@ -46,20 +46,22 @@ impl LawSlopes {
         &mut self,
         law: &SolidContact,
         rows: usize,
-        motion: &ContactMotion<Vec<f64>>,
+        contacts: &[ContactBlock],
     ) {
         for i in 0..rows {
-            let variable = |column: &[f64], direction| Dual::<DIRECTIONS>::variable(column[i], direction);
+            let (block, lane) = place_of(i);
+            let motion = contacts[block].motion.of(lane);
+            let variable = Dual::<DIRECTIONS>::variable;
             let force = law.force(&ContactMotion {
-                delta: variable(&motion.delta, 0),
-                delta_dot: variable(&motion.delta_dot, 1),
-                u1: variable(&motion.u1, 2),
-                u2: variable(&motion.u2, 3),
+                delta: variable(motion.delta, 0),
+                delta_dot: variable(motion.delta_dot, 1),
+                u1: variable(motion.u1, 2),
+                u2: variable(motion.u2, 3),
             });
             let forces = [force.normal, force.friction, force.rolling_resistance];
-            for (columns, of_force) in self.0.iter_mut().zip(forces) {
+            for (columns, of_force) in self.0[block].iter_mut().zip(forces) {
                 for (column, slope) in columns.iter_mut().zip(of_force.eps) {
-                    column[i] = slope;
+                    column[lane] = slope;
                 }
             }
         }
@@ -69,9 +71,10 @@ impl LawSlopes {
     #[inline(always)]
     pub(in crate::pairs) fn of(&self, i: usize) -> Slopes {
         let mut slopes = [[0.0; DIRECTIONS]; FORCES];
-        for (row, columns) in slopes.iter_mut().zip(&self.0) {
+        let (block, lane) = place_of(i);
+        for (row, columns) in slopes.iter_mut().zip(&self.0[block]) {
             for (slope, column) in row.iter_mut().zip(columns) {
-                *slope = column[i];
+                *slope = column[lane];
             }
         }
         slopes
@@ -109,10 +112,8 @@ pub(in crate::pairs) fn contact_force<T: Real>(
 
 struct Differentiate<'a> {
     laws: &'a LawColumns,
-    motion: &'a ContactMotion<Vec<f64>>,
-    edge_share: &'a [f64],
-    force: &'a mut ContactForce<Vec<f64>>,
-    slopes: &'a mut [[Vec<f64>; DIRECTIONS]; FORCES],
+    contacts: &'a mut [ContactBlock],
+    slopes: &'a mut [[[Lanes; DIRECTIONS]; FORCES]],
     rows: usize,
     ln_viscosity: f64,
 }
@@ -128,22 +129,24 @@ impl Columns for Differentiate<'_> {
     #[inline(always)]
     #[expect(clippy::needless_range_loop, reason = "iterators might not be inlined")]
     fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
-        let motion = self.motion.load::<S, K>(simd, first);
+        let (block, lane) = place_of(first);
+        let ContactBlock { motion, edge_share, force: out, .. } = &mut self.contacts[block];
+        let motion = motion.load::<S, K>(simd, lane);
         let motion = ContactMotion {
             delta: Duals::<DIRECTIONS, _>::variable(motion.delta, 0),
             delta_dot: Duals::variable(motion.delta_dot, 1),
             u1: Duals::variable(motion.u1, 2),
             u2: Duals::variable(motion.u2, 3),
         };
-        let edge_share = Duals::variable(Pack::load(simd, &self.edge_share[first..]), EDGE_SHARE);
+        let edge_share = Duals::variable(Pack::load(simd, &edge_share[lane..]), EDGE_SHARE);
         let ln_viscosity = Duals::variable(Pack::all(simd, self.ln_viscosity), VISCOSITY);
         let law = self.laws.load::<S, K>(simd, first);
         let force = law.force(&motion, ln_viscosity, edge_share);
-        self.force.store(first, &force);
+        out.store(lane, &force);
         let forces = [force.normal, force.friction, force.rolling_resistance];
         for f in 0..FORCES {
             for d in 0..DIRECTIONS {
-                forces[f].eps[d].store(&mut self.slopes[f][d][first..]);
+                forces[f].eps[d].store(&mut self.slopes[block][f][d][lane..]);
             }
         }
     }

@@ -1,15 +1,26 @@
 //! Touching contacts in columns: where they are, how they move, what forces they have.
+//!
+//! Whatever follows from levers and forces does so here, for all contacts at once and whatever the pair: wrenches (`wrenches`),
+//! damping (`damping`), forces, powers and reaction of a step (`step`).
 
+mod damping;
 mod law_columns;
 mod law_slopes;
+mod step;
+mod wrenches;
 
 pub(super) use law_slopes::{FORCES, Slopes, VISCOSITY, chain, contact_force};
+pub(crate) use step::SpeedChanges;
+use step::StepForces;
 
-use super::{ContactLaw, ElementPair, Grip};
+use super::{ContactLaw, ElementPair, Grip, PairInfo};
+use crate::bodies::{Motions, OF_ELEMENT, WrenchLanes};
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
 use crate::laws::elastic::solid::SolidContact;
 use crate::laws::line_contact::LineContact;
-use crate::scalar::WIDEST;
+use crate::scalar::{Lanes, WIDEST, ZEROS, blocks_for, place_of};
+use crate::space::Frame;
+use damping::Triangles;
 use law_columns::LawColumns;
 use law_slopes::LawSlopes;
 use pulp::Arch;
@@ -26,20 +37,64 @@ pub(crate) struct Site {
     pub(crate) contact: usize,
     /// Its mate, a shared body.
     pub(crate) mate: usize,
-    pub(crate) grip: Grip<f64>,
 }
 
 /// A motion without contact.
 const APART: ContactMotion<f64> = ContactMotion { delta: -1.0, delta_dot: 0.0, u1: 0.0, u2: 0.0 };
 
+/// A block of contacts: what is beyond the last one is apart.
+#[derive(Clone, Debug)]
+#[repr(align(64))]
+pub(crate) struct ContactBlock {
+    pub(crate) grip: Grip<Lanes>,
+    /// Of the elements.
+    frame: Frame<Lanes>,
+    pub(crate) motion: ContactMotion<Lanes>,
+    edge_share: Lanes,
+    pub(crate) force: ContactForce<Lanes>,
+    /// Wrenches on elements in their local frames, and on mates in global axes.
+    pub(crate) on_elements: WrenchLanes,
+    pub(crate) on_mates: WrenchLanes,
+    damping: Triangles,
+    pub(crate) step: StepForces,
+}
+
+impl ContactBlock {
+    const APART: Self = Self {
+        grip: Grip::<Lanes>::ZERO,
+        frame: Frame::GLOBAL_LANES,
+        motion: NO_MOTION,
+        edge_share: ZEROS,
+        force: NO_FORCE,
+        on_elements: [ZEROS; OF_ELEMENT],
+        on_mates: [ZEROS; OF_ELEMENT],
+        damping: Triangles::ZERO,
+        step: StepForces::ZERO,
+    };
+}
+
+const NO_MOTION: ContactMotion<Lanes> =
+    ContactMotion { delta: [APART.delta; WIDEST], delta_dot: ZEROS, u1: ZEROS, u2: ZEROS };
+
+const NO_FORCE: ContactForce<Lanes> = ContactForce {
+    normal: ZEROS,
+    stiffness: ZEROS,
+    damping: ZEROS,
+    film: ZEROS,
+    film_ratio: ZEROS,
+    temperature_rise: ZEROS,
+    friction_coefficient: ZEROS,
+    friction: ZEROS,
+    friction_secant: ZEROS,
+    rolling_resistance: ZEROS,
+};
+
 /// Touching contacts whose laws are evaluated together. Room is taken at creation, so filling it does not allocate.
 #[derive(Clone, Debug)]
 pub(crate) struct Batch {
     pub(crate) sites: Vec<Site>,
-    /// As long as the batch may become, and more: what is beyond its end is apart.
-    pub(crate) motion: ContactMotion<Vec<f64>>,
-    edge_share: Vec<f64>,
-    pub(crate) force: ContactForce<Vec<f64>>,
+    /// As many as the batch may become long.
+    pub(crate) blocks: Vec<ContactBlock>,
     laws: BatchLaws,
     /// Derivatives of the forces.
     slopes: LawSlopes,
@@ -57,7 +112,7 @@ enum BatchLaws {
 
 impl Batch {
     fn new(n: usize, laws: &[ContactLaw]) -> Self {
-        let room = n.next_multiple_of(WIDEST);
+        let room = blocks_for(n) * WIDEST;
         let lines: Vec<LineContact> = laws.iter().filter_map(ContactLaw::line).copied().collect();
         let laws = match (lines.split_first(), laws.first()) {
             (None, Some(ContactLaw::Solid(law))) => BatchLaws::Solid(*law),
@@ -66,9 +121,7 @@ impl Batch {
         };
         Self {
             sites: Vec::with_capacity(n),
-            motion: APART.map(|x| vec![*x; room]),
-            edge_share: vec![0.0; room],
-            force: ContactForce::none(0.0).map(|x: &f64| vec![*x; room]),
+            blocks: vec![ContactBlock::APART; blocks_for(n)],
             laws,
             slopes: LawSlopes::new(room),
             differentiated: false,
@@ -80,21 +133,28 @@ impl Batch {
         self.differentiated = false;
     }
 
-    /// Number of contacts that there is memory for.
-    pub(crate) fn room(&self) -> usize {
-        self.sites.capacity()
-    }
-
     #[inline]
     pub(crate) fn len(&self) -> usize {
         self.sites.len()
     }
 
     #[inline(always)]
-    fn push(&mut self, kind: usize, site: Site, edge_share: f64, motion: &ContactMotion<f64>) {
+    fn push(
+        &mut self,
+        kind: usize,
+        site: Site,
+        frame: Frame<f64>,
+        grip: &Grip<f64>,
+        edge_share: f64,
+        motion: &ContactMotion<f64>,
+    ) {
         let i = self.len();
-        self.motion.set(i, motion);
-        self.edge_share[i] = edge_share;
+        let (block, lane) = place_of(i);
+        let block = &mut self.blocks[block];
+        block.motion.set(lane, motion);
+        block.grip.set(lane, grip);
+        block.frame.set(lane, frame);
+        block.edge_share[lane] = edge_share;
         if let BatchLaws::Lines(laws) = &mut self.laws {
             laws.set(i, kind);
         }
@@ -104,18 +164,31 @@ impl Batch {
     /// Evaluates the laws, with the logarithm `ln_viscosity` of the relative viscosity.
     pub(crate) fn apply(&mut self, ln_viscosity: f64, instructions: Arch) {
         let rows = self.len();
-        let Self { motion, edge_share, force, .. } = self;
+        self.pad();
         self.differentiated = false;
         match &self.laws {
-            BatchLaws::Lines(laws) => {
-                pad(rows, motion, edge_share);
-                laws.apply(rows, motion, edge_share, ln_viscosity, force, instructions);
-            }
+            BatchLaws::Lines(laws) => laws.apply(rows, &mut self.blocks, ln_viscosity, instructions),
             BatchLaws::Solid(law) => {
                 for i in 0..rows {
-                    force.set(i, &law.force(&motion.map(|x| x[i])));
+                    let (block, lane) = place_of(i);
+                    let ContactBlock { motion, force, .. } = &mut self.blocks[block];
+                    force.set(lane, &law.force(&motion.of(lane)));
                 }
             }
+        }
+    }
+
+    /// Makes the places from the last contact up to the end of its block apart.
+    fn pad(&mut self) {
+        let (last, used) = place_of(self.len());
+        if used == 0 {
+            return;
+        }
+        let ContactBlock { motion, edge_share, force, .. } = &mut self.blocks[last];
+        edge_share[used..].fill(0.0);
+        for lane in used..WIDEST {
+            motion.set(lane, &APART);
+            force.set(lane, &ContactForce::none(0.0));
         }
     }
 
@@ -125,63 +198,70 @@ impl Batch {
             return;
         }
         let rows = self.len();
-        if let BatchLaws::Solid(law) = self.laws {
-            self.apply(ln_viscosity, instructions);
-            self.slopes.find_solid(&law, rows, &self.motion);
+        match self.laws {
+            BatchLaws::Solid(law) => {
+                self.apply(ln_viscosity, instructions);
+                self.slopes.find_solid(&law, rows, &self.blocks);
+            }
+            BatchLaws::Lines(_) => self.pad(),
         }
-        let Self { motion, edge_share, force, .. } = self;
         if let BatchLaws::Lines(laws) = &self.laws {
-            pad(rows, motion, edge_share);
-            self.slopes.find(laws, rows, (motion, edge_share), ln_viscosity, force, instructions);
+            self.slopes.find(laws, rows, &mut self.blocks, ln_viscosity, instructions);
         }
         self.differentiated = true;
     }
 
-    /// Every contact with its normal force, friction and rolling resistance, N.
+    /// The contacts of each block, with their places in it.
     #[inline]
-    pub(crate) fn forces(&self) -> impl Iterator<Item = (&Site, ContactForce<f64>)> {
-        let f = &self.force;
-        let forces = f.normal.iter().zip(&f.friction).zip(&f.rolling_resistance);
-        self.sites.iter().zip(forces).map(|(site, ((&normal, &friction), &rolling_resistance))| {
-            (site, ContactForce { normal, friction, rolling_resistance, ..ContactForce::none(0.0) })
-        })
+    pub(crate) fn by_block(&self) -> impl Iterator<Item = (&[Site], &ContactBlock)> {
+        self.sites.chunks(WIDEST).zip(&self.blocks)
+    }
+
+    /// Block of contact `i`, and its place there.
+    #[inline(always)]
+    pub(crate) fn at(&self, i: usize) -> (&ContactBlock, usize) {
+        let (block, lane) = place_of(i);
+        (&self.blocks[block], lane)
+    }
+
+    /// Levers of contact `i`.
+    #[inline(always)]
+    pub(crate) fn grip(&self, i: usize) -> Grip<f64> {
+        let (block, lane) = self.at(i);
+        block.grip.of(lane)
     }
 
     /// Normal force, friction and rolling resistance of contact `i`, N, and their derivatives over what the law sees.
     #[inline(always)]
     pub(crate) fn slopes(&self, i: usize) -> ([f64; FORCES], Slopes) {
-        let f = &self.force;
-        ([f.normal[i], f.friction[i], f.rolling_resistance[i]], self.slopes.of(i))
+        let (ContactBlock { force, .. }, lane) = self.at(i);
+        let forces = [force.normal[lane], force.friction[lane], force.rolling_resistance[lane]];
+        (forces, self.slopes.of(i))
     }
 
-    /// Every contact with its normal damping and its secant slope of friction, N s/m.
+    /// Contact `i` with all that is known of it.
     #[inline]
-    pub(crate) fn damping(&self) -> impl Iterator<Item = (&Site, [f64; 2])> {
-        let rates = self.force.damping.iter().zip(&self.force.friction_secant);
-        self.sites.iter().zip(rates).map(|(site, (damping, secant))| (site, [*damping, *secant]))
+    pub(crate) fn loaded(&self, i: usize) -> Loaded<'_> {
+        let (block, lane) = self.at(i);
+        Loaded {
+            site: &self.sites[i],
+            grip: block.grip.of(lane),
+            motion: block.motion.of(lane),
+            force: block.force.of(lane),
+        }
     }
 
     /// Every contact with all that is known of it.
     #[inline]
     pub(crate) fn iter(&self) -> impl Iterator<Item = Loaded<'_>> {
-        self.sites.iter().enumerate().map(|(i, site)| Loaded {
-            site,
-            motion: self.motion.map(|x| x[i]),
-            force: self.force.map(|x| x[i]),
-        })
+        (0..self.len()).map(|i| self.loaded(i))
     }
-}
-
-/// Makes the places from the last contact up to the next whole group apart.
-fn pad(rows: usize, motion: &mut ContactMotion<Vec<f64>>, edge_share: &mut [f64]) {
-    let rest = rows..rows.next_multiple_of(WIDEST);
-    edge_share[rest.clone()].fill(0.0);
-    rest.for_each(|i| motion.set(i, &APART));
 }
 
 /// One contact of a batch.
 pub(crate) struct Loaded<'a> {
     pub(crate) site: &'a Site,
+    pub(crate) grip: Grip<f64>,
     pub(crate) motion: ContactMotion<f64>,
     pub(crate) force: ContactForce<f64>,
 }
@@ -195,13 +275,27 @@ pub(crate) struct Contacts {
     /// Contacts of each pair in its batch.
     ranges: Vec<Range<usize>>,
     /// Memory of pairs for what they find of all elements.
-    gaps: [Vec<f64>; GAPS],
+    found: Vec<Found>,
     /// Evaluations of the last state by law of the pairs.
     pub(crate) counts: Vec<[u64; LAWS_OF_PAIR]>,
 }
 
-/// Columns of numbers that a pair may find of all elements.
-pub(crate) const GAPS: usize = 4;
+/// What a pair finds of a block of elements, whether they touch or not.
+#[derive(Clone, Debug)]
+#[repr(align(64))]
+pub(crate) struct Found {
+    pub(crate) motion: ContactMotion<Lanes>,
+    pub(crate) grip: Grip<Lanes>,
+    /// How far an element is ahead of the place that the mate has for it, and where it is there, m.
+    pub(crate) lead: Frame<Lanes>,
+    pub(crate) offset: [Lanes; 2],
+}
+
+impl Found {
+    const NOTHING: Self =
+        Self { motion: NO_MOTION, grip: Grip::<Lanes>::ZERO, lead: Frame::GLOBAL_LANES, offset: [ZEROS; 2] };
+}
+
 /// Laws that a pair may count its contacts by.
 pub(crate) const LAWS_OF_PAIR: usize = 2;
 
@@ -227,12 +321,11 @@ impl Contacts {
                 }
             }
         }
-        let room = elements.next_multiple_of(WIDEST);
         Self {
             batches: groups.iter().map(|(n, laws)| Batch::new(*n, laws)).collect(),
             place,
             ranges: vec![0..0; pairs.len()],
-            gaps: std::array::from_fn(|_| vec![0.0; room]),
+            found: vec![Found::NOTHING; blocks_for(elements)],
             counts: vec![[0; LAWS_OF_PAIR]; pairs.len()],
         }
     }
@@ -245,12 +338,21 @@ impl Contacts {
 
     /// Where a pair puts its touching contacts.
     #[inline]
-    pub(crate) fn of(&mut self, pair: usize, mate: usize) -> Search<'_> {
+    pub(crate) fn of<'a>(&'a mut self, pair: usize, mate: usize, motions: &'a Motions) -> Search<'a> {
         let [batch, kind] = self.place[pair];
         let batch = &mut self.batches[batch];
         let first = batch.len();
-        let touching = Touching { batch, counts: &mut self.counts[pair], pair, mate, kind };
-        Search { touching, gaps: &mut self.gaps, range: &mut self.ranges[pair], first }
+        let touching = Touching { motions, batch, counts: &mut self.counts[pair], pair, mate, kind };
+        Search { touching, found: &mut self.found, range: &mut self.ranges[pair], first }
+    }
+
+    /// The batches, with the mate and the contacts of every pair in them.
+    pub(crate) fn by_pair<'a>(
+        &'a self,
+        infos: &'a [&'static PairInfo],
+    ) -> impl Iterator<Item = (&'a Batch, &'static PairInfo, Range<usize>)> {
+        let pairs = infos.iter().zip(&self.place).zip(&self.ranges);
+        pairs.map(|((info, [batch, _]), contacts)| (&self.batches[*batch], *info, contacts.clone()))
     }
 
     /// The batch of a pair and its contacts there.
@@ -290,7 +392,7 @@ fn join(laws: &[ContactLaw], law: &ContactLaw) -> Option<Vec<ContactLaw>> {
 pub(crate) struct Search<'a> {
     pub(crate) touching: Touching<'a>,
     /// Memory for what it finds of all elements.
-    pub(crate) gaps: &'a mut [Vec<f64>; GAPS],
+    pub(crate) found: &'a mut [Found],
     range: &'a mut Range<usize>,
     first: usize,
 }
@@ -303,6 +405,7 @@ impl Drop for Search<'_> {
 
 /// Touching contacts of one pair in the making.
 pub(crate) struct Touching<'a> {
+    motions: &'a Motions,
     batch: &'a mut Batch,
     counts: &'a mut [u64; LAWS_OF_PAIR],
     pair: usize,
@@ -317,12 +420,12 @@ impl Touching<'_> {
         &mut self,
         element: usize,
         contact: usize,
-        grip: Grip<f64>,
+        grip: &Grip<f64>,
         edge_share: f64,
         motion: &ContactMotion<f64>,
     ) {
-        let site = Site { element, pair: self.pair, contact, mate: self.mate, grip };
-        self.batch.push(self.kind, site, edge_share, motion);
+        let site = Site { element, pair: self.pair, contact, mate: self.mate };
+        self.batch.push(self.kind, site, self.motions.frame(element), grip, edge_share, motion);
         self.counts[usize::from(edge_share >= 1.0)] += 1;
     }
 }

@@ -7,7 +7,7 @@
 
 use crate::bodies::ElementMotion;
 use crate::laws::contact_pair::ContactMotion;
-use crate::pairs::{Grip, MateLever};
+use crate::pairs::Grip;
 use crate::scalar::{Numeric, Real};
 use crate::space::Frame;
 use std::fmt::Debug;
@@ -120,8 +120,7 @@ impl PocketPlace {
     /// Levers of a contact of an element that is ahead of its pocket by `lead` and at `offset` (m) there.
     #[inline]
     pub fn grip<T: Real>(&self, offset: [T; 2], normal: [T; 2], lead: Frame<T>) -> Grip<T> {
-        let mate = MateLever::Point(self.lever(offset, normal), lead);
-        Grip { normal, arm: T::constant(self.element_radius), mate }
+        Grip::at_point(normal, T::constant(self.element_radius), self.lever(offset, normal), lead)
     }
 
     /// Contact point relative to the cage centre, m.

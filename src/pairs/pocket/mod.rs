@@ -9,11 +9,12 @@ pub(super) use cylinder::new as cylinder;
 pub(super) use plane::new as plane;
 
 use crate::bodies::{CAGE, Fault, Motions};
-use crate::pairs::contacts::GAPS;
-use crate::pairs::{Ahead, Batch, ContactLaw, Cost, ElementPair, ElementPlace, PairInfo, Search, SlopeSums};
+use crate::pairs::{
+    Ahead, Batch, ContactLaw, Cost, ElementPair, ElementPlace, Found, PairInfo, Search, SlopeSums,
+};
 use crate::scalar::elementary::sin_cos;
-use crate::scalar::{Columns, Pack, dispatch, math};
-use crate::space::{Frame, rotate};
+use crate::scalar::{Columns, Pack, dispatch, math, place_of};
+use crate::space::Frame;
 use kinematics::{Pillar, PillarContact, PocketPlace, PocketShape};
 use pulp::Simd;
 use slopes::add_pocket;
@@ -45,11 +46,10 @@ impl<S: PocketShape> ElementPair for Pockets<S> {
     fn find(&self, motions: &Motions, out: &mut Search<'_>) -> Result<(), Fault> {
         let (place, cage) = (self.shape.place(), &motions.shared[CAGE]);
         let largest_lead = OUT_OF_POCKET * place.element_radius / place.pitch_radius;
-        let places = &motions.places;
-        let together = match places.together {
+        let together = match motions.together {
             None => {
-                for (element, travel) in places.travel[..motions.elements.len()].iter().enumerate() {
-                    let lead = travel - cage.angle;
+                for element in 0..motions.count {
+                    let lead = motions.travel(element) - cage.angle;
                     if lead.abs() > largest_lead {
                         return Err(Fault::OutOfPocket { element, lead });
                     }
@@ -65,23 +65,23 @@ impl<S: PocketShape> ElementPair for Pockets<S> {
                 Some(Frame { sin, cos })
             }
         };
-        let Search { touching, gaps, .. } = out;
-        dispatch(motions.instructions, Offsets { motions, place, together, gaps });
-        let [along, across, sin, cos] = &**gaps;
-        let offsets = along.iter().zip(across).zip(&motions.elements);
-        for (j, ((along, across), motion)) in offsets.enumerate() {
-            let offset = [*along, *across];
+        let Search { touching, found, .. } = out;
+        dispatch(motions.instructions, Offsets { motions, place, together, found });
+        for j in 0..motions.count {
+            let (block, lane) = place_of(j);
+            let Found { lead, offset: [along, across], .. } = &found[block];
+            let offset = [along[lane], across[lane]];
             if self.shape.apart(offset) {
                 continue;
             }
-            let lead = together.unwrap_or(Frame { sin: sin[j], cos: cos[j] });
-            let velocity = lead.to_global(motions.frame(j).to_local(cage.velocity));
-            let relative = place.relative_motion(offset, motion, lead, velocity, cage.speed);
+            let (lead, element) = (lead.of(lane), motions.element(j));
+            let velocity = lead.to_global(element.frame.to_local(cage.velocity));
+            let relative = place.relative_motion(offset, &element.motion, lead, velocity, cage.speed);
             for side in [Pillar::Front, Pillar::Back] {
                 if let Some(PillarContact { motion, normal, edge_share }) = self.shape.pillar(side, &relative)
                 {
                     let grip = place.grip(offset, normal, lead);
-                    touching.push(j, side as usize, grip, edge_share, &motion);
+                    touching.push(j, side as usize, &grip, edge_share, &motion);
                 }
             }
         }
@@ -124,34 +124,30 @@ struct Offsets<'a> {
     place: PocketPlace,
     /// Lead of all elements, where it is the same.
     together: Option<Frame<f64>>,
-    /// Offset, then sine and cosine of the lead where it is not the same.
-    gaps: &'a mut [Vec<f64>; GAPS],
+    found: &'a mut [Found],
 }
 
 impl Columns for Offsets<'_> {
     fn rows(&self) -> usize {
-        self.motions.elements.len()
+        self.motions.count
     }
 
     #[inline(always)]
     fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
-        let (places, cage) = (&self.motions.places, &self.motions.shared[CAGE]);
+        let (block, at) = place_of(first);
+        let (of_elements, cage) = (&self.motions.blocks[block], &self.motions.shared[CAGE]);
         let all = |x: f64| Pack::<S, K>::all(simd, x);
-        let load = |column: &[f64]| Pack::load(simd, &column[first..]);
         let (sin, cos) = match self.together {
             Some(lead) => (all(lead.sin), all(lead.cos)),
-            None => sin_cos(load(&places.travel) - all(cage.angle)),
+            None => sin_cos(Pack::load(simd, &of_elements.travel[at..]) - all(cage.angle)),
         };
-        let azimuth = [load(&places.direction[0]), load(&places.direction[1])];
-        let cage = rotate([all(cage.position[0]), all(cage.position[1])], -azimuth[0], azimuth[1]);
-        let lead = Frame { sin, cos };
-        let offset = self.place.offset(load(&places.radial_offset), lead, rotate(cage, sin, cos));
-        let [along, across, sines, cosines] = &mut *self.gaps;
-        offset[0].store(&mut along[first..]);
-        offset[1].store(&mut across[first..]);
-        if self.together.is_none() {
-            sin.store(&mut sines[first..]);
-            cos.store(&mut cosines[first..]);
-        }
+        let (frame, turned) = (of_elements.frame.load(simd, at), Frame { sin, cos });
+        let centre = turned.to_global(frame.to_local([all(cage.position[0]), all(cage.position[1])]));
+        let radial_offset = Pack::load(simd, &of_elements.motion.radial_offset[at..]);
+        let [along, across] = self.place.offset(radial_offset, turned, centre);
+        let Found { lead, offset, .. } = &mut self.found[block];
+        lead.store(at, turned);
+        along.store(&mut offset[0][at..]);
+        across.store(&mut offset[1][at..]);
     }
 }

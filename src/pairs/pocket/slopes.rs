@@ -5,8 +5,8 @@ use super::kinematics::{Pillar, PillarContact, PocketPlace, PocketShape};
 use crate::bodies::{CAGE, Element, ElementMotion, Input, Motions};
 use crate::laws::contact_pair::ContactForce;
 use crate::pairs::contacts::{FORCES, Slopes, VISCOSITY, chain, contact_force};
-use crate::pairs::{Batch, MateLever, SlopeSums};
-use crate::scalar::{Dual, Real};
+use crate::pairs::{Batch, SlopeSums};
+use crate::scalar::{Dual, Real, math};
 use crate::space::{Frame, Motion};
 
 /// A number with derivatives over the coordinates of a contact: element (rho, travel), their rates, spin; position of the
@@ -26,10 +26,8 @@ pub(super) fn add_pocket<S: PocketShape>(
     let site = &batch.sites[i];
     let j = site.element;
     let side = if site.contact == Pillar::Front as usize { Pillar::Front } else { Pillar::Back };
-    let lead = match site.grip.mate {
-        MateLever::Point(_, lead) => lead,
-        MateLever::Centre(_) => return,
-    };
+    let (sin, cos) = math::sin_cos(motions.travel(j) - motions.shared[CAGE].angle);
+    let lead = Frame { sin, cos };
     let pair = Pair::new(&motions.element(j), lead, &motions.shared[CAGE]);
     if let Some(force) = pair.pocket(shape, &batch.slopes(i), side, sums.ln_viscosity_rate) {
         add_pair(j, &force, sums);

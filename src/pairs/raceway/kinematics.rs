@@ -17,8 +17,8 @@
 
 use crate::bodies::ElementMotion;
 use crate::laws::contact_pair::ContactMotion;
-use crate::pairs::{Grip, MateLever};
-use crate::scalar::{Numeric, Real};
+use crate::pairs::Grip;
+use crate::scalar::Numeric;
 
 /// Motion of a ring, its vectors in the local frame of a roller.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,9 +55,9 @@ impl RacewayGeometry {
     }
 
     /// Motion and levers of the contact with the outer raceway; the outer ring is centred and at rest.
-    #[inline]
-    pub fn outer<T: Real>(&self, roller: &ElementMotion<T>) -> (ContactMotion<T>, Grip<T>) {
-        let arm_1 = T::constant(self.roller_radius);
+    #[inline(always)]
+    pub fn outer<T: Numeric>(&self, roller: &ElementMotion<T>) -> (ContactMotion<T>, Grip<T>) {
+        let arm_1 = roller.radial_offset.like(self.roller_radius);
         let arm_2 = -(roller.radial_offset + (self.pitch_radius + self.roller_radius));
         let motion = ContactMotion {
             delta: roller.radial_offset - self.gap,
@@ -65,22 +65,13 @@ impl RacewayGeometry {
             u1: arm_1 * (roller.spin_speed - roller.orbit_speed),
             u2: arm_2 * roller.orbit_speed,
         };
-        let normal = [T::constant(1.0), T::constant(0.0)];
-        (motion, Grip { normal, arm: arm_1, mate: MateLever::Centre(arm_2) })
-    }
-
-    /// Approach of a roller to the inner raceway, m, without anything else: the test for contact.
-    #[inline(always)]
-    pub fn inner_approach<T: Numeric>(&self, radial_offset: T, ring: [T; 2]) -> T {
-        let r = radial_offset + self.pitch_radius;
-        let across = r - ring[0];
-        let d = (across * across + ring[1] * ring[1]).sqrt();
-        -(radial_offset + self.gap + shift(r, d, ring))
+        let normal = [arm_1.like(1.0), arm_1.like(0.0)];
+        (motion, Grip::centred(normal, arm_1, arm_2))
     }
 
     /// Motion and levers of the contact with the inner raceway.
-    #[inline]
-    pub fn inner<T: Real>(
+    #[inline(always)]
+    pub fn inner<T: Numeric>(
         &self,
         roller: &ElementMotion<T>,
         ring: &RingMotion<T>,
@@ -89,9 +80,9 @@ impl RacewayGeometry {
         let to_ring = [ring.position[0] - r, ring.position[1]];
         let d = (to_ring[0] * to_ring[0] + to_ring[1] * to_ring[1]).sqrt();
         let normal = [to_ring[0] / d, to_ring[1] / d];
-        let arm_1 = T::constant(self.roller_radius);
+        let arm_1 = d.like(self.roller_radius);
         let arm_2 = d - self.roller_radius;
-        let grip = Grip { normal, arm: arm_1, mate: MateLever::Centre(arm_2) };
+        let grip = Grip::centred(normal, arm_1, arm_2);
         let tangent = grip.tangent();
         let relative = [ring.velocity[0] - roller.radial_speed, ring.velocity[1] - r * roller.orbit_speed];
         let turning = (relative[0] * tangent[0] + relative[1] * tangent[1]) / d;
@@ -146,14 +137,20 @@ mod tests {
         assert!((inner.delta + G.gap).abs() < 1e-20);
     }
 
+    /// Approach to the inner raceway with all at rest.
+    fn approach_at(radial_offset: f64, position: [f64; 2]) -> f64 {
+        let roller = ElementMotion { radial_offset, ..ElementMotion::default() };
+        G.inner(&roller, &RingMotion { position, velocity: [0.0; 2], speed: 0.0 }).0.delta
+    }
+
     #[test]
     fn nanometre_gaps_keep_their_digits() {
         // The exact gap of a ring shifted along the radius is gap + rho - x: check it to 1e-22 m.
         let (rho, x) = (3.123_456_789e-9, 1.000_987_654_321e-5);
-        let approach = G.inner_approach(rho, [x, 0.0]);
+        let approach = approach_at(rho, [x, 0.0]);
         assert!((approach - (x - G.gap - rho)).abs() < 1e-20, "{approach}");
         // A sideways shift lengthens the distance by x^2/(2 r) to leading order.
-        let approach = G.inner_approach(0.0, [0.0, 2e-5]);
+        let approach = approach_at(0.0, [0.0, 2e-5]);
         let expected = -(G.gap + 4e-10 / (2.0 * G.pitch_radius));
         assert!((approach / expected - 1.0).abs() < 1e-9);
     }
@@ -170,7 +167,7 @@ mod tests {
             let turn = roller.orbit_speed * s;
             let x = [ring.position[0] + ring.velocity[0] * s, ring.position[1] + ring.velocity[1] * s];
             let x = crate::space::rotate(x, (-turn).sin(), (-turn).cos());
-            G.inner_approach(roller.radial_offset + roller.radial_speed * s, x)
+            approach_at(roller.radial_offset + roller.radial_speed * s, x)
         };
         let difference = (at(h) - at(-h)) / (2.0 * h);
         assert!((motion.delta_dot - difference).abs() < 1e-7, "{} {difference}", motion.delta_dot);

@@ -5,14 +5,13 @@ mod slopes;
 
 pub(crate) use kinematics::{RacewayGeometry, RingMotion};
 
-use crate::bodies::{Fault, ForceSource, INNER_RING, Motions, OUTER_RING, Power};
+use crate::bodies::{ElementBlock, Fault, ForceSource, INNER_RING, Motions, OUTER_RING, Power};
 use crate::error::Result;
 use crate::laws::line_contact::LineContact;
 use crate::pairs::line_laws::LawBuilder;
-use crate::pairs::{Batch, ContactLaw, Cost, ElementPair, Law, PairInfo, Search, SlopeSums};
-use crate::scalar::{Columns, Pack, dispatch};
+use crate::pairs::{Batch, ContactLaw, Cost, ElementPair, Found, Law, PairInfo, Search, SlopeSums};
+use crate::scalar::{Columns, Pack, dispatch, place_of};
 use crate::scene::needed;
-use crate::space::rotate;
 use pulp::Simd;
 use std::ops::Range;
 
@@ -83,28 +82,18 @@ impl ElementPair for Raceway {
     }
 
     fn find(&self, motions: &Motions, out: &mut Search<'_>) -> std::result::Result<(), Fault> {
-        let Search { touching, gaps, .. } = out;
+        let Search { touching, found, .. } = out;
         let geometry = &self.geometry;
         if self.ring.mate == OUTER_RING {
-            for (j, motion) in motions.elements.iter().enumerate() {
-                if is_touching(motion.radial_offset - geometry.gap) {
-                    let (contact, grip) = geometry.outer(motion);
-                    touching.push(j, 0, grip, 0.0, &contact);
-                }
-            }
-            return Ok(());
+            dispatch(motions.instructions, Outer { motions, geometry, found });
+        } else {
+            dispatch(motions.instructions, Inner { motions, geometry, found });
         }
-        let ring = &motions.shared[INNER_RING];
-        let n = motions.elements.len();
-        let approach = &mut gaps[0];
-        dispatch(motions.instructions, Approach { motions, geometry, ring: ring.position, n, approach });
-        for (j, (motion, approach)) in motions.elements.iter().zip(&gaps[0]).enumerate() {
-            if is_touching(*approach) {
-                let frame = motions.frame(j);
-                let (position, velocity) = (frame.to_local(ring.position), frame.to_local(ring.velocity));
-                let seen = RingMotion { position, velocity, speed: ring.speed };
-                let (contact, grip) = geometry.inner(motion, &seen);
-                touching.push(j, 0, grip, 0.0, &contact);
+        for j in 0..motions.count {
+            let (block, lane) = place_of(j);
+            let Found { motion, grip, .. } = &found[block];
+            if is_touching(motion.delta[lane]) {
+                touching.push(j, 0, &grip.of(lane), 0.0, &motion.of(lane));
             }
         }
         Ok(())
@@ -131,28 +120,57 @@ fn is_touching(approach: f64) -> bool {
     approach > 0.0 || approach.is_nan()
 }
 
-/// Finds the approach of all rollers to the inner raceway.
-struct Approach<'a> {
+/// Finds motion and levers of the contacts of all rollers with the outer raceway, whether they touch or not.
+struct Outer<'a> {
     motions: &'a Motions,
     geometry: &'a RacewayGeometry,
-    ring: [f64; 2],
-    n: usize,
-    approach: &'a mut [f64],
+    found: &'a mut [Found],
 }
 
-impl Columns for Approach<'_> {
+impl Columns for Outer<'_> {
+    const PAIRED: bool = false;
+
     fn rows(&self) -> usize {
-        self.n
+        self.motions.count
     }
 
     #[inline(always)]
     fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
-        let places = &self.motions.places;
+        let (block, lane) = place_of(first);
+        let motion = self.motions.blocks[block].motion.load::<S, K>(simd, lane);
+        let (motion, grip) = self.geometry.outer(&motion);
+        self.found[block].motion.store(lane, &motion);
+        self.found[block].grip.store(lane, &grip);
+    }
+}
+
+/// The same with the inner raceway.
+struct Inner<'a> {
+    motions: &'a Motions,
+    geometry: &'a RacewayGeometry,
+    found: &'a mut [Found],
+}
+
+impl Columns for Inner<'_> {
+    const PAIRED: bool = false;
+
+    fn rows(&self) -> usize {
+        self.motions.count
+    }
+
+    #[inline(always)]
+    fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
         let all = |x: f64| Pack::<S, K>::all(simd, x);
-        let load = |column: &[f64]| Pack::load(simd, &column[first..]);
-        let [sin, cos] = [load(&places.direction[0]), load(&places.direction[1])];
-        let ring = rotate([all(self.ring[0]), all(self.ring[1])], -sin, cos);
-        let approach = self.geometry.inner_approach(load(&places.radial_offset), ring);
-        approach.store(&mut self.approach[first..]);
+        let ring = &self.motions.shared[INNER_RING];
+        let (block, lane) = place_of(first);
+        let ElementBlock { motion, frame, .. } = &self.motions.blocks[block];
+        let frame = frame.load(simd, lane);
+        let [y, z] = ring.position;
+        let [vy, vz] = ring.velocity;
+        let (position, velocity) = (frame.to_local([all(y), all(z)]), frame.to_local([all(vy), all(vz)]));
+        let seen = RingMotion { position, velocity, speed: all(ring.speed) };
+        let (motion, grip) = self.geometry.inner(&motion.load(simd, lane), &seen);
+        self.found[block].motion.store(lane, &motion);
+        self.found[block].grip.store(lane, &grip);
     }
 }

@@ -13,7 +13,7 @@
 use super::kinematics::{RacewayGeometry, RingMotion};
 use crate::bodies::{Element, ElementMotion, INNER_RING, Input, Motions};
 use crate::pairs::contacts::{FORCES, Slopes, VISCOSITY, chain, contact_force};
-use crate::pairs::{Batch, Grip, MateLever, SlopeSums};
+use crate::pairs::{Batch, Grip, SlopeSums};
 use crate::scalar::{Dual, Real};
 use crate::space::Wrench;
 
@@ -33,9 +33,8 @@ pub(super) fn add_outer(
     motions: &Motions,
     sums: &mut SlopeSums<'_>,
 ) {
-    let site = &batch.sites[i];
-    let j = site.element;
-    let (motion, grip) = geometry.outer(&lift::<4>(&motions.elements[j]));
+    let j = batch.sites[i].element;
+    let (motion, grip) = geometry.outer(&lift::<4>(&motions.element(j).motion));
     let (forces, slopes) = batch.slopes(i);
     let [on_roller, _] = grip.wrenches(&chain(&forces, &slopes, &motion, None));
     let rows = on_roller.components().map(|row: OuterDual| {
@@ -43,7 +42,7 @@ pub(super) fn add_outer(
         ([offset], [radial, orbit, spin])
     });
     sums.add_own(j, &rows);
-    if let Some([on_roller, _]) = over_time(&slopes, &site.grip, 0.0, sums.ln_viscosity_rate) {
+    if let Some([on_roller, _]) = over_time(&slopes, &batch.grip(i), 0.0, sums.ln_viscosity_rate) {
         sums.add_own_over_time(j, &on_roller.components());
     }
 }
@@ -56,8 +55,7 @@ pub(super) fn add_inner(
     motions: &Motions,
     sums: &mut SlopeSums<'_>,
 ) {
-    let site = &batch.sites[i];
-    let (j, ring) = (site.element, &motions.shared[INNER_RING]);
+    let (j, ring) = (batch.sites[i].element, &motions.shared[INNER_RING]);
     let element = &motions.element(j);
     let (x, v) = (element.frame.to_local(ring.position), element.frame.to_local(ring.velocity));
     let constant = InnerDual::constant;
@@ -81,9 +79,10 @@ pub(super) fn add_inner(
     let shared = [over_global(first, element), over_global(second, element)];
     let ring_moves = sums.layout.shared(INNER_RING).is_some();
     sums.add_own(j, &own.map(over_element));
-    let MateLever::Centre(arm) = site.grip.mate else { return };
+    let held = batch.grip(i);
+    let [_, arm, _] = held.on_mate;
     let speeding = -arm * sums.rates.of(Input::RingSpeed);
-    let time = over_time(&slopes, &site.grip, speeding, sums.ln_viscosity_rate);
+    let time = over_time(&slopes, &held, speeding, sums.ln_viscosity_rate);
     if ring_moves {
         sums.add_own_over_mate(j, INNER_RING, &own.map(over_ring));
         sums.add_mate_over_own(j, INNER_RING, &shared.map(over_element));
