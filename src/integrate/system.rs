@@ -68,6 +68,20 @@ pub trait Linearized<const N: usize>: Structured<N> {
 /// The step of the spokes is found first. The bodies of the hub follow: what the forces between them and the spokes have become
 /// in that step acts on them, too.
 pub trait Split<const N: usize>: Structured<N> {
+    /// Accelerations at time `t` in s, as [`System::accelerations`], before [`Split::damping`]: a system that finds both together
+    /// for less may do so.
+    ///
+    /// # Errors
+    /// As those.
+    fn accelerations_to_split(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        a: &mut [f64],
+    ) -> Result<(), Self::Fault> {
+        self.accelerations(t, q, v, a)
+    }
     /// Damping of every spoke and every body of the hub at the last evaluated state (`q`, `v`), for a step of size `h` in s.
     fn damping(&mut self, h: f64, q: &[f64], v: &[f64], out: &mut GroupDamping<N>);
     /// Adds to the accelerations `a` of the hub what the forces between it and the spokes have become since the last

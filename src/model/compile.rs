@@ -130,7 +130,7 @@ fn inputs(scene: &Scene) -> Result<InputSignals> {
         }
         _ => None,
     };
-    Ok(InputSignals { list, orbit, oil })
+    Ok(InputSignals::new(list, orbit, oil))
 }
 
 /// Elements that roll without slip on both rings, the outer one at rest; `radius_ratio` is element over pitch radius.

@@ -107,7 +107,12 @@ impl Model {
     /// Evaluates the pairs of shared bodies.
     pub(super) fn apply_between(&self, ws: &mut Workspace) -> Result<(), Fault> {
         let mut pairs = self.between.iter().zip(&mut ws.between);
-        pairs.try_for_each(|(pair, force)| pair.evaluate(&ws.motions.shared, ws.fluid, force))
+        let (shared, fluid) = (&ws.motions.shared, ws.fluid);
+        if ws.splitting {
+            pairs.try_for_each(|(pair, force)| pair.evaluate_with_damping(shared, fluid, force))
+        } else {
+            pairs.try_for_each(|(pair, force)| pair.evaluate(shared, fluid, force))
+        }
     }
 
     /// The first contact whose force is not finite, as a place in [`Model::contact_names`].

@@ -41,11 +41,28 @@ pub(super) struct InputSignals {
     pub(super) orbit: Option<Orbit>,
     /// Oil whose viscosity follows the temperature.
     pub(super) oil: Option<Oil>,
+    /// All values, where none of them follows time.
+    pub(super) constant: Option<InputValues>,
 }
 
 impl InputSignals {
+    /// Those of this list; what is constant is found once.
+    pub(super) fn new(list: Vec<(Input, InputSource)>, orbit: Option<Orbit>, oil: Option<Oil>) -> Self {
+        let steady = |(_, source): &(Input, InputSource)| match source {
+            InputSource::Time(signal) => matches!(signal, Signal::Constant(_)),
+            InputSource::RingSpeed(..) => true,
+        };
+        let constant = orbit.is_none() && list.iter().all(steady);
+        let mut signals = Self { list, orbit, oil, constant: None };
+        signals.constant = constant.then(|| signals.at(0.0, &HostInputs::default()));
+        signals
+    }
+
     /// Values at time `t` in s.
     pub(super) fn at(&self, t: f64, host: &HostInputs) -> InputValues {
+        if let Some(constant) = self.constant.filter(|_| host.values.iter().all(Option::is_none)) {
+            return constant;
+        }
         let mut now = InputValues::default();
         for (input, source) in &self.list {
             let i = *input as usize;
@@ -94,6 +111,9 @@ impl InputSignals {
 
     /// The first jump or kink after `t`, s.
     pub(super) fn next_event(&self, t: f64, host: &HostInputs) -> f64 {
+        if self.constant.is_some() {
+            return f64::INFINITY;
+        }
         let followed = self.list.iter().filter(|(input, _)| host.values[*input as usize].is_none());
         followed
             .map(|(_, source)| match source {
@@ -116,6 +136,9 @@ impl InputSignals {
 
     /// Shortest period of the sines that are followed, s; infinity without any.
     pub(super) fn shortest_period(&self, host: &HostInputs) -> f64 {
+        if self.constant.is_some() {
+            return f64::INFINITY;
+        }
         let followed = self.list.iter().filter(|(input, _)| host.values[*input as usize].is_none());
         followed
             .map(|(_, source)| match source {

@@ -47,6 +47,8 @@ pub struct Workspace {
     pub(super) counting: bool,
     /// Whether evaluations find the derivatives of line contacts in the same pass.
     pub(super) differentiating: bool,
+    /// Whether they find the damping by pairs of shared bodies in the same pass.
+    pub(super) splitting: bool,
     /// Temperature that the viscosity belongs to, K; NaN where the viscosity is constant.
     pub(super) temperature: f64,
     /// The lubricant at that temperature.
@@ -75,6 +77,7 @@ impl Workspace {
             of_contacts: model.laws_of_contacts().collect(),
             counting: true,
             differentiating: false,
+            splitting: false,
             temperature: model.inputs.oil.map_or(f64::NAN, |oil| oil.built_at.0),
             fluid: Fluid::SAME,
         }
@@ -118,6 +121,11 @@ impl Workspace {
     /// it then; they do not at first.
     pub fn set_differentiating(&mut self, differentiating: bool) {
         self.differentiating = differentiating;
+    }
+
+    /// Whether the next evaluations find what [`Model::damping`] needs along with the forces; they do not at first.
+    pub(crate) fn set_splitting(&mut self, splitting: bool) {
+        self.splitting = splitting;
     }
 
     /// Whether evaluations use the widest vector instructions of the machine, or none; they do at first.

@@ -238,10 +238,52 @@ impl SharedPair for Guide {
             Ok(force) => {
                 out.on = self.side.wrenches(&force, &motion);
                 out.of_law = force;
+                out.damping = None;
                 Ok(())
             }
             Err(gone) => Err(Fault::NoGuideFilm { minimum_film: gone.minimum_film }),
         }
+    }
+
+    fn evaluate_with_damping(
+        &self,
+        shared: &[Motion<f64>; SHARED],
+        fluid: Fluid,
+        out: &mut SharedForce,
+    ) -> std::result::Result<(), Fault> {
+        // Over the velocity of the journal and the speed of the cage, which may be either.
+        let plain = self.journal_motion(shared);
+        let (constant, variable) = (Dual::<3>::constant, Dual::<3>::variable);
+        let speed = variable(shared[CAGE].speed, 2);
+        let (journal_speed, bush_speed) = match self.side {
+            GuideSide::CageInside => (speed, constant(plain.bush_speed)),
+            GuideSide::CageOutside => (constant(plain.journal_speed), speed),
+        };
+        let motion = JournalMotion {
+            position: plain.position.map(constant),
+            velocity: [variable(plain.velocity[0], 0), variable(plain.velocity[1], 1)],
+            journal_speed,
+            bush_speed,
+            profile_angle: constant(plain.profile_angle),
+            profile_speed: speed,
+        };
+        let force = match self.law.force(&motion, fluid) {
+            Ok(force) => force,
+            Err(gone) => return Err(Fault::NoGuideFilm { minimum_film: gone.minimum_film }),
+        };
+        let wrenches = self.side.wrenches(&force, &motion);
+        out.on = wrenches.map(|on| Wrench { force: on.force.map(|f| f.value()), moment: on.moment.value() });
+        out.of_law = force.value();
+        // The velocity of the journal is that of the cage, or the opposite of it.
+        let along = if self.side == GuideSide::CageInside { 1.0 } else { -1.0 };
+        let [on_cage, _] = wrenches;
+        let rows = on_cage.components();
+        let on_cage = Matrix3::from_fn(|i, k| -rows[i].eps[k] * if k < 2 { along } else { 1.0 });
+        // The ring feels what the cage feels, but for the lever.
+        let mut on_ring = Matrix3::zeros();
+        on_ring.fixed_view_mut::<2, 2>(0, 0).copy_from(&on_cage.fixed_view::<2, 2>(0, 0));
+        out.damping = Some([on_cage, on_ring]);
+        Ok(())
     }
 
     fn acting(&self, force: &SharedForce) -> [bool; 2] {
@@ -255,32 +297,6 @@ impl SharedPair for Guide {
 
     fn parts(&self, shared: &[Motion<f64>; SHARED], force: &SharedForce) -> GuideForce<f64> {
         self.side.on_cage(&force.of_law, &self.journal_motion(shared))
-    }
-
-    fn damping(&self, shared: &[Motion<f64>; SHARED], fluid: Fluid) -> [Matrix3<f64>; 2] {
-        let [body, ring] = [&shared[CAGE], &shared[self.ring]];
-        let constant = |x: [f64; 2]| x.map(Dual::<3>::constant);
-        let moving = Motion {
-            position: constant(body.position),
-            velocity: [Dual::variable(body.velocity[0], 0), Dual::variable(body.velocity[1], 1)],
-            angle: Dual::constant(body.angle),
-            speed: Dual::variable(body.speed, 2),
-        };
-        let ring = Motion {
-            position: constant(ring.position),
-            velocity: constant(ring.velocity),
-            angle: Dual::constant(ring.angle),
-            speed: Dual::constant(ring.speed),
-        };
-        let motion = self.side.journal_motion(&moving, &ring);
-        let Ok(force) = self.law.force(&motion, fluid) else { return [Matrix3::zeros(); 2] };
-        let [on_cage, _] = self.side.wrenches(&force, &motion);
-        let rows = on_cage.components();
-        let on_cage = Matrix3::from_fn(|i, k| -rows[i].eps[k]);
-        // The ring feels what the cage feels, but for the lever.
-        let mut on_ring = Matrix3::zeros();
-        on_ring.fixed_view_mut::<2, 2>(0, 0).copy_from(&on_cage.fixed_view::<2, 2>(0, 0));
-        [on_cage, on_ring]
     }
 
     fn add_slopes(&self, motions: &Motions, fluid: Fluid, sums: &mut SlopeSums<'_>) {

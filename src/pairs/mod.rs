@@ -259,6 +259,9 @@ pub(crate) struct SharedForce {
     pub(crate) on: [Wrench<f64>; 2],
     /// What the law of the pair gives.
     of_law: GuideForce<f64>,
+    /// How the wrench on each body opposes its own motion, if it was asked for: -d(force, moment)/d(velocity, speed), N s/m and
+    /// its kin.
+    pub(crate) damping: Option<[Matrix3<f64>; 2]>,
 }
 
 /// Contact of two shared bodies.
@@ -266,11 +269,22 @@ pub(crate) trait SharedPair: Debug + Send + Sync {
     /// Names and places.
     fn info(&self) -> SharedInfo;
 
-    /// Writes the forces at this motion of the bodies with this lubricant.
+    /// Writes the forces at this motion of the bodies with this lubricant, without damping.
     ///
     /// # Errors
     /// The fault of a state where it has no law.
     fn evaluate(
+        &self,
+        shared: &[Motion<f64>; SHARED],
+        fluid: Fluid,
+        out: &mut SharedForce,
+    ) -> std::result::Result<(), Fault>;
+
+    /// The same forces with their damping.
+    ///
+    /// # Errors
+    /// As [`SharedPair::evaluate`].
+    fn evaluate_with_damping(
         &self,
         shared: &[Motion<f64>; SHARED],
         fluid: Fluid,
@@ -285,9 +299,6 @@ pub(crate) trait SharedPair: Debug + Send + Sync {
 
     /// The force on the first body by its parts.
     fn parts(&self, shared: &[Motion<f64>; SHARED], force: &SharedForce) -> GuideForce<f64>;
-
-    /// How the wrench on each body opposes its own motion: -d(force, moment)/d(velocity, speed), N s/m and its kin.
-    fn damping(&self, shared: &[Motion<f64>; SHARED], fluid: Fluid) -> [Matrix3<f64>; 2];
 
     /// Adds the derivatives of its forces over the coordinates of both bodies.
     fn add_slopes(&self, motions: &Motions, fluid: Fluid, sums: &mut SlopeSums<'_>);

@@ -162,7 +162,8 @@ macro_rules! dual_numbers {
         type Output = Self;
         #[$inline]
         fn div(self, o: f64) -> Self {
-            self * (1.0 / o)
+            // The value is that of plain numbers, to the last bit.
+            Self { re: self.re / o, ..self * (1.0 / o) }
         }
     }
 

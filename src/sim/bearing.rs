@@ -299,6 +299,13 @@ impl Linearized<OF_ELEMENT> for Bearing {
 }
 
 impl Split<OF_ELEMENT> for Bearing {
+    fn accelerations_to_split(&mut self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> Result<(), Fault> {
+        self.workspace.set_splitting(true);
+        let evaluated = self.accelerations(t, q, v, a);
+        self.workspace.set_splitting(false);
+        evaluated
+    }
+
     fn damping(&mut self, h: f64, _q: &[f64], _v: &[f64], out: &mut GroupDamping<OF_ELEMENT>) {
         self.model.damping(h, &mut self.workspace, out);
     }

@@ -238,7 +238,6 @@ impl<const N: usize> Columns for Solve<'_, N> {
     }
 
     #[inline(always)]
-    #[expect(clippy::needless_range_loop, reason = "iterators might not be inlined")]
     fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
         let (block, lane) = place_of(first);
         let (damping, p_of, y_of) = (&self.damping.spokes[block], &self.p[block], &mut self.y[block]);

@@ -131,12 +131,11 @@ impl<S: Split<N> + Observed, const N: usize> Stepper<S> for Leapfrog<N> {
         for ((trial, q), v) in q_trial.iter_mut().zip(q).zip(v) {
             *trial = q + half * v;
         }
-        self.predicted.copy_from_slice(v);
-        for (predicted, a) in self.predicted.iter_mut().zip(&self.mean_a) {
-            *predicted += half * a;
+        for ((predicted, v), a) in self.predicted.iter_mut().zip(v).zip(&self.mean_a) {
+            *predicted = v + half * a;
         }
-        system.accelerations((t + 0.5 * h).min(t_last), q_trial, &self.predicted, &mut self.a)?;
-        self.trial_a.copy_from_slice(&self.a);
+        let middle = (t + 0.5 * h).min(t_last);
+        system.accelerations_to_split(middle, q_trial, &self.predicted, &mut self.a)?;
         system.damping(h, q_trial, &self.predicted, &mut self.damping);
         let [known, ahead] = &mut self.of_spokes;
         let spokes = self.structure.spokes.chunks(WIDEST);
@@ -148,27 +147,32 @@ impl<S: Split<N> + Observed, const N: usize> Stepper<S> for Leapfrog<N> {
             }
         }
         self.damping.solve_spokes(h, ahead, known, self.instructions);
+        let mut end_of = |i: usize, a: f64| {
+            self.trial_a[i] = a;
+            v_trial[i] = v[i] + h * a;
+            self.mean_v[i] = v[i] + half * a;
+        };
+        // Zero, or NaN if one is not finite.
+        let mut nothing = 0.0;
         for (spokes, known) in self.structure.spokes.chunks(WIDEST).zip(known.iter()) {
             for (lane, at) in spokes.iter().enumerate().take(WIDEST) {
                 for (k, &i) in at.iter().enumerate() {
-                    self.trial_a[i] = known[k][lane];
+                    end_of(i, known[k][lane]);
+                    nothing += 0.0 * known[k][lane];
                 }
             }
         }
-        if let Some(i) = self.trial_a.iter().position(|a| !a.is_finite()) {
-            return Err(system.not_finite(i));
-        }
-        for ((trial, v), a) in v_trial.iter_mut().zip(v).zip(&self.trial_a) {
-            *trial = v + h * a;
-        }
-        for ((mean, v), end) in self.mean_v.iter_mut().zip(v).zip(v_trial.iter()) {
-            *mean = 0.5 * (v + end);
+        let Structure { hub, bodies, .. } = &self.structure;
+        hub.iter().for_each(|i| end_of(*i, self.a[*i]));
+        if nothing != 0.0 {
+            let places = self.structure.spokes.iter().flatten();
+            let found = places.copied().find(|i| !self.trial_a[*i].is_finite());
+            return Err(system.not_finite(found.unwrap_or_default()));
         }
         let step = SemiImplicit { mean: &self.mean_v, end: v_trial, h };
         if !self.structure.spokes.is_empty() {
             system.react(q_trial, &self.predicted, &step, &mut self.a);
         }
-        let Structure { hub, bodies, .. } = &self.structure;
         for (body, places) in bodies.iter().enumerate() {
             let [right, ahead] = &mut self.of_body;
             let (right, ahead) = (&mut right[..places.len()], &mut ahead[..places.len()]);
@@ -183,7 +187,7 @@ impl<S: Split<N> + Observed, const N: usize> Stepper<S> for Leapfrog<N> {
                 }
                 self.trial_a[i] = a;
                 v_trial[i] = v[i] + h * a;
-                self.mean_v[i] = 0.5 * (v[i] + v_trial[i]);
+                self.mean_v[i] = v[i] + half * a;
             }
         }
         let step = SemiImplicit { mean: &self.mean_v, end: v_trial, h };

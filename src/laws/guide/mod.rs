@@ -93,6 +93,21 @@ impl<T: Real> GuideForce<T> {
         [p[0] + s[0] + c[0], p[1] + s[1] + c[1]]
     }
 
+    /// The values without derivatives.
+    #[inline]
+    pub fn value(&self) -> GuideForce<f64> {
+        let both = |[y, z]: [T; 2]| [y.value(), z.value()];
+        GuideForce {
+            pressure: both(self.pressure),
+            shear: both(self.shear),
+            solid: both(self.solid),
+            moment: self.moment.value(),
+            film_moment: self.film_moment.value(),
+            film_share: self.film_share.value(),
+            minimum_film: self.minimum_film.value(),
+        }
+    }
+
     /// What the film alone does.
     #[inline]
     pub fn of_film(&self) -> Self {

@@ -121,13 +121,14 @@ impl ShortBearing {
         let (sin_m, cos_m) = (a / n, b / n);
         let q2 = one_minus_square(e.ratio);
         let q = q2.sqrt();
-        let start = (q * cos_m).atan2(-sin_m - e.ratio);
-        let mut end = (-(q * cos_m)).atan2(sin_m - e.ratio);
-        if end.value() < start.value() {
-            end = end + TAU;
+        // Both ends: the distances from the origin of the points that they are angles of are 1 +- eps sin_m.
+        let (near, far) = (e.ratio * sin_m + 1.0, -(e.ratio * sin_m) + 1.0);
+        let (s0, c0) = (q * cos_m / near, -(sin_m + e.ratio) / near);
+        let (s1, c1) = (-(q * cos_m) / far, (sin_m - e.ratio) / far);
+        let mut span = (s1 * c0 - c1 * s0).atan2(c1 * c0 + s1 * s0);
+        if span.value() < 0.0 {
+            span = span + TAU;
         }
-        let ((s0, c0), (s1, c1)) = (start.sin_cos(), end.sin_cos());
-        let span = end - start;
         let sin_sin = (span - (s1 * c1 - s0 * c0)) * 0.5;
         let cos_cos =
             (span + (s1 * c1 - s0 * c0)) * 0.5 + e.ratio * (s1 - s0) * 2.0 + e.ratio * e.ratio * span;

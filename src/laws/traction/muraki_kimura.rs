@@ -89,14 +89,20 @@ impl<T: Numeric> ShearState<T> {
         let steep = ln_sigma.above(ASINH_ASYMPTOTE);
         let one = ln_sigma.like(1.0);
         let sigma = T::select(steep, one, ln_sigma).exp();
-        let cap = T::select(steep, ln_sigma + LN_2, sigma.asinh());
-        // d asinh(Sigma)/d ln(Sigma) = Sigma/sqrt(1 + Sigma^2) = tanh(asinh(Sigma)).
-        let cap_slope = T::select(steep, one, sigma / (sigma * sigma + 1.0).sqrt());
-        let x_c = cap / self.elastic_slope;
+        // asinh(Sigma), and its derivative over ln(Sigma): Sigma/sqrt(1 + Sigma^2).
+        let root = (sigma * sigma + 1.0).sqrt();
+        let inverse = one / (root * (root + 1.0));
+        let near =
+            if T::DERIVATIVES { sigma.asinh() } else { (sigma + sigma * sigma * root * inverse).ln_1p() };
+        let cap = T::select(steep, ln_sigma + LN_2, near);
+        let cap_slope = T::select(steep, one, sigma * (root + 1.0) * inverse);
+        // The same at every temperature.
+        let compliance = one / self.elastic_slope;
+        let x_c = cap * compliance;
         let elastic = x_c.at_least(2.0);
         let (zero, ramp) = (one.like(0.0), -x_c * 0.5 + 1.0);
         let square = cap_slope * cap_slope;
-        let curvature = (cap_slope - cap_slope * square) * ramp - square / (self.elastic_slope * 2.0);
+        let curvature = (cap_slope - cap_slope * square) * ramp - square * compliance * 0.5;
         MeanShear {
             stress: T::select(elastic, self.elastic_slope, cap * (-x_c * 0.25 + 1.0)),
             slope: T::select(elastic, zero, cap_slope * ramp),

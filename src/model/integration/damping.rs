@@ -10,13 +10,13 @@ use crate::scalar::ZEROS;
 use nalgebra::{Matrix3, Vector3};
 
 impl Model {
-    /// Damping of every group for a step of size `h` (s).
+    /// Damping of every group for a step of size `h` (s), after an evaluation with [`Workspace::set_splitting`].
     pub(crate) fn damping(&self, h: f64, ws: &mut Workspace, out: &mut Damping) {
         self.element_damping(h, ws, out);
         let ws = &*ws;
         let mut slopes = [Matrix3::zeros(); SHARED];
-        for (pair, info) in self.between.iter().zip(&self.between_infos) {
-            for (body, slope) in info.bodies.into_iter().zip(pair.damping(&ws.motions.shared, ws.fluid)) {
+        for (force, info) in ws.between.iter().zip(&self.between_infos) {
+            for (body, slope) in info.bodies.into_iter().zip(force.damping.into_iter().flatten()) {
                 slopes[body] += slope;
             }
         }

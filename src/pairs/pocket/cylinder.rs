@@ -67,7 +67,6 @@ impl PocketShape for CylinderPocket {
         let (sign, radius) = (side.sign(), self.place.element_radius);
         // Coordinates towards the pillar and radially outward.
         let (towards, radial) = (m.offset[1] * sign, m.offset[0]);
-        let distance = (towards * towards + radial * radial).sqrt();
         let (sin, cos) = self.edge;
         // |phi| <= phi_p without the angle, which is needed near the edge only.
         let on_wall = radial.value().abs() * cos <= towards.value() * sin;
@@ -79,16 +78,20 @@ impl PocketShape for CylinderPocket {
             } else {
                 T::constant(0.0)
             };
+            let distance = (towards * towards + radial * radial).sqrt();
             (distance - self.clearance, [radial / distance, m.offset[1] / distance], share)
         } else {
             let pocket_radius = radius + self.clearance;
             let edge = [pocket_radius * sin * radial.sign(), pocket_radius * cos];
-            let to_edge = [-radial + edge[0], -towards + edge[1]];
-            let reach = (to_edge[0] * to_edge[0] + to_edge[1] * to_edge[1]).sqrt();
             // R_b - |d - R_p e| without the difference of two radii.
             let inside = (radial * edge[0] + towards * edge[1]) * 2.0
-                - distance * distance
+                - (towards * towards + radial * radial)
                 - self.clearance * (radius + pocket_radius);
+            if inside.value() <= 0.0 {
+                return None;
+            }
+            let to_edge = [-radial + edge[0], -towards + edge[1]];
+            let reach = (to_edge[0] * to_edge[0] + to_edge[1] * to_edge[1]).sqrt();
             let delta = inside / (reach + radius);
             (delta, [to_edge[0] / reach, to_edge[1] / reach * sign], T::constant(1.0))
         };

@@ -42,7 +42,18 @@ pub fn write_csv(path: &Path, rows: impl IntoIterator<Item = Vec<String>>) -> Re
 
 /// The shortest text that reads back as the same number.
 pub fn plain(x: f64) -> String {
-    format!("{x:?}")
+    let mut text = Vec::new();
+    add_plain(&mut text, x);
+    String::from_utf8_lossy(&text).into_owned()
+}
+
+/// Appends that of a number to a text; of what is none, its name.
+pub fn add_plain(text: &mut Vec<u8>, x: f64) {
+    if x.is_finite() {
+        serde_json::to_writer(text, &x).ok();
+    } else {
+        text.extend_from_slice(format!("{x:?}").as_bytes());
+    }
 }
 
 /// What is wrong with a file.

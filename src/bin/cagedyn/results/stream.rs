@@ -3,7 +3,7 @@
 //! Until the run has ended the table has a name that says so. Only whole rows are written, each once: a program that is
 //! killed and a disk that is full leave a table that ends with a record.
 
-use crate::results::files::{SERIES, UNFINISHED, file_error, plain};
+use crate::results::files::{SERIES, UNFINISHED, add_plain, file_error};
 use crate::results::table::rounded;
 use cagedyn::model::Channel;
 use cagedyn::{Interval, Recording, Result};
@@ -42,7 +42,7 @@ pub struct Stream {
     folder: PathBuf,
     file: File,
     /// Rows to be written.
-    rows: String,
+    rows: Vec<u8>,
     /// Length of the file up to its last whole row, bytes.
     written: u64,
     last: Instant,
@@ -70,7 +70,8 @@ impl Stream {
             }
         }
         rows.push('\n');
-        let mut stream = Self { folder: folder.to_owned(), file, rows, written: 0, last: Instant::now() };
+        let mut stream =
+            Self { folder: folder.to_owned(), file, rows: rows.into(), written: 0, last: Instant::now() };
         stream.flush()?;
         Ok(stream)
     }
@@ -81,18 +82,18 @@ impl Stream {
     /// [`cagedyn::Status::File`]; what the file has then ends with a whole row.
     pub fn add(&mut self, recording: &Recording) -> Result<()> {
         let Some(time) = recording.times.last() else { return Ok(()) };
-        self.rows += &plain(rounded(*time));
+        add_plain(&mut self.rows, rounded(*time));
         for value in recording.columns.iter().filter_map(|column| column.last()) {
-            self.rows.push(',');
-            self.rows += &plain(*value);
+            self.rows.push(b',');
+            add_plain(&mut self.rows, *value);
         }
         for interval in recording.intervals.iter().filter_map(|column| column.last()) {
             for (_, _, value) in PARTS {
-                self.rows.push(',');
-                self.rows += &plain(value(interval));
+                self.rows.push(b',');
+                add_plain(&mut self.rows, value(interval));
             }
         }
-        self.rows.push('\n');
+        self.rows.push(b'\n');
         if self.rows.len() >= FULL || self.last.elapsed() >= PATIENCE {
             self.flush()?;
         }
@@ -100,11 +101,11 @@ impl Stream {
     }
 
     fn flush(&mut self) -> Result<()> {
-        let written = self.file.write_all(self.rows.as_bytes()).and_then(|()| self.file.flush());
+        let written = self.file.write_all(&self.rows).and_then(|()| self.file.flush());
         if let Err(e) = written {
             // A row cut within a number would still be read: what there is ends with the last whole one.
             let length = self.file.metadata().map_or(0, |data| data.len()).saturating_sub(self.written);
-            let rows = self.rows.as_bytes().get(..length as usize).unwrap_or_default();
+            let rows = self.rows.get(..length as usize).unwrap_or_default();
             let whole = rows.iter().rposition(|byte| *byte == b'\n').map_or(0, |last| last + 1);
             self.file.set_len(self.written + whole as u64).ok();
             return Err(file_error(&self.folder.join(UNFINISHED), e));
