@@ -191,6 +191,42 @@ fn case_sets_give_one_folder_per_case_and_a_comparison() {
     assert!(dir.path().join("cage_positions.svg").exists());
 }
 
+/// Also the order of rows, which is that of the set, and starts, which share the threads.
+#[test]
+fn cases_are_the_same_however_many_run_at_a_time() {
+    let dir = tempfile::tempdir().expect("a directory");
+    let at = |name: &str| dir.path().join(name);
+    let base = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/nu2310.json");
+    let case = |ms: u32| {
+        let duration = 1e-3 * f64::from(ms);
+        serde_json::json!({"name": format!("{ms}ms"), "set": {"record.duration": duration, "record.interval": 1e-4}})
+    };
+    let cases: Vec<_> = [2, 8, 4, 6, 3, 5].map(case).into();
+    let set = serde_json::json!({"schema": "cagedyn.cases/1", "scene": base, "cases": cases});
+    std::fs::write(at("set.cases.json"), set.to_string()).expect("a case set");
+    let file = at("set.cases.json").to_string_lossy().into_owned();
+    let results = |jobs: &str, starts: &str| {
+        let folder = at(&format!("{jobs}-{starts}"));
+        let out = folder.to_string_lossy().into_owned();
+        let output = run(&["cases", &file, "--out", &out, "--jobs", jobs, "--starts", starts]);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        let names: Vec<String> = text(&output.stdout)
+            .lines()
+            .filter_map(|l| Some(l.split_whitespace().next()?.to_owned()))
+            .collect();
+        let series = [2, 8, 4, 6, 3, 5].map(|ms| {
+            let folder = folder.join(format!("{ms}ms"));
+            let summary = json(&folder.join("summary.json"));
+            let table = std::fs::read_to_string(folder.join("timeseries.csv")).expect("a table");
+            (table, summary["statistics"].clone(), summary["starts"].clone())
+        });
+        assert_eq!(names[1..7], ["2ms", "8ms", "4ms", "6ms", "3ms", "5ms"], "{names:?}");
+        series
+    };
+    assert!(results("1", "1") == results("3", "1"));
+    assert!(results("1", "2") == results("3", "2"));
+}
+
 #[test]
 fn a_grease_guide_run_reports_its_whirl() {
     let dir = tempfile::tempdir().expect("a directory");

@@ -13,9 +13,10 @@ use crate::results::{files, output};
 use crate::run::{self, Request, in_file};
 use crate::starts::Starts;
 use crate::terminal::{self, INTERRUPTED};
+use crate::workers;
 use cagedyn::model::{HostInputs, Input};
 use cagedyn::scene::{Case, CaseSet};
-use cagedyn::{CageMotion, Result, Scene};
+use cagedyn::{CageMotion, Model, Result, Scene};
 use rollers::ROLLERS;
 use serde_json::Value;
 use std::f64::consts::TAU;
@@ -78,33 +79,32 @@ pub fn command(args: &CasesArgs) -> Result<ExitCode> {
     let widths = widths(comparison.columns, &set);
     let headings = comparison.columns.iter().map(|(name, _)| (*name).to_owned());
     print_row("case", headings.chain([WALL_TIME.0.to_owned(), String::new()]), &widths)?;
-    let mut done: Vec<Done<'_>> = Vec::new();
-    let (mut failed, mut untrusted, mut files) = (false, false, Vec::new());
-    for (case, scene) in set.cases.iter().zip(scenes) {
-        let (finished, failure, trust) = run_case(args, &base, case, scene);
-        if let Some(failure) = &failure {
-            report(args, case, failure);
-            failed = true;
-        }
-        untrusted |= trust.inspect_err(|e| report(args, case, e)).is_err();
-        let empty = || vec!["-".to_owned(); comparison.columns.len()];
-        let cells = finished.results().map_or_else(empty, comparison.cells);
-        let wall = finished.summary.as_ref().map_or("-".to_owned(), |s| format!("{:.2}", s.wall_time_s));
-        let state = match (&failure, &finished.error) {
-            (Some(_), _) => "failed".to_owned(),
-            (None, Some(error)) => error.clone(),
-            (None, None) => {
-                finished.results().and_then(|s| s.starts.as_ref()).map_or(String::new(), Starts::in_words)
+    let order = longest_first(&scenes);
+    // Starts of one case share the threads, cases only without them.
+    let threads = if args.instead.starts > 1 { 1 } else { workers::threads(args.instead.jobs) };
+    let run = |i: usize| {
+        (!terminal::stop_requested()).then(|| run_case(args, &base, &set.cases[i], scenes[i].clone()))
+    };
+    // In the order of the set, from the first one on; what is behind a case that runs waits for it.
+    let mut waiting: Vec<Option<Outcome<'_>>> = scenes.iter().map(|_| None).collect();
+    let (mut tally, mut written) = (Tally::default(), Ok(()));
+    workers::share(&order, threads, run, |i, outcome| {
+        waiting[i] = Some(outcome);
+        while let Some(outcome) = waiting.get_mut(tally.done.len()).and_then(Option::take) {
+            written = tally.take(args, &set, &comparison, &widths, outcome);
+            if written.is_err() {
+                terminal::stop_all();
+                return false;
             }
-        };
-        print_row(&case.name, cells.into_iter().chain([wall, state]), &widths)?;
-        done.push(finished);
-        // What is done is not lost when the rest is.
-        files = write_comparison(args, &set, &comparison, &done)?;
-        if terminal::stop_requested() {
-            break;
         }
+        true
+    });
+    written?;
+    // What came to its end behind one that an interrupt left out.
+    for outcome in waiting.into_iter().flatten() {
+        tally.take(args, &set, &comparison, &widths, outcome)?;
     }
+    let Tally { failed, untrusted, files, .. } = tally;
     drop(taken);
     std::fs::remove_file(args.out.join(UNFINISHED)).ok();
     terminal::print(&format!("\nfiles: {}: {}\n", args.out.display(), files.join(", ")))?;
@@ -116,13 +116,71 @@ pub fn command(args: &CasesArgs) -> Result<ExitCode> {
     })
 }
 
-/// Runs one case and writes its files. The second result is why it ended early, if it failed, the last whether to trust it.
-fn run_case<'a>(
-    args: &CasesArgs,
-    base: &Path,
-    case: &'a Case,
-    mut scene: Scene,
-) -> (Done<'a>, Option<cagedyn::Error>, Result<()>) {
+/// The places of these scenes, those that take longest first: by simulated time, fastest vibration and number of elements.
+fn longest_first(scenes: &[Scene]) -> Vec<usize> {
+    let cost = |scene: &Scene| {
+        let steps = Model::new(scene.clone()).map_or(0.0, |model| model.highest_frequency());
+        scene.record.duration * steps * f64::from(scene.element_count())
+    };
+    let costs: Vec<f64> = scenes.iter().map(cost).collect();
+    let mut order: Vec<usize> = (0..scenes.len()).collect();
+    order.sort_by(|a, b| costs[*b].total_cmp(&costs[*a]));
+    order
+}
+
+/// What running a case gave.
+struct Outcome<'a> {
+    done: Done<'a>,
+    /// Why it ended early, if it failed.
+    failure: Option<cagedyn::Error>,
+    /// Whether to trust it.
+    trust: Result<()>,
+}
+
+/// Cases that are done, and what is to be said of all.
+#[derive(Default)]
+struct Tally<'a> {
+    done: Vec<Done<'a>>,
+    failed: bool,
+    untrusted: bool,
+    files: Vec<&'static str>,
+}
+
+impl<'a> Tally<'a> {
+    /// Prints the next case, and writes the comparison with it: what is done is not lost when the rest is.
+    fn take(
+        &mut self,
+        args: &CasesArgs,
+        set: &CaseSet,
+        comparison: &Comparison,
+        widths: &[usize],
+        outcome: Outcome<'a>,
+    ) -> Result<()> {
+        let Outcome { done, failure, trust } = outcome;
+        if let Some(failure) = &failure {
+            report(args, done.case, failure);
+            self.failed = true;
+        }
+        self.untrusted |= trust.inspect_err(|e| report(args, done.case, e)).is_err();
+        let empty = || vec!["-".to_owned(); comparison.columns.len()];
+        let cells = done.results().map_or_else(empty, comparison.cells);
+        let wall = done.summary.as_ref().map_or("-".to_owned(), |s| format!("{:.2}", s.wall_time_s));
+        let state = match (&failure, &done.error) {
+            (Some(_), _) => "failed".to_owned(),
+            (None, Some(error)) => error.clone(),
+            (None, None) => {
+                done.results().and_then(|s| s.starts.as_ref()).map_or(String::new(), Starts::in_words)
+            }
+        };
+        print_row(&done.case.name, cells.into_iter().chain([wall, state]), widths)?;
+        self.done.push(done);
+        self.files = write_comparison(args, set, comparison, &self.done)?;
+        Ok(())
+    }
+}
+
+/// Runs one case and writes its files.
+fn run_case<'a>(args: &CasesArgs, base: &Path, case: &'a Case, mut scene: Scene) -> Outcome<'a> {
     let folder: PathBuf = args.out.join(&case.name);
     if !case.set.keys().any(|path| path == "title") {
         // The title of the base scene tells of other values.
@@ -138,12 +196,11 @@ fn run_case<'a>(
             let interrupted = run.interrupted.then(|| "interrupted".to_owned());
             let error = run.failure.as_ref().map(|e| e.message.clone()).or(interrupted);
             let done = Done { case, speed: speed_at_end(&run), summary: Some(summary), error };
-            let trust = run.trust();
-            (done, run.failure, trust)
+            Outcome { done, trust: run.trust(), failure: run.failure }
         }
         Err(e) => {
             let done = Done { case, speed: f64::NAN, summary: None, error: Some(e.message.clone()) };
-            (done, Some(e), Ok(()))
+            Outcome { done, failure: Some(e), trust: Ok(()) }
         }
     }
 }

@@ -8,6 +8,7 @@ use crate::results::table::number;
 use crate::results::{output, report};
 use crate::starts::{self, Apart};
 use crate::terminal::{self, INTERRUPTED, Progress};
+use crate::workers;
 use crate::{Instead, RunArgs};
 use cagedyn::{Error, Model, Recording, Result, Scene, Sim, Status};
 use std::fs;
@@ -142,7 +143,8 @@ pub fn perform(request: Request<'_>, instead: &Instead) -> Result<(Run, Summary)
     let mut summary = Summary::new(&run, file, case, set);
     if instead.starts > 1 && summary.complete {
         let count = usize::from(instead.starts);
-        let starts = starts::try_starts(&run.model, count, apart, run.window_start(), limit)?;
+        let threads = workers::threads(instead.jobs);
+        let starts = starts::try_starts(&run.model, count, apart, run.window_start(), limit, threads)?;
         if starts.count < starts.asked {
             (run.interrupted, summary.interrupted, summary.complete) = (true, true, false);
         }

@@ -3,12 +3,12 @@
 
 use crate::results::motion::{CHANNELS, whirl};
 use crate::terminal;
+use crate::workers;
 use cagedyn::scene::Record;
 use cagedyn::{CageMotion, Error, Model, Recording, Result, Scene, Sim, Status, WhirlSummary};
 use serde::Serialize;
 use std::f64::consts::{SQRT_2, TAU};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Part of a turn between the directions of one start and the next.
 const GOLDEN_SECTION: f64 = 0.618_033_988_749_895;
@@ -103,12 +103,19 @@ pub fn check(sim: &mut Sim, apart: Apart) -> Result<()> {
     }
 }
 
-/// Runs a model from `count` starts on all cores. The first is the scene's own. `from` is the start of the averaging window, s;
-/// `limit` the wall time of each run, s.
+/// Runs a model from `count` starts on so many threads. The first is the scene's own. `from` is the start of the averaging
+/// window, s; `limit` the wall time of each run, s.
 ///
 /// # Errors
 /// As [`Model::new`].
-pub fn try_starts(model: &Model, count: usize, apart: Apart, from: f64, limit: f64) -> Result<Starts> {
+pub fn try_starts(
+    model: &Model,
+    count: usize,
+    apart: Apart,
+    from: f64,
+    limit: f64,
+    threads: usize,
+) -> Result<Starts> {
     // The same bearing, of which only the motion of the cage is recorded.
     let known = model.channels();
     let channels = CHANNELS.iter().filter(|name| known.iter().any(|channel| channel.name == **name));
@@ -116,26 +123,15 @@ pub fn try_starts(model: &Model, count: usize, apart: Apart, from: f64, limit: f
     let scene = model.scene().clone();
     let record = Record { channels, extremes: Some(Vec::new()), ..scene.record.clone() };
     let model = &Arc::new(Model::new(Scene { record, ..scene })?);
-    let next = AtomicUsize::new(0);
-    let work = || {
-        let mut found = Vec::new();
-        loop {
-            let k = next.fetch_add(1, Ordering::Relaxed);
-            if k >= count || terminal::stop_requested() {
-                return found;
-            }
-            let motion = motion_from(model, k, apart, from, limit);
-            // What was cut short is no motion.
-            if terminal::stop_requested() {
-                return found;
-            }
-            found.push((k, motion));
-        }
+    let work = |k| {
+        // What was cut short is no motion.
+        let motion = || (!terminal::stop_requested()).then(|| motion_from(model, k, apart, from, limit));
+        motion().filter(|_| !terminal::stop_requested())
     };
-    let cores = std::thread::available_parallelism().map_or(1, usize::from).min(count);
-    let mut all: Vec<_> = std::thread::scope(|scope| {
-        let threads: Vec<_> = (0..cores).map(|_| scope.spawn(work)).collect();
-        threads.into_iter().flat_map(|thread| thread.join().unwrap_or_default()).collect()
+    let (starts, mut all) = ((0..count).collect::<Vec<_>>(), Vec::new());
+    workers::share(&starts, threads, work, |k, motion| {
+        all.push((k, motion));
+        true
     });
     // In the order of the starts, whichever thread ran them.
     all.sort_by_key(|(k, _)| *k);

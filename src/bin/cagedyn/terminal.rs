@@ -2,11 +2,11 @@
 
 use cagedyn::sim::Canceller;
 use cagedyn::{Error, Result, Status};
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use std::io::{self, ErrorKind, IsTerminal, Write};
 #[cfg(unix)]
 use std::sync::{Arc, atomic::AtomicBool};
-use std::sync::{Mutex, OnceLock};
+use std::sync::{LazyLock, Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
 /// Exit code of a run that Ctrl-C or another request to end it ended, as shells use it for an interrupt signal.
@@ -20,12 +20,20 @@ const TICKS_PER_SECOND: f64 = 1e6;
 const SAME_SIGNAL: Duration = Duration::from_millis(300);
 
 static STOP: OnceLock<Instant> = OnceLock::new();
-static RUNNING: Mutex<Option<Canceller>> = Mutex::new(None);
+static RUNNING: Mutex<Vec<Canceller>> = Mutex::new(Vec::new());
+static BARS: LazyLock<MultiProgress> = LazyLock::new(MultiProgress::new);
 
-/// Lets Ctrl-C stop this simulation within a step.
+/// Lets Ctrl-C stop this simulation, too, within a step.
 pub fn stop_with(canceller: Canceller) {
     if let Ok(mut running) = RUNNING.lock() {
-        *running = Some(canceller);
+        running.push(canceller);
+    }
+}
+
+/// Ends all simulations that Ctrl-C stops.
+pub fn stop_all() {
+    if let Ok(running) = RUNNING.lock() {
+        running.iter().for_each(Canceller::cancel);
     }
 }
 
@@ -43,11 +51,7 @@ pub fn listen_for_interrupt() -> Result<()> {
         if STOP.get_or_init(Instant::now).elapsed() > SAME_SIGNAL {
             std::process::exit(i32::from(INTERRUPTED));
         }
-        if let Ok(running) = RUNNING.lock()
-            && let Some(canceller) = &*running
-        {
-            canceller.cancel();
-        }
+        stop_all();
     };
     // A file that may not grow is an error of its own; the signal for it would end the program in the middle of a row.
     #[cfg(unix)]
@@ -61,8 +65,11 @@ pub fn listen_for_interrupt() -> Result<()> {
 /// # Errors
 /// [`Status::File`] when standard output cannot be written.
 pub fn print(text: &str) -> Result<()> {
-    let mut out = io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+    let write = || {
+        let mut out = io::stdout().lock();
+        out.write_all(text.as_bytes()).and_then(|()| out.flush())
+    };
+    match if io::stderr().is_terminal() { BARS.suspend(write) } else { write() } {
         Err(e) if e.kind() != ErrorKind::BrokenPipe => {
             Err(Error::new(Status::File, format!("standard output: {e}")))
         }
@@ -93,7 +100,7 @@ impl Progress {
         if !io::stderr().is_terminal() {
             return Self { bar: ProgressBar::hidden() };
         }
-        let bar = ProgressBar::new((duration * TICKS_PER_SECOND) as u64);
+        let bar = BARS.add(ProgressBar::new((duration * TICKS_PER_SECOND) as u64));
         let template = "{prefix} [{bar:40}] {percent:>3}% {msg} (eta {eta})";
         if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style.progress_chars("=> "));
@@ -104,6 +111,9 @@ impl Progress {
 
     /// Moves the bar to simulated time `t` in s.
     pub fn at(&self, t: f64) {
+        if self.bar.is_hidden() {
+            return;
+        }
         self.bar.set_position((t * TICKS_PER_SECOND) as u64);
         self.bar.set_message(format!("{t:.4} s"));
     }
