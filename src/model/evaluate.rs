@@ -68,7 +68,7 @@ impl Model {
         contacts.clear();
         step.forget();
         let reach = LOST_BODY * self.pitch_radius();
-        motions.shared = self.motions_at(q, v, inputs);
+        self.find_motions(q, v, inputs, &mut motions.shared);
         for (place, body, _) in self.free_bodies() {
             let [y, z] = motions.shared[place].position;
             if math::hypot(y, z) > reach {

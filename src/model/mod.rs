@@ -218,11 +218,16 @@ impl Model {
     #[inline]
     fn motions_at(&self, q: &[f64], v: &[f64], inputs: &InputValues) -> [Motion<f64>; SHARED] {
         let mut motions = [Motion::default(); SHARED];
-        // The outer ring stands still in the centre.
-        for body in [INNER_RING, CAGE] {
-            motions[body] = self.motion_of(body, q, v, inputs);
-        }
+        self.find_motions(q, v, inputs, &mut motions);
         motions
+    }
+
+    /// Finds those that may move. The outer ring stands still in the centre.
+    #[inline]
+    fn find_motions(&self, q: &[f64], v: &[f64], inputs: &InputValues, out: &mut [Motion<f64>; SHARED]) {
+        for body in [INNER_RING, CAGE] {
+            out[body] = self.motion_of(body, q, v, inputs);
+        }
     }
 
     /// That of one of them.

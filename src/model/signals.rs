@@ -41,7 +41,7 @@ pub(super) struct InputSignals {
     pub(super) orbit: Option<Orbit>,
     /// Oil whose viscosity follows the temperature.
     pub(super) oil: Option<Oil>,
-    /// All values, where none of them follows time.
+    /// Values of the list, where none of them follows time.
     pub(super) constant: Option<InputValues>,
 }
 
@@ -52,14 +52,14 @@ impl InputSignals {
             InputSource::Time(signal) => matches!(signal, Signal::Constant(_)),
             InputSource::RingSpeed(..) => true,
         };
-        let constant = orbit.is_none() && list.iter().all(steady);
+        let constant = list.iter().all(steady);
         let mut signals = Self { list, orbit, oil, constant: None };
-        signals.constant = constant.then(|| signals.at(0.0, &HostInputs::default()));
+        signals.constant = constant.then(|| signals.listed_at(0.0, &HostInputs::default()));
         signals
     }
 
-    /// Values at time `t` in s.
-    pub(super) fn at(&self, t: f64, host: &HostInputs) -> InputValues {
+    /// Values of the list at time `t` in s.
+    fn listed_at(&self, t: f64, host: &HostInputs) -> InputValues {
         if let Some(constant) = self.constant.filter(|_| host.values.iter().all(Option::is_none)) {
             return constant;
         }
@@ -74,6 +74,12 @@ impl InputSignals {
                 }
             };
         }
+        now
+    }
+
+    /// All values at time `t` in s.
+    pub(super) fn at(&self, t: f64, host: &HostInputs) -> InputValues {
+        let mut now = self.listed_at(t, host);
         if let Some(orbit) = &self.orbit {
             let drive = now.of(orbit.drive);
             now.values[Input::OrbitSpeed as usize] = orbit.orbit_ratio * drive;

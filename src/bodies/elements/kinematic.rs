@@ -2,8 +2,8 @@
 
 use super::{Damping, ElementSlopes};
 use crate::bodies::{
-    BodyEnergy, BodyForces, Coordinate, Element, ElementSet, Elements, Fault, Input, InputValues, Layout,
-    Motions, OF_ELEMENT, WrenchLanes,
+    BodyEnergy, BodyForces, Coordinate, Element, ElementBlock, ElementSet, Elements, Fault, Input,
+    InputValues, Layout, Motions, OF_ELEMENT, WrenchLanes,
 };
 use crate::scene::Scene;
 use crate::space::Wrench;
@@ -63,11 +63,15 @@ impl Elements for KinematicElements {
         out: &mut Motions,
     ) -> Result<(), Fault> {
         let [orbit_speed, spin_speed] = self.kinematic_speeds(inputs);
-        for block in &mut out.blocks {
-            block.motion.orbit_speed.fill(orbit_speed);
-            block.motion.spin_speed.fill(spin_speed);
+        for ElementBlock { motion, .. } in &mut out.blocks {
+            if [motion.orbit_speed[0], motion.spin_speed[0]] != [orbit_speed, spin_speed] {
+                motion.orbit_speed.fill(orbit_speed);
+                motion.spin_speed.fill(spin_speed);
+            }
         }
-        out.turn_together(&self.set, inputs.orbit_travel);
+        if out.together != Some(inputs.orbit_travel) {
+            out.turn_together(&self.set, inputs.orbit_travel);
+        }
         Ok(())
     }
 

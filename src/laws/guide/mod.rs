@@ -31,6 +31,9 @@ use crate::laws::guide::lubricant_layer::{LubricantLayer, PressureShear};
 use crate::laws::guide::short_bearing::ShortBearing;
 use crate::scalar::{Real, smoothstep};
 
+/// Film ratio from which on the share of the film is one to the last bit.
+const FULL_SHARE: f64 = 13.0;
+
 /// Film in the guide.
 #[derive(Clone, Debug, PartialEq)]
 pub enum GuideFilm {
@@ -178,6 +181,9 @@ impl GuideLaw {
             return T::constant(0.0);
         }
         let ratio = gap / self.roughness;
+        if ratio.value() >= self.touching_ratio.max(FULL_SHARE) {
+            return T::constant(1.0);
+        }
         let share = -(ratio.powf(1.2) * -1.8).exp() + 1.0;
         if ratio.value() >= self.touching_ratio {
             return share;
@@ -270,6 +276,8 @@ mod tests {
         assert_eq!(law.film_share(f64::NAN), 0.0);
         assert!((law.film_share(1e-6) - (1.0 - (-1.8f64).exp())).abs() < 1e-15);
         assert!((law.film_share(30e-6) - 1.0).abs() < 1e-15);
+        // Where it is full, nothing is cut off.
+        assert_eq!(1.0 - (-1.8 * FULL_SHARE.powf(1.2)).exp(), 1.0);
     }
 
     #[test]

@@ -100,6 +100,8 @@ pub(crate) struct Batch {
     slopes: LawSlopes,
     /// Whether they belong to the last evaluation.
     differentiated: bool,
+    /// Whether blocks have changes of speeds of a step.
+    changed: bool,
 }
 
 /// Laws of a batch.
@@ -125,10 +127,28 @@ impl Batch {
             laws,
             slopes: LawSlopes::new(room),
             differentiated: false,
+            changed: false,
         }
     }
 
+    /// Forgets all contacts: every place of their blocks is apart again.
     fn clear(&mut self) {
+        match self.laws {
+            BatchLaws::Lines(_) => {
+                for block in &mut self.blocks[..blocks_for(self.sites.len())] {
+                    (block.motion, block.edge_share) = (NO_MOTION, ZEROS);
+                }
+            }
+            // Laws in lanes are asked for the places beyond the last contact, too, this one is not.
+            BatchLaws::Solid(_) => {
+                for i in 0..self.sites.len() {
+                    let (block, lane) = place_of(i);
+                    let ContactBlock { motion, force, .. } = &mut self.blocks[block];
+                    motion.set(lane, &APART);
+                    force.set(lane, &ContactForce::none(0.0));
+                }
+            }
+        }
         self.sites.clear();
         self.differentiated = false;
     }
@@ -164,7 +184,6 @@ impl Batch {
     /// Evaluates the laws, with the logarithm `ln_viscosity` of the relative viscosity.
     pub(crate) fn apply(&mut self, ln_viscosity: f64, instructions: Arch) {
         let rows = self.len();
-        self.pad();
         self.differentiated = false;
         match &self.laws {
             BatchLaws::Lines(laws) => laws.apply(rows, &mut self.blocks, ln_viscosity, instructions),
@@ -178,32 +197,15 @@ impl Batch {
         }
     }
 
-    /// Makes the places from the last contact up to the end of its block apart.
-    fn pad(&mut self) {
-        let (last, used) = place_of(self.len());
-        if used == 0 {
-            return;
-        }
-        let ContactBlock { motion, edge_share, force, .. } = &mut self.blocks[last];
-        edge_share[used..].fill(0.0);
-        for lane in used..WIDEST {
-            motion.set(lane, &APART);
-            force.set(lane, &ContactForce::none(0.0));
-        }
-    }
-
     /// Evaluates the laws with their derivatives, unless the last evaluation has done so.
     pub(crate) fn differentiate(&mut self, ln_viscosity: f64, instructions: Arch) {
         if self.differentiated {
             return;
         }
         let rows = self.len();
-        match self.laws {
-            BatchLaws::Solid(law) => {
-                self.apply(ln_viscosity, instructions);
-                self.slopes.find_solid(&law, rows, &self.blocks);
-            }
-            BatchLaws::Lines(_) => self.pad(),
+        if let BatchLaws::Solid(law) = self.laws {
+            self.apply(ln_viscosity, instructions);
+            self.slopes.find_solid(&law, rows, &self.blocks);
         }
         if let BatchLaws::Lines(laws) = &self.laws {
             self.slopes.find(laws, rows, &mut self.blocks, ln_viscosity, instructions);
@@ -289,11 +291,20 @@ pub(crate) struct Found {
     /// How far an element is ahead of the place that the mate has for it, and where it is there, m.
     pub(crate) lead: Frame<Lanes>,
     pub(crate) offset: [Lanes; 2],
+    /// 1 where it may touch there, 0 where it does not; and whether any of the block may.
+    pub(crate) near: Lanes,
+    pub(crate) any_near: bool,
 }
 
 impl Found {
-    const NOTHING: Self =
-        Self { motion: NO_MOTION, grip: Grip::<Lanes>::ZERO, lead: Frame::GLOBAL_LANES, offset: [ZEROS; 2] };
+    const NOTHING: Self = Self {
+        motion: NO_MOTION,
+        grip: Grip::<Lanes>::ZERO,
+        lead: Frame::GLOBAL_LANES,
+        offset: [ZEROS; 2],
+        near: ZEROS,
+        any_near: false,
+    };
 }
 
 /// Laws that a pair may count its contacts by.

@@ -59,11 +59,26 @@ impl Batch {
         laws: &[ContactLaw],
         instructions: Arch,
     ) {
+        match step {
+            Some((of_elements, _)) => self.see_changes(of_elements),
+            None if self.changed => {
+                self.changed = false;
+                self.blocks.iter_mut().for_each(|block| block.step.changes = [[ZEROS; OF_ELEMENT]; 2]);
+            }
+            None => (),
+        }
+        let (rows, rate) = (self.len(), step.map_or(0.0, |(_, h)| h * mobility));
+        let mut cut = false;
+        dispatch(instructions, Step { rows, blocks: &mut self.blocks, rate, cut: &mut cut });
+        if cut {
+            self.correct_cut(laws);
+        }
+    }
+
+    /// Changes of the speeds of the elements for each contact.
+    fn see_changes(&mut self, of_elements: &[SpeedChanges]) {
+        self.changed = true;
         for (sites, block) in self.sites.chunks(WIDEST).zip(&mut self.blocks) {
-            let Some((of_elements, _)) = step else {
-                block.step.changes = [[ZEROS; OF_ELEMENT]; 2];
-                continue;
-            };
             let [mean, end] = &mut block.step.changes;
             for (at, site) in sites.iter().enumerate().take(WIDEST) {
                 let (of, lane) = place_of(site.element);
@@ -72,12 +87,6 @@ impl Batch {
                     (mean[k][at], end[k][at]) = (to_mean[k][lane], to_end[k][lane]);
                 }
             }
-        }
-        let (rows, rate) = (self.len(), step.map_or(0.0, |(_, h)| h * mobility));
-        let mut cut = false;
-        dispatch(instructions, Step { rows, blocks: &mut self.blocks, rate, cut: &mut cut });
-        if cut {
-            self.correct_cut(laws);
         }
     }
 

@@ -21,7 +21,7 @@ use crate::laws::traction::solid_friction::SolidFriction;
 use crate::pairs::line_laws::LawBuilder;
 use crate::pairs::{ContactLaw, Cost, ElementPair, Law, PairInfo};
 use crate::scalar::math;
-use crate::scalar::{Real, smoothstep};
+use crate::scalar::{Numeric, Real, smoothstep};
 use crate::scene::{Pocket, needed};
 
 /// Shape of the pockets.
@@ -57,9 +57,9 @@ impl PocketShape for CylinderPocket {
         self.clearance
     }
 
-    #[inline]
-    fn apart(&self, [a, b]: [f64; 2]) -> bool {
-        a * a + b * b < self.clearance * self.clearance
+    #[inline(always)]
+    fn apart<T: Numeric>(&self, [a, b]: [T; 2]) -> T::Mask {
+        (a * a + b * b).below(self.clearance * self.clearance)
     }
 
     #[inline]

@@ -142,7 +142,7 @@ pub(super) trait PocketShape: Debug + Send + Sync {
     fn clearance(&self) -> f64;
 
     /// True when no pillar can touch an element at `offset` (m).
-    fn apart(&self, offset: [f64; 2]) -> bool;
+    fn apart<T: Numeric>(&self, offset: [T; 2]) -> T::Mask;
 
     /// The contact with one pillar; `None` when they are apart.
     fn pillar<T: Real>(&self, side: Pillar, m: &PocketMotion<T>) -> Option<PillarContact<T>>;

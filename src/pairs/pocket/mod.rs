@@ -13,7 +13,7 @@ use crate::pairs::{
     Ahead, Batch, ContactLaw, Cost, ElementPair, ElementPlace, Found, PairInfo, Search, SlopeSums,
 };
 use crate::scalar::elementary::sin_cos;
-use crate::scalar::{Columns, Pack, dispatch, math, place_of};
+use crate::scalar::{Base, Columns, Numeric, Pack, WIDEST, dispatch, math, place_of};
 use crate::space::Frame;
 use kinematics::{Pillar, PillarContact, PocketPlace, PocketShape};
 use pulp::Simd;
@@ -66,22 +66,29 @@ impl<S: PocketShape> ElementPair for Pockets<S> {
             }
         };
         let Search { touching, found, .. } = out;
-        dispatch(motions.instructions, Offsets { motions, place, together, found });
-        for j in 0..motions.count {
-            let (block, lane) = place_of(j);
-            let Found { lead, offset: [along, across], .. } = &found[block];
-            let offset = [along[lane], across[lane]];
-            if self.shape.apart(offset) {
+        found.iter_mut().for_each(|block| block.any_near = false);
+        let shape = &self.shape;
+        dispatch(motions.instructions, Offsets { motions, shape, place, together, found });
+        for (first, block) in (0..motions.count).step_by(WIDEST).zip(&**found) {
+            if !block.any_near {
                 continue;
             }
-            let (lead, element) = (lead.of(lane), motions.element(j));
-            let velocity = lead.to_global(element.frame.to_local(cage.velocity));
-            let relative = place.relative_motion(offset, &element.motion, lead, velocity, cage.speed);
-            for side in [Pillar::Front, Pillar::Back] {
-                if let Some(PillarContact { motion, normal, edge_share }) = self.shape.pillar(side, &relative)
-                {
+            for lane in 0..WIDEST.min(motions.count - first) {
+                if block.near[lane] == 0.0 {
+                    continue;
+                }
+                let Found { lead, offset: [along, across], .. } = block;
+                let (lead, offset) = (lead.of(lane), [along[lane], across[lane]]);
+                let element = motions.element(first + lane);
+                let velocity = lead.to_global(element.frame.to_local(cage.velocity));
+                let relative = place.relative_motion(offset, &element.motion, lead, velocity, cage.speed);
+                for side in [Pillar::Front, Pillar::Back] {
+                    let Some(PillarContact { motion, normal, edge_share }) = shape.pillar(side, &relative)
+                    else {
+                        continue;
+                    };
                     let grip = place.grip(offset, normal, lead);
-                    touching.push(j, side as usize, &grip, edge_share, &motion);
+                    touching.push(first + lane, side as usize, &grip, edge_share, &motion);
                 }
             }
         }
@@ -119,15 +126,16 @@ impl<S: PocketShape> ElementPair for Pockets<S> {
 }
 
 /// Finds how far all elements are ahead of their pockets, and where in them they are.
-struct Offsets<'a> {
+struct Offsets<'a, P> {
     motions: &'a Motions,
+    shape: &'a P,
     place: PocketPlace,
     /// Lead of all elements, where it is the same.
     together: Option<Frame<f64>>,
     found: &'a mut [Found],
 }
 
-impl Columns for Offsets<'_> {
+impl<P: PocketShape> Columns for Offsets<'_, P> {
     fn rows(&self) -> usize {
         self.motions.count
     }
@@ -145,8 +153,12 @@ impl Columns for Offsets<'_> {
         let centre = turned.to_global(frame.to_local([all(cage.position[0]), all(cage.position[1])]));
         let radial_offset = Pack::load(simd, &of_elements.motion.radial_offset[at..]);
         let [along, across] = self.place.offset(radial_offset, turned, centre);
-        let Found { lead, offset, .. } = &mut self.found[block];
+        let Found { lead, offset, near, any_near, .. } = &mut self.found[block];
         lead.store(at, turned);
+        let apart = self.shape.apart([along, across]);
+        let touching = Pack::select(apart, all(0.0), all(1.0));
+        touching.store(&mut near[at..]);
+        *any_near |= Pack::any(touching.above(0.0));
         along.store(&mut offset[0][at..]);
         across.store(&mut offset[1][at..]);
     }

@@ -16,7 +16,7 @@ use crate::laws::elastic::solid::SolidContact;
 use crate::pairs::line_laws::LawBuilder;
 use crate::pairs::passage::Passage;
 use crate::pairs::{Ahead, ContactLaw, Cost, ElementPair, Law, PairInfo};
-use crate::scalar::{Real, math};
+use crate::scalar::{Numeric, Real, math};
 use crate::scene::Pocket;
 use crate::space::rotate;
 
@@ -38,9 +38,9 @@ impl PocketShape for PlanePocket {
         self.clearance
     }
 
-    #[inline]
-    fn apart(&self, offset: [f64; 2]) -> bool {
-        offset[1].abs() < self.clearance
+    #[inline(always)]
+    fn apart<T: Numeric>(&self, [_, along]: [T; 2]) -> T::Mask {
+        along.abs().below(self.clearance)
     }
 
     #[inline]
