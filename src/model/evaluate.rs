@@ -75,7 +75,10 @@ impl Model {
                 return Err(body.lost());
             }
         }
-        self.elements.find(&self.layout, q, v, inputs, motions)?;
+        // Elements of prescribed motion that nothing touches are nobody's concern.
+        if self.layout.count > 0 || !self.pairs.is_empty() {
+            self.elements.find(&self.layout, q, v, inputs, motions)?;
+        }
         for (place, pair) in self.pairs.iter().enumerate() {
             pair.find(motions, &mut contacts.of(place, self.infos[place].mate, motions))?;
         }
