@@ -82,7 +82,8 @@ pub trait Split<const N: usize>: Structured<N> {
     ) -> Result<(), Self::Fault> {
         self.accelerations(t, q, v, a)
     }
-    /// Damping of every spoke and every body of the hub at the last evaluated state (`q`, `v`), for a step of size `h` in s.
+    /// Damping of every spoke and every body of the hub at the state (`q`, `v`) that [`Split::accelerations_to_split`] has evaluated
+    /// last, for a step of size `h` in s.
     fn damping(&mut self, h: f64, q: &[f64], v: &[f64], out: &mut GroupDamping<N>);
     /// Adds to the accelerations `a` of the hub what the forces between it and the spokes have become since the last
     /// evaluation, at (`q`, `v`), in the `step` of the spokes.

@@ -158,7 +158,7 @@ impl ContactForce<Lanes> {
 impl<T: Copy> ContactForce<T> {
     /// The same number everywhere; with zero the forces of two surfaces that do not touch.
     #[inline(always)]
-    pub fn none(zero: T) -> Self {
+    pub const fn none(zero: T) -> Self {
         Self {
             normal: zero,
             stiffness: zero,

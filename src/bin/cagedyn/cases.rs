@@ -47,6 +47,8 @@ struct Comparison {
 
 /// A case that was run, or could not be.
 struct Done<'a> {
+    /// Its place in the set.
+    place: usize,
     case: &'a Case,
     /// Inner ring speed at the end, 1/min, without sign.
     speed: f64,
@@ -54,6 +56,10 @@ struct Done<'a> {
     summary: Option<Summary>,
     /// Why the case did not come to its end.
     error: Option<String>,
+    /// Why it failed, if it did.
+    failure: Option<cagedyn::Error>,
+    /// Whether to trust it.
+    trust: Result<()>,
 }
 
 impl Done<'_> {
@@ -83,26 +89,27 @@ pub fn command(args: &CasesArgs) -> Result<ExitCode> {
     // Starts of one case share the threads, cases only without them.
     let threads = if args.instead.starts > 1 { 1 } else { workers::threads(args.instead.jobs) };
     let run = |i: usize| {
-        (!terminal::stop_requested()).then(|| run_case(args, &base, &set.cases[i], scenes[i].clone()))
+        let (case, scene) = (&set.cases[i], scenes[i].clone());
+        (!terminal::stop_requested()).then(|| run_case(args, &base, i, case, scene))
     };
-    // In the order of the set, from the first one on; what is behind a case that runs waits for it.
-    let mut waiting: Vec<Option<Outcome<'_>>> = scenes.iter().map(|_| None).collect();
     let (mut tally, mut written) = (Tally::default(), Ok(()));
-    workers::share(&order, threads, run, |i, outcome| {
-        waiting[i] = Some(outcome);
-        while let Some(outcome) = waiting.get_mut(tally.done.len()).and_then(Option::take) {
-            written = tally.take(args, &set, &comparison, &widths, outcome);
-            if written.is_err() {
-                terminal::stop_all();
-                return false;
+    workers::share(&order, threads, run, |_, done| {
+        written = tally.add(args, &set, &comparison, done).and_then(|()| {
+            // In the order of the set: what is behind a case that runs waits for it.
+            while tally.done.get(tally.printed).is_some_and(|done| done.place == tally.printed) {
+                tally.print_next(args, &comparison, &widths)?;
             }
+            Ok(())
+        });
+        if written.is_err() {
+            terminal::stop_all();
         }
-        true
+        written.is_ok()
     });
     written?;
     // What came to its end behind one that an interrupt left out.
-    for outcome in waiting.into_iter().flatten() {
-        tally.take(args, &set, &comparison, &widths, outcome)?;
+    while tally.printed < tally.done.len() {
+        tally.print_next(args, &comparison, &widths)?;
     }
     let Tally { failed, untrusted, files, .. } = tally;
     drop(taken);
@@ -128,59 +135,55 @@ fn longest_first(scenes: &[Scene]) -> Vec<usize> {
     order
 }
 
-/// What running a case gave.
-struct Outcome<'a> {
-    done: Done<'a>,
-    /// Why it ended early, if it failed.
-    failure: Option<cagedyn::Error>,
-    /// Whether to trust it.
-    trust: Result<()>,
-}
-
-/// Cases that are done, and what is to be said of all.
+/// Cases that are done, in the order of the set, and what is to be said of all.
 #[derive(Default)]
 struct Tally<'a> {
     done: Vec<Done<'a>>,
+    /// Number of those that were printed.
+    printed: usize,
     failed: bool,
     untrusted: bool,
     files: Vec<&'static str>,
 }
 
 impl<'a> Tally<'a> {
-    /// Prints the next case, and writes the comparison with it: what is done is not lost when the rest is.
-    fn take(
+    /// Adds a case and writes the comparison with it: what is done is not lost when the rest is.
+    fn add(
         &mut self,
         args: &CasesArgs,
         set: &CaseSet,
         comparison: &Comparison,
-        widths: &[usize],
-        outcome: Outcome<'a>,
+        done: Done<'a>,
     ) -> Result<()> {
-        let Outcome { done, failure, trust } = outcome;
-        if let Some(failure) = &failure {
-            report(args, done.case, failure);
-            self.failed = true;
-        }
-        self.untrusted |= trust.inspect_err(|e| report(args, done.case, e)).is_err();
+        self.failed |= done.failure.is_some();
+        self.untrusted |= done.trust.is_err();
+        let at = self.done.partition_point(|other| other.place < done.place);
+        self.done.insert(at, done);
+        self.files = write_comparison(args, set, comparison, &self.done)?;
+        Ok(())
+    }
+
+    /// Prints the next case, and what is wrong with it.
+    fn print_next(&mut self, args: &CasesArgs, comparison: &Comparison, widths: &[usize]) -> Result<()> {
+        let done = &self.done[self.printed];
+        self.printed += 1;
+        done.failure.iter().chain(done.trust.as_ref().err()).for_each(|e| report(args, done.case, e));
         let empty = || vec!["-".to_owned(); comparison.columns.len()];
         let cells = done.results().map_or_else(empty, comparison.cells);
         let wall = done.summary.as_ref().map_or("-".to_owned(), |s| format!("{:.2}", s.wall_time_s));
-        let state = match (&failure, &done.error) {
+        let state = match (&done.failure, &done.error) {
             (Some(_), _) => "failed".to_owned(),
             (None, Some(error)) => error.clone(),
             (None, None) => {
                 done.results().and_then(|s| s.starts.as_ref()).map_or(String::new(), Starts::in_words)
             }
         };
-        print_row(&done.case.name, cells.into_iter().chain([wall, state]), widths)?;
-        self.done.push(done);
-        self.files = write_comparison(args, set, comparison, &self.done)?;
-        Ok(())
+        print_row(&done.case.name, cells.into_iter().chain([wall, state]), widths)
     }
 }
 
 /// Runs one case and writes its files.
-fn run_case<'a>(args: &CasesArgs, base: &Path, case: &'a Case, mut scene: Scene) -> Outcome<'a> {
+fn run_case<'a>(args: &CasesArgs, base: &Path, place: usize, case: &'a Case, mut scene: Scene) -> Done<'a> {
     let folder: PathBuf = args.out.join(&case.name);
     if !case.set.keys().any(|path| path == "title") {
         // The title of the base scene tells of other values.
@@ -195,12 +198,12 @@ fn run_case<'a>(args: &CasesArgs, base: &Path, case: &'a Case, mut scene: Scene)
         Ok((run, summary)) => {
             let interrupted = run.interrupted.then(|| "interrupted".to_owned());
             let error = run.failure.as_ref().map(|e| e.message.clone()).or(interrupted);
-            let done = Done { case, speed: speed_at_end(&run), summary: Some(summary), error };
-            Outcome { done, trust: run.trust(), failure: run.failure }
+            let (speed, trust) = (speed_at_end(&run), run.trust());
+            Done { place, case, speed, summary: Some(summary), error, failure: run.failure, trust }
         }
         Err(e) => {
-            let done = Done { case, speed: f64::NAN, summary: None, error: Some(e.message.clone()) };
-            Outcome { done, failure: Some(e), trust: Ok(()) }
+            let error = Some(e.message.clone());
+            Done { place, case, speed: f64::NAN, summary: None, error, failure: Some(e), trust: Ok(()) }
         }
     }
 }

@@ -86,7 +86,8 @@ pub struct Instead {
     /// The same for the speed of the cage: largest change as a share of it.
     #[arg(long, value_name = "SHARE", default_value_t = 0.01, value_parser = parse_share, requires = "starts")]
     pub start_spin: f64,
-    /// Simulate so many cases or starts at the same time; as many as there are cores unless given. Results do not depend on it.
+    /// Simulate so many cases or starts at the same time; as many as there are cores unless given. Results do not depend on it, unless
+    /// a limit on the wall time ends runs.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub jobs: Option<u16>,
     /// Write the time series also where it takes more than 2 GB.

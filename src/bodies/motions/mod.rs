@@ -87,7 +87,7 @@ pub(crate) struct ElementBlock {
     pub(crate) motion: ElementMotion<Lanes>,
     /// Axes along their radii and across them.
     pub(crate) frame: Frame<Lanes>,
-    /// Angle travelled since the start, rad.
+    /// Angle travelled since the start, rad; of elements that move freely.
     pub(crate) travel: Lanes,
     /// Direction from the centre, rad; of elements that move freely.
     pub(crate) azimuth: Lanes,

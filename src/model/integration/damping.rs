@@ -16,6 +16,7 @@ impl Model {
         let ws = &*ws;
         let mut slopes = [Matrix3::zeros(); SHARED];
         for (force, info) in ws.between.iter().zip(&self.between_infos) {
+            debug_assert!(force.damping.is_some(), "found with the forces");
             for (body, slope) in info.bodies.into_iter().zip(force.damping.into_iter().flatten()) {
                 slopes[body] += slope;
             }

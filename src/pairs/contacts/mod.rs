@@ -42,7 +42,7 @@ pub(crate) struct Site {
 /// A motion without contact.
 const APART: ContactMotion<f64> = ContactMotion { delta: -1.0, delta_dot: 0.0, u1: 0.0, u2: 0.0 };
 
-/// A block of contacts: what is beyond the last one is apart.
+/// A block of contacts. What is beyond the last one moves apart, and nobody asks for its forces.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub(crate) struct ContactBlock {
@@ -65,7 +65,7 @@ impl ContactBlock {
         frame: Frame::GLOBAL_LANES,
         motion: NO_MOTION,
         edge_share: ZEROS,
-        force: NO_FORCE,
+        force: ContactForce::none(ZEROS),
         on_elements: [ZEROS; OF_ELEMENT],
         on_mates: [ZEROS; OF_ELEMENT],
         damping: Triangles::ZERO,
@@ -75,19 +75,6 @@ impl ContactBlock {
 
 const NO_MOTION: ContactMotion<Lanes> =
     ContactMotion { delta: [APART.delta; WIDEST], delta_dot: ZEROS, u1: ZEROS, u2: ZEROS };
-
-const NO_FORCE: ContactForce<Lanes> = ContactForce {
-    normal: ZEROS,
-    stiffness: ZEROS,
-    damping: ZEROS,
-    film: ZEROS,
-    film_ratio: ZEROS,
-    temperature_rise: ZEROS,
-    friction_coefficient: ZEROS,
-    friction: ZEROS,
-    friction_secant: ZEROS,
-    rolling_resistance: ZEROS,
-};
 
 /// Touching contacts whose laws are evaluated together. Room is taken at creation, so filling it does not allocate.
 #[derive(Clone, Debug)]
