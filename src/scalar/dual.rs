@@ -56,7 +56,7 @@ macro_rules! dual_numbers {
 
         /// Chain rule: the result has value `re` and derivative `slope` times that of `self`.
         #[$inline]
-        fn chain(self, re: B, slope: B) -> Self {
+        pub fn chain(self, re: B, slope: B) -> Self {
             let mut eps = self.eps;
             $each!(i: eps[i] = slope * eps[i]);
             Self { re, eps }
@@ -215,6 +215,10 @@ macro_rules! dual_numbers {
             let root = (self.re * self.re + 1.0).sqrt();
             self.chain(self.re.asinh(), root.splat(1.0) / root)
         }
+        #[$inline]
+        fn atan(self) -> Self {
+            self.chain(self.re.atan(), self.re.splat(1.0) / (self.re * self.re + 1.0))
+        }
     }
     };
 }
@@ -267,6 +271,9 @@ impl<const N: usize> Real for Dual<N> {
         let r2 = self.re * self.re + x.re * x.re;
         self.combine(x, math::atan2(self.re, x.re), x.re / r2, -self.re / r2)
     }
+    fn varies(self) -> bool {
+        self.eps != [0.0; N]
+    }
 }
 
 #[cfg(test)]
@@ -277,7 +284,7 @@ mod tests {
     fn expression<T: Real>(x: T, y: T) -> T {
         let (s, c) = (x * y).sin_cos();
         let a = (x / y).sqrt() + (x + 1.5).ln() * (-y).exp() * x.ln_1p() - (x * 0.5).powf(1.3);
-        let b = (y - 2.0).tanh() / (x.asinh() + 3.0) + s.atan2(c + 2.0) - x.squared() / 4.0;
+        let b = (y - 2.0).tanh() / (x.asinh() + 3.0) + s.atan2(c + 2.0) * y.atan() - x.squared() / 4.0;
         let mut sum = a;
         sum += b;
         sum -= (y - x).abs() * 0.1;

@@ -4,16 +4,17 @@
 //! exp x  = 2^k e^r,        k = round(x/ln 2),  |r| <= ln(2)/2,   Taylor polynomial of degree 13
 //! ln x   = k ln 2 + ln m,  m from sqrt(1/2) to sqrt(2),          ln m = 2 artanh s, s = (m - 1)/(m + 1)
 //! sin, cos: x = n pi/2 + r,  |r| <= pi/4,                        Taylor polynomials
+//! atan x = atan c + atan((x - c)/(1 + c x)),  c = 0, 1/2, 1, 3/2 or infinity
 //! ```
 //!
 //! Errors are below 2 units in the last place, 3 for the hyperbolic tangent (tested). Only basic operations are used,
 //! each rounded by itself: results are the same with every instruction set.
 //!
-//! Sources: Cody and Waite, Software Manual for the Elementary Functions (splitting of ln 2 and pi/2); the polynomial of
-//! the logarithm is the one of Sun's fdlibm.
+//! Sources: Cody and Waite, Software Manual for the Elementary Functions (splitting of ln 2 and pi/2); the polynomials of
+//! the logarithm and, with its intervals, of the arc tangent are those of Sun's fdlibm.
 
 use super::Base;
-use std::f64::consts::{FRAC_2_PI, LN_2, LOG2_E};
+use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_4, LN_2, LOG2_E};
 
 /// Adding and subtracting it rounds to an integer: 1.5 * 2^52.
 const ROUND: f64 = 6_755_399_441_055_744.0;
@@ -143,6 +144,58 @@ pub fn sin_cos<T: Base>(x: T) -> (T, T) {
     (T::select(sin_falls, -a, a), T::select(cos_falls, -b, b))
 }
 
+/// Arc tangents of 1/2, 1, 3/2 and infinity, each in two parts.
+const ARC: [[f64; 2]; 4] = [
+    [0.463_647_609_000_806_1, 2.269_877_745_296_168_7e-17],
+    [FRAC_PI_4, 3.061_616_997_868_383e-17],
+    [0.982_793_723_247_329, 1.390_331_103_123_099_8e-17],
+    [FRAC_PI_2, 6.123_233_995_736_766e-17],
+];
+
+/// Arc tangent of x >= 0.
+#[inline(always)]
+pub fn atan<T: Base>(x: T) -> T {
+    const ODD: [f64; 6] = [
+        3.333_333_333_333_293e-1,
+        1.428_571_427_250_346_6e-1,
+        9.090_887_133_436_507e-2,
+        6.661_073_137_387_531e-2,
+        4.976_877_994_615_932_4e-2,
+        1.628_582_011_536_578_2e-2,
+    ];
+    const EVEN: [f64; 5] = [
+        -1.999_999_999_987_648_3e-1,
+        -1.111_111_040_546_235_6e-1,
+        -7.691_876_205_044_83e-2,
+        -5.833_570_133_790_573e-2,
+        -3.653_157_274_421_691_6e-2,
+    ];
+    let one = x.splat(1.0);
+    let above = by_interval(x, [x, x * 2.0 - 1.0, x - 1.0, x - 1.5, -one]);
+    let below = by_interval(x, [one, x + 2.0, x + 1.0, x * 1.5 + 1.0, x]);
+    let high = by_interval(x, constants(x, 0));
+    let low = by_interval(x, constants(x, 1));
+    let r = above / below;
+    let z = r * r;
+    let w = z * z;
+    let (odd, even) = (z * polynomial(w, &ODD), w * polynomial(w, &EVEN));
+    high - ((r * (odd + even) - low) - r)
+}
+
+/// The one that belongs to the interval of x.
+#[inline(always)]
+fn by_interval<T: Base>(x: T, [zero, half, one, more, infinite]: [T; 5]) -> T {
+    let large = T::select(x.below(2.4375), more, infinite);
+    let medium = T::select(x.below(1.1875), one, large);
+    T::select(x.below(0.4375), zero, T::select(x.below(0.6875), half, medium))
+}
+
+#[inline(always)]
+fn constants<T: Base>(x: T, part: usize) -> [T; 5] {
+    let [half, one, more, infinite] = ARC;
+    [x.splat(0.0), x.splat(half[part]), x.splat(one[part]), x.splat(more[part]), x.splat(infinite[part])]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -179,6 +232,8 @@ mod tests {
             ("tanh of little", error(-30.0, 1.0, tiny, tanh, f64::tanh)),
             ("asinh", error(-300.0, 300.0, tiny, asinh, |x| x.asinh())),
             ("sin", error(-100.0, 100.0, same, |x| sin_cos(x).0, f64::sin)),
+            ("atan", error(-20.0, 20.0, tiny, atan, f64::atan)),
+            ("atan near 1", error(0.0, 3.0, same, atan, f64::atan)),
             ("cos", error(-100.0, 100.0, same, |x| sin_cos(x).1, f64::cos)),
         ] {
             println!("{name}: {e:.2} units in the last place");

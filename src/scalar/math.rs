@@ -2,34 +2,10 @@
 //! others, because those of the system differ in their last bit from processor to processor.
 //!
 //! Errors are below 3 units in the last place; those of powers grow with their exponent.
-//!
-//! Source of the arc tangent: Sun's fdlibm (intervals and polynomial).
 
 use super::elementary::{self, ANGLE_LARGEST};
-use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, LN_10, LOG10_E, PI, TAU};
+use std::f64::consts::{LN_10, LOG10_E, PI, TAU};
 
-/// Arc tangents of 1/2, 1, 3/2 and infinity, each in two parts.
-const ARC: [[f64; 2]; 4] = [
-    [0.463_647_609_000_806_1, 2.269_877_745_296_168_7e-17],
-    [FRAC_PI_4, 3.061_616_997_868_383e-17],
-    [0.982_793_723_247_329, 1.390_331_103_123_099_8e-17],
-    [FRAC_PI_2, 6.123_233_995_736_766e-17],
-];
-const ARC_ODD: [f64; 6] = [
-    3.333_333_333_333_293e-1,
-    1.428_571_427_250_346_6e-1,
-    9.090_887_133_436_507e-2,
-    6.661_073_137_387_531e-2,
-    4.976_877_994_615_932_4e-2,
-    1.628_582_011_536_578_2e-2,
-];
-const ARC_EVEN: [f64; 5] = [
-    -1.999_999_999_987_648_3e-1,
-    -1.111_111_040_546_235_6e-1,
-    -7.691_876_205_044_83e-2,
-    -5.833_570_133_790_573e-2,
-    -3.653_157_274_421_691_6e-2,
-];
 /// What pi lacks.
 const PI_LOW: f64 = 1.224_646_799_147_353_2e-16;
 /// Smallest normal number, and a factor for smaller ones with its logarithm.
@@ -54,28 +30,9 @@ pub fn cos(x: f64) -> f64 {
     sin_cos(x).1
 }
 
-/// Arc tangent of x >= 0.
-#[inline]
-fn arc_tangent(x: f64) -> f64 {
-    let (x, [high, low]) = match x {
-        x if x < 0.4375 => (x, [0.0, 0.0]),
-        x if x < 0.6875 => ((2.0 * x - 1.0) / (2.0 + x), ARC[0]),
-        x if x < 1.1875 => ((x - 1.0) / (x + 1.0), ARC[1]),
-        x if x < 2.4375 => ((x - 1.5) / (1.0 + 1.5 * x), ARC[2]),
-        x => (-1.0 / x, ARC[3]),
-    };
-    let z = x * x;
-    let w = z * z;
-    let [a, b, c, d, e, f] = ARC_ODD;
-    let odd = z * (a + w * (b + w * (c + w * (d + w * (e + w * f)))));
-    let [a, b, c, d, e] = ARC_EVEN;
-    let even = w * (a + w * (b + w * (c + w * (d + w * e))));
-    high - ((x * (odd + even) - low) - x)
-}
-
 /// Arc tangent.
 pub fn atan(x: f64) -> f64 {
-    arc_tangent(x.abs()).copysign(x)
+    elementary::atan(x.abs()).copysign(x)
 }
 
 /// Four-quadrant arc tangent of y/x, rad.
@@ -84,7 +41,7 @@ pub fn atan2(y: f64, x: f64) -> f64 {
     let (a, b) = (y.abs(), x.abs());
     // Zeros and infinities have the quotient that their signs leave.
     let ratio = if a == b { if a == 0.0 { 0.0 } else { 1.0 } } else { a / b };
-    let angle = arc_tangent(ratio);
+    let angle = elementary::atan(ratio);
     let angle = if x.is_sign_negative() { PI - (angle - PI_LOW) } else { angle };
     if x.is_nan() || y.is_nan() { f64::NAN } else { angle.copysign(y) }
 }

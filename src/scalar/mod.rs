@@ -56,6 +56,8 @@ pub trait Numeric:
     fn tanh(self) -> Self;
     /// Inverse hyperbolic sine; valid for values >= 0.
     fn asinh(self) -> Self;
+    /// Arc tangent; valid for values >= 0.
+    fn atan(self) -> Self;
 
     /// The constant `value`, beside `self`.
     #[inline(always)]
@@ -139,6 +141,8 @@ pub trait Real: Numeric<Base = f64, Mask = bool> {
     fn sin_cos(self) -> (Self, Self);
     /// Four-quadrant arc tangent of `self / x`.
     fn atan2(self, x: Self) -> Self;
+    /// Whether any derivative differs from zero.
+    fn varies(self) -> bool;
 
     /// A constant: all derivatives are zero.
     #[inline(always)]
@@ -198,6 +202,9 @@ impl Numeric for f64 {
     fn asinh(self) -> Self {
         elementary::asinh(self)
     }
+    fn atan(self) -> Self {
+        elementary::atan(self)
+    }
 }
 
 const MANTISSA_BITS: u32 = 52;
@@ -243,6 +250,9 @@ impl Real for f64 {
     }
     fn atan2(self, x: Self) -> Self {
         math::atan2(self, x)
+    }
+    fn varies(self) -> bool {
+        false
     }
 }
 

@@ -99,6 +99,15 @@ impl<S: Simd, const K: usize> Pack<S, K> {
         Self { simd, v: [simd.splat_f64s(value); K] }
     }
 
+    /// Adds the numbers to the first of these.
+    ///
+    /// # Panics
+    /// If there are not enough.
+    #[inline(always)]
+    pub fn add_to(self, numbers: &mut [f64]) {
+        (Self::load(self.simd, numbers) + self).store(numbers);
+    }
+
     /// Writes the numbers to the first of these.
     ///
     /// # Panics
@@ -258,6 +267,10 @@ impl<S: Simd, const K: usize> Numeric for Pack<S, K> {
     fn asinh(self) -> Self {
         elementary::asinh(self)
     }
+    #[inline(always)]
+    fn atan(self) -> Self {
+        elementary::atan(self)
+    }
 }
 
 /// In the high half of a double of the magnitude 2^20 stands a whole number.
@@ -338,10 +351,11 @@ mod tests {
     /// Functions of groups, and the same of each number by itself.
     struct Compare<'a>(&'a [f64], &'a mut u64);
 
-    fn functions<T: Base>(x: T) -> [T; 9] {
+    fn functions<T: Base>(x: T) -> [T; 10] {
         let (sin, cos) = elementary::sin_cos(x);
         let mixed = x.floored(0.25) - x * 3.0;
-        [x.exp(), x.abs().ln(), x.abs().ln_1p(), x.tanh(), x.abs().asinh(), sin, cos, x.sqrt(), mixed]
+        let size = x.abs();
+        [x.exp(), size.ln(), size.ln_1p(), x.tanh(), size.asinh(), size.atan(), sin, cos, x.sqrt(), mixed]
     }
 
     impl Columns for Compare<'_> {
@@ -380,7 +394,7 @@ mod tests {
         for instructions in all {
             let mut compared = 0;
             dispatch(instructions, Compare(&numbers, &mut compared));
-            assert_eq!(compared, 9 * numbers.len() as u64);
+            assert_eq!(compared, 10 * numbers.len() as u64);
         }
     }
 }

@@ -22,7 +22,7 @@
 //! Phi(z) = atan(sqrt z)/sqrt z, which is atanh(sqrt -z)/sqrt -z for z < 0: one formula on both sides of s = 1.
 //! Source: Takeshima et al. 2025, Eq. 5, 9 and 14, integrated by us.
 
-use crate::scalar::Real;
+use crate::scalar::{Base, Numeric};
 
 /// Law of the viscosity.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,71 +44,82 @@ pub struct WidthMean<T> {
 
 impl BarusFilm {
     /// Averages where the isoviscous pressure is `peak` in the middle of the width, Pa; without pressure for `peak` <= 0.
-    #[inline]
-    pub fn mean<T: Real>(&self, peak: T) -> WidthMean<T> {
-        if peak.value() <= 0.0 {
-            return WidthMean { pressure: T::constant(0.0), viscosity: T::constant(1.0) };
+    #[inline(always)]
+    pub fn mean<T: Numeric>(&self, peak: T) -> WidthMean<T> {
+        let (zero, one) = (peak.like(0.0), peak.like(1.0));
+        let cavitated = peak.at_most(0.0);
+        let s = T::select(cavitated, zero, peak * self.pressure_viscosity);
+        if !T::Base::any(s.above(0.0)) {
+            // Isoviscous everywhere; a NaN stays.
+            return WidthMean {
+                pressure: T::select(cavitated, zero, peak * (2.0 / 3.0)),
+                viscosity: s + 1.0,
+            };
         }
-        let s = peak * self.pressure_viscosity;
         // The square root has no derivative at the cap itself; this near to it both branches agree to round-off.
-        if s.value() > self.cap * (1.0 + 1e-12) {
-            return self.capped(s);
-        }
-        let inverse = T::constant(1.0) / (-s + 1.0);
-        let z = s * inverse;
+        let capped = s.above(self.cap * (1.0 + 1e-12));
+        let mild = T::select(capped, zero, s);
+        let inverse = one / (-mild + 1.0);
+        let z = mild * inverse;
         let psi = psi(z);
-        WidthMean { pressure: peak * psi * inverse * 2.0, viscosity: (-(z * psi) + 1.0) * inverse }
+        let mut out =
+            WidthMean { pressure: peak * psi * inverse * 2.0, viscosity: (-(z * psi) + 1.0) * inverse };
+        if T::Base::any(capped) {
+            let steep = self.capped(T::select(capped, s, one));
+            out.pressure = T::select(capped, steep.pressure, out.pressure);
+            out.viscosity = T::select(capped, steep.viscosity, out.viscosity);
+        }
+        out.pressure = T::select(cavitated, zero, out.pressure);
+        out
     }
 
-    #[inline]
-    fn capped<T: Real>(&self, s: T) -> WidthMean<T> {
+    #[inline(always)]
+    fn capped<T: Numeric>(&self, s: T) -> WidthMean<T> {
         let (cap, steep) = (self.cap, 1.0 / (1.0 - self.cap));
         let t = ((s - cap) / s).sqrt();
-        let w = T::constant(cap) / (t + (1.0 - cap));
+        let w = s.like(cap) / (t + (1.0 - cap));
         let beta = (-s + 1.0) / s;
         let z = beta * w * w;
         let j = w * (-(z * psi(z)) + 1.0);
         // 1 - t_c, without the cancellation of large s.
-        let barus = T::constant(cap) / (s * (t + 1.0)) - beta * j;
+        let barus = s.like(cap) / (s * (t + 1.0)) - beta * j;
         let tangent = s * t * t * t * (steep / 3.0);
         WidthMean {
             pressure: (barus + tangent) * 2.0 / self.pressure_viscosity,
             viscosity: t * steep + j / s,
         }
     }
-
-    /// On one side of the cap, a coordinate at `s` of which the averages are smooth functions, and its value where they
-    /// are singular: s = 1 below the cap, and t_c = -sqrt(1 - s_cap), with the other sign of the root, above it.
-    #[inline]
-    pub(super) fn coordinate(&self, s: f64, capped: bool) -> (f64, f64) {
-        if capped { (-(1.0 - self.cap / s.max(self.cap)).sqrt(), (1.0 - self.cap).sqrt()) } else { (s, 1.0) }
-    }
 }
 
+/// Below this, the series of [`psi`] holds to the last bit.
+const SERIES: f64 = 4e-2;
+
 /// (1 - Phi(z))/z = 1/3 - z/5 + z^2/7 - ..., for z > -1.
-#[inline]
-fn psi<T: Real>(z: T) -> T {
-    let size = z.value().abs();
-    if size < 4e-2 {
-        let terms = match size {
-            0.0..2e-3 => 6,
-            2e-3..1.2e-2 => 8,
-            _ => ODD_INVERSES.len(),
-        };
-        // Even and odd powers side by side: neither waits for the other.
-        let (zero, square) = (T::constant(0.0), z * z);
-        let pairs = ODD_INVERSES[..terms].chunks_exact(2).rev();
-        let (even, odd) = pairs.fold((zero, zero), |(a, b), c| (a * square + c[0], b * square + c[1]));
-        return even - odd * z;
+#[inline(always)]
+fn psi<T: Numeric>(z: T) -> T {
+    // Even and odd powers side by side: neither waits for the other.
+    let square = z * z;
+    let (mut even, mut odd) = (z.like(0.0), z.like(0.0));
+    for pair in ODD_INVERSES.chunks_exact(2).rev() {
+        (even, odd) = (even * square + pair[0], odd * square + pair[1]);
     }
-    let phi = if z.value() > 0.0 {
+    let mut out = even - odd * z;
+    // Numbers that a function is not valid for are replaced by one that it is valid for.
+    let spare = z.like(0.25);
+    let positive = z.at_least(SERIES);
+    if T::Base::any(positive) {
+        let z = T::select(positive, z, spare);
         let root = z.sqrt();
-        root.atan2(T::constant(1.0)) / root
-    } else {
+        out = T::select(positive, (-(root.atan() / root) + 1.0) / z, out);
+    }
+    let negative = z.at_most(-SERIES);
+    if T::Base::any(negative) {
+        let z = T::select(negative, z, -spare);
         let root = (-z).sqrt();
-        ((root + 1.0) / (-root + 1.0)).ln() * 0.5 / root
-    };
-    (-phi + 1.0) / z
+        let phi = ((root + 1.0) / (-root + 1.0)).ln() * 0.5 / root;
+        out = T::select(negative, (-phi + 1.0) / z, out);
+    }
+    out
 }
 
 /// 1/3, 1/5, 1/7, ...

@@ -34,6 +34,20 @@ pub struct JournalMotion<T> {
     pub profile_speed: T,
 }
 
+impl<T: Real> JournalMotion<T> {
+    /// The same without derivatives.
+    pub fn value(&self) -> JournalMotion<f64> {
+        JournalMotion {
+            position: self.position.map(Real::value),
+            velocity: self.velocity.map(Real::value),
+            journal_speed: self.journal_speed.value(),
+            bush_speed: self.bush_speed.value(),
+            profile_angle: self.profile_angle.value(),
+            profile_speed: self.profile_speed.value(),
+        }
+    }
+}
+
 /// Film force on the journal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilmForce<T> {

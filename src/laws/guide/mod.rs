@@ -17,10 +17,13 @@
 //! product goes to infinity as the gap closes and is gone when it has closed. With it the force is continuous.
 
 pub mod barus_film;
+mod breaks;
+mod circumference;
+mod gap;
 pub mod journal;
-mod layer_gap;
-mod layer_quadrature;
+mod land;
 pub mod lubricant_layer;
+mod panels;
 pub mod short_bearing;
 
 use crate::laws::contact_pair::ContactMotion;

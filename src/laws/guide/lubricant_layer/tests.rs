@@ -1,6 +1,7 @@
 use super::*;
 use crate::laws::guide::journal::tests::motion;
 use crate::scalar::Dual;
+use std::f64::consts::PI;
 
 const SHEARS: [PressureShear; 3] =
     [PressureShear::Absent, PressureShear::WithinArc, PressureShear::WithEdges];
@@ -199,6 +200,41 @@ fn a_missing_film_is_reported_and_nan_ends() {
         for v in [f64::NAN, f64::INFINITY] {
             let ended = l.force(&motion([0.9 * l.clearance, 0.0], [v, 0.0], 1.0), Fluid::SAME);
             assert!(ended.is_err() || ended.is_ok_and(|f| !size(&f).is_finite() || f.moment.is_nan()));
+        }
+    }
+}
+
+#[test]
+fn all_instructions_give_the_same_bits_and_derivatives_the_same_values() {
+    let profile = vec![
+        Harmonic { order: 7, amplitude: 1e-6, phase: 1.0 },
+        Harmonic { order: 3, amplitude: -2e-6, phase: 0.2 },
+    ];
+    let mut all = vec![Arch::new()];
+    #[cfg(target_arch = "x86_64")]
+    all.extend(pulp::x86::V3::try_new().map(Arch::V3));
+    let bits = |f: &FilmForce<f64>| (self::all(f).map(f64::to_bits), f.minimum_film.to_bits());
+    for roundness in [vec![], profile] {
+        for (e, v) in [(100e-6, 0.0), (150e-6, -0.1), (206e-6, 0.1), (209e-6, 0.3)] {
+            let l = LubricantLayer { roundness: roundness.clone(), ..layer() };
+            let m = motion([0.6 * e, -0.8 * e], [v, -1.1 * v], 142.5);
+            let portable = l.film(l.viscosity, Arch::Scalar).force(&m).unwrap();
+            for instructions in &all {
+                assert_eq!(bits(&l.film(l.viscosity, *instructions).force(&m).unwrap()), bits(&portable));
+            }
+            let varied = JournalMotion {
+                position: m.position.map(|x| Dual::<1>::variable(x, 0)),
+                velocity: m.velocity.map(Dual::constant),
+                journal_speed: Dual::constant(m.journal_speed),
+                bush_speed: Dual::constant(m.bush_speed),
+                profile_angle: Dual::constant(m.profile_angle),
+                profile_speed: Dual::constant(m.profile_speed),
+            };
+            let d = l.force(&varied, Fluid::SAME).unwrap();
+            assert_eq!(
+                [d.pressure[0].re, d.shear[1].re, d.moment.re],
+                [portable.pressure[0], portable.shear[1], portable.moment]
+            );
         }
     }
 }

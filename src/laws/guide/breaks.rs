@@ -1,0 +1,428 @@
+//! Places where the integrand of a film has a kink, found in lanes.
+//!
+//! The layer ends where h = h_L, the pressure where G = 0, and the viscosity stops growing where s = s_cap, which is where
+//! K = G + c h^3 = 0. The circle is looked at in 15 steps per period of the highest order, at least 30 in all. In a step at
+//! whose ends a function has different signs there is one place. Where it has not, but its slope says that it turns back
+//! towards zero in between, the place where it turns is found first: that tells whether there are two. So nothing is
+//! missed but what a function does by turning twice within one step.
+
+use crate::laws::guide::gap::{Gap, Place};
+use crate::scalar::{Base, Columns, Lanes, Numeric, Pack, WIDEST, ZEROS, dispatch};
+use pulp::{Arch, Simd};
+use std::f64::consts::{PI, TAU};
+
+/// h - h_L.
+pub(super) const DRY: usize = 0;
+/// G.
+pub(super) const OPENING: usize = 1;
+/// K.
+pub(super) const EXCESS: usize = 2;
+/// Functions that change their sign at breaks.
+pub(super) const FUNCTIONS: usize = 3;
+
+/// Steps of a block: each shares its ends with its neighbours.
+const STEPS: usize = WIDEST - 1;
+/// Fewest blocks of the circle.
+const FEWEST_BLOCKS: usize = 2;
+/// Most blocks of a stretch.
+const LONGEST: usize = 4;
+/// Largest number of brackets that one step needs.
+const MOST_OF_STEP: usize = FUNCTIONS + 1;
+/// Room for breaks: of a full block of brackets, and of those that it leads to.
+pub(super) const BREAKS: usize = 2 * WIDEST;
+/// Largest number of Newton steps; each that fails to be one halves a bracket.
+const MOST_STEPS: usize = 60;
+/// A Newton step so small, relative to the angle or in rad, is the last one: the next would be of round-off.
+const LAST_STEP: [f64; 2] = [1e-8, 1e-16];
+
+/// 0, 1, 2, ...
+const COUNTED: Lanes = {
+    let mut all = ZEROS;
+    let mut i = 1;
+    while i < WIDEST {
+        all[i] = all[i - 1] + 1.0;
+        i += 1;
+    }
+    all
+};
+
+/// One place where a function changes its sign.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Break {
+    /// rad
+    pub angle: f64,
+    /// Which of the functions.
+    pub of: usize,
+}
+
+/// A part of the circle and its breaks.
+pub(super) struct Stretch {
+    /// rad
+    pub from: f64,
+    /// rad
+    pub to: f64,
+    /// Number of the step that it ends with.
+    pub last_step: usize,
+    /// Whether each of the functions is negative at its start.
+    pub negative: [bool; FUNCTIONS],
+    /// Smallest film (m) of those looked at, and its place (rad).
+    pub thinnest: [f64; 2],
+    breaks: [Break; BREAKS],
+    count: usize,
+}
+
+impl Stretch {
+    /// Nothing, where the circle begins.
+    pub fn new() -> Self {
+        Self {
+            from: 0.0,
+            to: -PI,
+            last_step: 0,
+            negative: [false; FUNCTIONS],
+            thinnest: [f64::INFINITY, 0.0],
+            breaks: [Break::default(); BREAKS],
+            count: 0,
+        }
+    }
+
+    /// In ascending order.
+    pub fn breaks(&self) -> &[Break] {
+        &self.breaks[..self.count]
+    }
+
+    fn add(&mut self, angle: f64, of: usize) {
+        let mut place = self.count;
+        while place > 0 && self.breaks[place - 1].angle > angle {
+            self.breaks[place] = self.breaks[place - 1];
+            place -= 1;
+        }
+        self.breaks[place] = Break { angle, of };
+        self.count += 1;
+    }
+
+    fn look_at(&mut self, film: f64, angle: f64) {
+        // A NaN is kept.
+        let thicker = film >= self.thinnest[0] || self.thinnest[0].is_nan();
+        if !thicker {
+            self.thinnest = [film, angle];
+        }
+    }
+}
+
+/// What is looked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+enum Aim {
+    /// The place where the function is zero.
+    #[default]
+    Zero,
+    /// The place where it turns back, having this sign at both ends.
+    Turn { negative: bool },
+    /// The same, for the smallest film only.
+    Lowest,
+}
+
+/// A block of brackets, in each of which a place is looked for.
+struct Brackets {
+    count: usize,
+    /// How many of them may lead to two more.
+    turns: usize,
+    aim: [Aim; WIDEST],
+    /// Ends, a first guess and then the place, rad.
+    ends: [Lanes; 2],
+    angle: Lanes,
+    /// Minus one where what is to be zero rises, else one.
+    sign: Lanes,
+    /// Number of the function, and one where not itself but its slope is to be zero.
+    of: Lanes,
+    of_slope: Lanes,
+}
+
+impl Brackets {
+    const fn none() -> Self {
+        Self {
+            count: 0,
+            turns: 0,
+            aim: [Aim::Zero; WIDEST],
+            ends: [ZEROS; 2],
+            angle: ZEROS,
+            sign: ZEROS,
+            of: ZEROS,
+            of_slope: ZEROS,
+        }
+    }
+
+    fn add(&mut self, [a, b]: [f64; 2], guess: f64, rises: bool, of: usize, aim: Aim) {
+        let i = self.count;
+        self.count += 1;
+        self.turns += usize::from(matches!(aim, Aim::Turn { .. }));
+        self.aim[i] = aim;
+        (self.ends[0][i], self.ends[1][i], self.angle[i]) = (a, b, guess);
+        self.sign[i] = if rises { -1.0 } else { 1.0 };
+        (self.of[i], self.of_slope[i]) = (of as f64, if aim == Aim::Zero { 0.0 } else { 1.0 });
+    }
+
+    /// Whether all that one more step needs has room, and what it leads to, too.
+    fn has_room(&self) -> bool {
+        self.count + MOST_OF_STEP <= WIDEST && 2 * (self.turns + FUNCTIONS) <= WIDEST
+    }
+}
+
+/// Functions and their slopes at the points of a block.
+struct Sampled {
+    angles: Lanes,
+    functions: [[Lanes; 2]; FUNCTIONS],
+    film: Lanes,
+    /// Signs of functions and slopes as a number with a bit for each.
+    signs: Lanes,
+}
+
+impl Sampled {
+    /// Adds the brackets of step `k`.
+    fn step(&self, k: usize, brackets: &mut Brackets) {
+        let [before, after] = [self.signs[k] as u32, self.signs[k + 1] as u32];
+        let changed = before ^ after;
+        let ends = [self.angles[k], self.angles[k + 1]];
+        let length = ends[1] - ends[0];
+        for (of, [values, slopes]) in self.functions.iter().enumerate() {
+            let (value, slope) = (1 << of, 1 << (FUNCTIONS + of));
+            if changed & (value | slope) == 0 {
+                continue;
+            }
+            let ([a, b], [da, db]) = ([values[k], values[k + 1]], [slopes[k], slopes[k + 1]]);
+            let (negative, rises) = (before & value != 0, before & slope != 0);
+            if changed & value != 0 {
+                let guess = ends[0] + zero([a, b], [da * length, db * length]) * length;
+                brackets.add(ends, guess, negative, of, Aim::Zero);
+            }
+            if changed & slope == 0 {
+                continue;
+            }
+            // Where slopes change evenly; the value there, seen from either end.
+            let turn = da / (da - db);
+            let seen = [a + 0.5 * da * turn * length, b - 0.5 * db * (1.0 - turn) * length];
+            let sign = if negative { -1.0 } else { 1.0 };
+            let nearly_zero = sign * seen[0] < (seen[0] - seen[1]).abs();
+            let guess = ends[0] + turn * length;
+            if changed & value == 0 && rises != negative && nearly_zero {
+                brackets.add(ends, guess, rises, of, Aim::Turn { negative });
+            } else if of == DRY && rises {
+                brackets.add(ends, guess, rises, of, Aim::Lowest);
+            }
+        }
+    }
+}
+
+/// Place from 0 to 1 where a function with these values and slopes at 0 and 1 is zero, nearly: its inverse is a cubic with
+/// the same values and slopes.
+fn zero([a, b]: [f64; 2], [da, db]: [f64; 2]) -> f64 {
+    let t = a / (a - b);
+    let rest = 1.0 - t;
+    let width = b - a;
+    t * t * (3.0 - 2.0 * t) + t * rest * width * (rest / da - t / db)
+}
+
+/// Search over the circle.
+pub(super) struct Search<'a> {
+    pub gap: &'a Gap<'a>,
+    /// h_L, m; infinite where everything is wet.
+    pub layer: f64,
+    /// c, 1/(m^2 s), where s_cap may be reached.
+    pub excess: Option<f64>,
+    pub instructions: Arch,
+}
+
+impl Search<'_> {
+    /// Number of steps of the circle.
+    pub fn steps(&self) -> usize {
+        STEPS * FEWEST_BLOCKS.max(self.gap.order() as usize)
+    }
+
+    /// Goes on to the next stretch of a circle of `steps`.
+    pub fn next(&self, steps: usize, out: &mut Stretch) {
+        (out.from, out.count) = (out.to, 0);
+        let mut brackets = Brackets::none();
+        let mut sampled =
+            Sampled { angles: ZEROS, functions: [[ZEROS; 2]; FUNCTIONS], film: ZEROS, signs: ZEROS };
+        'blocks: for block in 0..LONGEST {
+            let start = out.last_step;
+            if start == steps {
+                break;
+            }
+            dispatch(self.instructions, Scan { search: self, start, steps, sampled: &mut sampled });
+            if block == 0 {
+                let signs = sampled.signs[0] as u32;
+                out.negative = std::array::from_fn(|of| signs >> of & 1 == 1);
+                out.look_at(sampled.film[0], sampled.angles[0]);
+            }
+            for k in 0..STEPS.min(steps - start) {
+                if sampled.signs[k] != sampled.signs[k + 1] {
+                    if !brackets.has_room() {
+                        break 'blocks;
+                    }
+                    sampled.step(k, &mut brackets);
+                }
+                (out.last_step, out.to) = (start + k + 1, sampled.angles[k + 1]);
+            }
+        }
+        if brackets.count > 0 {
+            self.refine(&mut brackets, out);
+        }
+    }
+
+    /// Finds the places in these brackets; where functions turned back beyond zero, there are more.
+    fn refine(&self, brackets: &mut Brackets, out: &mut Stretch) {
+        let (mut value, mut film) = (ZEROS, ZEROS);
+        let count = brackets.count;
+        let roots = Roots { search: self, brackets, value: &mut value, film: &mut film };
+        dispatch(self.instructions, roots);
+        let mut more = None;
+        for i in 0..count {
+            let (angle, of) = (brackets.angle[i], brackets.of[i] as usize);
+            let aim = brackets.aim[i];
+            if aim == Aim::Zero {
+                out.add(angle, of);
+                continue;
+            }
+            if of == DRY {
+                out.look_at(film[i], angle);
+            }
+            let [a, b] = [brackets.ends[0][i], brackets.ends[1][i]];
+            let Aim::Turn { negative } = aim else { continue };
+            let beyond = if negative { value[i] > 0.0 } else { value[i] < 0.0 };
+            if beyond && a < angle && angle < b {
+                let more = more.get_or_insert_with(Brackets::none);
+                more.add([a, angle], 0.5 * (a + angle), negative, of, Aim::Zero);
+                more.add([angle, b], 0.5 * (angle + b), !negative, of, Aim::Zero);
+            }
+        }
+        if let Some(more) = &mut more {
+            self.refine(more, out);
+        }
+    }
+
+    /// Functions with their first and second derivatives at a place.
+    #[inline(always)]
+    fn functions<B: Base>(&self, p: &Place<B>) -> [[B; 3]; FUNCTIONS] {
+        let ([h, h1, h2, _], [g, g1, g2]) = (p.film, p.opening);
+        let excess = match self.excess {
+            None => p.opening,
+            Some(c) => {
+                let square = h * h;
+                [
+                    g + square * h * c,
+                    g1 + square * h1 * (3.0 * c),
+                    g2 + h * (h1 * h1 * 2.0 + h * h2) * (3.0 * c),
+                ]
+            }
+        };
+        [[h - self.layer, h1, h2], p.opening, excess]
+    }
+
+    /// The function of this number at each place.
+    #[inline(always)]
+    fn function<B: Base>(&self, of: B, p: &Place<B>) -> [B; 3] {
+        let [mut out, opening, excess] = self.functions(p);
+        for k in 0..3 {
+            out[k] = B::select(of.above(0.5), B::select(of.above(1.5), excess[k], opening[k]), out[k]);
+        }
+        out
+    }
+}
+
+struct Scan<'a> {
+    search: &'a Search<'a>,
+    start: usize,
+    steps: usize,
+    sampled: &'a mut Sampled,
+}
+
+impl Columns for Scan<'_> {
+    fn rows(&self) -> usize {
+        WIDEST
+    }
+
+    #[inline(always)]
+    fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
+        let step = TAU / self.steps as f64;
+        let angle = (Pack::<S, K>::load(simd, &COUNTED[first..]) + self.start as f64) * step - PI;
+        angle.store(&mut self.sampled.angles[first..]);
+        let place = self.search.gap.at(angle);
+        let used = if self.search.excess.is_some() { FUNCTIONS } else { EXCESS };
+        let zero = Pack::<S, K>::all(simd, 0.0);
+        let mut signs = zero;
+        let functions = self.search.functions(&place);
+        let columns = self.sampled.functions.iter_mut();
+        for (of, ([value, slope, _], [values, slopes])) in
+            functions.iter().zip(columns).enumerate().take(used)
+        {
+            signs += bit(*value, of) + bit(*slope, FUNCTIONS + of);
+            value.store(&mut values[first..]);
+            slope.store(&mut slopes[first..]);
+        }
+        place.film[0].store(&mut self.sampled.film[first..]);
+        signs.store(&mut self.sampled.signs[first..]);
+    }
+}
+
+/// 2^`of` where x is negative, else 0.
+#[inline(always)]
+fn bit<B: Base>(x: B, of: usize) -> B {
+    B::select(x.below(0.0), x.splat(f64::from(1u32 << of)), x.splat(0.0))
+}
+
+/// Whether x is between a and b.
+#[inline(always)]
+fn within<B: Base>(x: B, a: B, b: B) -> B::Mask {
+    a.less_or_equal(x) & x.less_or_equal(b)
+}
+
+/// Newton's method for several places at a time, each kept within its bracket.
+struct Roots<'a> {
+    search: &'a Search<'a>,
+    brackets: &'a mut Brackets,
+    /// The function, and the film in m, at the places found.
+    value: &'a mut Lanes,
+    film: &'a mut Lanes,
+}
+
+impl Columns for Roots<'_> {
+    fn rows(&self) -> usize {
+        self.brackets.count
+    }
+
+    #[inline(always)]
+    fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
+        let Brackets { ends: [a, b], angle, sign, of, of_slope, .. } = &mut *self.brackets;
+        let (mut a, mut b) = (Pack::<S, K>::load(simd, &a[first..]), Pack::load(simd, &b[first..]));
+        let sign = Pack::load(simd, &sign[first..]);
+        let of = Pack::load(simd, &of[first..]);
+        let turns = Pack::load(simd, &of_slope[first..]).above(0.5);
+        let middle = (a + b) * 0.5;
+        let mut x = Pack::load(simd, &angle[first..]);
+        x = Pack::select(within(x, a, b), x, middle);
+        let mut searching = x.like(1.0);
+        for _ in 0..MOST_STEPS {
+            let place = self.search.gap.at(x);
+            let [value, slope, curvature] = self.search.function(of, &place);
+            // Where a function turns, the last step changes it by less than its digits.
+            value.store(&mut self.value[first..]);
+            place.film[0].store(&mut self.film[first..]);
+            let (f, df) = (Pack::select(turns, slope, value), Pack::select(turns, curvature, slope));
+            let before = (f * sign).above(0.0);
+            a = Pack::select(before, x, a);
+            b = Pack::select(before, b, x);
+            let newton = x - f / df;
+            let next = Pack::select(within(newton, a, b), newton, (a + b) * 0.5);
+            let exact = f.at_least(0.0) & f.at_most(0.0);
+            let next = Pack::select(exact, x, next);
+            let active = searching.above(0.5);
+            let last = (next - x).abs().less_or_equal(x.abs() * LAST_STEP[0] + LAST_STEP[1]);
+            x = Pack::select(active, next, x);
+            searching = Pack::select(last, x.like(0.0), searching);
+            if !Pack::<S, K>::any(searching.above(0.5)) {
+                break;
+            }
+        }
+        x.store(&mut angle[first..]);
+    }
+}

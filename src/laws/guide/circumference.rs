@@ -1,0 +1,213 @@
+//! Force of a film around the whole circumference, with its derivatives.
+//!
+//! The circle is walked in stretches: breaks are found, wet pieces between them integrated. Derivatives are those of the
+//! integral over the motion in axes of the eccentricity, and these turn with the journal: what the angle of the lobes does
+//! is what turning everything else the other way does, and the force with it.
+
+use crate::laws::guide::breaks::{BREAKS, DRY, EXCESS, FUNCTIONS, OPENING, Search, Stretch};
+use crate::laws::guide::gap::{Gap, Lobe};
+use crate::laws::guide::journal::{FilmForce, Harmonic, JournalMotion, NoFilm};
+use crate::laws::guide::land::{Land, OUTPUTS, VARIABLES, VELOCITIES};
+use crate::laws::guide::panels::{Panels, Sums, totals};
+use crate::scalar::{Real, ZEROS, math};
+use pulp::Arch;
+
+/// Most lobes of a gap; there is room for a few of them at no cost.
+const MOST_LOBES: usize = 64;
+const FEW_LOBES: usize = 8;
+
+/// A film between journal and bush.
+pub(super) struct Film<'a> {
+    pub land: Land,
+    /// C, m.
+    pub clearance: f64,
+    /// h_L, m; infinite for a clearance full of oil.
+    pub layer: f64,
+    /// Whether the jump of the pressure at the ends of wet arcs is left out of the shear.
+    pub within_arc: bool,
+    /// Whether dh/dt is included.
+    pub squeezed: bool,
+    pub roundness: &'a [Harmonic],
+    pub instructions: Arch,
+}
+
+impl Film<'_> {
+    /// Force on the journal.
+    ///
+    /// # Errors
+    /// [`NoFilm`] where h <= 0.
+    pub fn force<T: Real>(&self, m: &JournalMotion<T>) -> Result<FilmForce<T>, NoFilm> {
+        let motion = m.value();
+        let (e, direction) = eccentricity(motion.position);
+        let round = self.roundness.is_empty();
+        let thinnest = self.clearance - e;
+        // Written so that a NaN counts as no film.
+        let exists = thinnest > 0.0 || (!round && e.is_finite());
+        if !exists {
+            return Err(NoFilm { minimum_film: thinnest });
+        }
+        if round && thinnest >= self.layer {
+            let [y, z] = m.position.map(change);
+            let [cos, sin] = direction;
+            return Ok(FilmForce::none(-(y * cos + z * sin) + thinnest));
+        }
+        let count = self.roundness.len().min(MOST_LOBES);
+        let (mut few, mut many);
+        let lobes = if count <= FEW_LOBES {
+            few = [Lobe::default(); FEW_LOBES];
+            &mut few[..count]
+        } else {
+            many = [Lobe::default(); MOST_LOBES];
+            &mut many[..count]
+        };
+        if !round {
+            let [cos, sin] = direction;
+            let turned = math::atan2(sin, cos) - motion.profile_angle;
+            for (lobe, harmonic) in lobes.iter_mut().zip(self.roundness) {
+                *lobe = Lobe::of(harmonic, turned);
+            }
+        }
+        let mut gap = Gap::new([self.land.radius, self.clearance], &motion, e, direction, lobes);
+        if !self.squeezed {
+            gap.squeeze = 0.0;
+        }
+        let gap = gap;
+        let mut room;
+        let slopes = match derivatives(m) {
+            0 => &mut [][..],
+            count => {
+                room = [[ZEROS; OUTPUTS]; VARIABLES];
+                &mut room[..count]
+            }
+        };
+        let [height, largest_opening] = gap.bounds();
+        let sums = Sums { values: [ZEROS; OUTPUTS], slopes };
+        let instructions = self.instructions;
+        let mut panels = Panels { land: self.land, gap: &gap, largest_opening, instructions, sums };
+        let thinnest = self.integrate(&mut panels, height)?;
+        Ok(self.lifted(&gap, direction, m, &panels.sums, thinnest))
+    }
+
+    /// Sums over the circle; gives the smallest film (m) and its place (rad). Lobes have this height, m.
+    fn integrate(&self, panels: &mut Panels<'_>, height: f64) -> Result<[f64; 2], NoFilm> {
+        let Panels { gap, largest_opening, instructions, .. } = *panels;
+        let excess = self.excess(gap, height, largest_opening);
+        let search = Search { gap, layer: self.layer, excess, instructions };
+        let (steps, mut stretch) = (search.steps(), Stretch::new());
+        while stretch.last_step < steps {
+            search.next(steps, &mut stretch);
+            // Written so that a NaN counts as no film.
+            let exists = stretch.thinnest[0] > 0.0;
+            if !exists {
+                return Err(NoFilm { minimum_film: stretch.thinnest[0] });
+            }
+            let mut negative = stretch.negative;
+            let mut from = stretch.from;
+            let (mut ends, mut count) = ([[0.0; 2]; BREAKS], 0);
+            for b in stretch.breaks() {
+                if self.acts(negative) {
+                    panels.add(from, b.angle, negative[EXCESS]);
+                }
+                if b.of == DRY {
+                    ends[count] = [b.angle, if negative[DRY] { 1.0 } else { -1.0 }];
+                    count += 1;
+                }
+                negative[b.of] = !negative[b.of];
+                from = b.angle;
+            }
+            if self.acts(negative) {
+                panels.add(from, stretch.to, negative[EXCESS]);
+            }
+            panels.add_ends(&ends[..count], self.within_arc);
+        }
+        Ok(stretch.thinnest)
+    }
+
+    /// Whether the film does something where the functions of the breaks have these signs.
+    fn acts(&self, negative: [bool; FUNCTIONS]) -> bool {
+        negative[DRY] && (negative[OPENING] || self.land.drag != 0.0)
+    }
+
+    /// c of K = G + c h^3, if s_cap may be reached.
+    fn excess(&self, gap: &Gap<'_>, height: f64, largest_opening: f64) -> Option<f64> {
+        let land = &self.land;
+        let scale = land.peak_scale * land.barus.pressure_viscosity;
+        let thinnest = (gap.thinnest - height).max(0.0);
+        let below = scale * largest_opening < land.barus.cap * thinnest.powi(3);
+        (!below).then(|| land.barus.cap / scale)
+    }
+
+    /// Force and moment with the derivatives that the motion asks for.
+    fn lifted<T: Real>(
+        &self,
+        gap: &Gap<'_>,
+        [cos, sin]: [f64; 2],
+        m: &JournalMotion<T>,
+        sums: &Sums<'_>,
+        [thinnest, at]: [f64; 2],
+    ) -> FilmForce<T> {
+        let turn = |[a, b]: [T; 2]| [a * cos - b * sin, b * cos + a * sin];
+        let mut out = totals(&sums.values).map(T::constant);
+        let mut film = T::constant(thinnest);
+        if T::DERIVATIVES {
+            let along = |v: [T; 2]| {
+                let [y, z] = v.map(change);
+                [y * cos + z * sin, z * cos - y * sin]
+            };
+            let ([y, mut z], [mut vy, mut vz]) = (along(m.position), along(m.velocity));
+            let turned = change(m.profile_angle);
+            let (journal, bush) = (change(m.journal_speed), change(m.bush_speed));
+            let lobed = !gap.lobes.is_empty();
+            if lobed {
+                let [v_1, v_2] = gap.velocity;
+                z -= turned * gap.eccentricity;
+                vy += turned * v_2;
+                vz -= turned * v_1;
+            }
+            let rolling = (journal - bush) * self.land.radius;
+            let changes = [vy, vz, journal + bush, rolling, change(m.profile_speed), y, z];
+            for (change, row) in changes.into_iter().zip(&*sums.slopes) {
+                for (out, slope) in out.iter_mut().zip(totals(row)) {
+                    *out += change * slope;
+                }
+            }
+            if lobed {
+                for [a, b] in [[0, 1], [2, 3]] {
+                    let (along, across) = (out[a].value(), out[b].value());
+                    out[a] -= turned * across;
+                    out[b] += turned * along;
+                }
+            }
+            let (sin, cos) = math::sin_cos(at);
+            film -= y * cos + z * sin;
+        }
+        let [p_1, p_2, s_1, s_2, moment]: [T; OUTPUTS] = out;
+        FilmForce { pressure: turn([p_1, p_2]), shear: turn([s_1, s_2]), moment, minimum_film: film }
+    }
+}
+
+/// How a number changes: zero, with its derivatives.
+fn change<T: Real>(x: T) -> T {
+    x - x.value()
+}
+
+/// Number of variables that a motion asks for derivatives over.
+fn derivatives<T: Real>(m: &JournalMotion<T>) -> usize {
+    let [y, z] = m.position;
+    match (T::DERIVATIVES, y.varies() || z.varies() || m.profile_angle.varies()) {
+        (false, _) => 0,
+        (true, false) => VELOCITIES,
+        (true, true) => VARIABLES,
+    }
+}
+
+/// Distance of the journal from the centre and its direction; the direction is arbitrary (+y) at the centre.
+fn eccentricity([y, z]: [f64; 2]) -> (f64, [f64; 2]) {
+    let r2 = y * y + z * z;
+    // Below this, squares lose digits to underflow and the direction would not be a unit vector.
+    if r2 < 1e-280 {
+        return (0.0, [1.0, 0.0]);
+    }
+    let r = r2.sqrt();
+    (r, [y / r, z / r])
+}

@@ -1,0 +1,222 @@
+//! The gap between a journal and its bush around the circumference, with lobes on one of them.
+//!
+//! ```text
+//! h(d)   = (C - e) + 2 e sin^2(d/2) - w(d)
+//! dh/dt  = -(v_1 cos d + v_2 sin d) - dw/dt + w_p dw/dd            at a fixed place
+//! G(d)   = (w_1 + w_2) dh/dd + 2 dh/dt,   u_1 - u_2 = R (w_1 - w_2) - v_1 sin d + v_2 cos d
+//! w(d)   = Sum A_n cos nd + B_n sin nd
+//! ```
+//!
+//! d is counted from the direction of the eccentricity e, along which v_1 is; w_p is the speed at which the lobes turn. Written
+//! so, a thin film keeps its digits. h and G are trigonometric polynomials of the highest order of the lobes; there is no
+//! other limit to the shape.
+
+use crate::laws::guide::journal::{Harmonic, JournalMotion};
+use crate::scalar::{Base, elementary, math};
+
+/// A wave of the surface, which thins the film by `height[0] cos(n d) + height[1] sin(n d)`.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Lobe {
+    /// n >= 2.
+    pub order: u32,
+    /// A_n and B_n, m.
+    pub height: [f64; 2],
+    /// Their rates in axes that turn with the surface, m/s.
+    pub rate: [f64; 2],
+}
+
+/// The gap at one state, in axes along the eccentricity and across it.
+pub(super) struct Gap<'a> {
+    /// e, m.
+    pub eccentricity: f64,
+    /// C - e, m.
+    pub thinnest: f64,
+    /// v_1 and v_2, m/s.
+    pub velocity: [f64; 2],
+    /// w_1 + w_2, rad/s.
+    pub turning: f64,
+    /// R (w_1 - w_2), m/s.
+    pub rolling: f64,
+    /// Speed at which the lobes turn, rad/s.
+    pub lobe_speed: f64,
+    /// Factor of dh/dt in G: 2, or 0 for a film that is not squeezed.
+    pub squeeze: f64,
+    /// Lobes in any order; those in ascending order take least time.
+    pub lobes: &'a [Lobe],
+}
+
+/// The gap at one place, or at several.
+#[derive(Clone, Copy)]
+pub(super) struct Place<B> {
+    /// Direction from the journal to the bush.
+    pub cos: B,
+    pub sin: B,
+    /// h and its derivatives over d, m.
+    pub film: [B; 4],
+    /// The part of dh/dd that the lobes make, m.
+    pub lobe_slope: B,
+    /// G and its derivatives over d, m/s.
+    pub opening: [B; 3],
+    /// u_1 - u_2, m/s.
+    pub sliding: B,
+}
+
+impl Lobe {
+    /// One harmonic of a profile that is turned by this angle, rad.
+    pub fn of(harmonic: &Harmonic, turned: f64) -> Self {
+        let Harmonic { order, amplitude, phase } = *harmonic;
+        let (sin, cos) = math::sin_cos(f64::from(order) * turned + phase);
+        Self { order, height: [amplitude * cos, -amplitude * sin], rate: [0.0; 2] }
+    }
+}
+
+impl<'a> Gap<'a> {
+    /// Of a journal of `radius` and a bush with this clearance, both in m, at an eccentricity `e` (m) in this direction.
+    pub fn new(
+        [radius, clearance]: [f64; 2],
+        motion: &JournalMotion<f64>,
+        e: f64,
+        [cos, sin]: [f64; 2],
+        lobes: &'a [Lobe],
+    ) -> Self {
+        let [vy, vz] = motion.velocity;
+        Self {
+            eccentricity: e,
+            thinnest: clearance - e,
+            velocity: [vy * cos + vz * sin, vz * cos - vy * sin],
+            turning: motion.journal_speed + motion.bush_speed,
+            rolling: radius * (motion.journal_speed - motion.bush_speed),
+            lobe_speed: motion.profile_speed,
+            squeeze: 2.0,
+            lobes,
+        }
+    }
+
+    /// Highest order of h and G, at least 1.
+    pub fn order(&self) -> u32 {
+        self.lobes.iter().map(|lobe| lobe.order).fold(1, u32::max)
+    }
+
+    /// Largest height of lobes, m, and not less than any |G|, m/s.
+    pub fn bounds(&self) -> [f64; 2] {
+        let [mut height, mut slope, mut rate] = [0.0; 3];
+        for lobe in self.lobes {
+            let size = |[a, b]: [f64; 2]| (a * a + b * b).sqrt();
+            height += size(lobe.height);
+            slope += f64::from(lobe.order) * size(lobe.height);
+            rate += size(lobe.rate);
+        }
+        let [v_1, v_2] = self.velocity;
+        let closing = v_1.abs() + v_2.abs() + rate + self.lobe_speed.abs() * slope;
+        [height, self.turning.abs() * (self.eccentricity + slope) + self.squeeze * closing]
+    }
+
+    /// The gap at `d`, rad, from -pi to pi.
+    #[inline(always)]
+    pub fn at<B: Base>(&self, d: B) -> Place<B> {
+        let (sin_half, cos_half) = elementary::sin_cos(d * 0.5);
+        let square = sin_half * sin_half;
+        let (sin, cos) = (sin_half * cos_half * 2.0, -(square * 2.0) + 1.0);
+        let e = self.eccentricity;
+        let mut film = [square * (2.0 * e) + self.thinnest, sin * e, cos * e, -(sin * e)];
+        let [v_1, v_2] = self.velocity;
+        let closing = cos * v_1 + sin * v_2;
+        let mut rate = [-closing, sin * v_1 - cos * v_2, closing];
+        let zero = d.splat(0.0);
+        let mut lobe_slope = zero;
+        // Cosine and sine of n d.
+        let (mut n, mut wave) = (1, [cos, sin]);
+        for lobe in self.lobes {
+            if lobe.order < n {
+                (n, wave) = (1, [cos, sin]);
+            }
+            while n < lobe.order {
+                let [c, s] = wave;
+                (n, wave) = (n + 1, [c * cos - s * sin, s * cos + c * sin]);
+            }
+            let (w, w_dot) = (derivatives(wave, n, lobe.height), derivatives(wave, n, lobe.rate));
+            lobe_slope -= w[1];
+            for (film, w) in film.iter_mut().zip(w) {
+                *film -= w;
+            }
+            for k in 0..3 {
+                rate[k] += w[k + 1] * self.lobe_speed - w_dot[k];
+            }
+        }
+        let mut opening = [zero; 3];
+        for k in 0..3 {
+            opening[k] = film[k + 1] * self.turning + rate[k] * self.squeeze;
+        }
+        Place { cos, sin, film, lobe_slope, opening, sliding: cos * v_2 - sin * v_1 + self.rolling }
+    }
+}
+
+/// a cos + b sin of order `n` with its derivatives.
+#[inline(always)]
+fn derivatives<B: Base>([cos, sin]: [B; 2], n: u32, [a, b]: [f64; 2]) -> [B; 4] {
+    let n = f64::from(n);
+    let (even, odd) = (cos * a + sin * b, (cos * b - sin * a) * n);
+    [even, odd, -(even * (n * n)), -(odd * (n * n))]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::laws::guide::journal::tests::motion;
+
+    fn lobes() -> [Lobe; 2] {
+        let roundness = [
+            Harmonic { order: 5, amplitude: 3e-6, phase: 0.4 },
+            Harmonic { order: 2, amplitude: -8e-6, phase: 2.0 },
+        ];
+        roundness.map(|harmonic| Lobe::of(&harmonic, 0.6f64.asin() - 0.3))
+    }
+
+    fn gap(lobes: &[Lobe]) -> Gap<'_> {
+        let m = motion([120e-6, 90e-6], [0.02, -0.1], 142.5);
+        Gap::new([46e-3, 0.2e-3], &m, 150e-6, [0.8, 0.6], lobes)
+    }
+
+    #[test]
+    fn derivatives_match_central_differences() {
+        let (lobes, step) = (lobes(), 1e-5);
+        let gap = gap(&lobes);
+        for i in -30..30 {
+            let d = 0.1 * f64::from(i);
+            let [low, at, high] = [d - step, d, d + step].map(|d| gap.at(d));
+            let check = |name: &str, exact: f64, [a, b]: [f64; 2], scale: f64| {
+                let error = exact - (b - a) / (2.0 * step);
+                assert!(error.abs() < 1e-8 * scale, "{name} at {d}: {exact} off by {error}");
+            };
+            for k in 0..3 {
+                check("film", at.film[k + 1], [low.film[k], high.film[k]], 2e-3);
+            }
+            for k in 0..2 {
+                check("opening", at.opening[k + 1], [low.opening[k], high.opening[k]], 1.0);
+            }
+        }
+    }
+
+    #[test]
+    fn lobes_that_turn_are_lobes_that_grow_and_shrink() {
+        let lobes = lobes();
+        let turning = gap(&lobes);
+        let rates = lobes.map(|lobe| {
+            let [a, b] = lobe.height;
+            let speed = f64::from(lobe.order) * turning.lobe_speed;
+            Lobe { rate: [-speed * b, speed * a], ..lobe }
+        });
+        let growing = Gap { lobe_speed: 0.0, ..gap(&rates) };
+        let [height, opening] = turning.bounds();
+        for i in -30..30 {
+            let d = 0.1 * f64::from(i);
+            let (a, b) = (turning.at(d), growing.at(d));
+            assert_eq!(a.film, b.film);
+            for (a, b) in a.opening.into_iter().zip(b.opening) {
+                assert!((a - b).abs() < 1e-14, "{a} {b}");
+            }
+            assert!(a.opening[0].abs() <= opening);
+            assert!(a.film[0] >= turning.thinnest - height && height < 12e-6);
+        }
+    }
+}

@@ -1,0 +1,379 @@
+//! Integrals of pressure and shear over the circumference in panels of sixteen places, one block of lanes each.
+//!
+//! Panels lie between breaks. Beyond the cap, a piece is mapped by d = middle - half cos(x), because t_c is a square root of
+//! the distance from the place where s = s_cap. A panel is halved until the last two terms of the Legendre series of the
+//! pressure and of the stress through its places are small; those of a smooth function fall as a geometric series, and the
+//! error of the sum is about the square of the last. Force and derivatives are sums over the same places.
+
+use crate::laws::guide::gap::Gap;
+use crate::laws::guide::land::{Land, OUTPUTS, VELOCITIES, over_positions, over_velocities, tangential};
+use crate::scalar::{Columns, Lanes, Numeric, Pack, WIDEST, ZEROS, dispatch, elementary};
+use pulp::{Arch, Simd};
+use std::f64::consts::PI;
+
+/// Halvings of a panel; reached only by states that are not finite.
+const DEEPEST: u32 = 14;
+/// Largest share that the last terms of the series of a panel may have.
+const TAIL: f64 = 1e-6;
+/// Widest panel, rad.
+const WIDEST_PANEL: f64 = 1.6;
+/// Panels per period of the highest order of the gap, at least.
+const PANELS_PER_PERIOD: f64 = 1.0;
+/// Round-off of G relative to its largest part.
+const ROUND_OFF: f64 = 1e-11;
+
+/// Sums over the places of all panels, lane by lane.
+pub(super) struct Sums<'a> {
+    /// Outputs.
+    pub values: [Lanes; OUTPUTS],
+    /// Their derivatives over all variables, over velocities only, or none.
+    pub slopes: &'a mut [[Lanes; OUTPUTS]],
+}
+
+/// Each output.
+pub(super) fn totals(lanes: &[Lanes; OUTPUTS]) -> [f64; OUTPUTS] {
+    lanes.each_ref().map(total)
+}
+
+/// Sum of all lanes, in an order that lets neighbours be added at a time.
+#[inline]
+fn total(lanes: &Lanes) -> f64 {
+    let mut sums = *lanes;
+    for half in [8, 4, 2, 1] {
+        for i in 0..half {
+            sums[i] += sums[i + half];
+        }
+    }
+    sums[0]
+}
+
+/// Integrator over the panels of one state.
+pub(super) struct Panels<'a> {
+    pub land: Land,
+    pub gap: &'a Gap<'a>,
+    /// Not less than any |G|, m/s.
+    pub largest_opening: f64,
+    pub instructions: Arch,
+    pub sums: Sums<'a>,
+}
+
+/// Part of the circle between two breaks, or of its map.
+#[derive(Clone, Copy)]
+struct Piece {
+    /// Whether d = middle - half cos(x); else d = x.
+    mapped: bool,
+    middle: f64,
+    half: f64,
+}
+
+impl Panels<'_> {
+    /// Adds the film between `from` and `to`; `capped` where s > s_cap.
+    pub fn add(&mut self, from: f64, to: f64, capped: bool) {
+        // Written so that a NaN leads nowhere.
+        let exists = to > from;
+        if !exists {
+            return;
+        }
+        let piece = Piece { mapped: capped, middle: 0.5 * (from + to), half: 0.5 * (to - from) };
+        let widest = WIDEST_PANEL.min(2.0 * PI / (PANELS_PER_PERIOD * f64::from(self.gap.order())));
+        let panels = ((to - from) / widest).ceil().max(if capped { 2.0 } else { 1.0 });
+        let (start, width) = if capped { (0.0, PI / panels) } else { (from, (to - from) / panels) };
+        for i in 0..panels as usize {
+            let a = start + i as f64 * width;
+            self.panel(&piece, a, a + width, 0);
+        }
+    }
+
+    fn panel(&mut self, piece: &Piece, from: f64, to: f64, depth: u32) {
+        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+        let panel = Panel { land: &self.land, gap: self.gap, piece, middle, half };
+        let mut found = Found { outputs: [ZEROS; OUTPUTS], pressure: ZEROS, stress: ZEROS, cubes: ZEROS };
+        dispatch(self.instructions, Values { panel: &panel, found: &mut found });
+        let noise = ROUND_OFF * self.land.area * self.land.peak_scale * self.largest_opening;
+        if depth < DEEPEST && !found.suits(noise) {
+            self.panel(piece, from, middle, depth + 1);
+            self.panel(piece, middle, to, depth + 1);
+            return;
+        }
+        for (sum, output) in self.sums.values.iter_mut().zip(&found.outputs) {
+            for (sum, output) in sum.iter_mut().zip(output) {
+                *sum += output;
+            }
+        }
+        if !self.sums.slopes.is_empty() {
+            dispatch(self.instructions, Slopes { panel: &panel, slopes: self.sums.slopes });
+        }
+    }
+
+    /// Adds what the ends of wet arcs do: the jump of the pressure there, if `jumps`, and to the derivatives that they move.
+    /// Each is an angle in rad and +1 at the end of an arc, -1 at its start.
+    pub fn add_ends(&mut self, ends: &[[f64; 2]], jumps: bool) {
+        if !jumps && self.sums.slopes.len() <= VELOCITIES {
+            return;
+        }
+        let jump = if jumps { -0.5 / self.land.radius } else { 0.0 };
+        for chunk in ends.chunks(WIDEST) {
+            let (mut angles, mut sides) = (ZEROS, ZEROS);
+            for (i, end) in chunk.iter().enumerate() {
+                [angles[i], sides[i]] = *end;
+            }
+            let Self { land, gap, sums, .. } = self;
+            let ends = Ends { land, gap, angles: &angles, sides: &sides, count: chunk.len(), jump, sums };
+            dispatch(self.instructions, ends);
+        }
+    }
+}
+
+/// Places of a panel.
+struct Panel<'a> {
+    land: &'a Land,
+    gap: &'a Gap<'a>,
+    piece: &'a Piece,
+    middle: f64,
+    half: f64,
+}
+
+impl Panel<'_> {
+    /// Places (rad) and their weights (rad) in the sums, of a group.
+    #[inline(always)]
+    fn places<S: Simd, const K: usize>(&self, simd: S, first: usize) -> [Pack<S, K>; 2] {
+        let x = Pack::load(simd, &NODES[first..]) * self.half + self.middle;
+        let weight = Pack::load(simd, &WEIGHTS[first..]) * self.half;
+        if !self.piece.mapped {
+            return [x, weight];
+        }
+        let (sin, cos) = elementary::sin_cos(x);
+        let Piece { middle, half, .. } = *self.piece;
+        [-(cos * half) + middle, weight * sin * half]
+    }
+}
+
+/// What the film does at the places of a panel.
+struct Found {
+    /// Parts of the sums.
+    outputs: [Lanes; OUTPUTS],
+    /// Parts of the integrals of pressure, viscosity over film, and the inverse cube of the film.
+    pressure: Lanes,
+    stress: Lanes,
+    cubes: Lanes,
+}
+
+impl Found {
+    /// Whether the last terms of the series are small, or at least of round-off. A NaN suits, or nothing would.
+    fn suits(&self, noise: f64) -> bool {
+        let rough = tail(&self.pressure) > TAIL * total(&self.pressure) + noise * total(&self.cubes)
+            || tail(&self.stress) > TAIL * total(&self.stress);
+        !rough
+    }
+}
+
+/// Size of the last two terms of the series.
+#[inline]
+fn tail(parts: &Lanes) -> f64 {
+    let mut products = *parts;
+    for (product, term) in products.iter_mut().zip(&LAST_TERMS) {
+        *product *= term;
+    }
+    total(&products).abs()
+}
+
+struct Values<'a> {
+    panel: &'a Panel<'a>,
+    found: &'a mut Found,
+}
+
+impl Columns for Values<'_> {
+    fn rows(&self) -> usize {
+        WIDEST
+    }
+
+    #[inline(always)]
+    fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
+        let [d, weight] = self.panel.places::<S, K>(simd, first);
+        let place = self.panel.gap.at(d);
+        let (stress, mean, inverse) = self.panel.land.at(&place);
+        let outputs = stress.outputs(place.cos, place.sin);
+        let Found { outputs: columns, pressure, stress: stresses, cubes } = &mut *self.found;
+        for (column, output) in columns.iter_mut().zip(&outputs) {
+            (*output * weight).store(&mut column[first..]);
+        }
+        (stress.normal * weight).store(&mut pressure[first..]);
+        (mean.viscosity * inverse * weight).store(&mut stresses[first..]);
+        (inverse * inverse * inverse * weight).store(&mut cubes[first..]);
+    }
+}
+
+/// Derivatives of the sums of a panel at places that stay.
+struct Slopes<'a> {
+    panel: &'a Panel<'a>,
+    slopes: &'a mut [[Lanes; OUTPUTS]],
+}
+
+impl Slopes<'_> {
+    // Loops over numbers are written out by the compiler, those over iterators here are not.
+    #[allow(clippy::needless_range_loop)]
+    #[inline(always)]
+    fn add<S: Simd, const K: usize, const N: usize>(&mut self, simd: S, first: usize) {
+        let Panel { gap, land, .. } = *self.panel;
+        let [d, weight] = self.panel.places::<S, K>(simd, first);
+        let place = gap.at(d);
+        let outputs = land.with_slopes::<S, K, N>(&place).outputs(place.cos, place.sin);
+        let (of_velocities, of_positions) = self.slopes.split_at_mut(VELOCITIES);
+        for k in 0..OUTPUTS {
+            let mut local = outputs[k].eps;
+            for slope in &mut local {
+                *slope = *slope * weight;
+            }
+            let velocities = over_velocities(gap, &place, local[0], local[1]);
+            for i in 0..VELOCITIES {
+                velocities[i].add_to(&mut of_velocities[i][k][first..]);
+            }
+            if N > 2 {
+                let positions = over_positions(gap, &place, local[0], local[2], local[N - 1]);
+                for i in 0..2 {
+                    positions[i].add_to(&mut of_positions[i][k][first..]);
+                }
+            }
+        }
+    }
+}
+
+impl Columns for Slopes<'_> {
+    const PAIRED: bool = false;
+
+    fn rows(&self) -> usize {
+        WIDEST
+    }
+
+    #[inline(always)]
+    fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
+        if self.slopes.len() > VELOCITIES {
+            self.add::<S, K, 4>(simd, first);
+        } else {
+            self.add::<S, K, 2>(simd, first);
+        }
+    }
+}
+
+#[inline(always)]
+fn add<S: Simd, const K: usize>(more: &[Pack<S, K>; OUTPUTS], sums: &mut [Lanes; OUTPUTS], first: usize) {
+    for (sum, more) in sums.iter_mut().zip(more) {
+        more.add_to(&mut sum[first..]);
+    }
+}
+
+/// The ends of wet arcs.
+struct Ends<'a, 'b> {
+    land: &'a Land,
+    gap: &'a Gap<'a>,
+    angles: &'a Lanes,
+    sides: &'a Lanes,
+    count: usize,
+    /// Tangential force there over the pressure times the film; 0 for none.
+    jump: f64,
+    sums: &'a mut Sums<'b>,
+}
+
+impl Columns for Ends<'_, '_> {
+    const PAIRED: bool = false;
+
+    fn rows(&self) -> usize {
+        self.count
+    }
+
+    #[inline(always)]
+    fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
+        let side = Pack::<S, K>::load(simd, &self.sides[first..]);
+        let place = self.gap.at(Pack::load(simd, &self.angles[first..]));
+        let (cos, sin, film) = (place.cos, place.sin, place.film[0]);
+        let stress = self.land.with_slopes::<S, K, 4>(&place);
+        let of_jump = film * side * self.jump;
+        let along = stress.normal.re * of_jump;
+        let radius = self.land.radius;
+        add(&tangential(along, cos, sin, radius), &mut self.sums.values, first);
+        if self.sums.slopes.is_empty() {
+            return;
+        }
+        let (of_velocities, of_positions) = self.sums.slopes.split_at_mut(VELOCITIES);
+        // The film at an end stays that of the layer.
+        let zero = side.like(0.0);
+        let over_opening = stress.normal.eps[0];
+        let velocities = over_velocities(self.gap, &place, over_opening, zero);
+        for (sums, over) in of_velocities.iter_mut().zip(&velocities) {
+            add(&tangential(*over * of_jump, cos, sin, radius), sums, first);
+        }
+        // How far an end moves with y and z; where the arc is about to open or close, it has no derivative.
+        let inverse = side.like(1.0) / place.film[1];
+        let inverse = Pack::select(inverse.abs().below(1e100), inverse, zero);
+        let moved = [cos * inverse, sin * inverse];
+        let density = stress.outputs(cos, sin);
+        let positions = over_positions(self.gap, &place, over_opening, zero, zero);
+        for ((sums, over), moved) in of_positions.iter_mut().zip(&positions).zip(&moved) {
+            let normal = *over + over_opening * place.opening[1] * *moved;
+            let turned = along * *moved;
+            let mut more = tangential(normal * of_jump, cos, sin, radius);
+            more[2] -= turned * cos;
+            more[3] -= turned * sin;
+            for (more, density) in more.iter_mut().zip(&density) {
+                *more += density.re * side * *moved;
+            }
+            add(&more, sums, first);
+        }
+    }
+}
+
+/// Nodes of the Gauss-Legendre rule on [-1, 1].
+const NODES: Lanes = mirrored(&POSITIVE_NODES, -1.0);
+/// Their weights.
+const WEIGHTS: Lanes = mirrored(&POSITIVE_WEIGHTS, 1.0);
+/// 29 P_14 + 31 P_15 at the nodes: with weights, the size of the last two terms of the Legendre series of what stands there.
+const LAST_TERMS: Lanes = last_terms();
+
+const POSITIVE_NODES: [f64; WIDEST / 2] = [
+    0.095_012_509_837_637_44,
+    0.281_603_550_779_258_9,
+    0.458_016_777_657_227_37,
+    0.617_876_244_402_643_8,
+    0.755_404_408_355_003,
+    0.865_631_202_387_831_8,
+    0.944_575_023_073_232_6,
+    0.989_400_934_991_649_9,
+];
+const POSITIVE_WEIGHTS: [f64; WIDEST / 2] = [
+    0.189_450_610_455_068_5,
+    0.182_603_415_044_923_58,
+    0.169_156_519_395_002_54,
+    0.149_595_988_816_576_73,
+    0.124_628_971_255_533_88,
+    0.095_158_511_682_492_79,
+    0.062_253_523_938_647_894,
+    0.027_152_459_411_754_096,
+];
+
+const fn mirrored(positive: &[f64; WIDEST / 2], sign: f64) -> Lanes {
+    let mut all = ZEROS;
+    let mut i = 0;
+    while i < WIDEST / 2 {
+        all[WIDEST / 2 + i] = positive[i];
+        all[WIDEST / 2 - 1 - i] = sign * positive[i];
+        i += 1;
+    }
+    all
+}
+
+const fn last_terms() -> Lanes {
+    let mut all = ZEROS;
+    let mut i = 0;
+    while i < WIDEST {
+        let x = NODES[i];
+        let (mut before, mut now, mut k) = (1.0, x, 1.0);
+        while k < 14.0 {
+            (before, now) = (now, ((2.0 * k + 1.0) * x * now - k * before) / (k + 1.0));
+            k += 1.0;
+        }
+        let next = (29.0 * x * now - 14.0 * before) / 15.0;
+        all[i] = 29.0 * now + 31.0 * next;
+        i += 1;
+    }
+    all
+}
