@@ -12,7 +12,7 @@
 # make random   forty thousand random scenes; about an hour
 # make statistics  long runs of all methods in their statistics: docs/results/statistics.md
 # make accuracy  what accuracy costs in time, beside other solvers: docs/results/accuracy.md
-# make bench     time of a force evaluation and of a step, throughput of cases
+# make bench     time of a force evaluation and of a step, cost of roundness, throughput of cases
 # make build-times  what building and testing takes: docs/building.md; half an hour
 # make header    writes include/cagedyn.h and schemas/ anew after a change
 # make build     library and tool, for make install
