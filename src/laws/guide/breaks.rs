@@ -401,12 +401,14 @@ impl Columns for Roots<'_> {
         let mut x = Pack::load(simd, &angle[first..]);
         x = Pack::select(within(x, a, b), x, middle);
         let mut searching = x.like(1.0);
+        let (mut kept, mut film) = (x, x);
         for _ in 0..MOST_STEPS {
             let place = self.search.gap.at(x);
             let [value, slope, curvature] = self.search.function(of, &place);
+            let active = searching.above(0.5);
             // Where a function turns, the last step changes it by less than its digits.
-            value.store(&mut self.value[first..]);
-            place.film[0].store(&mut self.film[first..]);
+            kept = Pack::select(active, value, kept);
+            film = Pack::select(active, place.film[0], film);
             let (f, df) = (Pack::select(turns, slope, value), Pack::select(turns, curvature, slope));
             let before = (f * sign).above(0.0);
             a = Pack::select(before, x, a);
@@ -415,7 +417,6 @@ impl Columns for Roots<'_> {
             let next = Pack::select(within(newton, a, b), newton, (a + b) * 0.5);
             let exact = f.at_least(0.0) & f.at_most(0.0);
             let next = Pack::select(exact, x, next);
-            let active = searching.above(0.5);
             let last = (next - x).abs().less_or_equal(x.abs() * LAST_STEP[0] + LAST_STEP[1]);
             x = Pack::select(active, next, x);
             searching = Pack::select(last, x.like(0.0), searching);
@@ -424,5 +425,7 @@ impl Columns for Roots<'_> {
             }
         }
         x.store(&mut angle[first..]);
+        kept.store(&mut self.value[first..]);
+        film.store(&mut self.film[first..]);
     }
 }

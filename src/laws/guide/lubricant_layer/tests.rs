@@ -215,9 +215,11 @@ fn all_instructions_give_the_same_bits_and_derivatives_the_same_values() {
     all.extend(pulp::x86::V3::try_new().map(Arch::V3));
     let bits = |f: &FilmForce<f64>| (self::all(f).map(f64::to_bits), f.minimum_film.to_bits());
     for roundness in [vec![], profile] {
-        for (e, v) in [(100e-6, 0.0), (150e-6, -0.1), (206e-6, 0.1), (209e-6, 0.3)] {
+        for i in 0..100 {
+            let (e, v) = (100e-6 + f64::from(i) * 1.09e-6, 0.3 * (f64::from(i) * 0.7).sin());
             let l = LubricantLayer { roundness: roundness.clone(), ..layer() };
             let m = motion([0.6 * e, -0.8 * e], [v, -1.1 * v], 142.5);
+            let m = JournalMotion { profile_angle: 0.37 * f64::from(i), ..m };
             let portable = l.film(l.viscosity, Arch::Scalar).force(&m).unwrap();
             for instructions in &all {
                 assert_eq!(bits(&l.film(l.viscosity, *instructions).force(&m).unwrap()), bits(&portable));
