@@ -20,10 +20,10 @@
 //!
 //! The width is integrated in closed form. Around the circumference the pressure gradient is integrated by parts, which
 //! leaves Gauss sums in lanes between the places where the integrand has a kink (`breaks`, `panels`). Against a brute-force
-//! integral, the force was off by at most 4e-11 of the largest force in 1500 random states of round surfaces, and by 1e-12 in
-//! 300 with roundness (tests/sweeps/film_quadrature). The largest of these errors are of states that dip into the layer by less
-//! than some 1e-5 of the film: there, the rounding of e alone moves the ends of the wet arc, and the error grows as the
-//! inverse of that depth.
+//! integral, the force was off by at most 7e-11 of the largest force in 3000 random states of round surfaces, and by 1e-12 in
+//! 600 with roundness (tests/sweeps/film_quadrature, with its seeds and with others). The largest of these errors are of states
+//! that dip into the layer by less than some 1e-5 of the film: there, the rounding of e alone moves the ends of the wet arc,
+//! and the error grows as the inverse of that depth.
 
 use crate::laws::fluid::Fluid;
 use crate::laws::guide::barus_film::BarusFilm;
