@@ -162,7 +162,8 @@ fn guide_films() {
             let f = forces.unwrap_or_else(|e| panic!("{motion:?}: {e:?}"));
             let [y, z] = f.force();
             assert!(y.is_finite() && z.is_finite() && f.moment.is_finite(), "{motion:?}: {f:?}");
-            assert!(f.minimum_film > 0.0, "{motion:?}: {f:?}");
+            let film = if i % 2 == 0 { bearing.minimum(&motion) } else { layer.minimum(&motion) };
+            assert!(film > 0.0, "{motion:?}: {film}");
             let [vy, vz] = motion.velocity;
             let size = y.hypot(z) * vy.hypot(vz);
             assert!(turns || y * vy + z * vz <= 1e-9 * size, "{motion:?}: {f:?}");

@@ -299,6 +299,10 @@ impl SharedPair for Guide {
         self.side.on_cage(&force.of_law, &self.journal_motion(shared))
     }
 
+    fn smallest_gap(&self, shared: &[Motion<f64>; SHARED]) -> f64 {
+        self.law.smallest_gap(&self.journal_motion(shared))
+    }
+
     fn add_slopes(&self, motions: &Motions, fluid: Fluid, sums: &mut SlopeSums<'_>) {
         let m = self.journal_motion(&motions.shared);
         let motion = lift(&m);

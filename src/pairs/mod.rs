@@ -300,6 +300,9 @@ pub(crate) trait SharedPair: Debug + Send + Sync {
     /// The force on the first body by its parts.
     fn parts(&self, shared: &[Motion<f64>; SHARED], force: &SharedForce) -> GuideForce<f64>;
 
+    /// Smallest gap between the bodies, m.
+    fn smallest_gap(&self, shared: &[Motion<f64>; SHARED]) -> f64;
+
     /// Adds the derivatives of its forces over the coordinates of both bodies.
     fn add_slopes(&self, motions: &Motions, fluid: Fluid, sums: &mut SlopeSums<'_>);
 

@@ -32,6 +32,8 @@ const MOST_OF_STEP: usize = FUNCTIONS + 1;
 pub(super) const BREAKS: usize = 2 * WIDEST;
 /// Largest number of Newton steps; each that fails to be one halves a bracket.
 const MOST_STEPS: usize = 60;
+/// A drop of the film between two points by this share of it is looked at.
+const THIN: f64 = 0.25;
 /// A Newton step so small, relative to the angle or in rad, is the last one: the next would be of round-off.
 const LAST_STEP: [f64; 2] = [1e-8, 1e-16];
 
@@ -65,8 +67,8 @@ pub(super) struct Stretch {
     pub last_step: usize,
     /// Whether each of the functions is negative at its start.
     pub negative: [bool; FUNCTIONS],
-    /// Smallest film (m) of those looked at, and its place (rad).
-    pub thinnest: [f64; 2],
+    /// Smallest film of those looked at, m.
+    pub thinnest: f64,
     breaks: [Break; BREAKS],
     count: usize,
 }
@@ -79,7 +81,7 @@ impl Stretch {
             to: -PI,
             last_step: 0,
             negative: [false; FUNCTIONS],
-            thinnest: [f64::INFINITY, 0.0],
+            thinnest: f64::INFINITY,
             breaks: [Break::default(); BREAKS],
             count: 0,
         }
@@ -100,11 +102,11 @@ impl Stretch {
         self.count += 1;
     }
 
-    fn look_at(&mut self, film: f64, angle: f64) {
+    fn look_at(&mut self, film: f64) {
         // A NaN is kept.
-        let thicker = film >= self.thinnest[0] || self.thinnest[0].is_nan();
+        let thicker = film >= self.thinnest || self.thinnest.is_nan();
         if !thicker {
-            self.thinnest = [film, angle];
+            self.thinnest = film;
         }
     }
 }
@@ -177,8 +179,14 @@ struct Sampled {
 }
 
 impl Sampled {
+    /// Whether a film that seems to drop by this between these points (m) has to be known better. Forces only ask
+    /// whether there is one.
+    fn may_be_thinnest(&self, k: usize, drop: f64, aims: Aims) -> bool {
+        aims == Aims::Minima || drop > THIN * self.film[k].min(self.film[k + 1])
+    }
+
     /// Adds the brackets of step `k`.
-    fn step(&self, k: usize, brackets: &mut Brackets) {
+    fn step(&self, k: usize, aims: Aims, brackets: &mut Brackets) {
         let [before, after] = [self.signs[k] as u32, self.signs[k + 1] as u32];
         let changed = before ^ after;
         let ends = [self.angles[k], self.angles[k + 1]];
@@ -199,17 +207,29 @@ impl Sampled {
             }
             // Where slopes change evenly; the value there, seen from either end.
             let turn = da / (da - db);
-            let seen = [a + 0.5 * da * turn * length, b - 0.5 * db * (1.0 - turn) * length];
+            let rise = [0.5 * da * turn * length, -0.5 * db * (1.0 - turn) * length];
+            let seen = [a + rise[0], b + rise[1]];
             let sign = if negative { -1.0 } else { 1.0 };
             let nearly_zero = sign * seen[0] < (seen[0] - seen[1]).abs();
             let guess = ends[0] + turn * length;
             if changed & value == 0 && rises != negative && nearly_zero {
                 brackets.add(ends, guess, rises, of, Aim::Turn { negative });
-            } else if of == DRY && rises {
+            } else if of == DRY && rises && self.may_be_thinnest(k, -rise[0].min(rise[1]), aims) {
                 brackets.add(ends, guess, rises, of, Aim::Lowest);
             }
         }
     }
+}
+
+/// What is looked for on a circle.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Aims {
+    /// The smallest film.
+    Minima,
+    /// Where h = h_L and where G = 0.
+    Edges,
+    /// Where K = 0, too, with this c, 1/(m^2 s).
+    EdgesAndExcess(f64),
 }
 
 /// Place from 0 to 1 where a function with these values and slopes at 0 and 1 is zero, nearly: its inverse is a cubic with
@@ -226,8 +246,7 @@ pub(super) struct Search<'a> {
     pub gap: &'a Gap<'a>,
     /// h_L, m; infinite where everything is wet.
     pub layer: f64,
-    /// c, 1/(m^2 s), where s_cap may be reached.
-    pub excess: Option<f64>,
+    pub aims: Aims,
     pub instructions: Arch,
 }
 
@@ -252,14 +271,14 @@ impl Search<'_> {
             if block == 0 {
                 let signs = sampled.signs[0] as u32;
                 out.negative = std::array::from_fn(|of| signs >> of & 1 == 1);
-                out.look_at(sampled.film[0], sampled.angles[0]);
+                out.look_at(sampled.film[0]);
             }
             for k in 0..STEPS.min(steps - start) {
                 if sampled.signs[k] != sampled.signs[k + 1] {
                     if !brackets.has_room() {
                         break 'blocks;
                     }
-                    sampled.step(k, &mut brackets);
+                    sampled.step(k, self.aims, &mut brackets);
                 }
                 (out.last_step, out.to) = (start + k + 1, sampled.angles[k + 1]);
             }
@@ -284,7 +303,7 @@ impl Search<'_> {
                 continue;
             }
             if of == DRY {
-                out.look_at(film[i], angle);
+                out.look_at(film[i]);
             }
             let [a, b] = [brackets.ends[0][i], brackets.ends[1][i]];
             let Aim::Turn { negative } = aim else { continue };
@@ -304,9 +323,9 @@ impl Search<'_> {
     #[inline(always)]
     fn functions<B: Base>(&self, p: &Place<B>) -> [[B; 3]; FUNCTIONS] {
         let ([h, h1, h2, _], [g, g1, g2]) = (p.film, p.opening);
-        let excess = match self.excess {
-            None => p.opening,
-            Some(c) => {
+        let excess = match self.aims {
+            Aims::Minima | Aims::Edges => p.opening,
+            Aims::EdgesAndExcess(c) => {
                 let square = h * h;
                 [
                     g + square * h * c,
@@ -347,7 +366,11 @@ impl Columns for Scan<'_> {
         let angle = (Pack::<S, K>::load(simd, &COUNTED[first..]) + self.start as f64) * step - PI;
         angle.store(&mut self.sampled.angles[first..]);
         let place = self.search.gap.at(angle);
-        let used = if self.search.excess.is_some() { FUNCTIONS } else { EXCESS };
+        let used = match self.search.aims {
+            Aims::Minima => OPENING,
+            Aims::Edges => EXCESS,
+            Aims::EdgesAndExcess(_) => FUNCTIONS,
+        };
         let zero = Pack::<S, K>::all(simd, 0.0);
         let mut signs = zero;
         let functions = self.search.functions(&place);

@@ -4,7 +4,7 @@
 //! integral over the motion in axes of the eccentricity, and these turn with the journal: what the angle of the lobes does
 //! is what turning everything else the other way does, and the force with it.
 
-use crate::laws::guide::breaks::{BREAKS, DRY, EXCESS, FUNCTIONS, OPENING, Search, Stretch};
+use crate::laws::guide::breaks::{Aims, BREAKS, DRY, EXCESS, FUNCTIONS, OPENING, Search, Stretch};
 use crate::laws::guide::gap::{Gap, Lobe};
 use crate::laws::guide::journal::{FilmForce, Harmonic, JournalMotion, NoFilm};
 use crate::laws::guide::land::{Land, OUTPUTS, VARIABLES, VELOCITIES};
@@ -15,6 +15,36 @@ use pulp::Arch;
 /// Most lobes of a gap; there is room for a few of them at no cost.
 const MOST_LOBES: usize = 64;
 const FEW_LOBES: usize = 8;
+
+/// Room for the lobes of a gap.
+struct Room {
+    few: [Lobe; FEW_LOBES],
+    many: Option<[Lobe; MOST_LOBES]>,
+}
+
+impl Room {
+    fn new() -> Self {
+        Self { few: [Lobe::default(); FEW_LOBES], many: None }
+    }
+
+    /// Lobes of a profile that is turned by `angle` (rad), seen from this direction.
+    fn lobes(&mut self, roundness: &[Harmonic], [cos, sin]: [f64; 2], angle: f64) -> &[Lobe] {
+        let room = if roundness.len() <= FEW_LOBES {
+            &mut self.few[..]
+        } else {
+            &mut self.many.insert([Lobe::default(); MOST_LOBES])[..]
+        };
+        if roundness.is_empty() {
+            return &[];
+        }
+        let turned = math::atan2(sin, cos) - angle;
+        let count = roundness.len().min(room.len());
+        for (lobe, harmonic) in room.iter_mut().zip(roundness) {
+            *lobe = Lobe::of(harmonic, turned);
+        }
+        &room[..count]
+    }
+}
 
 /// A film between journal and bush.
 pub(super) struct Film<'a> {
@@ -46,60 +76,64 @@ impl Film<'_> {
         if !exists {
             return Err(NoFilm { minimum_film: thinnest });
         }
-        if round && thinnest >= self.layer {
-            let [y, z] = m.position.map(change);
-            let [cos, sin] = direction;
-            return Ok(FilmForce::none(-(y * cos + z * sin) + thinnest));
+        // Lobes cannot reach further than all of them together.
+        let reach: f64 = self.roundness.iter().map(|harmonic| harmonic.amplitude.abs()).sum();
+        if thinnest - reach >= self.layer {
+            return Ok(FilmForce::none());
         }
-        let count = self.roundness.len().min(MOST_LOBES);
-        let (mut few, mut many);
-        let lobes = if count <= FEW_LOBES {
-            few = [Lobe::default(); FEW_LOBES];
-            &mut few[..count]
-        } else {
-            many = [Lobe::default(); MOST_LOBES];
-            &mut many[..count]
-        };
-        if !round {
-            let [cos, sin] = direction;
-            let turned = math::atan2(sin, cos) - motion.profile_angle;
-            for (lobe, harmonic) in lobes.iter_mut().zip(self.roundness) {
-                *lobe = Lobe::of(harmonic, turned);
-            }
-        }
+        let mut room = Room::new();
+        let lobes = room.lobes(self.roundness, direction, motion.profile_angle);
         let mut gap = Gap::new([self.land.radius, self.clearance], &motion, e, direction, lobes);
         if !self.squeezed {
             gap.squeeze = 0.0;
         }
         let gap = gap;
-        let mut room;
+        let mut rows;
         let slopes = match derivatives(m) {
             0 => &mut [][..],
             count => {
-                room = [[ZEROS; OUTPUTS]; VARIABLES];
-                &mut room[..count]
+                rows = [[ZEROS; OUTPUTS]; VARIABLES];
+                &mut rows[..count]
             }
         };
         let [height, largest_opening] = gap.bounds();
         let sums = Sums { values: [ZEROS; OUTPUTS], slopes };
         let instructions = self.instructions;
         let mut panels = Panels { land: self.land, gap: &gap, largest_opening, instructions, sums };
-        let thinnest = self.integrate(&mut panels, height)?;
-        Ok(self.lifted(&gap, direction, m, &panels.sums, thinnest))
+        self.integrate(&mut panels, height)?;
+        Ok(self.lifted(&gap, direction, m, &panels.sums))
     }
 
-    /// Sums over the circle; gives the smallest film (m) and its place (rad). Lobes have this height, m.
-    fn integrate(&self, panels: &mut Panels<'_>, height: f64) -> Result<[f64; 2], NoFilm> {
+    /// Smallest thickness, m.
+    pub fn minimum(&self, m: &JournalMotion<f64>) -> f64 {
+        let (e, direction) = eccentricity(m.position);
+        if self.roundness.is_empty() || !e.is_finite() {
+            return self.clearance - e;
+        }
+        let mut room = Room::new();
+        let lobes = room.lobes(self.roundness, direction, m.profile_angle);
+        let gap = Gap::new([self.land.radius, self.clearance], m, e, direction, lobes);
+        let search = Search { gap: &gap, layer: 0.0, aims: Aims::Minima, instructions: self.instructions };
+        let (steps, mut stretch) = (search.steps(), Stretch::new());
+        while stretch.last_step < steps {
+            search.next(steps, &mut stretch);
+        }
+        stretch.thinnest
+    }
+
+    /// Sums over the circle. Lobes have this height, m.
+    fn integrate(&self, panels: &mut Panels<'_>, height: f64) -> Result<(), NoFilm> {
         let Panels { gap, largest_opening, instructions, .. } = *panels;
         let excess = self.excess(gap, height, largest_opening);
-        let search = Search { gap, layer: self.layer, excess, instructions };
+        let aims = excess.map_or(Aims::Edges, Aims::EdgesAndExcess);
+        let search = Search { gap, layer: self.layer, aims, instructions };
         let (steps, mut stretch) = (search.steps(), Stretch::new());
         while stretch.last_step < steps {
             search.next(steps, &mut stretch);
             // Written so that a NaN counts as no film.
-            let exists = stretch.thinnest[0] > 0.0;
+            let exists = stretch.thinnest > 0.0;
             if !exists {
-                return Err(NoFilm { minimum_film: stretch.thinnest[0] });
+                return Err(NoFilm { minimum_film: stretch.thinnest });
             }
             let mut negative = stretch.negative;
             let mut from = stretch.from;
@@ -120,7 +154,7 @@ impl Film<'_> {
             }
             panels.add_ends(&ends[..count], self.within_arc);
         }
-        Ok(stretch.thinnest)
+        Ok(())
     }
 
     /// Whether the film does something where the functions of the breaks have these signs.
@@ -144,11 +178,9 @@ impl Film<'_> {
         [cos, sin]: [f64; 2],
         m: &JournalMotion<T>,
         sums: &Sums<'_>,
-        [thinnest, at]: [f64; 2],
     ) -> FilmForce<T> {
         let turn = |[a, b]: [T; 2]| [a * cos - b * sin, b * cos + a * sin];
         let mut out = totals(&sums.values).map(T::constant);
-        let mut film = T::constant(thinnest);
         if T::DERIVATIVES {
             let along = |v: [T; 2]| {
                 let [y, z] = v.map(change);
@@ -178,11 +210,9 @@ impl Film<'_> {
                     out[b] += turned * along;
                 }
             }
-            let (sin, cos) = math::sin_cos(at);
-            film -= y * cos + z * sin;
         }
         let [p_1, p_2, s_1, s_2, moment]: [T; OUTPUTS] = out;
-        FilmForce { pressure: turn([p_1, p_2]), shear: turn([s_1, s_2]), moment, minimum_film: film }
+        FilmForce { pressure: turn([p_1, p_2]), shear: turn([s_1, s_2]), moment }
     }
 }
 

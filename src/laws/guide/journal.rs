@@ -57,8 +57,6 @@ pub struct FilmForce<T> {
     pub shear: [T; 2],
     /// Moment about the centre of the journal, N m.
     pub moment: T,
-    /// Smallest film thickness, m.
-    pub minimum_film: T,
 }
 
 /// The surfaces touch or overlap somewhere.
@@ -69,11 +67,11 @@ pub struct NoFilm {
 }
 
 impl<T: Real> FilmForce<T> {
-    /// No force, with the surfaces `minimum_film` apart (m).
+    /// No force.
     #[inline]
-    pub fn none(minimum_film: T) -> Self {
+    pub fn none() -> Self {
         let zero = T::constant(0.0);
-        Self { pressure: [zero; 2], shear: [zero; 2], moment: zero, minimum_film }
+        Self { pressure: [zero; 2], shear: [zero; 2], moment: zero }
     }
 
     /// Pressure and shear together (y, z), N.

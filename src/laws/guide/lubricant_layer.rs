@@ -76,6 +76,11 @@ impl LubricantLayer {
         self.film(self.viscosity * fluid.relative_viscosity, Arch::new()).force(m)
     }
 
+    /// Smallest thickness, m.
+    pub fn minimum(&self, m: &JournalMotion<f64>) -> f64 {
+        self.film(self.viscosity, Arch::new()).minimum(m)
+    }
+
     /// The film with this viscosity in Pa s.
     fn film(&self, viscosity: f64, instructions: Arch) -> Film<'_> {
         let of_gradient = if self.pressure_shear == PressureShear::Absent { 0.0 } else { 1.0 };

@@ -32,7 +32,7 @@ use crate::laws::fluid::Fluid;
 use crate::laws::guide::journal::{FilmForce, JournalMotion, NoFilm};
 use crate::laws::guide::lubricant_layer::{LubricantLayer, PressureShear};
 use crate::laws::guide::short_bearing::ShortBearing;
-use crate::scalar::{Real, smoothstep};
+use crate::scalar::{Real, math, smoothstep};
 
 /// Film ratio from which on the share of the film is one to the last bit.
 const FULL_SHARE: f64 = 13.0;
@@ -87,8 +87,6 @@ pub struct GuideForce<T> {
     pub film_moment: T,
     /// Share of the film: 1 for a film alone, 0 for a solid contact alone.
     pub film_share: T,
-    /// Smallest gap, m.
-    pub minimum_film: T,
 }
 
 impl<T: Real> GuideForce<T> {
@@ -110,7 +108,6 @@ impl<T: Real> GuideForce<T> {
             moment: self.moment.value(),
             film_moment: self.film_moment.value(),
             film_share: self.film_share.value(),
-            minimum_film: self.minimum_film.value(),
         }
     }
 
@@ -131,6 +128,14 @@ impl GuideFilm {
         match self {
             GuideFilm::ShortBearing(film) => film.force(m, fluid),
             GuideFilm::LubricantLayer(film) => film.force(m, fluid),
+        }
+    }
+
+    /// Smallest thickness, m; zero or negative where the surfaces touch or overlap.
+    pub fn minimum(&self, m: &JournalMotion<f64>) -> f64 {
+        match self {
+            GuideFilm::ShortBearing(film) => film.minimum(m),
+            GuideFilm::LubricantLayer(film) => film.minimum(m),
         }
     }
 
@@ -164,14 +169,22 @@ impl GuideLaw {
         let gap = -e + self.free_clearance;
         match (&self.film, &self.solid) {
             (Some(film), None) => Ok(from_film(film.force(m, fluid)?, T::constant(1.0))),
-            (None, Some(solid)) => Ok(self.add_solid(solid, m, e, gap, apart(gap))),
+            (None, Some(solid)) => Ok(self.add_solid(solid, m, e, gap, apart())),
             (Some(film), Some(solid)) => {
                 let share = self.film_share(gap);
                 let film =
-                    if share.value() > 0.0 { from_film(film.force(m, fluid)?, share) } else { apart(gap) };
+                    if share.value() > 0.0 { from_film(film.force(m, fluid)?, share) } else { apart() };
                 Ok(self.add_solid(solid, m, e, gap, film))
             }
-            (None, None) => Ok(apart(gap)),
+            (None, None) => Ok(apart()),
+        }
+    }
+
+    /// Smallest gap, m: that of the film where there is one, else up to the highest place of the profile.
+    pub fn smallest_gap(&self, m: &JournalMotion<f64>) -> f64 {
+        match &self.film {
+            Some(film) => film.minimum(m),
+            None => self.free_clearance - math::hypot(m.position[0], m.position[1]),
         }
     }
 
@@ -225,8 +238,8 @@ impl GuideLaw {
 }
 
 #[inline]
-fn apart<T: Real>(gap: T) -> GuideForce<T> {
-    from_film(FilmForce::none(gap), T::constant(0.0))
+fn apart<T: Real>() -> GuideForce<T> {
+    from_film(FilmForce::none(), T::constant(0.0))
 }
 
 #[inline]
@@ -238,7 +251,6 @@ fn from_film<T: Real>(film: FilmForce<T>, share: T) -> GuideForce<T> {
         moment: film.moment * share,
         film_moment: film.moment * share,
         film_share: share,
-        minimum_film: film.minimum_film,
     }
 }
 

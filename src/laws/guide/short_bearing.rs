@@ -81,7 +81,12 @@ impl ShortBearing {
             let ([y, z], [fy, fz]) = (m.position, force);
             moment += (z * fy - y * fz) * 0.5;
         }
-        Ok(FilmForce { pressure: force, shear: [T::constant(0.0); 2], moment, minimum_film: film })
+        Ok(FilmForce { pressure: force, shear: [T::constant(0.0); 2], moment })
+    }
+
+    /// Smallest thickness, m.
+    pub fn minimum(&self, m: &JournalMotion<f64>) -> f64 {
+        self.lobed(self.viscosity).minimum(m)
     }
 
     /// The film between surfaces that are not round, but for the moment of sliding.

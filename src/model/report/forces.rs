@@ -128,7 +128,7 @@ impl Model {
             out.guide.shear = on_cage.shear;
             out.guide.solid = on_cage.solid;
             out.guide.film_share = on_cage.film_share;
-            out.guide.minimum_film = on_cage.minimum_film;
+            out.guide.minimum_film = self.smallest_gap(ws);
         }
         if self.has_cage() {
             let [body, ring] = [&shared[CAGE], &shared[self.guiding_ring()]];
@@ -146,6 +146,11 @@ impl Model {
         for out in &mut out.bodies[first..] {
             self.elements.report(self.gravity, out);
         }
+    }
+
+    /// Smallest gap of the guide, m, at the last evaluated state; 0 without a guide.
+    pub(super) fn smallest_gap(&self, ws: &Workspace) -> f64 {
+        self.guide().map_or(0.0, |(place, _)| self.between[place].smallest_gap(&ws.motions.shared))
     }
 
     /// Force of the guide on the cage by its parts, at the last evaluated state.

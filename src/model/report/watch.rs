@@ -154,7 +154,7 @@ impl Model {
                 Source::OuterRingTorque => on[OUTER_RING].moment,
                 Source::WhirlRadius => radius(offset),
                 Source::CageEccentricity => self.guide_clearance().map_or(0.0, |c| radius(offset) / c),
-                Source::GuideFilm => self.force_of_guide(ws).map_or(0.0, |force| force.minimum_film),
+                Source::GuideFilm => self.smallest_gap(ws),
                 Source::Guide(part, k) => self.force_of_guide(ws).map_or(0.0, |force| {
                     let part = match part {
                         GuidePart::Pressure => force.pressure,

@@ -44,6 +44,14 @@ struct Section {
     dry: f64,
 }
 
+/// How far a film goes around its circumference.
+pub struct Extremes {
+    /// Largest alpha q.
+    pub thickening: f64,
+    /// Smallest thickness, m.
+    pub film: f64,
+}
+
 /// A film to integrate. Angles d are counted from the direction of the eccentricity.
 pub struct Reference<'a> {
     layer: &'a LubricantLayer,
@@ -176,8 +184,8 @@ impl<'a> Reference<'a> {
         combined(&left, &right, |a, b| a + b)
     }
 
-    /// Film force, and the largest alpha q.
-    pub fn force(&self) -> (FilmForce<f64>, f64) {
+    /// Film force, and how far the film goes.
+    pub fn force(&self) -> (FilmForce<f64>, Extremes) {
         const SCAN: i32 = 10_000;
         // Dense near the eccentricity, where a thin film has its structure.
         let scan: Vec<f64> = (-SCAN..=SCAN).map(|i| PI * (f64::from(i) / f64::from(SCAN)).powi(3)).collect();
@@ -223,10 +231,10 @@ impl<'a> Reference<'a> {
             }
         }
         let wet = sections.iter().filter(|s| s.dry < 0.0);
-        let thickest = wet.map(|s| self.thickening(s)).fold(0.0, f64::max);
-        let minimum_film = sections.iter().map(|s| s.film[0]).fold(f64::INFINITY, f64::min);
+        let thickening = wet.map(|s| self.thickening(s)).fold(0.0, f64::max);
+        let film = sections.iter().map(|s| s.film[0]).fold(f64::INFINITY, f64::min);
         let [py, pz, sy, sz, moment] = sums;
-        (FilmForce { pressure: [py, pz], shear: [sy, sz], moment, minimum_film }, thickest)
+        (FilmForce { pressure: [py, pz], shear: [sy, sz], moment }, Extremes { thickening, film })
     }
 
     /// The sign change of `f` in an interval, by bisection.
