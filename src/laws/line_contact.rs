@@ -29,7 +29,7 @@ pub struct LineContact<B = f64> {
     /// Film thickness; without it there is neither regime nor traction.
     pub film: Option<FilmThickness<B>>,
     /// Full-film traction.
-    pub traction: Option<Traction>,
+    pub traction: Option<Traction<B>>,
     /// Self-heating of the traction film.
     pub self_heating: Option<SelfHeating<B>>,
     /// Mixed and boundary lubrication.
@@ -49,14 +49,20 @@ struct Pressed<T> {
 }
 
 impl LineContact {
-    /// The two laws with the same parts: where only one of them has damping, rolling resistance or edge friction, the
-    /// other gets one without effect. `None` where they differ in more, or in constants of the lubricant.
+    /// The two laws with the same parts: where only one of them has one, the other gets one without effect. `None` where
+    /// they differ in having a film, or in constants of the lubricant.
     pub fn alike(&self, other: &Self) -> Option<[Self; 2]> {
         let (mut a, mut b) = (*self, *other);
         for (a, b) in [(&mut a, other), (&mut b, self)] {
             a.damping = a.damping.or(b.damping.map(|_| NormalDamping::NONE));
             a.rolling_resistance = a.rolling_resistance.or(b.rolling_resistance.map(|law| law.none()));
             a.edge_friction = a.edge_friction.or(b.edge_friction.map(|_| SolidFriction::NONE));
+            if let (Some(film), Some(beside)) = (&mut a.film, &b.film) {
+                *film = film.beside(beside.thermal);
+                a.traction = a.traction.or(b.traction.map(|law| law.none()));
+                a.self_heating = a.self_heating.or(b.self_heating.map(|law| law.none()));
+                a.regime = a.regime.or(b.regime.map(|_| LubricationRegime::NONE));
+            }
         }
         let parts = |law: &Self| law.map(&mut |_| ());
         (parts(&a) == parts(&b)).then_some([a, b])
@@ -77,7 +83,10 @@ impl<B> LineContact<B> {
                 None => None,
                 Some(law) => Some(law.map(f)),
             },
-            traction: self.traction,
+            traction: match &self.traction {
+                None => None,
+                Some(law) => Some(law.map(f)),
+            },
             self_heating: match &self.self_heating {
                 None => None,
                 Some(law) => Some(law.map(f)),
@@ -187,10 +196,13 @@ impl<B: Base> LineContact<B> {
         let ln_film = film.ln_central(pressed.ln_load, pressed.mean_pressure, rolling);
         out.film = ln_film.exp();
         let mut mu = ln_film.like(0.0);
-        if let Some(traction) = &self.traction {
+        if let Some(traction) = &self.traction
+            && B::any(traction.acts.above(0.5))
+        {
             let (p, b) = (pressed.mean_pressure, pressed.half_width);
             let shear = traction.shear_state(p, out.film, ln_film, b, rolling);
-            let stress = match &self.self_heating {
+            let heating = self.self_heating.as_ref().filter(|heating| B::any(heating.acts.above(0.5)));
+            let stress = match heating {
                 None => shear.mean_shear(mu).stress,
                 Some(heating) => {
                     let rise = heating.rise_per_stress(rolling.slip, out.film, b, motion.u1, motion.u2);
@@ -199,7 +211,8 @@ impl<B: Base> LineContact<B> {
                     heated.stress
                 }
             };
-            mu = stress * traction.eyring_stress / p;
+            let acts = T::lift(traction.acts).above(0.5);
+            mu = T::select(acts, stress * traction.eyring_stress / p, mu);
         }
         if let Some(regime) = &self.regime {
             out.film_ratio = regime.film_ratio(out.film);
@@ -245,6 +258,7 @@ pub(crate) mod tests {
                 eyring_stress: 5e6,
                 thermal_product_1: steel,
                 thermal_product_2: steel,
+                acts: 1.0,
             }),
             regime: Some(LubricationRegime {
                 boundary: SolidFriction { coefficient: 0.1, transition_speed: 0.02 },

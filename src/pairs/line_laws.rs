@@ -158,6 +158,7 @@ impl<'a> LawBuilder<'a> {
                 eyring_stress: self.eyring_stress("self_heating")?,
                 thermal_product_1: self.thermal_product(element.material, "self_heating")?,
                 thermal_product_2: self.thermal_product(mate, "self_heating")?,
+                acts: 1.0,
             }),
         };
         let damping = laws.damping.as_ref().map(|d| NormalDamping {

@@ -26,6 +26,16 @@ pub struct LubricationRegime<B = f64> {
     pub roughness: B,
 }
 
+impl LubricationRegime {
+    /// Full film at any thickness.
+    pub const NONE: Self = Self {
+        boundary: SolidFriction::NONE,
+        lambda_boundary: -2.0,
+        lambda_full: -1.0,
+        roughness: f64::INFINITY,
+    };
+}
+
 impl<B> LubricationRegime<B> {
     /// The same with every constant replaced.
     #[inline(always)]

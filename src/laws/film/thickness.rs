@@ -55,6 +55,8 @@ pub struct FilmThickness<B = f64> {
     pub pressure_factor: B,
     /// Optional thermal correction.
     pub thermal: Option<ThermalCorrection>,
+    /// Whether it acts: 1, or 0 in a contact without correction that is evaluated beside others which have it.
+    pub thermal_acts: B,
 }
 
 /// Rolling and sliding speed of a contact and the viscosity at its inlet, in the form the power laws need.
@@ -134,7 +136,17 @@ impl FilmThickness {
             + 0.692 * math::ln(viscosity / e_r)
             + 0.470 * math::ln(material);
         let pressure_factor = 4.0 / PI / line.effective_modulus;
-        Self { ln_scale, ln_load_factor, pressure_factor, thermal }
+        Self { ln_scale, ln_load_factor, pressure_factor, thermal, thermal_acts: 1.0 }
+    }
+}
+
+impl FilmThickness {
+    /// The same, evaluated beside contacts whose film has this correction.
+    pub fn beside(&self, thermal: Option<ThermalCorrection>) -> Self {
+        match (self.thermal, thermal) {
+            (None, Some(_)) => Self { thermal, thermal_acts: 0.0, ..*self },
+            (Some(_), _) | (None, None) => *self,
+        }
     }
 }
 
@@ -147,6 +159,7 @@ impl<B> FilmThickness<B> {
             ln_load_factor: f(&self.ln_load_factor),
             pressure_factor: f(&self.pressure_factor),
             thermal: self.thermal,
+            thermal_acts: f(&self.thermal_acts),
         }
     }
 }
@@ -162,8 +175,9 @@ impl<B: Base> FilmThickness<B> {
     #[inline(always)]
     pub fn ln_central<T: Of<B>>(&self, ln_q: T, mean_pressure: T, e: &Entrainment<T>) -> T {
         let ln_h = self.ln_isothermal(ln_q, e);
-        match &self.thermal {
-            None => ln_h,
+        let corrected = match &self.thermal {
+            None => return ln_h,
+            Some(_) if !B::any(self.thermal_acts.above(0.5)) => return ln_h,
             Some(ThermalCorrection::GhoshPandey(load)) => {
                 ln_h - load.ghosh_pandey(ln_q + self.ln_load_factor, e).ln_1p()
             }
@@ -171,7 +185,8 @@ impl<B: Base> FilmThickness<B> {
                 let pressure = mean_pressure * self.pressure_factor;
                 ln_h + load.gupta(pressure, e).floored(GUPTA_FLOOR).ln()
             }
-        }
+        };
+        T::select(T::lift(self.thermal_acts).above(0.5), corrected, ln_h)
     }
 }
 

@@ -20,7 +20,7 @@ const ASINH_ASYMPTOTE: f64 = 20.0;
 
 /// Lubricant constants of the traction law.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Traction {
+pub struct Traction<B = f64> {
     /// ln(eta0/tau0), in s.
     pub ln_time: f64,
     /// alpha, 1/Pa.
@@ -29,6 +29,8 @@ pub struct Traction {
     pub eyring_stress: f64,
     /// G_l, shear modulus of the lubricant, Pa.
     pub shear_modulus: f64,
+    /// Whether the film has traction: 1, or 0 in a contact without it that is evaluated beside others which have it.
+    pub acts: B,
 }
 
 /// Conditions of one contact under which the mean shear stress is wanted.
@@ -59,6 +61,26 @@ impl Traction {
             pressure_viscosity,
             eyring_stress,
             shear_modulus,
+            acts: 1.0,
+        }
+    }
+
+    /// The same without effect.
+    pub fn none(&self) -> Self {
+        Self { acts: 0.0, ..*self }
+    }
+}
+
+impl<B> Traction<B> {
+    /// The same with what belongs to the contact replaced.
+    #[inline(always)]
+    pub fn map<U>(&self, f: &mut impl FnMut(&B) -> U) -> Traction<U> {
+        Traction {
+            ln_time: self.ln_time,
+            pressure_viscosity: self.pressure_viscosity,
+            eyring_stress: self.eyring_stress,
+            shear_modulus: self.shear_modulus,
+            acts: f(&self.acts),
         }
     }
 

@@ -42,6 +42,8 @@ pub struct SelfHeating<B = f64> {
     pub thermal_product_1: B,
     /// e2 = k rho c of body 2.
     pub thermal_product_2: B,
+    /// Whether the film heats itself: 1, or 0 in a contact without self-heating that is evaluated beside others which have it.
+    pub acts: B,
 }
 
 /// Solution of the self-heating equation.
@@ -63,7 +65,15 @@ impl<B> SelfHeating<B> {
             eyring_stress: self.eyring_stress,
             thermal_product_1: f(&self.thermal_product_1),
             thermal_product_2: f(&self.thermal_product_2),
+            acts: f(&self.acts),
         }
+    }
+}
+
+impl SelfHeating {
+    /// The same without effect.
+    pub fn none(&self) -> Self {
+        Self { acts: 0.0, ..*self }
     }
 }
 
@@ -74,7 +84,7 @@ impl<B: Base> SelfHeating<B> {
         let across_film = film * (1.0 / (12.0 * self.conductivity));
         let surfaces = heat_flow(self.thermal_product_1, u1, half_width)
             + heat_flow(self.thermal_product_2, u2, half_width);
-        (across_film + slip.like(4.0 / 3.0) / surfaces) * slip * self.eyring_stress
+        (across_film + slip.like(4.0 / 3.0) / surfaces) * slip * self.eyring_stress * self.acts
     }
 
     /// S and dT for the shear state; NaN when the inputs are not finite.
@@ -100,7 +110,8 @@ impl<B: Base> SelfHeating<B> {
         };
         let derivative = rise_per_stress.base() * s.slope * self.temperature_viscosity + 1.0;
         let rise = root + (rise_per_stress * stress - root) / T::lift(derivative);
-        HeatedShear { stress: rise / rise_per_stress, temperature_rise: rise }
+        let cold = rise_per_stress.at_most(0.0);
+        HeatedShear { stress: T::select(cold, stress, rise / rise_per_stress), temperature_rise: rise }
     }
 
     /// dT before the last step, and S there; NaN where there is none. Contacts that are done wait for the others.
@@ -164,6 +175,7 @@ mod tests {
         eyring_stress: 5e6,
         thermal_product_1: STEEL,
         thermal_product_2: STEEL,
+        acts: 1.0,
     };
 
     fn solve<T: Real>(du: T, pressure: f64) -> HeatedShear<T> {

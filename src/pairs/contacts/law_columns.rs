@@ -98,9 +98,11 @@ impl Columns for Apply<'_> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::law_slopes::LawSlopes;
     use super::*;
     use crate::laws::contact_pair::ContactMotion;
     use crate::laws::elastic::line::ElasticLine;
+    use crate::laws::film::thickness::FilmThickness;
     use crate::laws::line_contact::tests::raceway;
     use crate::laws::traction::solid_friction::SolidFriction;
 
@@ -140,6 +142,56 @@ mod tests {
                 let alone = laws[kind].force(&contact, 0.2, edge_share);
                 let (block, lane) = place_of(i);
                 assert_eq!(contacts[block].force.of(lane), alone, "{turn} {i}");
+            }
+        }
+    }
+
+    /// The law without each of the parts that another may have beside it.
+    fn without_parts(law: LineContact) -> [LineContact; 7] {
+        let film = law.film.map(|film| FilmThickness { thermal: None, ..film });
+        [
+            LineContact { damping: None, ..law },
+            LineContact { rolling_resistance: None, ..law },
+            LineContact { edge_friction: None, ..law },
+            LineContact { film, ..law },
+            LineContact { self_heating: None, ..law },
+            LineContact { traction: None, self_heating: None, ..law },
+            LineContact { film, regime: None, self_heating: None, ..law },
+        ]
+    }
+
+    #[test]
+    fn contacts_without_a_part_have_the_same_force_beside_others_with_it() {
+        let [full, other, _] = laws();
+        for bare in without_parts(other) {
+            let [own, beside] = bare.alike(&full).expect("parts that can be filled in");
+            let (mut mixed, alone) =
+                (LawColumns::new(own, &[beside], WIDEST), LawColumns::new(bare, &[], WIDEST));
+            let mut contacts = vec![ContactBlock::APART; 1];
+            let mut slopes = [0, 1].map(|_| LawSlopes::new(WIDEST));
+            for lane in 0..WIDEST {
+                let x = lane as f64;
+                let motion = ContactMotion { delta: 1e-7 * x, delta_dot: 1e-3 * x, u1: 5.0, u2: 0.5 * x };
+                contacts[0].motion.set(lane, &motion);
+                // Only contacts with a law for edges have a share of one.
+                contacts[0].edge_share[lane] = if bare.edge_friction.is_some() { 0.1 * x } else { 0.0 };
+                mixed.set(lane, lane % 2);
+            }
+            mixed.apply(WIDEST, &mut contacts, 0.2, Arch::new());
+            for lane in 0..WIDEST {
+                let (motion, edge_share) = (contacts[0].motion.of(lane), contacts[0].edge_share[lane]);
+                let law = if lane % 2 == 0 { &bare } else { &full };
+                let expected = law.force(&motion, 0.2, edge_share);
+                assert_eq!(contacts[0].force.of(lane), expected, "{lane} beside {bare:?}");
+            }
+            for (laws, slopes) in [mixed, alone].iter().zip(&mut slopes) {
+                slopes.find(laws, WIDEST, &mut contacts, 0.2, Arch::new());
+            }
+            for lane in (0..WIDEST).step_by(2) {
+                let [beside, alone] = slopes.each_ref().map(|slopes| slopes.of(lane));
+                for (a, b) in beside.iter().flatten().zip(alone.iter().flatten()) {
+                    assert!((a - b).abs() <= 1e-13 * b.abs(), "{lane}: {beside:?} {alone:?} of {bare:?}");
+                }
             }
         }
     }
