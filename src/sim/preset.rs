@@ -23,10 +23,9 @@ pub(super) struct Numbers {
 pub(super) const UNDAMPED_SHARE: f64 = 0.5;
 
 const ENGINEERING: Numbers =
-    Numbers { statistics: true, leapfrog_step: 1.0, tolerance: 1e-6, affordable: 9.0, missing_energy: 1e-3 };
+    Numbers { statistics: true, leapfrog_step: 1.0, tolerance: 1e-6, affordable: 1.0, missing_energy: 1e-3 };
 
-const DRAFT: Numbers =
-    Numbers { leapfrog_step: 1.4, tolerance: 1e-4, affordable: 2.0, missing_energy: 1e-2, ..ENGINEERING };
+const DRAFT: Numbers = Numbers { leapfrog_step: 1.4, tolerance: 1e-4, missing_energy: 1e-2, ..ENGINEERING };
 
 const REFERENCE: Numbers =
     Numbers { statistics: false, leapfrog_step: 0.15, tolerance: 1e-8, missing_energy: 1e-4, ..ENGINEERING };
