@@ -27,7 +27,7 @@ pub use methods::dormand_prince::DormandPrince;
 pub use methods::leapfrog::Leapfrog;
 pub use methods::radau::Radau;
 pub use methods::rosenbrock::Rosenbrock;
-pub use stepper::{Applied, Stepper};
+pub use stepper::{Applied, Kept, Stepper, Stretch};
 pub use system::{
     Interruption, Linearization, Linearized, Observed, SemiImplicit, Split, Structure, Structured, System,
     Vibration,

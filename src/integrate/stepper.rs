@@ -20,6 +20,37 @@ pub struct Applied<'a> {
     pub h: f64,
 }
 
+/// Steps that are judged together before they count; none if they count at once.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Stretch {
+    /// Largest number of them.
+    pub steps: usize,
+    /// Largest number of numbers that [`Stepper::keep`] adds for all of them; for a method that keeps more of a step they are
+    /// fewer.
+    pub room: usize,
+    /// Most that it adds for one.
+    pub of_step: usize,
+}
+
+/// A step for questions about it.
+#[derive(Clone, Copy, Debug)]
+pub struct Kept<'a> {
+    /// State (q, v) at the start.
+    pub start: &'a [f64],
+    /// State at the end.
+    pub end: &'a [f64],
+    /// What [`Stepper::keep`] added.
+    pub rest: &'a [f64],
+}
+
+impl<'a> Kept<'a> {
+    /// The rest, of arrays of equal length.
+    pub fn parts<const N: usize>(&self) -> [&'a [f64]; N] {
+        let length = self.rest.len() / N;
+        std::array::from_fn(|i| &self.rest[i * length..][..length])
+    }
+}
+
 /// One integration method: makes steps and interpolates in the last one. What is stored is everything that the next steps
 /// depend on.
 pub trait Stepper<S: System>: Stored {
@@ -57,9 +88,9 @@ pub trait Stepper<S: System>: Stored {
     fn state(&self) -> &[f64];
     /// State within the last accepted step at the fraction 0 <= `theta` <= 1 of it.
     fn interpolate(&self, theta: f64, out: &mut [f64]);
-    /// Largest number of steps that are judged together before they count; zero if they count at once.
-    fn longest_stretch(&self) -> usize {
-        0
+    /// Steps that are judged together before they count.
+    fn longest_stretch(&self) -> Stretch {
+        Stretch::default()
     }
     /// Whether the steps since the last judgement were right, at time `t`. If not, the driver goes back to their start.
     fn judge(&mut self, _system: &mut S, _t: f64) -> bool {
@@ -70,14 +101,14 @@ pub trait Stepper<S: System>: Stored {
     fn go_back(&mut self, _system: &mut S, _t: f64) -> Option<f64> {
         None
     }
-    /// Appends what [`Stepper::recall`] needs to know of the last accepted step.
+    /// Appends what [`Stepper::recall`] needs to know of the last accepted step, beside the states at its ends.
     fn keep(&self, _out: &mut Vec<f64>) {}
     /// State within a step of which this was kept, at the fraction 0 <= `theta` <= 1 of it.
-    fn recall(&self, _kept: &[f64], theta: f64, out: &mut [f64]) {
+    fn recall(&self, _kept: &Kept<'_>, theta: f64, out: &mut [f64]) {
         self.interpolate(theta, out);
     }
     /// As [`Stepper::applied`], of a step of which this was kept.
-    fn applied_in<'a>(&'a self, _kept: &'a [f64]) -> Option<Applied<'a>> {
+    fn applied_in<'a>(&'a self, _kept: Kept<'a>) -> Option<Applied<'a>> {
         self.applied()
     }
     /// How the steps follow the errors; of no use for methods without error estimate.

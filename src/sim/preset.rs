@@ -13,8 +13,6 @@ pub(super) struct Numbers {
     pub leapfrog_step: f64,
     /// Tolerance of error control; for rollers while nothing vibrates, and where the leapfrog will not do.
     pub tolerance: f64,
-    /// Evaluations of error control that its accuracy is worth for one of the leapfrog.
-    pub affordable: f64,
     /// Share of the energy that a trusted run misses at most.
     pub missing_energy: f64,
 }
@@ -23,7 +21,7 @@ pub(super) struct Numbers {
 pub(super) const UNDAMPED_SHARE: f64 = 0.5;
 
 const ENGINEERING: Numbers =
-    Numbers { statistics: true, leapfrog_step: 1.0, tolerance: 1e-6, affordable: 1.0, missing_energy: 1e-3 };
+    Numbers { statistics: true, leapfrog_step: 1.0, tolerance: 1e-6, missing_energy: 1e-3 };
 
 const DRAFT: Numbers = Numbers { leapfrog_step: 1.4, tolerance: 1e-4, missing_energy: 1e-2, ..ENGINEERING };
 

@@ -87,8 +87,8 @@ fn it_is_the_default_and_costs_little_more_than_the_leapfrog_once_rollers_vibrat
     };
     let [first, whole] = costs(&mut default);
     let [plain_first, plain_whole] = costs(&mut sim(&scene, json!({ "leapfrog": {} })));
-    // Nothing vibrates at the start, which is followed closely; nine times the cost of the leapfrog is the limit.
-    assert!(first > 1.1 * plain_first && first < 3.0 * plain_first, "{first} {plain_first}");
+    // The first steps are followed closely; then nothing vibrates yet, which costs no more than what comes later.
+    assert!(first > 1.02 * plain_first && first < 1.2 * plain_first, "{first} {plain_first}");
     assert!(
         whole - first < 1.15 * (plain_whole - plain_first),
         "{first} {plain_first} {whole} {plain_whole}"
@@ -171,7 +171,7 @@ fn the_balance_is_kept_where_a_host_sets_inputs_often() {
 fn what_follows_an_event_is_followed_closely() {
     let load = json!({"ramp": {"from": -4900.0, "to": 4900.0, "start": 10e-3, "end": 10.1e-3}});
     let mut sim = sim(&nu2310(&[("inner_ring.motion.free.load.z", load)]), auto());
-    let chosen = [9.7e-3, 10.2e-3, 30e-3].map(|t| {
+    let chosen = [9.7e-3, 10.03e-3, 30e-3].map(|t| {
         sim.advance_to(t).unwrap();
         let choice = choice(&sim);
         (choice.method, choice.reason)
@@ -213,9 +213,10 @@ fn rollers_get_the_step_that_their_scene_needs() {
         let mut run = run(&scene, auto(), if name == "undamped" { 80e-3 } else { 50e-3 });
         let choice = choice(&run);
         println!("{name}: {}", run.report());
-        // The measured frequency may be higher than the expected one.
-        let found = choice.leapfrog_step * run.model().highest_frequency();
-        assert!(found < 1.01 * share && found > 0.9 * share, "{name}: {found}");
+        // The measured frequency may be higher than the expected one, and now and then far higher for a while.
+        let mean = run.time() / run.statistics().driver.steps as f64;
+        let found = mean * run.model().highest_frequency();
+        assert!(found < 1.01 * share && found > 0.88 * share, "{name}: {found}");
         assert!(choice.steps[Kind::Leapfrog as usize] > 5000, "{name}: {choice:?}");
         let duration = run.time();
         // Without damping it goes on growing, at a rate that scatters from start to start.

@@ -50,7 +50,6 @@ fn auto(system: &Stiffening, statistics: bool) -> Driver<Stiffening> {
         expected: Expectation { frequency: 1.0, damped: true, share: 0.1, largest_step: 1.0 },
         units: vec![100.0; 2],
         tolerance: 1e-8,
-        affordable: 6.0,
         first_step: 1e-3,
         missing_energy: 1e-3,
         tuning: Tuning::default(),

@@ -2,7 +2,7 @@
 //!
 //! - A system that vibrates most of the time is followed in its statistics: the leapfrog, monitored by [`StabilityMonitor`]. When
 //!   it fails, or would need steps that cost as much as error control, the Rosenbrock method takes over until probes
-//!   say that the leapfrog would do again. It also has the phases without vibration, in which it costs little more.
+//!   say that the leapfrog would do again. It also has the phases in which so little happens that it costs no more.
 //! - Any other system, or with a tolerance that was asked for, is followed in its trajectory: Dormand-Prince or the
 //!   Rosenbrock method, whichever advances further per evaluation.
 //!
@@ -54,8 +54,6 @@ pub struct Aim {
     pub units: Vec<f64>,
     /// Tolerance of error control, in these units.
     pub tolerance: f64,
-    /// Evaluations of error control that accuracy is worth for one of the leapfrog.
-    pub affordable: f64,
     /// First step of error control, s.
     pub first_step: f64,
     /// Share of the energy that a run may miss.
@@ -332,7 +330,8 @@ impl<const N: usize> Auto<N> {
             return None;
         }
         if self.reason == Reason::Affordable {
-            if advanced * self.aim.affordable >= cost * self.monitor.step() {
+            // No more evaluations than the leapfrog's.
+            if advanced >= cost * self.monitor.step() {
                 self.pause = self.aim.tuning.first_pause;
                 self.hold = self.aim.tuning.first_hold;
                 return None;

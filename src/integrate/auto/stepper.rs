@@ -2,8 +2,11 @@
 
 use super::{Auto, Choice, EXPLICIT, IMPLICIT, KINDS, Kind, REASONS, Reason};
 use crate::integrate::driver::control::{Estimate, Law};
-use crate::integrate::{Applied, Linearized, Observed, Samples, Split, Stepper};
+use crate::integrate::{Applied, Kept, Linearized, Observed, Samples, Split, Stepper, Stretch};
 use crate::stored::{stored, stored_choice};
+
+/// Most numbers that a method keeps of a step, per state.
+const MOST_KEPT: usize = 3;
 
 impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto<N> {
     fn set_state(&mut self, state: &[f64]) {
@@ -70,8 +73,11 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
         }
     }
 
-    fn longest_stretch(&self) -> usize {
-        self.aim.tuning.longest_stretch
+    fn longest_stretch(&self) -> Stretch {
+        // Room for the leapfrog's; each number here is one for the method, and what that keeps.
+        let (steps, state) = (self.aim.tuning.longest_stretch, self.state.len());
+        let of_step = 1 + MOST_KEPT * state;
+        Stretch { steps, room: steps * (2 + self.leapfrog.velocities()) + of_step, of_step }
     }
 
     fn judge(&mut self, system: &mut S, t: f64) -> bool {
@@ -100,19 +106,20 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
         active!(self, ref S, keep(out));
     }
 
-    fn recall(&self, kept: &[f64], theta: f64, out: &mut [f64]) {
-        let Some((kind, kept)) = kept.split_first() else { return };
+    fn recall(&self, kept: &Kept<'_>, theta: f64, out: &mut [f64]) {
+        let Some((kind, rest)) = kept.rest.split_first() else { return };
+        let kept = Kept { rest, ..*kept };
         match KINDS[*kind as usize] {
-            Kind::Leapfrog => Stepper::<S>::recall(&self.leapfrog, kept, theta, out),
-            Kind::DormandPrince => Stepper::<S>::recall(&self.explicit, kept, theta, out),
-            Kind::Rosenbrock => Stepper::<S>::recall(&self.implicit, kept, theta, out),
+            Kind::Leapfrog => Stepper::<S>::recall(&self.leapfrog, &kept, theta, out),
+            Kind::DormandPrince => Stepper::<S>::recall(&self.explicit, &kept, theta, out),
+            Kind::Rosenbrock => Stepper::<S>::recall(&self.implicit, &kept, theta, out),
         }
     }
 
-    fn applied_in<'a>(&'a self, kept: &'a [f64]) -> Option<Applied<'a>> {
-        let (kind, kept) = kept.split_first()?;
+    fn applied_in<'a>(&'a self, kept: Kept<'a>) -> Option<Applied<'a>> {
+        let (kind, rest) = kept.rest.split_first()?;
         match KINDS[*kind as usize] {
-            Kind::Leapfrog => Stepper::<S>::applied_in(&self.leapfrog, kept),
+            Kind::Leapfrog => Stepper::<S>::applied_in(&self.leapfrog, Kept { rest, ..kept }),
             Kind::DormandPrince | Kind::Rosenbrock => None,
         }
     }

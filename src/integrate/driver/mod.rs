@@ -10,18 +10,18 @@
 
 pub mod control;
 mod outcome;
+mod trail;
 pub mod watch;
 
 pub use outcome::{Failure, Limits, Statistics};
 
 use crate::integrate::auto::Choice;
-use crate::integrate::{Applied, Observed, Samples, Stepper, Total, Vibration, add_weighted};
+use crate::integrate::{Applied, Observed, Stepper, Stretch, Total, Vibration, add_weighted};
 use crate::stored::{Reader, Stored, stored};
 use control::{Controller, Estimate, RECOVERY_GROWTH};
+use trail::Trail;
 use watch::Tally;
 
-/// Most numbers that a method keeps of a step, per state.
-const MOST_KEPT: usize = 6;
 /// Most places of a step at which a method samples what the host watches.
 const MOST_SAMPLES: usize = 3;
 
@@ -45,26 +45,13 @@ pub struct Driver<S: Observed> {
     tally: Tally,
     /// Number of steps of the next stretch.
     length: usize,
-    /// Steps of the last stretch, of which `made` count; none with a method that is not judged.
-    stretch: Vec<Step>,
+    /// The last stretch, whose steps are `made`; without room with a method that is not judged.
+    stretch: Trail,
     made: usize,
     /// Whether the host stopped the run within the stretch; what was made of it then has yet to be judged.
     unfinished: bool,
     /// All of this before the stretch.
     mark: Vec<f64>,
-}
-
-/// One step of a stretch.
-#[derive(Default)]
-struct Step {
-    /// Its time, s.
-    from: f64,
-    to: f64,
-    /// Works up to `from`, and over the step.
-    works: [Vec<f64>; 2],
-    samples: Samples,
-    /// What the stepper keeps of it.
-    kept: Vec<f64>,
 }
 
 /// A step size, and whether an event cut it.
@@ -94,22 +81,18 @@ impl<S: Observed> Driver<S> {
             spare: works,
             tally: Tally::new(watched),
             length: 1,
-            stretch: Vec::new(),
+            stretch: Trail::default(),
             made: 0,
             unfinished: false,
             mark: Vec::new(),
         };
-        let longest = driver.stepper.longest_stretch();
-        if longest > 0 {
-            let room = MOST_KEPT * driver.stepper.state().len();
-            let step = |_| Step {
-                works: driver.works.clone(),
-                kept: Vec::with_capacity(room),
-                samples: Samples::new(watched, MOST_SAMPLES),
-                ..Step::default()
-            };
-            driver.stretch = (0..longest).map(step).collect();
+        let Stretch { steps, room, .. } = driver.stepper.longest_stretch();
+        if steps > 0 {
+            let sizes = [driver.stepper.state().len(), driver.spare.len()];
+            driver.stretch = Trail::new(steps, sizes, room, [watched, MOST_SAMPLES]);
             driver.set_mark();
+            // It is always as long.
+            driver.mark.shrink_to_fit();
         }
         driver
     }
@@ -132,7 +115,7 @@ impl<S: Observed> Driver<S> {
 
     /// Time the integration has reached, s; at least the time asked for.
     pub fn reached(&self) -> f64 {
-        if self.unfinished { self.stretch[0].from } else { self.to }
+        if self.unfinished { self.stretch.from().unwrap_or(self.to) } else { self.to }
     }
 
     /// What a method that chooses among others has chosen.
@@ -164,7 +147,7 @@ impl<S: Observed> Driver<S> {
     pub fn advance(&mut self, system: &mut S, t: f64) -> Result<(), Failure<S::Fault>> {
         let mut attempts = 0;
         while self.reached() < t {
-            if !self.stretch.is_empty() {
+            if self.stretch.longest() > 0 {
                 let made = self.make_stretch(system, &mut attempts);
                 // What fails beyond the time that is asked for fails again when it is reached.
                 if self.reached() < t {
@@ -186,18 +169,17 @@ impl<S: Observed> Driver<S> {
                 self.set_mark();
             }
             let length = self.length;
-            let made = (self.made..length).try_for_each(|_| {
-                self.make_step(system, attempts)?;
-                self.keep_step();
-                Ok(())
-            });
+            let mut made = Ok(());
+            while made.is_ok() && self.made < length && self.has_room() {
+                made = self.make_step(system, attempts).map(|()| self.keep_step());
+            }
             if let Err(Failure::Interrupted { .. } | Failure::TooManySteps { .. }) = made {
                 // From outside, and no reason to judge less than a whole stretch: it goes on when the host does.
                 self.unfinished = self.made > 0;
                 return made.map_err(|failure| failure.at(self.reached()));
             }
             if self.made == 0 || self.stepper.judge(system, self.to) {
-                self.length = (2 * length).min(self.stretch.len());
+                self.length = (2 * length).min(self.stretch.longest());
                 return made;
             }
             self.go_back(system);
@@ -206,6 +188,7 @@ impl<S: Observed> Driver<S> {
 
     fn set_mark(&mut self) {
         self.made = 0;
+        self.stretch.begin(self.stepper.state());
         let mut mark = std::mem::take(&mut self.mark);
         mark.clear();
         self.save(&mut mark);
@@ -228,21 +211,20 @@ impl<S: Observed> Driver<S> {
 
     /// Keeps the last step for questions about it.
     fn keep_step(&mut self) {
-        let step = &mut self.stretch[self.made];
-        (step.from, step.to) = (self.from, self.to);
-        for (kept, works) in step.works.iter_mut().zip(&self.works) {
-            kept.copy_from_slice(works);
-        }
-        step.kept.clear();
-        self.stepper.keep(&mut step.kept);
-        step.samples.copy(self.stepper.samples());
+        let works = self.works.each_ref().map(Vec::as_slice);
+        let (span, stepper) = ([self.from, self.to], &self.stepper);
+        self.stretch.add(span, stepper.state(), works, stepper.samples(), |rest| stepper.keep(rest));
         self.made += 1;
     }
 
-    /// The step of the last stretch that time `t` (s) lies in, if it is one of several.
-    fn step_at(&self, t: f64) -> Option<&Step> {
-        let made = &self.stretch[..self.made];
-        made.get(made.partition_point(|step| step.to < t)).or(made.last())
+    /// Whether the step that comes next can be kept with those of its stretch; the first always can.
+    fn has_room(&self) -> bool {
+        self.made == 0 || self.stretch.has_room(self.stepper.longest_stretch().of_step)
+    }
+
+    /// The step of the last stretch that time `t` (s) lies in, if there is one.
+    fn step_at(&self, t: f64) -> Option<trail::Step<'_>> {
+        if self.made > 0 { self.stretch.at(t) } else { None }
     }
 
     fn make_step(&mut self, system: &mut S, attempts: &mut u64) -> Result<(), Failure<S::Fault>> {
@@ -256,8 +238,8 @@ impl<S: Observed> Driver<S> {
 
     /// Whether time `t` (s) lies within the last step or stretch.
     pub fn covers(&self, t: f64) -> bool {
-        let from = if self.made > 0 { self.stretch[0].from } else { self.from };
-        from <= t && t <= self.to
+        let of_stretch = if self.made > 0 { self.stretch.from() } else { None };
+        of_stretch.unwrap_or(self.from) <= t && t <= self.to
     }
 
     /// State at time `t` within the last step or stretch (s).
@@ -265,7 +247,8 @@ impl<S: Observed> Driver<S> {
         if t >= self.to || self.to <= self.from {
             out.copy_from_slice(self.stepper.state());
         } else if let Some(step) = self.step_at(t) {
-            self.stepper.recall(&step.kept, (t - step.from) / (step.to - step.from), out);
+            let [from, to] = step.span();
+            self.stepper.recall(&step.kept(), (t - from) / (to - from), out);
         } else {
             self.stepper.interpolate((t - self.from) / (self.to - self.from), out);
         }
@@ -274,20 +257,24 @@ impl<S: Observed> Driver<S> {
     /// Start time of the step at time `t` (s) and what it was made with, for methods whose forces are those of steps.
     pub fn applied_at(&self, t: f64) -> Option<(f64, Applied<'_>)> {
         if let Some(step) = self.step_at(t) {
-            return self.stepper.applied_in(&step.kept).map(|applied| (step.from, applied));
+            let [from, _] = step.span();
+            return self.stepper.applied_in(step.kept()).map(|applied| (from, applied));
         }
         (self.to > self.from).then(|| self.stepper.applied()).flatten().map(|step| (self.from, step))
     }
 
     /// Works of the system's powers since they were forgotten, up to time `t` (s) within the last step or stretch.
     pub fn works_at(&self, t: f64, out: &mut [f64]) {
-        let (from, to, [sum, last]) = match self.step_at(t) {
-            Some(step) => (step.from, step.to, &step.works),
-            None => (self.from, self.to, &self.works),
+        let share_of = |[from, to]: [f64; 2]| {
+            let step = to - from;
+            if step > 0.0 { ((t - from) / step).clamp(0.0, 1.0) } else { 1.0 }
         };
-        let step = to - from;
+        if let Some(step) = self.step_at(t) {
+            return step.works(share_of(step.span()), out);
+        }
+        let [sum, last] = &self.works;
         out.copy_from_slice(sum);
-        add_weighted(out, if step > 0.0 { ((t - from) / step).clamp(0.0, 1.0) } else { 1.0 }, last);
+        add_weighted(out, share_of([self.from, self.to]), last);
     }
 
     /// Begins the interval of [`Driver::total_at`] at time `t` (s) within the last step or stretch.
@@ -308,10 +295,12 @@ impl<S: Observed> Driver<S> {
         if self.tally.is_empty() || self.unfinished {
             return;
         }
-        for step in &self.stretch[..self.made] {
-            self.tally.add([step.from, step.to], &step.samples, t);
+        if self.made > 0 {
+            for step in self.stretch.steps() {
+                self.tally.add(step.span(), step.samples(), t);
+            }
         }
-        if self.stretch.is_empty() {
+        if self.stretch.longest() == 0 {
             self.tally.add([self.from, self.to], self.stepper.samples(), t);
         }
     }
@@ -449,7 +438,7 @@ impl<S: Observed> Driver<S> {
             && step(self.nominal_step)
             && step(self.next_step)
             && (control.last_error > 0.0 && control.last_change > 0.0)
-            && (1..=self.stretch.len().max(1)).contains(&self.length)
+            && (1..=self.stretch.longest().max(1)).contains(&self.length)
             && counts.iter().all(|x| *x >= 0.0)
     }
 }

@@ -4,8 +4,7 @@
 //! section II.6.
 
 use crate::integrate::driver::control::{ErrorNorm, Estimate, Law};
-use crate::integrate::methods::kept::{keep_parts, kept_parts};
-use crate::integrate::{Observed, Samples, Stepper, add_weighted, zero_works};
+use crate::integrate::{Kept, Observed, Samples, Stepper, add_weighted, zero_works};
 use crate::stored::stored;
 
 const C: [f64; 7] = [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0];
@@ -42,7 +41,9 @@ const SAMPLE_WEIGHTS: [f64; 3] = [2.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0];
 pub struct DormandPrince {
     positions: usize,
     norm: ErrorNorm,
+    /// State at the end of the last accepted step, and at its start.
     state: Vec<f64>,
+    before: Vec<f64>,
     trial: Vec<f64>,
     /// Rates at the seven stages; the first is that of `state`.
     k: [Vec<f64>; 7],
@@ -52,8 +53,8 @@ pub struct DormandPrince {
     works: Vec<f64>,
     samples: Samples,
     /// Polynomials of the last accepted step and of the attempt.
-    dense: [Vec<f64>; 5],
-    trial_dense: [Vec<f64>; 5],
+    dense: [Vec<f64>; 3],
+    trial_dense: [Vec<f64>; 3],
 }
 
 impl DormandPrince {
@@ -65,6 +66,7 @@ impl DormandPrince {
             positions: system.positions(),
             norm: ErrorNorm::new(system, tolerance),
             state: zeros(),
+            before: zeros(),
             trial: zeros(),
             k: std::array::from_fn(|_| zeros()),
             a: vec![0.0; system.velocities()],
@@ -95,11 +97,11 @@ impl DormandPrince {
 }
 
 /// State at the fraction `theta` of the step with this dense output.
-fn interpolate(parts: [&[f64]; 5], theta: f64, out: &mut [f64]) {
+fn interpolate([start, end]: [&[f64]; 2], dense: [&[f64]; 3], theta: f64, out: &mut [f64]) {
     let (x, y) = (theta, 1.0 - theta);
-    let [d0, d1, d2, d3, d4] = parts;
+    let [d2, d3, d4] = dense;
     for (i, out) in out.iter_mut().enumerate() {
-        *out = d0[i] + x * (d1[i] + y * (d2[i] + x * (d3[i] + y * d4[i])));
+        *out = start[i] + x * (end[i] - start[i] + y * (d2[i] + x * (d3[i] + y * d4[i])));
     }
 }
 
@@ -109,7 +111,7 @@ impl<S: Observed> Stepper<S> for DormandPrince {
         for part in &mut self.dense {
             part.fill(0.0);
         }
-        self.dense[0].copy_from_slice(state);
+        self.before.copy_from_slice(state);
     }
 
     fn refresh(&mut self, system: &mut S, t: f64) -> Result<(), S::Fault> {
@@ -144,9 +146,7 @@ impl<S: Observed> Stepper<S> for DormandPrince {
             let weighted = |w: &[f64; 7]| -> f64 { self.k.iter().zip(w).map(|(k, w)| w * k[i]).sum() };
             let change = self.trial[i] - self.state[i];
             let bend = h * self.k[0][i] - change;
-            let [d0, d1, d2, d3, d4] = &mut self.trial_dense;
-            d0[i] = self.state[i];
-            d1[i] = change;
+            let [d2, d3, d4] = &mut self.trial_dense;
             d2[i] = bend;
             d3[i] = change - h * self.k[6][i] - bend;
             d4[i] = h * weighted(&D);
@@ -156,6 +156,7 @@ impl<S: Observed> Stepper<S> for DormandPrince {
     }
 
     fn accept(&mut self) {
+        std::mem::swap(&mut self.before, &mut self.state);
         std::mem::swap(&mut self.state, &mut self.trial);
         std::mem::swap(&mut self.dense, &mut self.trial_dense);
         self.k.swap(0, 6);
@@ -175,15 +176,16 @@ impl<S: Observed> Stepper<S> for DormandPrince {
     }
 
     fn interpolate(&self, theta: f64, out: &mut [f64]) {
-        interpolate(self.dense.each_ref().map(Vec::as_slice), theta, out);
+        let dense = self.dense.each_ref().map(Vec::as_slice);
+        interpolate([&self.before, &self.state], dense, theta, out);
     }
 
     fn keep(&self, out: &mut Vec<f64>) {
-        keep_parts(&self.dense, out);
+        self.dense.iter().for_each(|part| out.extend_from_slice(part));
     }
 
-    fn recall(&self, kept: &[f64], theta: f64, out: &mut [f64]) {
-        interpolate(kept_parts(kept), theta, out);
+    fn recall(&self, kept: &Kept<'_>, theta: f64, out: &mut [f64]) {
+        interpolate([kept.start, kept.end], kept.parts(), theta, out);
     }
 
     fn control(&self) -> Law {
@@ -192,5 +194,5 @@ impl<S: Observed> Stepper<S> for DormandPrince {
 }
 
 stored! {
-    impl[] DormandPrince { state, k[0], powers[0], dense }
+    impl[] DormandPrince { state, before, k[0], powers[0], dense }
 }

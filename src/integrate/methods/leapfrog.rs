@@ -20,7 +20,7 @@
 use crate::integrate::driver::control::{Estimate, Law};
 use crate::integrate::methods::damping::{VectorLanes, zero_vectors};
 use crate::integrate::{
-    Applied, GroupDamping, Observed, Samples, SemiImplicit, Split, Stepper, Structure, zero_works,
+    Applied, GroupDamping, Kept, Observed, Samples, SemiImplicit, Split, Stepper, Structure, zero_works,
 };
 use crate::scalar::WIDEST;
 use crate::stored::stored;
@@ -54,6 +54,11 @@ pub struct Leapfrog<const N: usize> {
 }
 
 impl<const N: usize> Leapfrog<N> {
+    /// Number of velocities.
+    pub(in crate::integrate) fn velocities(&self) -> usize {
+        self.end.len() - self.positions
+    }
+
     /// Memory for a system.
     pub fn new<S: Split<N> + Observed>(system: &S) -> Self {
         let (nq, nv) = (system.positions(), system.velocities());
@@ -234,21 +239,17 @@ impl<S: Split<N> + Observed, const N: usize> Stepper<S> for Leapfrog<N> {
 
     fn keep(&self, out: &mut Vec<f64>) {
         out.push(self.h);
-        for part in [&self.start, &self.end, &self.applied] {
-            out.extend_from_slice(part);
-        }
+        out.extend_from_slice(&self.applied);
     }
 
-    fn recall(&self, kept: &[f64], theta: f64, out: &mut [f64]) {
-        if let Some(Applied { start, end, h, .. }) = Stepper::<S>::applied_in(self, kept) {
+    fn recall(&self, kept: &Kept<'_>, theta: f64, out: &mut [f64]) {
+        if let Some(Applied { start, end, h, .. }) = Stepper::<S>::applied_in(self, *kept) {
             interpolate(self.positions, h, start, end, theta, out);
         }
     }
 
-    fn applied_in<'a>(&'a self, kept: &'a [f64]) -> Option<Applied<'a>> {
-        let (h, rest) = kept.split_first()?;
-        let (start, rest) = rest.split_at_checked(self.start.len())?;
-        let (end, predicted) = rest.split_at_checked(self.end.len())?;
+    fn applied_in<'a>(&'a self, Kept { start, end, rest }: Kept<'a>) -> Option<Applied<'a>> {
+        let (h, predicted) = rest.split_first()?;
         Some(Applied { start, end, predicted, h: *h })
     }
 

@@ -2,7 +2,6 @@
 
 pub(super) mod damping;
 pub(super) mod dormand_prince;
-pub(super) mod kept;
 pub(super) mod leapfrog;
 pub(super) mod radau;
 pub(super) mod rosenbrock;

@@ -13,9 +13,8 @@
 
 use crate::integrate::driver::control::{ErrorNorm, Estimate, Law};
 use crate::integrate::linear::shifted::Shifted;
-use crate::integrate::methods::kept::{keep_parts, kept_parts};
 use crate::integrate::{
-    Linearization, Linearized, Observed, Samples, Stepper, Structure, add_weighted, zero_works,
+    Kept, Linearization, Linearized, Observed, Samples, Stepper, Structure, add_weighted, zero_works,
 };
 use crate::stored::stored;
 
@@ -70,7 +69,9 @@ pub struct Rosenbrock<const N: usize> {
     positions: usize,
     structure: Structure<N>,
     norm: ErrorNorm,
+    /// State at the end of the last accepted step, and at its start.
     state: Vec<f64>,
+    before: Vec<f64>,
     trial: Vec<f64>,
     /// State in the middle of the attempt.
     middle: Vec<f64>,
@@ -88,8 +89,8 @@ pub struct Rosenbrock<const N: usize> {
     slope: Linearization<N>,
     system: Shifted<f64, N>,
     /// Start, end and two bending terms of the last accepted step and of the attempt.
-    dense: [Vec<f64>; 4],
-    trial_dense: [Vec<f64>; 4],
+    dense: [Vec<f64>; 2],
+    trial_dense: [Vec<f64>; 2],
 }
 
 impl<const N: usize> Rosenbrock<N> {
@@ -102,6 +103,7 @@ impl<const N: usize> Rosenbrock<N> {
             positions: nq,
             norm: ErrorNorm::new(system, tolerance),
             state: zeros(),
+            before: zeros(),
             trial: zeros(),
             middle: zeros(),
             a: vec![0.0; nv],
@@ -124,7 +126,7 @@ impl<const N: usize> Rosenbrock<N> {
     /// Integrates over the attempt by Simpson's rule. The last stage was evaluated within its error of the end; the
     /// middle comes from the dense output.
     fn integrate<S: Linearized<N> + Observed>(&mut self, system: &mut S, t: f64, h: f64, t_last: f64) {
-        let [start, last, bend, twist] = &self.trial_dense;
+        let (start, last, [bend, twist]) = (&self.state, &self.trial, &self.trial_dense);
         for (k, x) in self.middle.iter_mut().enumerate() {
             *x = 0.5 * (start[k] + last[k] + 0.5 * (bend[k] + 0.5 * twist[k]));
         }
@@ -159,9 +161,8 @@ fn weighted_sum(out: &mut [f64], stages: &[Vec<f64>], weights: &[f64]) {
 }
 
 /// State at the fraction `theta` of the step with this dense output.
-fn interpolate(parts: [&[f64]; 4], theta: f64, out: &mut [f64]) {
+fn interpolate([start, end]: [&[f64]; 2], [bend, twist]: [&[f64]; 2], theta: f64, out: &mut [f64]) {
     let (x, y) = (theta, 1.0 - theta);
-    let [start, end, bend, twist] = parts;
     for (i, out) in out.iter_mut().enumerate() {
         *out = start[i] * y + x * (end[i] + y * (bend[i] + x * twist[i]));
     }
@@ -170,10 +171,8 @@ fn interpolate(parts: [&[f64]; 4], theta: f64, out: &mut [f64]) {
 impl<S: Linearized<N> + Observed, const N: usize> Stepper<S> for Rosenbrock<N> {
     fn set_state(&mut self, state: &[f64]) {
         self.state.copy_from_slice(state);
-        self.dense[0].copy_from_slice(state);
-        self.dense[1].copy_from_slice(state);
-        self.dense[2].fill(0.0);
-        self.dense[3].fill(0.0);
+        self.before.copy_from_slice(state);
+        self.dense.iter_mut().for_each(|part| part.fill(0.0));
         self.linearized = false;
     }
 
@@ -232,9 +231,7 @@ impl<S: Linearized<N> + Observed, const N: usize> Stepper<S> for Rosenbrock<N> {
         for (x, error) in self.trial.iter_mut().zip(last) {
             *x += error;
         }
-        let [start, end, bend, twist] = &mut self.trial_dense;
-        start.copy_from_slice(&self.state);
-        end.copy_from_slice(&self.trial);
+        let [bend, twist] = &mut self.trial_dense;
         weighted_sum(bend, &self.stages[..5], &DENSE[0]);
         weighted_sum(twist, &self.stages[..5], &DENSE[1]);
         let estimate = self.norm.of(|k| last[k]);
@@ -245,6 +242,7 @@ impl<S: Linearized<N> + Observed, const N: usize> Stepper<S> for Rosenbrock<N> {
     }
 
     fn accept(&mut self) {
+        std::mem::swap(&mut self.before, &mut self.state);
         std::mem::swap(&mut self.state, &mut self.trial);
         std::mem::swap(&mut self.dense, &mut self.trial_dense);
         self.linearized = false;
@@ -263,15 +261,16 @@ impl<S: Linearized<N> + Observed, const N: usize> Stepper<S> for Rosenbrock<N> {
     }
 
     fn interpolate(&self, theta: f64, out: &mut [f64]) {
-        interpolate(self.dense.each_ref().map(Vec::as_slice), theta, out);
+        let dense = self.dense.each_ref().map(Vec::as_slice);
+        interpolate([&self.before, &self.state], dense, theta, out);
     }
 
     fn keep(&self, out: &mut Vec<f64>) {
-        keep_parts(&self.dense, out);
+        self.dense.iter().for_each(|part| out.extend_from_slice(part));
     }
 
-    fn recall(&self, kept: &[f64], theta: f64, out: &mut [f64]) {
-        interpolate(kept_parts(kept), theta, out);
+    fn recall(&self, kept: &Kept<'_>, theta: f64, out: &mut [f64]) {
+        interpolate([kept.start, kept.end], kept.parts(), theta, out);
     }
 
     fn control(&self) -> Law {
@@ -280,6 +279,6 @@ impl<S: Linearized<N> + Observed, const N: usize> Stepper<S> for Rosenbrock<N> {
 }
 
 stored! {
-    impl[const N: usize] Rosenbrock<N> { state, dense }
+    impl[const N: usize] Rosenbrock<N> { state, before, dense }
     then { linearized = false }
 }
