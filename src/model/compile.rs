@@ -35,11 +35,13 @@ pub(super) fn compile(scene: Scene) -> Result<Model> {
         between_infos: between.iter().map(|pair| pair.info()).collect(),
         between,
         inputs,
+        channels: Vec::new(),
         selection: Selection::default(),
         scene,
     };
+    model.channels = model.list_channels();
     model.selection =
-        Selection::new(&model.scene.record, &model.channels(), &model.infos, model.element_count())?;
+        Selection::new(&model.scene.record, &model.channels, &model.infos, model.element_count())?;
     Ok(model)
 }
 

@@ -81,6 +81,7 @@ pub struct Model {
     between: Vec<Box<dyn SharedPair>>,
     between_infos: Vec<SharedInfo>,
     inputs: InputSignals,
+    channels: Vec<Channel>,
     selection: Selection,
 }
 

@@ -59,7 +59,6 @@ pub struct Sim {
     solver: Solver,
     time: f64,
     state: Vec<f64>,
-    channels: Arc<[Channel]>,
     forces: Forces,
     /// Forces of the last outputs.
     output_forces: Forces,
@@ -108,7 +107,6 @@ impl Sim {
         let bearing = Bearing::new(model.clone(), tuning);
         let driver = Driver::new(method::stepper(&model, &solver, &bearing), method::limits(&model, &solver));
         let mut sim = Self {
-            channels: model.channels().into(),
             fingerprint: snapshot::fingerprint(&model, &solver, &tuning),
             accelerations: vec![0.0; model.layout().velocities()],
             bearing,
@@ -310,7 +308,7 @@ impl Sim {
 
     /// The output channels.
     pub fn channels(&self) -> &[Channel] {
-        &self.channels
+        self.model().channels()
     }
 
     /// Writes the value of every output channel at the current state. With the leapfrog, forces are those of the step that
@@ -321,11 +319,11 @@ impl Sim {
     /// # Errors
     /// [`Status::WrongSize`], [`Status::BadState`]; `out` is then unchanged.
     pub fn outputs(&mut self, out: &mut [f64]) -> Result<()> {
-        if out.len() != self.channels.len() {
-            return Err(wrong_size("outputs", out.len(), self.channels.len()));
+        if out.len() != self.channels().len() {
+            return Err(wrong_size("outputs", out.len(), self.channels().len()));
         }
         self.find_output_forces()?;
-        for (out, channel) in out.iter_mut().zip(self.channels.iter()) {
+        for (out, channel) in out.iter_mut().zip(self.channels()) {
             *out = self.channel_value(channel);
         }
         Ok(())
@@ -355,10 +353,12 @@ impl Sim {
     /// # Errors
     /// [`Status::BadIndex`], [`Status::BadState`].
     pub fn output(&mut self, index: usize) -> Result<f64> {
-        let channels = self.channels.clone();
-        let channel = channels.get(index).ok_or_else(|| bad_index("output", index, channels.len()))?;
+        let count = self.channels().len();
+        if index >= count {
+            return Err(bad_index("output", index, count));
+        }
         self.find_output_forces()?;
-        Ok(self.channel_value(channel))
+        Ok(self.channel_value(&self.channels()[index]))
     }
 
     /// Step that runs start with, s; a method without error control keeps it.

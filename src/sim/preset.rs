@@ -26,7 +26,7 @@ const ENGINEERING: Numbers =
 const DRAFT: Numbers = Numbers { leapfrog_step: 1.4, tolerance: 1e-4, missing_energy: 1e-2, ..ENGINEERING };
 
 const REFERENCE: Numbers =
-    Numbers { statistics: false, leapfrog_step: 0.15, tolerance: 1e-8, missing_energy: 1e-4, ..ENGINEERING };
+    Numbers { statistics: false, leapfrog_step: 0.15, tolerance: 1e-8, missing_energy: 1e-4 };
 
 /// The numbers of a preset.
 pub(super) fn numbers(preset: Preset) -> Numbers {

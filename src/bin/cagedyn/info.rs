@@ -115,9 +115,9 @@ fn inputs(model: &Model) -> Vec<Vec<String>> {
 fn channels(model: &Model) -> Vec<Vec<String>> {
     let kind = model.element_kind();
     let all = indexed(kind, model.element_count());
-    let rows = model.channels().into_iter().filter_map(|channel| {
+    let rows = model.channels().iter().filter_map(|channel| {
         let name = match channel.name.strip_prefix(&format!("{kind}[")) {
-            None => channel.name,
+            None => channel.name.clone(),
             Some(rest) => format!("{all}{}", rest.strip_prefix("0]")?),
         };
         Some(vec![name, format!("[{}]", channel.unit), channel.description.to_owned()])

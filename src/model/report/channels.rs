@@ -78,7 +78,11 @@ pub struct Channel {
 
 impl Model {
     /// The output channels of this scene.
-    pub fn channels(&self) -> Vec<Channel> {
+    pub fn channels(&self) -> &[Channel] {
+        &self.channels
+    }
+
+    pub(in crate::model) fn list_channels(&self) -> Vec<Channel> {
         let mut list = ChannelList(Vec::new());
         self.add_cage_channels(&mut list);
         if self.scene.inner_ring.is_some() {
@@ -98,6 +102,7 @@ impl Model {
         }
         // Behind all others, so that records without them have the places of channels.
         list.0.sort_by_key(|channel| channel.detail);
+        list.0.shrink_to_fit();
         list.0
     }
 
