@@ -44,6 +44,7 @@ fn nothing_is_allocated_while_a_simulation_runs() {
         r#"{"method": {"auto": {"tolerance": 1e-5}}}"#,
         r#"{"method": {"leapfrog": {}}}"#,
         r#"{"method": {"dormand_prince": {"tolerance": 1e-5}}}"#,
+        r#"{"method": {"adams": {"tolerance": 1e-5}}}"#,
         r#"{"method": {"rosenbrock": {"tolerance": 1e-5}}}"#,
         r#"{"method": {"radau": {"tolerance": 1e-5}}}"#,
     ] {

@@ -59,12 +59,13 @@ pub struct Solution {
 }
 
 /// All solvers, in the order of tables and legends.
-pub const SOLVERS: [Solver; 15] = [
+pub const SOLVERS: [Solver; 16] = [
     solver("cagedyn, draft", Way::Preset(Preset::Draft)),
     solver("cagedyn, engineering", Way::Preset(Preset::Engineering)),
     solver("cagedyn, reference", Way::Preset(Preset::Reference)),
     solver("cagedyn, leapfrog", Way::Leapfrog),
     solver("cagedyn, Dormand-Prince", Way::Controlled(Method::DormandPrince)),
+    solver("cagedyn, Adams", Way::Controlled(Method::Adams)),
     solver("cagedyn, Rosenbrock", Way::Controlled(Method::Rosenbrock)),
     solver("cagedyn, Radau", Way::Controlled(Method::Radau)),
     solver("CVODE BDF, own dense Jacobian", Way::Cvode(cvode::Method::Bdf, Matrix::Quotients)),

@@ -22,6 +22,7 @@ pub use auto::balance::throughput;
 pub use auto::tuning::{Constant, Tuning};
 pub use driver::watch::{Samples, Total};
 pub use driver::{Driver, Failure, Limits, Statistics, control};
+pub use methods::adams::Adams;
 pub use methods::damping::{DampingBlock, GroupDamping, SpokeDamping, implicit_share};
 pub use methods::dormand_prince::DormandPrince;
 pub use methods::leapfrog::Leapfrog;

@@ -143,6 +143,7 @@ mod tests {
         // How far each may be from the first.
         for (method, allowed) in [
             (r#"{"dormand_prince": {"tolerance": 1e-7}}"#, 0.0),
+            (r#"{"adams": {"tolerance": 1e-7}}"#, 1e-5),
             (r#"{"rosenbrock": {"tolerance": 1e-7}}"#, 1e-5),
             (r#"{"radau": {"tolerance": 1e-7}}"#, 1e-5),
             (r#"{"leapfrog": {"step": 2e-6}}"#, 1e-4),

@@ -133,6 +133,7 @@ fn coordinates_of_its_own_are_integrated_by_every_method() {
     for (file, until) in [("grease_guide", 6e-3), ("nu2310", 2e-3)] {
         for (method, error) in [
             (r#"{"dormand_prince": {"tolerance": 1e-7}}"#, 1e-5),
+            (r#"{"adams": {"tolerance": 1e-7}}"#, 1e-5),
             (r#"{"rosenbrock": {"tolerance": 1e-7}}"#, 1e-5),
             (r#"{"radau": {"tolerance": 1e-7}}"#, 1e-5),
             (r#"{"leapfrog": {"step": 1e-6}}"#, 1e-5),

@@ -151,6 +151,9 @@ methods! {
     /// Rosenbrock method of order 4(3) on the exact derivatives, with error control: the choice for accurate
     /// trajectories of stiff scenes, such as thin films and heavy loads.
     Rosenbrock = "rosenbrock", "Rosenbrock 4(3)";
+    /// Adams method of order 1 to 12 with error control: the choice for accurate trajectories of a cage that is not hit often,
+    /// with one or two evaluations per step.
+    Adams = "adams", "Adams 1 to 12";
     /// Radau IIA method of order 5 on the exact derivatives, with error control: the choice for extreme accuracy where
     /// films are stiff and nothing else touches.
     Radau = "radau", "Radau IIA 5";

@@ -4,7 +4,7 @@ use super::bearing::Bearing;
 use super::preset::{Numbers, UNDAMPED_SHARE, numbers};
 use crate::integrate::auto::stability::Expectation;
 use crate::integrate::auto::{Aim, Auto, Choice, Kind, Reason};
-use crate::integrate::{DormandPrince, Leapfrog, Limits, Radau, Rosenbrock, Stepper, Tuning};
+use crate::integrate::{Adams, DormandPrince, Leapfrog, Limits, Radau, Rosenbrock, Stepper, Tuning};
 use crate::model::Model;
 use crate::scene::{Method, Solver};
 
@@ -26,6 +26,7 @@ pub(super) fn stepper(model: &Model, solver: &Solver, bearing: &Bearing) -> Box<
         Method::Auto(_) => Box::new(Auto::new(bearing, aim(model, solver, bearing.tuning()))),
         Method::Leapfrog(_) => Box::new(Leapfrog::new(bearing)),
         Method::DormandPrince(_) => Box::new(DormandPrince::new(bearing, &tolerances)),
+        Method::Adams(_) => Box::new(Adams::new(bearing, &tolerances)),
         Method::Rosenbrock(_) => Box::new(Rosenbrock::new(bearing, &tolerances)),
         Method::Radau(_) => Box::new(Radau::new(bearing, &tolerances)),
     }

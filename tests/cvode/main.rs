@@ -17,8 +17,9 @@ use serde_json::json;
 /// Tolerances at which methods with error control are compared.
 const LEVELS: [f64; 3] = [1e-4, 1e-6, 1e-8];
 /// The methods with error control, by their names in scenes and in words.
-const METHODS: [(&str, &str); 4] = [
+const METHODS: [(&str, &str); 5] = [
     ("dormand_prince", "Dormand-Prince"),
+    ("adams", "Adams"),
     ("rosenbrock", "Rosenbrock"),
     ("radau", "Radau"),
     ("auto", "auto"),

@@ -115,7 +115,7 @@ fn both_ends_of_every_range_run_or_say_why_not() {
 
 #[test]
 fn tolerances_from_loose_to_tight() {
-    let methods = ["auto", "dormand_prince", "rosenbrock", "radau"];
+    let methods = ["auto", "dormand_prince", "adams", "rosenbrock", "radau"];
     for (name, duration) in [("grease_guide", 2e-3), ("nu2310", 0.3e-3)] {
         for method in methods {
             let end = |tolerance: f64| {

@@ -3,6 +3,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod adams;
 mod arrowhead;
 mod auto;
 mod choice;

@@ -2,7 +2,7 @@
 
 use crate::common::systems::Oscillator;
 use cagedyn::integrate::{
-    DormandPrince, Driver, Failure, Leapfrog, Limits, Radau, Rosenbrock, Stepper, implicit_share,
+    Adams, DormandPrince, Driver, Failure, Leapfrog, Limits, Radau, Rosenbrock, Stepper, implicit_share,
 };
 use cagedyn::stored::{Reader, Stored};
 
@@ -20,11 +20,12 @@ fn dormand_prince(s: &Oscillator, tolerance: f64) -> Driver<Oscillator> {
     Driver::new(Box::new(DormandPrince::new(s, &[tolerance; 5])), limits(1e-3))
 }
 
-const METHODS: [&str; 3] = ["leapfrog", "dormand_prince", "radau"];
+const METHODS: [&str; 4] = ["leapfrog", "dormand_prince", "adams", "radau"];
 
 /// A method with error control by its name.
 fn adaptive_driver(method: &str, s: &Oscillator, tolerance: f64) -> Driver<Oscillator> {
     match method {
+        "adams" => Driver::new(Box::new(Adams::new(s, &[tolerance; 5])), limits(1e-3)),
         "radau" => Driver::new(Box::new(Radau::new(s, &[tolerance; 5])), limits(1e-3)),
         _ => dormand_prince(s, tolerance),
     }

@@ -57,7 +57,7 @@ fn what_a_method_leaves_open_is_filled_in_and_what_it_says_stays() {
     for preset in Preset::ALL {
         assert_eq!(step(preset.name(), json!({"leapfrog": {"step": 1e-6}})), 1e-6);
     }
-    for method in ["auto", "dormand_prince", "rosenbrock", "radau"] {
+    for method in ["auto", "dormand_prince", "adams", "rosenbrock", "radau"] {
         let end = |preset: &str, parameters: Value| {
             let mut sim = sim(json!({"preset": preset, "method": {method: parameters}}));
             sim.advance_to(1e-4).unwrap();

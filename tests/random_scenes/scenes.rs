@@ -252,6 +252,7 @@ fn solver() -> impl Strategy<Value = Value> {
         Just(json!({"leapfrog": {}})),
         magnitude(1e-7, 2e-6).prop_map(|step| json!({"leapfrog": {"step": step}})),
         magnitude(1e-7, 1e-3).prop_map(|tolerance| json!({"dormand_prince": {"tolerance": tolerance}})),
+        magnitude(1e-7, 1e-3).prop_map(|tolerance| json!({"adams": {"tolerance": tolerance}})),
         magnitude(1e-7, 1e-3).prop_map(|tolerance| json!({"rosenbrock": {"tolerance": tolerance}})),
         magnitude(1e-7, 1e-3).prop_map(|tolerance| json!({"radau": {"tolerance": tolerance}})),
     ]

@@ -64,6 +64,7 @@ fn integrals_are_the_impulses_that_were_given() {
         (json!({"leapfrog": {}}), 1e-9),
         (json!({"auto": {}}), 1e-4),
         (json!({"dormand_prince": {"tolerance": 1e-8}}), 1e-3),
+        (json!({"adams": {"tolerance": 1e-8}}), 1e-3),
         (json!({"rosenbrock": {"tolerance": 1e-7}}), 1e-3),
         (json!({"radau": {"tolerance": 1e-7}}), 1e-3),
     ] {

@@ -17,7 +17,7 @@ fn bits(x: &[f64]) -> Vec<u64> {
 
 #[test]
 fn an_interrupted_run_goes_on_with_the_same_bits() {
-    let methods = ["auto", "leapfrog", "dormand_prince", "rosenbrock", "radau"];
+    let methods = ["auto", "leapfrog", "dormand_prince", "adams", "rosenbrock", "radau"];
     for method in methods {
         let scene = example_with(&[("solver", json!({"method": {method: {}}}))]);
         let mut whole = sim(&scene);
@@ -67,7 +67,7 @@ fn a_run_of_many_short_advances_has_the_same_bits() {
 
 #[test]
 fn the_largest_step_binds_every_method() {
-    for method in ["auto", "leapfrog", "dormand_prince", "rosenbrock", "radau"] {
+    for method in ["auto", "leapfrog", "dormand_prince", "adams", "rosenbrock", "radau"] {
         let bound = 1e-6;
         let scene = example_with(&[("solver", json!({"method": {method: {}}, "max_step": bound}))]);
         let mut sim = sim(&scene);
@@ -151,7 +151,7 @@ fn outputs_of_the_leapfrog_have_the_forces_of_its_steps() {
 fn the_balance_closes_and_better_with_smaller_tolerances() {
     for (file, duration) in [("scenes/nu2310.json", 5e-3), ("scenes/grease_guide.json", 20e-3)] {
         let scene: Value = serde_json::from_str(&read(file)).unwrap();
-        for method in ["dormand_prince", "rosenbrock", "radau"] {
+        for method in ["dormand_prince", "adams", "rosenbrock", "radau"] {
             let residual = |tolerance: f64| {
                 let solver = json!({"method": {method: {"tolerance": tolerance}}});
                 let mut sim = sim(&crate::common::with(&scene, &[("solver", solver)]));

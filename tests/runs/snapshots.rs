@@ -90,11 +90,12 @@ fn every_changed_number_of_a_snapshot_is_noticed() {
     let methods = [
         r#""leapfrog": {}"#,
         r#""dormand_prince": {"tolerance": 1e-5}"#,
+        r#""adams": {"tolerance": 1e-5}"#,
         r#""auto": {}"#,
         r#""auto": {"tolerance": 1e-5}"#,
     ];
     for method in methods {
-        let solver = format!(r#"{{"method": {{{method}}}, "max_steps": 600}}"#);
+        let solver = format!(r#"{{"method": {{{method}}}, "max_steps": 3000}}"#);
         // Few rollers: a restore makes a stretch again, and there are as many as there are numbers.
         let mut s = sim(&[("solver", &solver), ("rollers.count", "5")]);
         s.advance_to(0.2e-3).unwrap();

@@ -17,6 +17,8 @@ const FILTER: [f64; 3] = [0.25, 0.25, 0.25];
 const PROPORTIONAL_INTEGRAL: [f64; 3] = [0.7, -0.4, 0.0];
 /// A change of the step by a factor c becomes 1 + LIMIT atan((c - 1)/LIMIT): at most 2.6, at least 0.2.
 const LIMIT: f64 = 1.0;
+/// Growth of a steady step.
+const DOUBLED: f64 = 2.0;
 /// Errors below this count as this, so that a perfect step does not spoil the memory.
 const SMALLEST_ERROR: f64 = 1e-4;
 /// A rejected step shrinks at least to this and at most to that share.
@@ -42,17 +44,24 @@ pub struct Law {
     order: f64,
     /// Exponents, times the order, of the present and the last error, and of the last change of the step.
     exponents: [f64; 3],
+    /// Whether the step stays as it is unless it can be doubled or must shrink.
+    steady: bool,
 }
 
 impl Law {
     /// For an explicit method.
     pub fn explicit(order: f64) -> Self {
-        Self { order, exponents: PROPORTIONAL_INTEGRAL }
+        Self { order, exponents: PROPORTIONAL_INTEGRAL, steady: false }
     }
 
     /// For an implicit or linearly implicit method.
     pub fn implicit(order: f64) -> Self {
-        Self { order, exponents: FILTER }
+        Self { order, exponents: FILTER, steady: false }
+    }
+
+    /// For a multistep method, whose coefficients and choice of the order like even steps.
+    pub fn multistep(order: f64) -> Self {
+        Self { order, exponents: [1.0, 0.0, 0.0], steady: true }
     }
 }
 
@@ -125,13 +134,19 @@ impl Default for Controller {
 impl Controller {
     /// Factor for the next step after an accepted one with the error `error` <= 1.
     pub fn accepted(&mut self, error: f64, law: Law) -> f64 {
-        let Law { order, exponents: [now, last, change] } = law;
+        let Law { order, exponents: [now, last, change], steady } = law;
         let aim = math::powf(SAFETY, order);
         let error = error.max(SMALLEST_ERROR) / aim;
-        let followed = math::powf(error, -now / order) * math::powf(self.last_error, -last / order);
-        let wanted = followed * math::powf(self.last_change, -change);
+        let power = |x: f64, exponent: f64| if exponent == 0.0 { 1.0 } else { math::powf(x, exponent) };
+        let followed = power(error, -now / order) * power(self.last_error, -last / order);
+        let wanted = followed * power(self.last_change, -change);
         let limited = 1.0 + LIMIT * math::atan((wanted - 1.0) / LIMIT);
-        let factor = if self.after_rejection { limited.min(1.0) } else { limited };
+        let factor = match limited {
+            _ if self.after_rejection => limited.min(1.0),
+            _ if !steady => limited,
+            x if x >= DOUBLED => DOUBLED,
+            x => x.min(1.0),
+        };
         *self = Self { last_error: error, last_change: factor, after_rejection: false };
         factor
     }

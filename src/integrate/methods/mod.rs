@@ -1,5 +1,6 @@
 //! The integration methods, one file each, and what they share.
 
+pub(super) mod adams;
 pub(super) mod damping;
 pub(super) mod dormand_prince;
 pub(super) mod leapfrog;
