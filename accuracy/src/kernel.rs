@@ -5,7 +5,7 @@ use crate::problem::Problem;
 use crate::report::{empty, time};
 use crate::scenes;
 use cagedyn::model::PARTS;
-use cagedyn::scene::{Auto, Method};
+use cagedyn::scene::{Auto, Leapfrog, Method};
 use cagedyn::{Model, Result, Scene, Sim};
 use cagedyn_studies::statistics::table::Table;
 use std::hint::black_box;
@@ -17,6 +17,8 @@ const STATES: u32 = 200;
 const ROUNDS: u32 = 40;
 /// Time before the first of them, s.
 const SETTLING: f64 = 0.05;
+/// Simulated time of a round of steps, s.
+const ROUND: f64 = 1e-3;
 /// Step of the linear systems, s.
 const GAMMA: f64 = 1e-6;
 
@@ -102,22 +104,25 @@ pub fn tables() -> Result<[Table; 2]> {
         "forces and Jacobian",
         "factorize",
         "solve",
-        "memory",
+        "memory of the model",
+        "memory of a simulation",
     ];
     let mut costs_of = empty("costs", head.map(str::to_owned).to_vec());
     let mut head = vec!["scene".to_owned()];
     head.extend(PARTS.iter().map(|part| part.replace('_', " ")));
     let mut parts_of = empty("parts", head);
     for (name, file) in SCENES {
-        let before = memory::in_use();
-        let mut sim = Sim::new(Arc::new(Model::new(scenes::from_file(file, &[])?)?))?;
+        let start = memory::in_use();
+        let model = Arc::new(Model::new(scenes::from_file(file, &[])?)?);
+        let compiled = memory::in_use();
+        let mut sim = Sim::new(model)?;
         sim.advance_to(1e-4)?;
-        let used = memory::in_use().saturating_sub(before);
+        let used = [compiled - start, memory::in_use() - compiled];
         let c = costs(scenes::from_file(file, &[])?)?;
         let times = [c.forces, c.portable, c.jacobian, c.factorize, c.solve].map(time);
         let mut line = vec![name.to_owned(), sim.state().len().to_string(), format!("{:.1}", c.contacts)];
         line.extend(times);
-        line.push(format!("{:.0} kB", used as f64 / 1e3));
+        line.extend(used.map(|bytes| format!("{:.0} kB", bytes as f64 / 1e3)));
         costs_of.lines.push(line);
         let mut states = Vec::new();
         for k in 1..=STATES {
@@ -129,6 +134,25 @@ pub fn tables() -> Result<[Table; 2]> {
         parts_of.lines.push(line);
     }
     Ok([costs_of, parts_of])
+}
+
+/// Wall time of a step of the leapfrog in developed motion, s.
+///
+/// # Errors
+/// Those of the run.
+pub fn leapfrog_step() -> Result<f64> {
+    let problem = Problem::new(scenes::nu2310(&[])?, 10e-3, STATES)?;
+    let mut sim = problem.sim(Method::Leapfrog(Leapfrog::default()))?;
+    sim.advance_to(SETTLING)?;
+    let mut best = f64::INFINITY;
+    for _ in 0..ROUNDS {
+        let before = sim.statistics().driver.steps;
+        let started = Instant::now();
+        sim.advance_to(sim.time() + ROUND)?;
+        let seconds = started.elapsed().as_secs_f64();
+        best = best.min(seconds / (sim.statistics().driver.steps - before) as f64);
+    }
+    Ok(best)
 }
 
 /// Wall time of the twelve cases of the paper at `engineering`, 0.3 s each, together and longest, s.
