@@ -99,22 +99,22 @@ effects: tools
 verify: tools
 	CAGEDYN_BLESS=1 $(CARGO) test $(FLAGS) --test cvode --test methods -- --ignored --nocapture --test-threads 1 table
 
-hard:
+hard: tools
 	CAGEDYN_BLESS=1 $(CARGO) test --release --locked --test hard -- --ignored --nocapture
 
 SEED ?= 1000
 N ?= 200
 
-judge:
+judge: tools
 	$(CARGO) run --release --locked --package cagedyn-studies --bin judge -- --seed $(SEED) --n $(N) $(ARGS)
 
 # Some ten minutes.
-tuning:
+tuning: tools
 	mkdir -p docs/results
 	$(CARGO) run --release --locked --package cagedyn-studies --bin judge -- --seed 0 --n 20 --tuning > docs/results/tuning.md
 
 # Twenty times as many random scenes as every test run has; about an hour.
-random:
+random: tools
 	PROPTEST_CASES=20000 $(CARGO) test --release --locked --test random_scenes scenes_run_or -- --nocapture
 
 statistics: tools
@@ -124,7 +124,7 @@ accuracy: tools
 	tools/fetch_peers.sh out/peers
 	PEERS_LIB=out/peers $(CARGO) run --release --locked --package cagedyn-accuracy -- --docs
 
-bench:
+bench: tools
 	$(CARGO) bench --locked
 
 build-times: tools

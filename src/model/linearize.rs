@@ -1,9 +1,9 @@
 //! Exact derivatives of the accelerations with respect to positions and velocities, by dual numbers through the same
 //! kinematics and laws that give the forces.
 //!
-//! Each contact is differentiated on its own: its law over what the law sees (approach, approach speed, surface
-//! speeds, share of edge friction), by the batch; its kinematics over the coordinates of its two bodies, one by one, by its
-//! pair, and both chained. The sums keep the structure of the bearing: shared bodies are coupled to every element, elements
+//! Contacts are differentiated in lanes: their laws over what these see (approach, approach speed, surface speeds, share of
+//! edge friction), their kinematics over the motion of the element that its mate sees, by their pair; both are chained with the
+//! coordinates of the bodies by the same rows for all (`pairs/contacts/relative`). The sums keep the structure of the bearing: shared bodies are coupled to every element, elements
 //! to nothing else.
 
 use super::workspace::Workspace;
@@ -40,7 +40,7 @@ impl Model {
         };
         for (place, pair) in self.pairs.iter().enumerate() {
             let (batch, contacts) = ws.contacts.range(place);
-            pair.add_slopes(batch, contacts, &ws.motions, &mut sums);
+            pair.add_slopes(batch, contacts, &ws.motions, &mut sums, &mut ws.relative_slopes);
         }
         for pair in &self.between {
             pair.add_slopes(&ws.motions, ws.fluid, &mut sums);

@@ -6,7 +6,7 @@ use super::{InputValues, Model};
 use crate::bodies::{BodyState, Motions, OF_ELEMENT, POWERS, SHARED, WrenchLanes};
 use crate::integrate::Vibration;
 use crate::laws::fluid::Fluid;
-use crate::pairs::{Contacts, LAWS, LAWS_OF_PAIR, Law, LawCounts, PairInfo, SharedForce};
+use crate::pairs::{Contacts, LAWS, LAWS_OF_PAIR, Law, LawCounts, PairInfo, RelativeSlopes, SharedForce};
 use crate::scalar::{ZEROS, blocks_for};
 use crate::space::Wrench;
 use std::ops::Range;
@@ -35,6 +35,7 @@ pub struct Workspace {
     /// Forces on the shared bodies but their weight, moments about their geometric centres, global frame.
     pub(super) on_shared: [Wrench<f64>; SHARED],
     /// Memory for derivatives.
+    pub(super) relative_slopes: RelativeSlopes,
     pub(super) inverse_inertia: InverseInertia,
     /// Powers, where nodes follow from them, and the values of these.
     pub(super) powers: Vec<f64>,
@@ -69,6 +70,7 @@ impl Workspace {
             inputs: InputValues::default(),
             on_elements: vec![[ZEROS; OF_ELEMENT]; blocks_for(model.layout.count)],
             on_shared: [Wrench::default(); SHARED],
+            relative_slopes: RelativeSlopes::new(),
             inverse_inertia: InverseInertia::new(model.layout.of_shared()),
             powers: vec![0.0; RATES],
             nodes: vec![0.0; model.layout.of_nodes()],

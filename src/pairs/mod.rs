@@ -23,7 +23,7 @@ pub(crate) mod raceway;
 mod slope_sums;
 
 pub(crate) use contacts::{
-    Batch, ContactBlock, Contacts, Found, LAWS_OF_PAIR, Loaded, Search, Site, SpeedChanges,
+    Batch, ContactBlock, Contacts, Found, LAWS_OF_PAIR, Loaded, RelativeSlopes, Search, Site, SpeedChanges,
 };
 pub(crate) use grip::Grip;
 pub(crate) use slope_sums::SlopeSums;
@@ -211,7 +211,14 @@ pub(crate) trait ElementPair: Debug + Send + Sync {
     fn find(&self, motions: &Motions, out: &mut Search<'_>) -> std::result::Result<(), Fault>;
 
     /// Adds the derivatives of the forces of these contacts of a batch over the coordinates of both bodies.
-    fn add_slopes(&self, batch: &Batch, contacts: Range<usize>, motions: &Motions, sums: &mut SlopeSums<'_>);
+    fn add_slopes(
+        &self,
+        batch: &Batch,
+        contacts: Range<usize>,
+        motions: &Motions,
+        sums: &mut SlopeSums<'_>,
+        memory: &mut RelativeSlopes,
+    );
 
     /// Whether its law sets in so abruptly that steps must be chosen by it.
     fn has_onset(&self) -> bool {

@@ -1,9 +1,11 @@
 //! Sums of the derivatives of all wrenches over the coordinates, in the structure of the bearing: shared bodies are coupled to
 //! every element, elements to nothing else.
 
-use crate::bodies::{InputValues, Layout, OF_ELEMENT};
+use crate::bodies::{Input, InputValues, Layout, OF_ELEMENT};
 use crate::integrate::Linearization;
 use crate::integrate::linear::Arrowhead;
+use crate::scalar::{Lanes, WIDEST, ZEROS};
+use std::ops::Range;
 
 /// Sums in the making.
 pub(crate) struct SlopeSums<'a> {
@@ -18,6 +20,37 @@ pub(crate) struct SlopeSums<'a> {
 /// Derivatives of one component of a wrench over the first positions and velocities of a body, as many as it has.
 pub(crate) type Slope<const P: usize, const V: usize> = ([f64; P], [f64; V]);
 
+/// Derivatives of the wrenches of a block of contacts by columns: the coordinates of the element (two positions, three
+/// velocities) and of the mate (three and three), and time.
+#[derive(Clone, Debug)]
+pub(crate) struct ContactColumns {
+    /// On elements, in their axes.
+    pub(crate) own: [[Lanes; OF_ELEMENT]; Self::COUNT],
+    /// On mates, in global axes.
+    pub(crate) on_mate: [[Lanes; OF_ELEMENT]; Self::COUNT],
+}
+
+impl ContactColumns {
+    pub(crate) const COUNT: usize = TIME + 1;
+    pub(crate) const ZERO: Self =
+        Self { own: [[ZEROS; OF_ELEMENT]; Self::COUNT], on_mate: [[ZEROS; OF_ELEMENT]; Self::COUNT] };
+}
+
+/// Where columns begin.
+const OFFSET: usize = 0;
+const RADIAL_SPEED: usize = 2;
+const PLACE: usize = 5;
+const VELOCITY: usize = 8;
+const TIME: usize = 11;
+
+/// Adds what stands at a place of the lanes to the first components of a wrench.
+#[inline(always)]
+fn add(sum: &mut [f64], slopes: &[Lanes; OF_ELEMENT], lane: usize) {
+    for (sum, column) in sum.iter_mut().zip(slopes) {
+        *sum += column[lane % WIDEST];
+    }
+}
+
 /// Columns of a matrix with as many rows as an element has velocities.
 #[inline]
 fn chunks(columns: &mut [f64]) -> &mut [[f64; OF_ELEMENT]] {
@@ -25,62 +58,104 @@ fn chunks(columns: &mut [f64]) -> &mut [[f64; OF_ELEMENT]] {
 }
 
 impl SlopeSums<'_> {
-    /// Over positions and over velocities.
-    #[inline]
-    fn parts(&mut self) -> [&mut Arrowhead<f64, OF_ELEMENT>; 2] {
-        [&mut self.out.over_positions, &mut self.out.over_velocities]
+    /// Adds the derivatives of the contact at a place of the columns, of this element with this mate, but for those of the mate
+    /// over its own coordinates.
+    #[inline(always)]
+    pub(crate) fn add_contact(&mut self, j: usize, mate: usize, columns: &ContactColumns, lane: usize) {
+        if j >= self.layout.count {
+            return;
+        }
+        self.add_own(j, columns, lane);
+        // Pairs act on the motion of a body only, which has so many coordinates at most.
+        match self.layout.range(mate).len().min(OF_ELEMENT) {
+            0 => {}
+            1 => self.add_across::<1>(j, mate, columns, lane),
+            2 => self.add_across::<2>(j, mate, columns, lane),
+            _ => self.add_across::<OF_ELEMENT>(j, mate, columns, lane),
+        }
     }
 
-    /// Adds derivatives of the wrench on element `j`, in its local frame, over its own coordinates.
-    #[inline]
-    pub(crate) fn add_own<const P: usize>(&mut self, j: usize, rows: &[Slope<P, OF_ELEMENT>; OF_ELEMENT]) {
-        let columns = j * OF_ELEMENT..(j + 1) * OF_ELEMENT;
-        let [k, d] = self.parts().map(|part| &mut chunks(part.own.as_mut_slice())[columns.clone()]);
-        for (i, (position, velocity)) in rows.iter().enumerate() {
-            for (c, slope) in position.iter().enumerate() {
-                k[c][i] += slope;
+    /// Over positions and over velocities, with the first columns of elements and mates.
+    #[inline(always)]
+    fn parts(&mut self) -> [(&mut Arrowhead<f64, OF_ELEMENT>, [usize; 2]); 2] {
+        let Linearization { over_positions, over_velocities, .. } = &mut *self.out;
+        [(over_positions, [OFFSET, PLACE]), (over_velocities, [RADIAL_SPEED, VELOCITY])]
+    }
+
+    /// Of the element over its own coordinates.
+    #[inline(always)]
+    fn add_own(&mut self, j: usize, columns: &ContactColumns, lane: usize) {
+        let at = j * OF_ELEMENT..(j + 1) * OF_ELEMENT;
+        let [(k, _), (d, _)] = self.parts();
+        for (column, slopes) in
+            chunks(k.own.as_mut_slice())[at.clone()].iter_mut().zip(&columns.own[..RADIAL_SPEED])
+        {
+            add(column, slopes, lane);
+        }
+        for (column, slopes) in
+            chunks(d.own.as_mut_slice())[at].iter_mut().zip(&columns.own[RADIAL_SPEED..PLACE])
+        {
+            add(column, slopes, lane);
+        }
+    }
+
+    /// Of the element over the first `N` coordinates of the mate, and the other way round.
+    #[inline(always)]
+    fn add_across<const N: usize>(&mut self, j: usize, mate: usize, columns: &ContactColumns, lane: usize) {
+        let (start, width) = (self.layout.range(mate).start, self.layout.hub());
+        let ends = [RADIAL_SPEED, PLACE];
+        for ((part, [by_own, by_mate]), end) in self.parts().into_iter().zip(ends) {
+            let from_hub = chunks(&mut part.from_hub.as_mut_slice()[OF_ELEMENT * (j * width + start)..]);
+            for (column, slopes) in from_hub.iter_mut().zip(&columns.own[by_mate..][..N]) {
+                add(column, slopes, lane);
             }
-            for (c, slope) in velocity.iter().enumerate() {
-                d[c][i] += slope;
+            let to_hub = part.to_hub.as_mut_slice()[OF_ELEMENT * width * j..].chunks_exact_mut(width);
+            for (column, slopes) in to_hub.zip(&columns.on_mate[by_own..end]) {
+                if let Some(column) = column[start..].first_chunk_mut::<N>() {
+                    add(column, slopes, lane);
+                }
             }
         }
     }
 
-    /// The same over those of a shared body.
-    #[inline]
-    pub(crate) fn add_own_over_mate<const N: usize>(
+    /// Adds the derivatives of the wrenches on a mate over its own coordinates by the contacts at these places of the columns.
+    pub(crate) fn add_on_mate(&mut self, mate: usize, columns: &ContactColumns, lanes: Range<usize>) {
+        let places = self.layout.range(mate);
+        for (part, [_, first]) in self.parts() {
+            for (column, at) in columns.on_mate[first..][..OF_ELEMENT].iter().zip(places.clone()) {
+                for (slopes, row) in column.iter().zip(places.clone()) {
+                    let entry = &mut part.hub[(row, at)];
+                    *entry = slopes[lanes.clone()].iter().fold(*entry, |sum, slope| sum + slope);
+                }
+            }
+        }
+    }
+
+    /// Adds what changes while the state does not, by the contact at a place of the columns: viscosity, the speed of the mate,
+    /// elements of prescribed motion.
+    pub(crate) fn add_contact_over_time(
         &mut self,
         j: usize,
         mate: usize,
-        rows: &[Slope<N, N>; OF_ELEMENT],
+        columns: &ContactColumns,
+        lane: usize,
     ) {
-        let (places, first) = (self.layout.range(mate), j * self.layout.hub());
-        let columns = first + places.start..first + places.end;
-        let [k, d] = self.parts().map(|part| &mut chunks(part.from_hub.as_mut_slice())[columns.clone()]);
-        for (c, (k, d)) in k.iter_mut().zip(d).enumerate().take(N) {
-            for (i, (position, velocity)) in rows.iter().enumerate() {
-                k[i] += position[c];
-                d[i] += velocity[c];
+        let ContactColumns { own, on_mate } = columns;
+        let places = self.layout.range(mate);
+        add(&mut self.out.over_time[places.clone()], &on_mate[TIME], lane);
+        if j < self.layout.count {
+            let rates = own[TIME].each_ref().map(|column| column[lane]);
+            for (place, rate) in self.layout.of_element(j).into_iter().zip(rates) {
+                self.out.over_time[place] += rate;
             }
+            return;
         }
-    }
-
-    /// Adds derivatives of the first components of the wrench on a shared body over the coordinates of element `j`.
-    #[inline]
-    pub(crate) fn add_mate_over_own<const M: usize>(
-        &mut self,
-        j: usize,
-        mate: usize,
-        rows: &[Slope<2, OF_ELEMENT>; M],
-    ) {
-        let (places, width) = (self.layout.range(mate), self.layout.hub());
-        let block = j * OF_ELEMENT * width..(j + 1) * OF_ELEMENT * width;
-        let [k, d] = self.parts().map(|part| &mut part.to_hub.as_mut_slice()[block.clone()]);
-        for (c, column) in k.chunks_exact_mut(width).enumerate().take(2) {
-            column[places.clone()].iter_mut().zip(rows).for_each(|(sum, row)| *sum += row.0[c]);
-        }
-        for (c, column) in d.chunks_exact_mut(width).enumerate() {
-            column[places.clone()].iter_mut().zip(rows).for_each(|(sum, row)| *sum += row.1[c]);
+        let [travel, orbit, spin] = [OFFSET + 1, RADIAL_SPEED + 1, RADIAL_SPEED + 2].map(|c| &on_mate[c]);
+        let rates = self.rates;
+        for (i, place) in places.enumerate().take(OF_ELEMENT) {
+            self.out.over_time[place] += travel[i][lane] * rates.orbit_travel
+                + orbit[i][lane] * rates.of(Input::OrbitSpeed)
+                + spin[i][lane] * rates.of(Input::SpinSpeed);
         }
     }
 
@@ -98,14 +173,6 @@ impl SlopeSums<'_> {
                 k[(at, column)] += position[c];
                 d[(at, column)] += velocity[c];
             }
-        }
-    }
-
-    /// Adds rates of the wrench on element `j` at constant state.
-    #[inline]
-    pub(crate) fn add_own_over_time(&mut self, j: usize, rates: &[f64; OF_ELEMENT]) {
-        for (place, rate) in self.layout.of_element(j).into_iter().zip(rates) {
-            self.out.over_time[place] += rate;
         }
     }
 

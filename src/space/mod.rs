@@ -3,7 +3,7 @@
 //! Everything that knows how many directions there are is here: motions, frames and wrenches. docs/design-space.md shows
 //! what takes their place with three more.
 
-use crate::scalar::{Lanes, Numeric, Pack, Real, WIDEST, ZEROS};
+use crate::scalar::{Lanes, Numeric, Pack, WIDEST, ZEROS};
 use pulp::Simd;
 
 /// Motion of a body.
@@ -77,14 +77,6 @@ impl<T: Numeric> Frame<T> {
     #[inline(always)]
     pub fn to_global(self, v: [T; 2]) -> [T; 2] {
         rotate(v, self.sin, self.cos)
-    }
-}
-
-impl<T: Real> Frame<T> {
-    /// The frame with these directions, which turns by `angle`: a number of value zero that has derivatives.
-    #[inline]
-    pub fn turning(at: Frame<f64>, angle: T) -> Self {
-        Self { sin: angle * at.cos + at.sin, cos: -(angle * at.sin) + at.cos }
     }
 }
 

@@ -187,6 +187,31 @@ fn derivatives_match_differences_in_every_combination() {
     assert!(skipped < compared / 200, "{skipped} of {compared} skipped");
 }
 
+#[test]
+fn all_instructions_give_the_same_derivatives() {
+    let mut compared = 0;
+    for parts in all() {
+        let sim = moving(parts);
+        let (model, host) = (sim.model(), HostInputs::default());
+        let (inputs, rates) = (model.inputs_at(sim.time(), &host), model.input_rates_at(sim.time(), &host));
+        let (q, v) = sim.state().split_at(model.layout().positions());
+        let [vector, plain] = [true, false].map(|vector| {
+            let (mut ws, mut a) = (Workspace::new(model), vec![0.0; v.len()]);
+            ws.set_vector_instructions(vector);
+            model.accelerations(&inputs, q, v, &mut ws, &mut a).unwrap();
+            let mut slope = Linearization::new(&model.structure(), v.len());
+            model.linearize(&mut ws, &rates, &mut slope);
+            dense(model, &slope)
+        });
+        for (a, b) in vector.iter().flatten().zip(plain.iter().flatten()) {
+            assert_eq!(a.to_bits(), b.to_bits(), "{parts:?}: {a} {b}");
+            compared += usize::from(*a != 0.0);
+        }
+    }
+    println!("{compared} derivatives that are not zero");
+    assert!(compared > 10_000, "{compared}");
+}
+
 /// A state that the bearing of these parts reaches.
 fn moving(parts: Parts) -> Sim {
     let model = Model::from_json(&scene(parts).to_string()).unwrap();

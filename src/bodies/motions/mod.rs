@@ -132,6 +132,12 @@ impl Motions {
         }
     }
 
+    /// r_p, m.
+    #[inline(always)]
+    pub(crate) fn pitch_radius(&self) -> f64 {
+        self.pitch_radius
+    }
+
     /// Angle that element `j` has travelled since the start, rad.
     #[inline]
     pub(crate) fn travel(&self, j: usize) -> f64 {

@@ -11,7 +11,7 @@
 
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
 use crate::laws::traction::solid_friction::SolidFriction;
-use crate::scalar::{Real, smoothstep};
+use crate::scalar::{Base, Of, smoothstep};
 
 /// Added to |du| in m/s, so that friction and its slope are defined at zero slip.
 const SLIP_FLOOR: f64 = 1e-12;
@@ -31,32 +31,31 @@ pub struct SolidContact {
 
 impl SolidContact {
     /// Normal force and friction of the pair. `motion.delta` is the depth d.
-    #[inline]
-    pub fn force<T: Real>(&self, motion: &ContactMotion<T>) -> ContactForce<T> {
-        let mut out = ContactForce::none(T::constant(0.0));
+    #[inline(always)]
+    pub fn force<B: Base, T: Of<B>>(&self, motion: &ContactMotion<T>) -> ContactForce<T> {
+        let zero = motion.delta.like(0.0);
         // Written so that a NaN depth is passed on and not taken for "apart".
-        if motion.delta.value() <= 0.0 {
-            return out;
-        }
+        let apart = motion.delta.at_most(0.0);
         let share = if self.softening_depth > 0.0 {
             smoothstep(motion.delta / self.softening_depth)
         } else {
-            T::constant(1.0)
+            motion.delta.like(1.0)
         };
         let damping = share * self.damping;
         let normal = motion.delta * self.stiffness + damping * motion.delta_dot;
-        if normal.value() <= 0.0 {
-            return out;
-        }
-        out.normal = normal;
-        out.stiffness = T::constant(self.stiffness);
-        out.damping = damping;
+        let nothing = apart | normal.at_most(0.0);
+        let mut out = ContactForce::none(zero);
+        out.normal = T::select(nothing, zero, normal);
+        out.stiffness = T::select(nothing, zero, zero.like(self.stiffness));
+        out.damping = T::select(nothing, zero, damping);
         if let Some(friction) = &self.friction {
             let du = motion.u1 - motion.u2;
             let slip = du.abs() + SLIP_FLOOR;
-            out.friction_coefficient = friction.at(slip);
-            out.friction_secant = out.friction_coefficient * normal / slip;
-            out.friction = -(out.friction_secant * du);
+            let coefficient = friction.map(&mut |x| zero.base().splat(*x)).at(slip);
+            let secant = coefficient * out.normal / slip;
+            out.friction_coefficient = T::select(nothing, zero, coefficient);
+            out.friction_secant = secant;
+            out.friction = -(secant * du);
         }
         out
     }

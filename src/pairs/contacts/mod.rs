@@ -6,10 +6,13 @@
 mod damping;
 mod law_columns;
 mod law_slopes;
+mod relative;
 mod step;
 mod wrenches;
 
-pub(super) use law_slopes::{FORCES, Slopes, VISCOSITY, chain, contact_force};
+use law_slopes::contact_force;
+pub(crate) use relative::RelativeSlopes;
+pub(super) use relative::{Beside, Kinematics, Varied, VariedContact, add_slopes};
 pub(crate) use step::SpeedChanges;
 use step::StepForces;
 
@@ -18,12 +21,12 @@ use crate::bodies::{Motions, OF_ELEMENT, WrenchLanes};
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
 use crate::laws::elastic::solid::SolidContact;
 use crate::laws::line_contact::LineContact;
-use crate::scalar::{Lanes, WIDEST, ZEROS, blocks_for, place_of};
+use crate::scalar::{Columns, Lanes, WIDEST, ZEROS, blocks_for, dispatch, place_of};
 use crate::space::Frame;
 use damping::Triangles;
 use law_columns::LawColumns;
 use law_slopes::LawSlopes;
-use pulp::Arch;
+use pulp::{Arch, Simd};
 use std::ops::Range;
 
 /// Where a contact is.
@@ -120,21 +123,8 @@ impl Batch {
 
     /// Forgets all contacts: every place of their blocks is apart again.
     fn clear(&mut self) {
-        match self.laws {
-            BatchLaws::Lines(_) => {
-                for block in &mut self.blocks[..blocks_for(self.sites.len())] {
-                    (block.motion, block.edge_share) = (NO_MOTION, ZEROS);
-                }
-            }
-            // Laws in lanes are asked for the places beyond the last contact, too, this one is not.
-            BatchLaws::Solid(_) => {
-                for i in 0..self.sites.len() {
-                    let (block, lane) = place_of(i);
-                    let ContactBlock { motion, force, .. } = &mut self.blocks[block];
-                    motion.set(lane, &APART);
-                    force.set(lane, &ContactForce::none(0.0));
-                }
-            }
+        for block in &mut self.blocks[..blocks_for(self.sites.len())] {
+            (block.motion, block.edge_share) = (NO_MOTION, ZEROS);
         }
         self.sites.clear();
         self.differentiated = false;
@@ -175,11 +165,8 @@ impl Batch {
         match &self.laws {
             BatchLaws::Lines(laws) => laws.apply(rows, &mut self.blocks, ln_viscosity, instructions),
             BatchLaws::Solid(law) => {
-                for i in 0..rows {
-                    let (block, lane) = place_of(i);
-                    let ContactBlock { motion, force, .. } = &mut self.blocks[block];
-                    force.set(lane, &law.force(&motion.of(lane)));
-                }
+                let contacts = &mut self.blocks;
+                dispatch(instructions, ApplySolid { law, rows, contacts });
             }
         }
     }
@@ -191,8 +178,7 @@ impl Batch {
         }
         let rows = self.len();
         if let BatchLaws::Solid(law) = self.laws {
-            self.apply(ln_viscosity, instructions);
-            self.slopes.find_solid(&law, rows, &self.blocks);
+            self.slopes.find_solid(law, rows, &mut self.blocks, instructions);
         }
         if let BatchLaws::Lines(laws) = &self.laws {
             self.slopes.find(laws, rows, &mut self.blocks, ln_viscosity, instructions);
@@ -220,14 +206,6 @@ impl Batch {
         block.grip.of(lane)
     }
 
-    /// Normal force, friction and rolling resistance of contact `i`, N, and their derivatives over what the law sees.
-    #[inline(always)]
-    pub(crate) fn slopes(&self, i: usize) -> ([f64; FORCES], Slopes) {
-        let (ContactBlock { force, .. }, lane) = self.at(i);
-        let forces = [force.normal[lane], force.friction[lane], force.rolling_resistance[lane]];
-        (forces, self.slopes.of(i))
-    }
-
     /// Contact `i` with all that is known of it.
     #[inline]
     pub(crate) fn loaded(&self, i: usize) -> Loaded<'_> {
@@ -244,6 +222,26 @@ impl Batch {
     #[inline]
     pub(crate) fn iter(&self) -> impl Iterator<Item = Loaded<'_>> {
         (0..self.len()).map(|i| self.loaded(i))
+    }
+}
+
+/// Evaluates the law of solid contacts.
+struct ApplySolid<'a> {
+    law: &'a SolidContact,
+    rows: usize,
+    contacts: &'a mut [ContactBlock],
+}
+
+impl Columns for ApplySolid<'_> {
+    fn rows(&self) -> usize {
+        self.rows
+    }
+
+    #[inline(always)]
+    fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
+        let (block, lane) = place_of(first);
+        let ContactBlock { motion, force, .. } = &mut self.contacts[block];
+        force.store(lane, &self.law.force(&motion.load::<S, K>(simd, lane)));
     }
 }
 

@@ -8,7 +8,7 @@
 use crate::bodies::ElementMotion;
 use crate::laws::contact_pair::ContactMotion;
 use crate::pairs::Grip;
-use crate::scalar::{Numeric, Real};
+use crate::scalar::Numeric;
 use crate::space::Frame;
 use std::fmt::Debug;
 
@@ -28,17 +28,6 @@ pub enum Pillar {
     Front,
     /// On the side of falling angle.
     Back,
-}
-
-impl Pillar {
-    /// +1 for the front, -1 for the back: the side of the circumferential direction.
-    #[inline]
-    pub fn sign(self) -> f64 {
-        match self {
-            Pillar::Front => 1.0,
-            Pillar::Back => -1.0,
-        }
-    }
 }
 
 /// Roller centre relative to the pocket.
@@ -75,8 +64,8 @@ impl PocketPlace {
     }
 
     /// Motion of the roller relative to the pocket; velocity (m/s, pocket frame) and rotation speed (rad/s) of the cage.
-    #[inline]
-    pub fn relative_motion<T: Real>(
+    #[inline(always)]
+    pub fn relative_motion<T: Numeric>(
         &self,
         offset: [T; 2],
         roller: &ElementMotion<T>,
@@ -98,8 +87,8 @@ impl PocketPlace {
     }
 
     /// The contact at depth `delta` (m) in the direction `normal` from the element centre.
-    #[inline]
-    pub fn contact<T: Real>(
+    #[inline(always)]
+    pub fn contact<T: Numeric>(
         &self,
         m: &PocketMotion<T>,
         delta: T,
@@ -112,20 +101,20 @@ impl PocketPlace {
             delta,
             delta_dot: m.velocity[0] * normal[0] + m.velocity[1] * normal[1],
             u1: sliding,
-            u2: T::constant(0.0),
+            u2: delta.like(0.0),
         };
         PillarContact { motion, normal, edge_share }
     }
 
     /// Levers of a contact of an element that is ahead of its pocket by `lead` and at `offset` (m) there.
-    #[inline]
-    pub fn grip<T: Real>(&self, offset: [T; 2], normal: [T; 2], lead: Frame<T>) -> Grip<T> {
-        Grip::at_point(normal, T::constant(self.element_radius), self.lever(offset, normal), lead)
+    #[inline(always)]
+    pub fn grip<T: Numeric>(&self, offset: [T; 2], normal: [T; 2], lead: Frame<T>) -> Grip<T> {
+        Grip::at_point(normal, offset[0].like(self.element_radius), self.lever(offset, normal), lead)
     }
 
     /// Contact point relative to the cage centre, m.
-    #[inline]
-    pub fn lever<T: Real>(&self, offset: [T; 2], normal: [T; 2]) -> [T; 2] {
+    #[inline(always)]
+    pub fn lever<T: Numeric>(&self, offset: [T; 2], normal: [T; 2]) -> [T; 2] {
         [
             offset[0] + self.pitch_radius + normal[0] * self.element_radius,
             offset[1] + normal[1] * self.element_radius,
@@ -144,8 +133,9 @@ pub(super) trait PocketShape: Debug + Send + Sync {
     /// True when no pillar can touch an element at `offset` (m).
     fn apart<T: Numeric>(&self, offset: [T; 2]) -> T::Mask;
 
-    /// The contact with one pillar; `None` when they are apart.
-    fn pillar<T: Real>(&self, side: Pillar, m: &PocketMotion<T>) -> Option<PillarContact<T>>;
+    /// The contact with the front pillar where `front` is true, with the back one elsewhere. They touch where the approach is
+    /// above zero.
+    fn pillar<T: Numeric>(&self, front: T::Mask, m: &PocketMotion<T>) -> PillarContact<T>;
 }
 
 #[cfg(test)]

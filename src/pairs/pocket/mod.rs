@@ -3,21 +3,21 @@
 mod cylinder;
 mod kinematics;
 mod plane;
-mod slopes;
 
 pub(super) use cylinder::new as cylinder;
 pub(super) use plane::new as plane;
 
 use crate::bodies::{CAGE, Fault, Motions};
+use crate::pairs::contacts::{Beside, Kinematics, Varied, VariedContact, add_slopes};
 use crate::pairs::{
-    Ahead, Batch, ContactLaw, Cost, ElementPair, ElementPlace, Found, PairInfo, Search, SlopeSums,
+    Ahead, Batch, ContactLaw, Cost, ElementPair, ElementPlace, Found, PairInfo, RelativeSlopes, Search,
+    SlopeSums,
 };
 use crate::scalar::elementary::sin_cos;
 use crate::scalar::{Base, Columns, Numeric, Pack, WIDEST, dispatch, math, place_of};
 use crate::space::Frame;
-use kinematics::{Pillar, PillarContact, PocketPlace, PocketShape};
+use kinematics::{Pillar, PillarContact, PocketMotion, PocketPlace, PocketShape};
 use pulp::Simd;
-use slopes::add_pocket;
 use std::ops::Range;
 
 /// An element this far round from its pocket, in radii of its own, is out of it.
@@ -83,10 +83,11 @@ impl<S: PocketShape> ElementPair for Pockets<S> {
                 let velocity = lead.to_global(element.frame.to_local(cage.velocity));
                 let relative = place.relative_motion(offset, &element.motion, lead, velocity, cage.speed);
                 for side in [Pillar::Front, Pillar::Back] {
-                    let Some(PillarContact { motion, normal, edge_share }) = shape.pillar(side, &relative)
-                    else {
+                    let contact = shape.pillar(side == Pillar::Front, &relative);
+                    let PillarContact { motion, normal, edge_share } = contact;
+                    if motion.delta <= 0.0 {
                         continue;
-                    };
+                    }
                     let grip = place.grip(offset, normal, lead);
                     touching.push(first + lane, side as usize, &grip, edge_share, &motion);
                 }
@@ -95,10 +96,15 @@ impl<S: PocketShape> ElementPair for Pockets<S> {
         Ok(())
     }
 
-    fn add_slopes(&self, batch: &Batch, contacts: Range<usize>, motions: &Motions, sums: &mut SlopeSums<'_>) {
-        for i in contacts {
-            add_pocket(&self.shape, batch, i, motions, sums);
-        }
+    fn add_slopes(
+        &self,
+        batch: &Batch,
+        contacts: Range<usize>,
+        motions: &Motions,
+        sums: &mut SlopeSums<'_>,
+        memory: &mut RelativeSlopes,
+    ) {
+        add_slopes(self, batch, contacts, motions, sums, memory);
     }
 
     fn has_onset(&self) -> bool {
@@ -122,6 +128,35 @@ impl<S: PocketShape> ElementPair for Pockets<S> {
 
     fn cost(&self) -> Cost {
         self.cost
+    }
+}
+
+impl<P: PocketShape> Kinematics for Pockets<P> {
+    #[inline(always)]
+    fn contact<B: Base>(&self, at: &Beside<B>) -> VariedContact<B> {
+        let (place, mate) = (self.shape.place(), &at.mate);
+        let (sin, cos) = sin_cos(at.travel - mate.angle);
+        let lead = Frame { sin, cos };
+        let offset = place.offset(at.element.radial_offset, lead, lead.to_global(mate.position));
+        let velocity = lead.to_global(mate.velocity);
+        let m = place.relative_motion(offset, &at.element, lead, velocity, mate.speed);
+        let (zero, one) = (sin.splat(0.0), sin.splat(1.0));
+        let varied = |re: B, eps: [B; 5]| Varied { re, eps };
+        let m = PocketMotion {
+            offset: [
+                varied(m.offset[0], [cos, -sin, zero, zero, zero]),
+                varied(m.offset[1], [sin, cos, zero, zero, zero]),
+            ],
+            velocity: [
+                varied(m.velocity[0], [zero, zero, cos, -sin, zero]),
+                varied(m.velocity[1], [zero, zero, sin, cos, zero]),
+            ],
+            spin: varied(m.spin, [zero, zero, zero, zero, one]),
+        };
+        let front = at.contact.below(0.5);
+        let PillarContact { motion, normal, edge_share } = self.shape.pillar(front, &m);
+        let lead = Frame { sin: Varied::lift(sin), cos: Varied::lift(cos) };
+        VariedContact { motion, edge_share: Some(edge_share), grip: place.grip(m.offset, normal, lead) }
     }
 }
 

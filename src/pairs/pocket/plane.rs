@@ -9,14 +9,14 @@
 //! 2025, section 3.
 
 use super::Pockets;
-use super::kinematics::{Pillar, PillarContact, PocketMotion, PocketPlace, PocketShape};
+use super::kinematics::{PillarContact, PocketMotion, PocketPlace, PocketShape};
 use crate::bodies::{CAGE, ForceSource, Input, Power};
 use crate::error::Result;
 use crate::laws::elastic::solid::SolidContact;
 use crate::pairs::line_laws::LawBuilder;
 use crate::pairs::passage::Passage;
 use crate::pairs::{Ahead, ContactLaw, Cost, ElementPair, Law, PairInfo};
-use crate::scalar::{Numeric, Real, math};
+use crate::scalar::{Numeric, math};
 use crate::scene::Pocket;
 use crate::space::rotate;
 
@@ -43,15 +43,13 @@ impl PocketShape for PlanePocket {
         along.abs().below(self.clearance)
     }
 
-    #[inline]
-    fn pillar<T: Real>(&self, side: Pillar, m: &PocketMotion<T>) -> Option<PillarContact<T>> {
-        let sign = side.sign();
-        let delta = m.offset[1] * sign - self.clearance;
-        if delta.value() <= 0.0 {
-            return None;
-        }
-        let normal = [T::constant(0.0), T::constant(sign)];
-        Some(self.place.contact(m, delta, normal, T::constant(0.0)))
+    #[inline(always)]
+    fn pillar<T: Numeric>(&self, front: T::Mask, m: &PocketMotion<T>) -> PillarContact<T> {
+        let [_, along] = m.offset;
+        let zero = along.like(0.0);
+        let delta = T::select(front, along, -along) - self.clearance;
+        let normal = [zero, T::select(front, along.like(1.0), along.like(-1.0))];
+        self.place.contact(m, delta, normal, zero)
     }
 }
 
@@ -121,16 +119,16 @@ mod tests {
     fn walls_are_flat_and_face_each_other() {
         for radial in [-0.3e-3, 0.0, 0.2e-3] {
             let m = |s: f64| PocketMotion { offset: [radial, s], velocity: [0.3, 0.2], spin: -1500.0 };
-            let front = P.pillar(Pillar::Front, &m(0.251e-3)).unwrap();
+            let front = P.pillar(true, &m(0.251e-3));
             assert!((front.motion.delta - 1e-6).abs() < 1e-18);
             assert_eq!(front.normal, [0.0, 1.0]);
             assert_eq!(front.motion.delta_dot, 0.2);
             // The front wall's t points inwards: radial sliding and spin at the contact.
             assert!((front.motion.u1 - (-0.3 - 1500.0 * 0.004)).abs() < 1e-14);
-            let back = P.pillar(Pillar::Back, &m(-0.252e-3)).unwrap();
+            let back = P.pillar(false, &m(-0.252e-3));
             assert!((back.motion.delta - 2e-6).abs() < 1e-18);
             assert_eq!(back.motion.delta_dot, -0.2);
-            assert!(P.apart([radial, 0.249e-3]) && P.pillar(Pillar::Front, &m(0.249e-3)).is_none());
+            assert!(P.apart([radial, 0.249e-3]) && P.pillar(true, &m(0.249e-3)).motion.delta < 0.0);
         }
     }
 }

@@ -1,16 +1,20 @@
 //! The raceways: contacts of all rollers with the outer and with the inner ring.
 
 mod kinematics;
-mod slopes;
 
 pub(crate) use kinematics::{RacewayGeometry, RingMotion};
 
-use crate::bodies::{ElementBlock, Fault, ForceSource, INNER_RING, Motions, OUTER_RING, Power};
+use crate::bodies::{
+    ElementBlock, ElementMotion, Fault, ForceSource, INNER_RING, Motions, OUTER_RING, Power,
+};
 use crate::error::Result;
 use crate::laws::line_contact::LineContact;
+use crate::pairs::contacts::{Beside, Kinematics, Varied, VariedContact, add_slopes};
 use crate::pairs::line_laws::LawBuilder;
-use crate::pairs::{Batch, ContactLaw, Cost, ElementPair, Found, Law, PairInfo, Search, SlopeSums};
-use crate::scalar::{Columns, Pack, dispatch, place_of};
+use crate::pairs::{
+    Batch, ContactLaw, Cost, ElementPair, Found, Law, PairInfo, RelativeSlopes, Search, SlopeSums,
+};
+use crate::scalar::{Base, Columns, Numeric, Pack, dispatch, place_of};
 use crate::scene::needed;
 use pulp::Simd;
 use std::ops::Range;
@@ -99,18 +103,63 @@ impl ElementPair for Raceway {
         Ok(())
     }
 
-    fn add_slopes(&self, batch: &Batch, contacts: Range<usize>, motions: &Motions, sums: &mut SlopeSums<'_>) {
-        for i in contacts {
-            if self.ring.mate == OUTER_RING {
-                slopes::add_outer(&self.geometry, batch, i, motions, sums);
-            } else {
-                slopes::add_inner(&self.geometry, batch, i, motions, sums);
-            }
-        }
+    fn add_slopes(
+        &self,
+        batch: &Batch,
+        contacts: Range<usize>,
+        motions: &Motions,
+        sums: &mut SlopeSums<'_>,
+        memory: &mut RelativeSlopes,
+    ) {
+        add_slopes(self, batch, contacts, motions, sums, memory);
     }
 
     fn cost(&self) -> Cost {
         Cost { value: 110.0, slopes: 150.0, per_element: true }
+    }
+}
+
+impl Kinematics for Raceway {
+    #[inline(always)]
+    fn contact<B: Base>(&self, at: &Beside<B>) -> VariedContact<B> {
+        let (m, r, mate) = (&at.element, at.radius, &at.mate);
+        let (zero, one) = (r.splat(0.0), r.splat(1.0));
+        let varied = |re: B, eps: [B; 5]| Varied { re, eps };
+        let spin_speed = varied(m.spin_speed, [zero, zero, zero, zero, one]);
+        let turning = mate.speed;
+        if self.ring.mate == OUTER_RING {
+            // The roller moves in the polar coordinates of the ring, whose axes turn with it.
+            let (turn, across) = (one / r, r * m.orbit_speed);
+            let across_speed = varied(across, [turning, -(turn * m.radial_speed), zero, one, zero]);
+            let roller = ElementMotion {
+                radial_offset: varied(m.radial_offset, [one, zero, zero, zero, zero]),
+                radial_speed: varied(m.radial_speed, [zero, turn * across - turning, one, zero, zero]),
+                orbit_speed: across_speed / varied(r, [one, zero, zero, zero, zero]),
+                spin_speed,
+            };
+            let (motion, mut grip) = self.geometry.outer(&roller);
+            grip.normal[1] = varied(zero, [zero, turn, zero, zero, zero]);
+            return VariedContact { motion, edge_share: None, grip };
+        }
+        let roller = ElementMotion {
+            radial_offset: Varied::lift(m.radial_offset),
+            radial_speed: Varied::lift(m.radial_speed),
+            orbit_speed: Varied::lift(m.orbit_speed),
+            spin_speed,
+        };
+        let ring = RingMotion {
+            position: [
+                varied(mate.position[0], [-one, zero, zero, zero, zero]),
+                varied(mate.position[1], [zero, -one, zero, zero, zero]),
+            ],
+            velocity: [
+                varied(mate.velocity[0], [zero, turning, -one, zero, zero]),
+                varied(mate.velocity[1], [-turning, zero, zero, -one, zero]),
+            ],
+            speed: Varied::lift(turning),
+        };
+        let (motion, grip) = self.geometry.inner(&roller, &ring);
+        VariedContact { motion, edge_share: None, grip }
     }
 }
 

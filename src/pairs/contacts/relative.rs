@@ -1,0 +1,364 @@
+//! Derivatives of the wrenches of contacts over the coordinates of their bodies, for every pair, in lanes.
+//!
+//! A contact knows nothing but the motion of its element as it is seen from its mate: place, velocity and spin, five numbers. A
+//! pair gives how its contacts vary with these ([`Kinematics`]); the rest is the same for all. With k x (a, b) = (-b, a), vectors
+//! in the axes of the element:
+//!
+//! ```text
+//! s = place of the element less that of the mate,   w = s_dot - omega k x s,   sigma = w_b - omega
+//! xi = ds - dtheta k x s,   eta = dw - dtheta k x w                             as they are seen from the mate
+//! dF = F_xi xi + F_eta eta + F_sigma dsigma + dtheta k x F                      force on the element
+//! dM = M_xi xi + M_eta eta + M_sigma dsigma                                     its moment
+//! on the mate: force -F, moment -M - s x F
+//! ```
+
+use super::law_slopes::{DIRECTIONS, EDGE_SHARE, FORCES, LawSlopes, VISCOSITY, contact_force};
+use super::{Batch, ContactBlock};
+use crate::bodies::{ElementMotion, INNER_RING, Input, Motions};
+use crate::laws::contact_pair::ContactMotion;
+use crate::pairs::slope_sums::{ContactColumns, SlopeSums};
+use crate::pairs::{ElementPair, Grip};
+use crate::scalar::{Base, Columns, Duals, Lanes, Numeric, Pack, ZEROS, dispatch, place_of};
+use crate::space::{Frame, Motion};
+use pulp::Simd;
+use std::ops::Range;
+
+/// Directions: place of the element beside the mate (along the radius, across), velocity there, spin.
+const RELATIVE: usize = 5;
+/// A number with its derivatives over the five numbers.
+pub(in crate::pairs) type Varied<B> = Duals<RELATIVE, B>;
+
+/// Elements and their mate, each element by its own axes.
+pub(in crate::pairs) struct Beside<B> {
+    pub(in crate::pairs) element: ElementMotion<B>,
+    /// r, m.
+    pub(in crate::pairs) radius: B,
+    /// Angle travelled since the start, rad.
+    pub(in crate::pairs) travel: B,
+    /// Which contact of the pair it is.
+    pub(in crate::pairs) contact: B,
+    pub(in crate::pairs) mate: Motion<B>,
+}
+
+impl<B: Base> Beside<B> {
+    /// s: place of the element less that of the mate, m.
+    #[inline(always)]
+    fn place(&self) -> [B; 2] {
+        [self.radius - self.mate.position[0], -self.mate.position[1]]
+    }
+}
+
+/// Contacts that vary with what they know.
+pub(in crate::pairs) struct VariedContact<B> {
+    pub(in crate::pairs) motion: ContactMotion<Varied<B>>,
+    /// Share of edge friction, where there are edges.
+    pub(in crate::pairs) edge_share: Option<Varied<B>>,
+    pub(in crate::pairs) grip: Grip<Varied<B>>,
+}
+
+/// How the contacts of a pair vary.
+pub(in crate::pairs) trait Kinematics: ElementPair {
+    /// The contacts of these elements. Must be inlined with all that it calls.
+    fn contact<B: Base>(&self, at: &Beside<B>) -> VariedContact<B>;
+}
+
+/// Memory for the contacts of a group.
+#[derive(Clone, Debug)]
+#[repr(align(64))]
+pub(crate) struct RelativeSlopes {
+    element: [Lanes; 4],
+    travel: Lanes,
+    contact: Lanes,
+    columns: ContactColumns,
+}
+
+impl RelativeSlopes {
+    pub(crate) fn new() -> Self {
+        Self { element: [ZEROS; 4], travel: ZEROS, contact: ZEROS, columns: ContactColumns::ZERO }
+    }
+}
+
+/// Adds the derivatives of the wrenches of these contacts of a batch, which are those of one pair.
+pub(in crate::pairs) fn add_slopes<P: Kinematics>(
+    pair: &P,
+    batch: &Batch,
+    contacts: Range<usize>,
+    motions: &Motions,
+    sums: &mut SlopeSums<'_>,
+    memory: &mut RelativeSlopes,
+) {
+    if contacts.is_empty() {
+        return;
+    }
+    // Groups are never wider than this and begin at multiples of their width.
+    let first = contacts.start / ALIGNED * ALIGNED;
+    let mate = pair.info().mate;
+    let speeding = if mate == INNER_RING { sums.rates.of(Input::RingSpeed) } else { 0.0 };
+    let warming = sums.ln_viscosity_rate;
+    let slopes = &batch.slopes;
+    let changing = speeding != 0.0 || warming != 0.0 || sums.layout.count == 0;
+    let holds = sums.layout.shared(mate).is_some();
+    let work = Chain {
+        pair,
+        batch,
+        slopes,
+        contacts,
+        first,
+        mate,
+        holds,
+        motions,
+        speeding,
+        warming,
+        changing,
+        sums,
+        memory,
+    };
+    dispatch(motions.instructions, work);
+}
+
+/// Largest number of numbers in one register.
+const ALIGNED: usize = 8;
+
+struct Chain<'a, 'b, P> {
+    pair: &'a P,
+    batch: &'a Batch,
+    slopes: &'a LawSlopes,
+    contacts: Range<usize>,
+    first: usize,
+    mate: usize,
+    /// Whether the mate is free.
+    holds: bool,
+    motions: &'a Motions,
+    /// Rate of the speed of the mate, rad/s^2, and of the logarithm of the viscosity, 1/s.
+    speeding: f64,
+    warming: f64,
+    /// Whether anything changes while the state does not.
+    changing: bool,
+    sums: &'a mut SlopeSums<'b>,
+    memory: &'a mut RelativeSlopes,
+}
+
+impl<P: Kinematics> Columns for Chain<'_, '_, P> {
+    /// Values with their derivatives fill the registers by themselves.
+    const PAIRED: bool = false;
+
+    fn rows(&self) -> usize {
+        self.contacts.end - self.first
+    }
+
+    #[inline(always)]
+    fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
+        let first = first + self.first;
+        let here = first.max(self.contacts.start)..(first + K * S::F64_LANES).min(self.contacts.end);
+        if here.is_empty() {
+            return;
+        }
+        self.gather(here.clone());
+        self.differentiate::<S, K>(simd, first);
+        let (sums, columns) = (&mut *self.sums, &self.memory.columns);
+        for i in here.clone() {
+            let (_, lane) = place_of(i);
+            sums.add_contact(self.batch.sites[i].element, self.mate, columns, lane);
+        }
+        let ((_, lane), count) = (place_of(here.start), here.len());
+        sums.add_on_mate(self.mate, columns, lane..lane + count);
+        if self.changing {
+            for i in here {
+                let (_, lane) = place_of(i);
+                sums.add_contact_over_time(self.batch.sites[i].element, self.mate, columns, lane);
+            }
+        }
+    }
+}
+
+impl<P: Kinematics> Chain<'_, '_, P> {
+    /// Brings the elements of contacts to the places of these.
+    #[inline(always)]
+    fn gather(&mut self, contacts: Range<usize>) {
+        let RelativeSlopes { element, travel, contact, .. } = &mut *self.memory;
+        for i in contacts {
+            let site = &self.batch.sites[i];
+            let ((block, from), (_, lane)) = (place_of(site.element), place_of(i));
+            let m = &self.motions.blocks[block].motion;
+            element[0][lane] = m.radial_offset[from];
+            element[1][lane] = m.radial_speed[from];
+            element[2][lane] = m.orbit_speed[from];
+            element[3][lane] = m.spin_speed[from];
+            travel[lane] = self.motions.travel(site.element);
+            contact[lane] = site.contact as f64;
+        }
+    }
+
+    /// Fills the columns of the group of contacts from this one on.
+    #[inline(always)]
+    fn differentiate<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
+        let (block, lane) = place_of(first);
+        let ContactBlock { frame, force, .. } = &self.batch.blocks[block];
+        let load = |column: &Lanes| Pack::<S, K>::load(simd, &column[lane..]);
+        let all = |x: f64| Pack::<S, K>::all(simd, x);
+        let frame = frame.load::<S, K>(simd, lane);
+        let [offset, radial_speed, orbit_speed, spin_speed] = &self.memory.element;
+        let element = ElementMotion {
+            radial_offset: load(offset),
+            radial_speed: load(radial_speed),
+            orbit_speed: load(orbit_speed),
+            spin_speed: load(spin_speed),
+        };
+        let mate = &self.motions.shared[self.mate];
+        let mate = Motion {
+            position: frame.to_local([all(mate.position[0]), all(mate.position[1])]),
+            velocity: frame.to_local([all(mate.velocity[0]), all(mate.velocity[1])]),
+            angle: all(mate.angle),
+            speed: all(mate.speed),
+        };
+        let (travel, contact) = (load(&self.memory.travel), load(&self.memory.contact));
+        let radius = element.radial_offset + self.motions.pitch_radius();
+        let at = Beside { element, radius, travel, contact, mate };
+        let VariedContact { motion, edge_share, grip } = self.pair.contact(&at);
+
+        let zero = all(0.0);
+        let slopes = self.slopes.block(block);
+        let values = [load(&force.normal), load(&force.friction), load(&force.rolling_resistance)];
+        let mut forces = [Varied { re: zero, eps: [zero; RELATIVE] }; FORCES];
+        let mut warm = [zero; FORCES];
+        for f in 0..FORCES {
+            let slope: [Pack<S, K>; DIRECTIONS] = [
+                load(&slopes[f][0]),
+                load(&slopes[f][1]),
+                load(&slopes[f][2]),
+                load(&slopes[f][3]),
+                load(&slopes[f][EDGE_SHARE]),
+                load(&slopes[f][VISCOSITY]),
+            ];
+            forces[f].re = values[f];
+            for d in 0..RELATIVE {
+                let mut sum = slope[0] * motion.delta.eps[d] + slope[1] * motion.delta_dot.eps[d];
+                sum += slope[2] * motion.u1.eps[d] + slope[3] * motion.u2.eps[d];
+                if let Some(share) = &edge_share {
+                    sum += slope[EDGE_SHARE] * share.eps[d];
+                }
+                forces[f].eps[d] = sum;
+            }
+            warm[f] = slope[VISCOSITY] * self.warming;
+        }
+        let own = on_element(&grip, forces);
+        let still = Grip {
+            normal: [grip.normal[0].re, grip.normal[1].re],
+            arm: grip.arm.re,
+            rolling: grip.rolling.re,
+            on_mate: [zero; 3],
+        };
+        let warming = on_element(&still, warm);
+        let columns = &mut self.memory.columns;
+        let by = chain(&at, frame, &own, &warming, self.speeding, columns, lane);
+        if self.holds {
+            on_mate(&at, frame, [own[0].re, own[1].re], by, columns, lane);
+        }
+    }
+}
+
+/// The wrench on elements with this normal force, friction and rolling resistance, N, or with their rates.
+#[inline(always)]
+fn on_element<T: Numeric>(grip: &Grip<T>, forces: [T; FORCES]) -> [T; 3] {
+    let [on_element, _] = grip.wrenches(&contact_force(forces));
+    on_element.components()
+}
+
+/// Derivatives of a wrench over the coordinates of element and mate, which are seen in the axes of the element, and over time.
+type Rows<S, const K: usize> = [[Pack<S, K>; 3]; ContactColumns::COUNT];
+/// Columns of the travel, and of the place, the angle and the velocity of the mate.
+const TRAVEL: usize = 1;
+const PLACE: usize = 5;
+const ANGLE: usize = 7;
+const VELOCITY: usize = 8;
+
+/// From derivatives over the five numbers to those over the coordinates of element and mate, of the wrench on elements, `own`,
+/// which changes at the rate `warming` by itself. Returns those in axes that do not turn with the element.
+#[inline(always)]
+fn chain<S: Simd, const K: usize>(
+    at: &Beside<Pack<S, K>>,
+    frame: Frame<Pack<S, K>>,
+    own: &[Varied<Pack<S, K>>; 3],
+    warming: &[Pack<S, K>; 3],
+    speeding: f64,
+    out: &mut ContactColumns,
+    lane: usize,
+) -> Rows<S, K> {
+    let (m, r, mate) = (&at.element, at.radius, &at.mate);
+    let turning = mate.speed;
+    let velocity = [m.radial_speed, r * m.orbit_speed];
+    let s = at.place();
+    let w =
+        [velocity[0] - mate.velocity[0] + turning * s[1], velocity[1] - mate.velocity[1] - turning * s[0]];
+    let mut by = [[turning; 3]; ContactColumns::COUNT];
+    for i in 0..3 {
+        let [x, y, v, u, spin] = own[i].eps;
+        let over_speed = s[1] * v - s[0] * u - spin;
+        by[0][i] = x + (m.orbit_speed - turning) * u;
+        by[TRAVEL][i] = r * y + (turning * r - velocity[1]) * v + velocity[0] * u;
+        by[2][i] = v;
+        by[3][i] = r * u;
+        by[4][i] = spin;
+        by[PLACE][i] = turning * u - x;
+        by[PLACE + 1][i] = -(turning * v + y);
+        by[ANGLE][i] = s[1] * x - s[0] * y + w[1] * v - w[0] * u;
+        by[VELOCITY][i] = -v;
+        by[VELOCITY + 1][i] = -u;
+        by[10][i] = over_speed;
+        by[11][i] = warming[i] + over_speed * speeding;
+    }
+    by[ANGLE][0] -= own[1].re;
+    by[ANGLE][1] += own[0].re;
+    let mut seen = by;
+    // The axes of the element turn with its travel.
+    seen[TRAVEL][0] += own[1].re;
+    seen[TRAVEL][1] -= own[0].re;
+    store(seen, frame, &mut out.own, lane);
+    by
+}
+
+/// Those of the wrench on the mate: force -F, moment -M - s x F.
+#[inline(always)]
+#[expect(clippy::needless_range_loop, reason = "iterators might not be inlined")]
+fn on_mate<S: Simd, const K: usize>(
+    at: &Beside<Pack<S, K>>,
+    frame: Frame<Pack<S, K>>,
+    force: [Pack<S, K>; 2],
+    mut by: Rows<S, K>,
+    out: &mut ContactColumns,
+    lane: usize,
+) {
+    let s = at.place();
+    for c in 0..ContactColumns::COUNT {
+        let [radial, across, moment] = by[c];
+        let [y, z] = frame.to_global([radial, across]);
+        by[c] = [-y, -z, s[1] * radial - s[0] * across - moment];
+    }
+    // s changes with the places of both.
+    by[0][2] -= force[1];
+    by[TRAVEL][2] += at.radius * force[0];
+    by[PLACE][2] += force[1];
+    by[PLACE + 1][2] -= force[0];
+    store(by, frame, &mut out.on_mate, lane);
+}
+
+/// Keeps columns, place and velocity of the mate in global axes.
+#[inline(always)]
+#[expect(clippy::needless_range_loop, reason = "iterators might not be inlined")]
+fn store<S: Simd, const K: usize>(
+    mut by: Rows<S, K>,
+    frame: Frame<Pack<S, K>>,
+    out: &mut [[Lanes; 3]; ContactColumns::COUNT],
+    lane: usize,
+) {
+    for c in [PLACE, VELOCITY] {
+        for i in 0..3 {
+            [by[c][i], by[c + 1][i]] = frame.to_global([by[c][i], by[c + 1][i]]);
+        }
+    }
+    for c in 0..ContactColumns::COUNT {
+        for i in 0..3 {
+            by[c][i].store(&mut out[c][i][lane..]);
+        }
+    }
+}
