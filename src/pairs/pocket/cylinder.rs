@@ -69,23 +69,22 @@ impl PocketShape for CylinderPocket {
         let (towards, height) = (T::select(front, across, -across), radial.abs());
         let zero = radial.like(0.0);
         let at_angle = |(sin, cos): (f64, f64)| (towards.base() * sin, height.base() * cos);
-        // |phi| > phi_p without the angle, which is needed near the edge only. Not so where there is no number.
-        let beyond = {
-            let (along, up) = at_angle(self.edge);
-            along.less(up)
-        };
-        let distance = (towards * towards + radial * radial).sqrt();
-        let mut delta = distance - self.clearance;
-        let mut normal = [radial / distance, across / distance];
-        let mut edge_share = zero;
-        let fading = {
+        // |phi| <= phi_p without the angle, which is needed near the edge only. Neither where there is no number.
+        let (along, up) = at_angle(self.edge);
+        let (within, beyond) = (up.less_or_equal(along), along.less(up));
+        let square = towards * towards + radial * radial;
+        let (mut delta, mut normal, mut edge_share) = (square, [zero; 2], zero);
+        if T::Base::any(within) {
+            let distance = square.sqrt();
+            delta = T::select(within, distance - self.clearance, delta);
+            normal = [radial / distance, across / distance];
             let (along, up) = at_angle(self.blend);
-            along.less(up)
-        };
-        if self.edge_blend > 0.0 && T::Base::any(fading) {
-            let angle = (height / towards).atan();
-            let share = smoothstep((angle + (self.edge_blend - self.half_angle)) / self.edge_blend);
-            edge_share = T::select(fading, share, zero);
+            let fading = along.less(up);
+            if self.edge_blend > 0.0 && T::Base::any(fading & within) {
+                let angle = (height / towards).atan();
+                let share = smoothstep((angle + (self.edge_blend - self.half_angle)) / self.edge_blend);
+                edge_share = T::select(fading, share, zero);
+            }
         }
         if T::Base::any(beyond) {
             let (sin, cos) = self.edge;
@@ -96,15 +95,18 @@ impl PocketShape for CylinderPocket {
             let edge_along = pocket_radius * cos;
             // R_b - |d - R_p e| without the difference of two radii.
             let inside = (radial * edge_height + towards * edge_along) * 2.0
-                - (towards * towards + radial * radial)
+                - square
                 - self.clearance * (radius + pocket_radius);
-            let to_edge = [edge_height - radial, -towards + edge_along];
-            let reach = (to_edge[0] * to_edge[0] + to_edge[1] * to_edge[1]).sqrt();
-            let along = to_edge[1] / reach;
-            delta = T::select(beyond, inside / (reach + radius), delta);
-            normal[0] = T::select(beyond, to_edge[0] / reach, normal[0]);
-            normal[1] = T::select(beyond, T::select(front, along, -along), normal[1]);
-            edge_share = T::select(beyond, zero.like(1.0), edge_share);
+            delta = T::select(beyond, inside, delta);
+            if T::Base::any(inside.above(0.0) & beyond) {
+                let to_edge = [edge_height - radial, -towards + edge_along];
+                let reach = (to_edge[0] * to_edge[0] + to_edge[1] * to_edge[1]).sqrt();
+                let along = to_edge[1] / reach;
+                delta = T::select(beyond, inside / (reach + radius), delta);
+                normal[0] = T::select(beyond, to_edge[0] / reach, normal[0]);
+                normal[1] = T::select(beyond, T::select(front, along, -along), normal[1]);
+                edge_share = T::select(beyond, zero.like(1.0), edge_share);
+            }
         }
         self.place.contact(m, delta, normal, edge_share)
     }
