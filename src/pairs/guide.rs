@@ -382,7 +382,8 @@ struct CagePlace {
 /// The longest step of a guide whose cage has `mass` kg and is at this place.
 ///
 /// From outside an onset, a step ends no further behind it than a share of what the law needs to become itself; within a gap
-/// it uses up at most a share of what is left. So no law is passed between two states that both are outside of it.
+/// it uses up at most a share of what is left; from surfaces that overlap it ends within the film that they part into. So no
+/// law is passed between two states that both are outside of it.
 fn longest_step(guide: &GuideLaw, mass: f64, place: &CagePlace, tuning: &Tuning) -> f64 {
     let CagePlace { position, velocity } = *place;
     let share = tuning.onset_share;
@@ -402,6 +403,19 @@ fn longest_step(guide: &GuideLaw, mass: f64, place: &CagePlace, tuning: &Tuning)
     let mut longest = f64::INFINITY;
     if gap > 0.0 && guide.film.is_some() {
         longest = until(e + share * gap.max(least));
+    }
+    if let Some(film) = guide.film.as_ref().filter(|_| gap <= 0.0) {
+        let thickness = match film {
+            GuideFilm::LubricantLayer(layer) => layer.thickness.min(guide.free_clearance),
+            GuideFilm::ShortBearing(_) => guide.free_clearance,
+        };
+        // Time until the distance from the centre has fallen to that of a place in the film, if it does.
+        let radius = guide.free_clearance - share * thickness;
+        let rest = (e - radius) * (e + radius);
+        let square = along * along - speed * speed * rest;
+        if along < 0.0 && square >= 0.0 {
+            longest = rest / (square.sqrt() - along);
+        }
     }
     let mut onset = |rest: f64, depth: f64| {
         if rest > 0.0 {

@@ -2,8 +2,8 @@
 //! solid contact of the guide, the walls of plane pockets.
 //!
 //! Bodies move on straight lines for this. From outside an onset, a step ends no further behind it than a share of what the
-//! law needs to become itself; within a gap it uses up at most a share of what is left. So no law is passed between two
-//! states that both are outside of it. Signals bound the step, too: see [`InputSignals::shortest_period`].
+//! law needs to become itself; within a gap it uses up at most a share of what is left; from surfaces that overlap it ends
+//! within the film that they part into. So no law is passed between two states that both are outside of it. Signals bound the step, too: see [`InputSignals::shortest_period`].
 //!
 //! [`InputSignals::shortest_period`]: crate::model::signals::InputSignals::shortest_period
 
@@ -90,6 +90,22 @@ mod tests {
         let h = longest(&model, 0.2135e-3 - 0.8e-7, 0.3);
         assert!((h * 0.3 / 0.2e-7 - 1.0).abs() < 1e-6, "{h}");
         assert_eq!(longest(&model, 0.0, 0.0), f64::INFINITY);
+    }
+
+    #[test]
+    fn steps_from_overlapping_surfaces_end_within_the_film() {
+        for thickness in ["1e-7", "1e-5"] {
+            let layer = ("cage.guide.film.lubricant_layer.thickness", thickness);
+            let model = model(&[layer, ("cage.pocket", "null")]);
+            let thickness: f64 = thickness.parse().unwrap();
+            for depth in [0.0, 1e-9, 1e-6, 1e-3] {
+                let way = longest(&model, 0.2135e-3 + depth, -13.0) * 13.0;
+                let room = depth + 0.25 * thickness;
+                assert!((way / room - 1.0).abs() < 1e-6, "{thickness} {depth}: {way} {room}");
+                // Deeper, the solid contact alone is what it meets.
+                assert_eq!(longest(&model, 0.2135e-3 + depth, 13.0), f64::INFINITY);
+            }
+        }
     }
 
     #[test]
