@@ -68,7 +68,10 @@ impl<T: Numeric> Grip<T> {
     /// Pressure forces of the rolling film through the centres of element and mate along t, N.
     #[inline(always)]
     pub fn film_pressure_forces(&self, f: &ContactForce<T>) -> [T; 2] {
-        [(self.rolling - 1.0) * f.rolling_resistance, -((self.rolling + 1.0) * f.rolling_resistance)]
+        // A difference, so that no force is not a negative zero.
+        let none = f.rolling_resistance.like(0.0);
+        let on_mate = none - (self.rolling + 1.0) * f.rolling_resistance;
+        [(self.rolling - 1.0) * f.rolling_resistance, on_mate]
     }
 
     /// Wrenches on element and mate for the forces of a contact.

@@ -31,17 +31,17 @@ pub(crate) struct ContactColumns {
 }
 
 impl ContactColumns {
-    pub(crate) const COUNT: usize = TIME + 1;
+    /// Where columns begin: radial offset and travel of the element; their rates and its spin; place and angle of the mate; its
+    /// velocity and speed; time.
+    pub(crate) const OFFSET: usize = 0;
+    pub(crate) const RADIAL_SPEED: usize = 2;
+    pub(crate) const PLACE: usize = 5;
+    pub(crate) const VELOCITY: usize = 8;
+    pub(crate) const TIME: usize = 11;
+    pub(crate) const COUNT: usize = Self::TIME + 1;
     pub(crate) const ZERO: Self =
         Self { own: [[ZEROS; OF_ELEMENT]; Self::COUNT], on_mate: [[ZEROS; OF_ELEMENT]; Self::COUNT] };
 }
-
-/// Where columns begin.
-const OFFSET: usize = 0;
-const RADIAL_SPEED: usize = 2;
-const PLACE: usize = 5;
-const VELOCITY: usize = 8;
-const TIME: usize = 11;
 
 /// Adds what stands at a place of the lanes to the first components of a wrench.
 #[inline(always)]
@@ -75,27 +75,25 @@ impl SlopeSums<'_> {
         }
     }
 
-    /// Over positions and over velocities, with the first columns of elements and mates.
+    /// Over positions and over velocities, with the columns of elements and of mates.
     #[inline(always)]
-    fn parts(&mut self) -> [(&mut Arrowhead<f64, OF_ELEMENT>, [usize; 2]); 2] {
+    fn parts(&mut self) -> [(&mut Arrowhead<f64, OF_ELEMENT>, Range<usize>, Range<usize>); 2] {
+        use ContactColumns as C;
         let Linearization { over_positions, over_velocities, .. } = &mut *self.out;
-        [(over_positions, [OFFSET, PLACE]), (over_velocities, [RADIAL_SPEED, VELOCITY])]
+        [
+            (over_positions, C::OFFSET..C::RADIAL_SPEED, C::PLACE..C::VELOCITY),
+            (over_velocities, C::RADIAL_SPEED..C::PLACE, C::VELOCITY..C::TIME),
+        ]
     }
 
     /// Of the element over its own coordinates.
     #[inline(always)]
     fn add_own(&mut self, j: usize, columns: &ContactColumns, lane: usize) {
-        let at = j * OF_ELEMENT..(j + 1) * OF_ELEMENT;
-        let [(k, _), (d, _)] = self.parts();
-        for (column, slopes) in
-            chunks(k.own.as_mut_slice())[at.clone()].iter_mut().zip(&columns.own[..RADIAL_SPEED])
-        {
-            add(column, slopes, lane);
-        }
-        for (column, slopes) in
-            chunks(d.own.as_mut_slice())[at].iter_mut().zip(&columns.own[RADIAL_SPEED..PLACE])
-        {
-            add(column, slopes, lane);
+        for (part, by_own, _) in self.parts() {
+            let own = &mut chunks(part.own.as_mut_slice())[j * OF_ELEMENT..(j + 1) * OF_ELEMENT];
+            for (column, slopes) in own.iter_mut().zip(&columns.own[by_own]) {
+                add(column, slopes, lane);
+            }
         }
     }
 
@@ -103,14 +101,13 @@ impl SlopeSums<'_> {
     #[inline(always)]
     fn add_across<const N: usize>(&mut self, j: usize, mate: usize, columns: &ContactColumns, lane: usize) {
         let (start, width) = (self.layout.range(mate).start, self.layout.hub());
-        let ends = [RADIAL_SPEED, PLACE];
-        for ((part, [by_own, by_mate]), end) in self.parts().into_iter().zip(ends) {
+        for (part, by_own, by_mate) in self.parts() {
             let from_hub = chunks(&mut part.from_hub.as_mut_slice()[OF_ELEMENT * (j * width + start)..]);
-            for (column, slopes) in from_hub.iter_mut().zip(&columns.own[by_mate..][..N]) {
+            for (column, slopes) in from_hub.iter_mut().zip(&columns.own[by_mate][..N]) {
                 add(column, slopes, lane);
             }
             let to_hub = part.to_hub.as_mut_slice()[OF_ELEMENT * width * j..].chunks_exact_mut(width);
-            for (column, slopes) in to_hub.zip(&columns.on_mate[by_own..end]) {
+            for (column, slopes) in to_hub.zip(&columns.on_mate[by_own]) {
                 if let Some(column) = column[start..].first_chunk_mut::<N>() {
                     add(column, slopes, lane);
                 }
@@ -121,8 +118,8 @@ impl SlopeSums<'_> {
     /// Adds the derivatives of the wrenches on a mate over its own coordinates by the contacts at these places of the columns.
     pub(crate) fn add_on_mate(&mut self, mate: usize, columns: &ContactColumns, lanes: Range<usize>) {
         let places = self.layout.range(mate);
-        for (part, [_, first]) in self.parts() {
-            for (column, at) in columns.on_mate[first..][..OF_ELEMENT].iter().zip(places.clone()) {
+        for (part, _, by_mate) in self.parts() {
+            for (column, at) in columns.on_mate[by_mate].iter().zip(places.clone()) {
                 for (slopes, row) in column.iter().zip(places.clone()) {
                     let entry = &mut part.hub[(row, at)];
                     *entry = slopes[lanes.clone()].iter().fold(*entry, |sum, slope| sum + slope);
@@ -142,15 +139,17 @@ impl SlopeSums<'_> {
     ) {
         let ContactColumns { own, on_mate } = columns;
         let places = self.layout.range(mate);
-        add(&mut self.out.over_time[places.clone()], &on_mate[TIME], lane);
+        add(&mut self.out.over_time[places.clone()], &on_mate[ContactColumns::TIME], lane);
         if j < self.layout.count {
-            let rates = own[TIME].each_ref().map(|column| column[lane]);
+            let rates = own[ContactColumns::TIME].each_ref().map(|column| column[lane]);
             for (place, rate) in self.layout.of_element(j).into_iter().zip(rates) {
                 self.out.over_time[place] += rate;
             }
             return;
         }
-        let [travel, orbit, spin] = [OFFSET + 1, RADIAL_SPEED + 1, RADIAL_SPEED + 2].map(|c| &on_mate[c]);
+        let [travel, orbit, spin] =
+            [ContactColumns::OFFSET + 1, ContactColumns::RADIAL_SPEED + 1, ContactColumns::RADIAL_SPEED + 2]
+                .map(|c| &on_mate[c]);
         let rates = self.rates;
         for (i, place) in places.enumerate().take(OF_ELEMENT) {
             self.out.over_time[place] += travel[i][lane] * rates.orbit_travel
@@ -159,7 +158,7 @@ impl SlopeSums<'_> {
         }
     }
 
-    /// The same over those of a shared body, itself or another.
+    /// Adds derivatives of the first components of the wrench on a shared body over the coordinates of one, itself or another.
     #[inline]
     pub(crate) fn add_mate<const M: usize, const N: usize>(
         &mut self,

@@ -188,7 +188,7 @@ fn films_of_new_scenes_take_energy() {
     let scene = grease(&thin);
     let work = |scene: &Value| {
         let mut run = run(scene, json!({"method": {"dormand_prince": {"tolerance": 1e-8}}}), 0.03);
-        let place = cagedyn::model::POWERS.iter().position(|name| *name == "guide_film").unwrap();
+        let place = POWERS.iter().position(|name| *name == "guide_film").unwrap();
         (run.power_balance().unwrap().work[place], run.report())
     };
     let (given, report) = work(&scene);

@@ -266,11 +266,15 @@ fn on_element<T: Numeric>(grip: &Grip<T>, forces: [T; FORCES]) -> [T; 3] {
 
 /// Derivatives of a wrench over the coordinates of element and mate, which are seen in the axes of the element, and over time.
 type Rows<S, const K: usize> = [[Pack<S, K>; 3]; ContactColumns::COUNT];
-/// Columns of the travel, and of the place, the angle and the velocity of the mate.
-const TRAVEL: usize = 1;
-const PLACE: usize = 5;
-const ANGLE: usize = 7;
-const VELOCITY: usize = 8;
+/// Columns of the radial offset, and of the place of the mate.
+const OFFSET: usize = ContactColumns::OFFSET;
+const PLACE: usize = ContactColumns::PLACE;
+/// Of the travel and the angle of the mate: axes turn with them.
+const TRAVEL: usize = OFFSET + 1;
+const ANGLE: usize = PLACE + 2;
+/// Of speeds.
+const RADIAL_SPEED: usize = ContactColumns::RADIAL_SPEED;
+const VELOCITY: usize = ContactColumns::VELOCITY;
 
 /// From derivatives over the five numbers to those over the coordinates of element and mate, of the wrench on elements, `own`,
 /// which changes at the rate `warming` by itself. Returns those in axes that do not turn with the element.
@@ -294,18 +298,18 @@ fn chain<S: Simd, const K: usize>(
     for i in 0..3 {
         let [x, y, v, u, spin] = own[i].eps;
         let over_speed = s[1] * v - s[0] * u - spin;
-        by[0][i] = x + (m.orbit_speed - turning) * u;
+        by[OFFSET][i] = x + (m.orbit_speed - turning) * u;
         by[TRAVEL][i] = r * y + (turning * r - velocity[1]) * v + velocity[0] * u;
-        by[2][i] = v;
-        by[3][i] = r * u;
-        by[4][i] = spin;
+        by[RADIAL_SPEED][i] = v;
+        by[RADIAL_SPEED + 1][i] = r * u;
+        by[RADIAL_SPEED + 2][i] = spin;
         by[PLACE][i] = turning * u - x;
         by[PLACE + 1][i] = -(turning * v + y);
         by[ANGLE][i] = s[1] * x - s[0] * y + w[1] * v - w[0] * u;
         by[VELOCITY][i] = -v;
         by[VELOCITY + 1][i] = -u;
-        by[10][i] = over_speed;
-        by[11][i] = warming[i] + over_speed * speeding;
+        by[VELOCITY + 2][i] = over_speed;
+        by[ContactColumns::TIME][i] = warming[i] + over_speed * speeding;
     }
     by[ANGLE][0] -= own[1].re;
     by[ANGLE][1] += own[0].re;
@@ -335,7 +339,7 @@ fn on_mate<S: Simd, const K: usize>(
         by[c] = [-y, -z, s[1] * radial - s[0] * across - moment];
     }
     // s changes with the places of both.
-    by[0][2] -= force[1];
+    by[OFFSET][2] -= force[1];
     by[TRAVEL][2] += at.radius * force[0];
     by[PLACE][2] += force[1];
     by[PLACE + 1][2] -= force[0];
