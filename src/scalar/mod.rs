@@ -1,6 +1,6 @@
 //! The number types of the force laws.
 //!
-//! Laws are generic. Those of line contacts take any [`Numeric`] and have no branches: called with `f64` they give the
+//! Laws are generic. Those of line and solid contacts take any [`Numeric`] and do not branch on it: called with `f64` they give the
 //! force of one contact, with [`Pack`] those of several contacts at once, with
 //! [`Dual`] and [`Duals`] the same forces and their exact derivatives. The other laws take a [`Real`], one number that they may branch on.
 
