@@ -21,6 +21,16 @@ const LONGEST_STEP: [f64; 2] = [1e-5, 1e-6];
 /// Smaller differences of means, in shares of the clearance, rad/s or N m, are no differences.
 pub const SAME: f64 = 1e-6;
 
+/// How close the means of `engineering` are where motion is not chaotic: shares of the clearance, and of the speed or torque
+/// itself.
+const RESOLUTION: f64 = 0.01;
+
+/// Whether these differences from what is right are below that.
+pub fn resolved(differences: [f64; 3], right: &Readings) -> bool {
+    let scales = [1.0, 1.0, right[2].abs()];
+    differences.iter().zip(scales).all(|(x, scale)| x.abs() <= RESOLUTION * scale)
+}
+
 /// Means of runs that start a little differently.
 fn samples(run: impl Fn(f64) -> Result<Readings, String>) -> Result<[Sample; 3], String> {
     let runs = (0..RUNS).map(|k| run(SHIFT * f64::from(k))).collect::<Result<Vec<Readings>, String>>()?;
