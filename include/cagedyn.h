@@ -112,11 +112,17 @@
 // A defect in the library; free the object.
 #define CAGEDYN_ERR_INTERNAL -99
 
+// Simulations that run at once. May be used by one thread at a time.
+typedef struct cagedyn_batch cagedyn_batch;
+
 // Asks one simulation to stop. May be used by any number of threads at a time.
 typedef struct cagedyn_canceller cagedyn_canceller;
 
 // A compiled scene. Immutable; may be used from several threads at a time.
 typedef struct cagedyn_model cagedyn_model;
+
+// Watches and stops a batch. May be used by any number of threads at a time.
+typedef struct cagedyn_monitor cagedyn_monitor;
 
 // A running simulation. May be used by one thread at a time.
 typedef struct cagedyn_sim cagedyn_sim;
@@ -138,6 +144,66 @@ const char *cagedyn_error_message(void);
 // Name of a status code without the prefix CAGEDYN_, for example "ERR_BAD_SCENE"; "UNKNOWN" for other numbers.
 // Static text, never NULL.
 const char *cagedyn_status_name(int32_t status);
+
+// Creates a batch without simulations. Returns NULL on failure. Free it with cagedyn_batch_free().
+cagedyn_batch *cagedyn_batch_new(void);
+
+// Frees a batch with its simulations. NULL is ignored, and the stored error stays.
+void cagedyn_batch_free(cagedyn_batch *batch);
+
+// Gives a simulation to a batch and returns its place there, from 0 on. From then on it belongs to the batch, which frees it;
+// cagedyn_sim_free() does nothing to it. Every other function can be used with it while the batch does not run. Negative status
+// code on failure; it then stays the caller's.
+int64_t cagedyn_batch_add(cagedyn_batch *batch,
+                          cagedyn_sim *sim);
+
+// Number of simulations of a batch. Negative status code on failure.
+int64_t cagedyn_batch_count(const cagedyn_batch *batch);
+
+// The simulation at a place, which belongs to the batch and lives as long. NULL on failure.
+cagedyn_sim *cagedyn_batch_sim(cagedyn_batch *batch, int64_t index);
+
+// Advances every simulation of a batch to time `t` (s), on so many threads; on as many as there are cores for 0. Every one gives
+// the results that it gives alone. One that fails is left as cagedyn_sim_advance_to() leaves it and does not stop the others.
+// CAGEDYN_OK if all have come to `t`, else the status of the first in order that has not: see cagedyn_batch_status(). Those that
+// will take longest should have been added first. Neither the batch nor its simulations may be used before the call returns;
+// see cagedyn_monitor_new() for what may.
+int32_t cagedyn_batch_advance_to(cagedyn_batch *batch,
+                                 double t,
+                                 int64_t threads);
+
+// What became of a simulation in the last cagedyn_batch_advance_to(): CAGEDYN_OK, also before the first, or the code with which
+// it failed. The code of this call, when `batch` or `index` is refused.
+int32_t cagedyn_batch_status(const cagedyn_batch *batch,
+                             int64_t index);
+
+// Why it failed, one line; "" if it did not. Lives until the next cagedyn_batch_advance_to().
+const char *cagedyn_batch_message(const cagedyn_batch *batch, int64_t index);
+
+// Creates what watches and stops a batch from other threads, before it runs. It may outlive the batch. Returns NULL on
+// failure. Free it with cagedyn_monitor_free().
+cagedyn_monitor *cagedyn_monitor_new(const cagedyn_batch *batch);
+
+// Frees a monitor. NULL is ignored, and the stored error stays.
+void cagedyn_monitor_free(cagedyn_monitor *monitor);
+
+// Makes the running cagedyn_batch_advance_to(), or else the next one, return CAGEDYN_ERR_CANCELLED: simulations that run stop
+// after their present step, those that wait do not begin. The request is then spent, and all of them can go on.
+int32_t cagedyn_monitor_cancel(const cagedyn_monitor *monitor);
+
+// Number of numbers that cagedyn_monitor_progress() writes.
+int64_t cagedyn_progress_count(void);
+
+// Name of one of these numbers; "" for others. Static text.
+//
+// - simulations: in the batch; waiting, running, arrived, failed: how many of them do what.
+// - share: of the way that is done, of all together, from 0 to 1.
+const char *cagedyn_progress_name(int64_t index);
+
+// Writes how far the running cagedyn_batch_advance_to() is, or how far the last one came (length: progress count).
+int32_t cagedyn_monitor_progress(const cagedyn_monitor *monitor,
+                                 double *out,
+                                 int64_t length);
 
 // Number of contacts: rows of cagedyn_sim_contact_forces(). Negative status code on failure.
 int64_t cagedyn_model_contact_count(const cagedyn_model *model);
@@ -200,6 +266,134 @@ const char *cagedyn_model_force_component_description(const cagedyn_model *model
 // Index of the component of a force of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
 int64_t cagedyn_model_find_force_component(const cagedyn_model *model,
                                            const char *name);
+
+// Number of lengths and counts of the bearing that follow from its scene. Negative status code on failure.
+int64_t cagedyn_model_geometry_count(const cagedyn_model *model);
+
+// Name of one of them, for example "pitch_radius"; "" on failure. Lives as long as the model. Those that the bearing has of
+// element_count, element_radius, pitch_radius, outer_raceway_radius, inner_raceway_radius, radial_internal_clearance,
+// guide_radius, guide_clearance, pocket_clearance.
+const char *cagedyn_model_geometry_name(const cagedyn_model *model,
+                                        int64_t index);
+
+// SI unit ("1" for counts) of one of them; "" on failure. Lives as long as the model.
+const char *cagedyn_model_geometry_unit(const cagedyn_model *model, int64_t index);
+
+// Meaning of one of them; "" on failure. Lives as long as the model.
+const char *cagedyn_model_geometry_description(const cagedyn_model *model, int64_t index);
+
+// Index of the one of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
+int64_t cagedyn_model_find_geometry(const cagedyn_model *model, const char *name);
+
+// Writes one of them to `value`.
+int32_t cagedyn_model_get_geometry(const cagedyn_model *model, int64_t index, double *value);
+
+// Writes the rate of an arbitrary state at time `t` (s) to `rate`, for hosts with their own integrator: the
+// velocities, then the accelerations. Both arrays have the length of the state and may be the same. The
+// simulation's own state does not change.
+int32_t cagedyn_sim_derivative(cagedyn_sim *sim, double t, const double *state, double *rate, int64_t length);
+
+// Writes the derivative over time of what cagedyn_sim_derivative() gives, at a constant state, to `rate`: how inputs that change
+// with time change the rates. Rosenbrock methods need it. Arrays and the rest as there.
+int32_t cagedyn_sim_time_derivative(cagedyn_sim *sim,
+                                    double t,
+                                    const double *state,
+                                    double *rate,
+                                    int64_t length);
+
+// Writes the exact derivatives of what cagedyn_sim_derivative() gives over the state, at an arbitrary state and time
+// `t` (s), to `jacobian`, for hosts with their own implicit integrator: a square matrix by columns, so that
+// jacobian[i + k * length] is the derivative of rate i over state k. `length` is the length of the state, and
+// `jacobian_length` its square. The simulation's own state does not change. The first call takes memory for one such
+// matrix. Arrays may overlap.
+int32_t cagedyn_sim_jacobian(cagedyn_sim *sim,
+                             double t,
+                             const double *state,
+                             int64_t length,
+                             double *jacobian,
+                             int64_t jacobian_length);
+
+// Number of derivatives that cagedyn_sim_sparse_jacobian() gives. Negative status code on failure.
+int64_t cagedyn_model_jacobian_entry_count(const cagedyn_model *model);
+
+// Writes where the derivatives of cagedyn_sim_sparse_jacobian() are, in compressed sparse columns counted from 0, the same
+// for all states: entries column_starts[k] to column_starts[k + 1] - 1 belong to column k, and rows[i] is the row of entry i,
+// ascending in each column. `starts_length` is one more than the length of the state, `rows_length` the number of entries.
+int32_t cagedyn_model_jacobian_pattern(const cagedyn_model *model,
+                                       int64_t *column_starts,
+                                       int64_t starts_length,
+                                       int64_t *rows,
+                                       int64_t rows_length);
+
+// Writes what cagedyn_sim_jacobian() gives, without what is always zero, to `values`, in the order of
+// cagedyn_model_jacobian_pattern(). `length` is the length of the state, `values_length` the number of entries. The first
+// call takes memory.
+int32_t cagedyn_sim_sparse_jacobian(cagedyn_sim *sim,
+                                    double t,
+                                    const double *state,
+                                    int64_t length,
+                                    double *values,
+                                    int64_t values_length);
+
+// Evaluates the exact derivatives J of what cagedyn_sim_derivative() gives, at an arbitrary state and time `t` (s), and
+// keeps them for cagedyn_sim_factorize(): the first of three functions that solve the linear systems of a host's own
+// implicit integrator in time proportional to the number of rollers. `length` is the length of the state. The
+// simulation's own state does not change. The first call takes memory.
+int32_t cagedyn_sim_linearize(cagedyn_sim *sim,
+                              double t,
+                              const double *state,
+                              int64_t length);
+
+// Factorizes I - gamma J with the derivatives of the last cagedyn_sim_linearize(); `gamma` in s, above zero. Can be
+// repeated with another `gamma`.
+int32_t cagedyn_sim_factorize(cagedyn_sim *sim,
+                              double gamma);
+
+// Replaces the right-hand side in `x` by the solution of (I - gamma J) x = b with the factors of the last
+// cagedyn_sim_factorize(). `length` is the length of the state.
+int32_t cagedyn_sim_solve(cagedyn_sim *sim, double *x, int64_t length);
+
+// As cagedyn_sim_contact_forces(), at an arbitrary state and time `t` (s). `state_length` is the length of the state, `length`
+// that of `out`.
+int32_t cagedyn_sim_contact_forces_at(cagedyn_sim *sim,
+                                      double t,
+                                      const double *state,
+                                      int64_t state_length,
+                                      double *out,
+                                      int64_t length);
+
+// As cagedyn_sim_body_forces(), at an arbitrary state and time `t` (s). `state_length` is the length of the state, `length`
+// that of `out`.
+int32_t cagedyn_sim_body_forces_at(cagedyn_sim *sim,
+                                   double t,
+                                   const double *state,
+                                   int64_t state_length,
+                                   double *out,
+                                   int64_t length);
+
+// As cagedyn_sim_get_outputs(), at an arbitrary state and time `t` (s), with the forces of that state. `state_length` is the
+// length of the state, `length` that of `out`.
+int32_t cagedyn_sim_outputs_at(cagedyn_sim *sim,
+                               double t,
+                               const double *state,
+                               int64_t state_length,
+                               double *out,
+                               int64_t length);
+
+// Number of energies of a state.
+int64_t cagedyn_energy_count(void);
+
+// Name of an energy of a state: kinetic, elastic, potential; "" for other numbers. Static text.
+const char *cagedyn_energy_name(int64_t index);
+
+// Writes the energies of an arbitrary state at time `t` (s), J: of motion, of contacts that are pressed together, and of weights,
+// zero with all bodies at the centre (length: energy count). `state_length` is the length of the state.
+int32_t cagedyn_sim_energies_at(cagedyn_sim *sim,
+                                double t,
+                                const double *state,
+                                int64_t state_length,
+                                double *out,
+                                int64_t length);
 
 // Number of outputs that are watched in every step: those that the scene names in record.extremes. Negative status code on
 // failure.
@@ -330,7 +524,7 @@ cagedyn_sim *cagedyn_sim_new(const cagedyn_model *model);
 cagedyn_sim *cagedyn_sim_new_with_preset(const cagedyn_model *model,
                                          int32_t preset);
 
-// Frees a simulation. NULL is ignored, and the stored error stays.
+// Frees a simulation. NULL is ignored, and so is a simulation that a batch owns; the stored error stays.
 void cagedyn_sim_free(cagedyn_sim *sim);
 
 // Back to the start of the scene; inputs follow the scene again, statistics start at zero.
@@ -344,41 +538,6 @@ int32_t cagedyn_sim_get_state(const cagedyn_sim *sim, double *state, int64_t len
 
 // Sets time (s) and state (length: state count) and restarts the integrator. On failure nothing changes.
 int32_t cagedyn_sim_set_state(cagedyn_sim *sim, double time, const double *state, int64_t length);
-
-// Writes the rate of an arbitrary state at time `t` (s) to `rate`, for hosts with their own integrator: the
-// velocities, then the accelerations. Both arrays have the length of the state and may be the same. The
-// simulation's own state does not change.
-int32_t cagedyn_sim_derivative(cagedyn_sim *sim, double t, const double *state, double *rate, int64_t length);
-
-// Writes the exact derivatives of what cagedyn_sim_derivative() gives over the state, at an arbitrary state and time
-// `t` (s), to `jacobian`, for hosts with their own implicit integrator: a square matrix by columns, so that
-// jacobian[i + k * length] is the derivative of rate i over state k. `length` is the length of the state, and
-// `jacobian_length` its square. The simulation's own state does not change. The first call takes memory for one such
-// matrix. Arrays may overlap.
-int32_t cagedyn_sim_jacobian(cagedyn_sim *sim,
-                             double t,
-                             const double *state,
-                             int64_t length,
-                             double *jacobian,
-                             int64_t jacobian_length);
-
-// Evaluates the exact derivatives J of what cagedyn_sim_derivative() gives, at an arbitrary state and time `t` (s), and
-// keeps them for cagedyn_sim_factorize(): the first of three functions that solve the linear systems of a host's own
-// implicit integrator in time proportional to the number of rollers. `length` is the length of the state. The
-// simulation's own state does not change. The first call takes memory.
-int32_t cagedyn_sim_linearize(cagedyn_sim *sim,
-                              double t,
-                              const double *state,
-                              int64_t length);
-
-// Factorizes I - gamma J with the derivatives of the last cagedyn_sim_linearize(); `gamma` in s, above zero. Can be
-// repeated with another `gamma`.
-int32_t cagedyn_sim_factorize(cagedyn_sim *sim,
-                              double gamma);
-
-// Replaces the right-hand side in `x` by the solution of (I - gamma J) x = b with the factors of the last
-// cagedyn_sim_factorize(). `length` is the length of the state.
-int32_t cagedyn_sim_solve(cagedyn_sim *sim, double *x, int64_t length);
 
 // Advances by `dt` >= 0 seconds. When a refused argument is the failure, nothing changes; otherwise time and state are then
 // those of the last step that could be made, and the simulation can be asked, changed, reset or advanced again.

@@ -21,6 +21,7 @@
 
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
+pub mod batch;
 mod bodies;
 #[doc(hidden)]
 pub mod capi;

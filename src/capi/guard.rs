@@ -135,7 +135,7 @@ pub unsafe fn read_array(name: &str, from: *const f64, length: i64, to: &mut [f6
 ///
 /// # Safety
 /// `to` is NULL or points to `length` numbers.
-pub unsafe fn write_array(name: &str, from: &[f64], to: *mut f64, length: i64) -> Result<()> {
+pub unsafe fn write_array<T: Copy>(name: &str, from: &[T], to: *mut T, length: i64) -> Result<()> {
     check_array(name, to.is_null(), length, from.len())?;
     // SAFETY: both hold from.len() numbers; bytes may be copied whatever the alignment of `to`.
     unsafe { std::ptr::copy(from.as_ptr().cast::<u8>(), to.cast::<u8>(), size_of_val(from)) };

@@ -5,8 +5,11 @@
 
 #![allow(unsafe_code)]
 
+pub mod batch;
 pub mod forces;
+pub mod geometry;
 mod guard;
+pub mod integrator;
 pub mod interval;
 pub mod limits;
 pub mod model;

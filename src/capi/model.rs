@@ -4,8 +4,9 @@ use super::guard::{EMPTY, count, free, guard, index, shared, text, to_c_string};
 use crate::error::{Error, Result, Status};
 use crate::model::{CONTACT_QUANTITIES, FORCE_COMPONENTS, FORCE_SOURCES, Model};
 use crate::scene::Scene;
+use crate::sim::SparsePattern;
 use std::ffi::{CString, c_char};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// A compiled scene. Immutable; may be used from several threads at a time.
 #[allow(non_camel_case_types)]
@@ -20,7 +21,10 @@ pub struct cagedyn_model {
     pub(super) quantities: Vec<Item>,
     pub(super) sources: Vec<Item>,
     pub(super) components: Vec<Item>,
+    pub(super) geometry: Vec<Item>,
+    pub(super) geometry_values: Vec<f64>,
     warnings: Vec<Item>,
+    pattern: OnceLock<SparsePattern>,
 }
 
 /// Texts of a named item.
@@ -39,6 +43,7 @@ impl Item {
 impl cagedyn_model {
     fn new(model: Model) -> Self {
         let plain = |names: Vec<String>| names.iter().map(|n| Item::new(n, "", "")).collect();
+        let geometry = model.geometry();
         let states = model.state_infos();
         let inputs = model.input_infos();
         Self {
@@ -51,9 +56,19 @@ impl cagedyn_model {
             quantities: CONTACT_QUANTITIES.iter().map(|q| Item::new(q.name, q.unit, q.description)).collect(),
             sources: FORCE_SOURCES.iter().map(|s| Item::new(s, "", "")).collect(),
             components: FORCE_COMPONENTS.iter().map(|q| Item::new(q.name, q.unit, q.description)).collect(),
+            geometry: geometry.iter().map(|(q, _)| Item::new(q.name, q.unit, q.description)).collect(),
+            geometry_values: geometry.iter().map(|(_, value)| *value).collect(),
             warnings: plain(model.scene().warnings()),
+            pattern: OnceLock::new(),
             model: Arc::new(model),
         }
+    }
+}
+
+impl cagedyn_model {
+    /// Pattern of its Jacobian.
+    pub(super) fn pattern(&self) -> &SparsePattern {
+        self.pattern.get_or_init(|| self.model.jacobian_pattern())
     }
 }
 

@@ -1,13 +1,13 @@
 //! Simulations in C.
 
 use super::guard::{
-    check_array, count, exclusive, free, guard, index, last_status, read_array, shared, status, write_array,
+    count, exclusive, free, guard, index, last_status, read_array, shared, status, write_array,
 };
 use super::model::cagedyn_model;
 use crate::error::{Error, Result, Status};
 use crate::model::Model;
 use crate::scene::Preset;
-use crate::sim::Sim;
+use crate::sim::{Sim, SparsePattern};
 use std::ffi::CString;
 use std::sync::Arc;
 
@@ -16,18 +16,22 @@ use std::sync::Arc;
 pub struct cagedyn_sim {
     pub(super) sim: Sim,
     /// Copies of the caller's arrays, so that overlapping arrays are harmless.
-    state: Vec<f64>,
-    result: Vec<f64>,
+    pub(super) state: Vec<f64>,
+    pub(super) result: Vec<f64>,
     pub(super) report: CString,
     /// Empty until a Jacobian is first asked for.
-    jacobian: Vec<f64>,
+    pub(super) jacobian: Vec<f64>,
+    /// None until a sparse Jacobian is first asked for.
+    pub(super) pattern: Option<SparsePattern>,
+    /// Whether a batch owns it.
+    pub(super) in_batch: bool,
 }
 
 /// Runs `entry` on a simulation that it may change.
 ///
 /// # Safety
 /// `sim` is NULL or a live handle that no other thread uses.
-unsafe fn with(sim: *mut cagedyn_sim, entry: impl FnOnce(&mut cagedyn_sim) -> Result<()>) -> i32 {
+pub(super) unsafe fn with(sim: *mut cagedyn_sim, entry: impl FnOnce(&mut cagedyn_sim) -> Result<()>) -> i32 {
     // SAFETY: see above.
     status(|| entry(unsafe { exclusive("sim", sim) }?))
 }
@@ -54,6 +58,8 @@ unsafe fn new(model: *const cagedyn_model, make: impl FnOnce(Arc<Model>) -> Resu
                 result,
                 report: CString::default(),
                 jacobian: Vec::new(),
+                pattern: None,
+                in_batch: false,
             })))
         },
     )
@@ -93,14 +99,18 @@ pub unsafe extern "C" fn cagedyn_sim_new_with_preset(
     unsafe { new(model, make) }
 }
 
-/// Frees a simulation. NULL is ignored, and the stored error stays.
+/// Frees a simulation. NULL is ignored, and so is a simulation that a batch owns; the stored error stays.
 ///
 /// # Safety
 /// `sim` is NULL or a live handle; it must not be used afterwards.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_sim_free(sim: *mut cagedyn_sim) {
     // SAFETY: see above.
-    unsafe { free(sim) }
+    unsafe {
+        if !sim.as_ref().is_some_and(|sim| sim.in_batch) {
+            free(sim);
+        }
+    }
 }
 
 /// Back to the start of the scene; inputs follow the scene again, statistics start at zero.
@@ -149,114 +159,6 @@ pub unsafe extern "C" fn cagedyn_sim_set_state(
         with(sim, |s| {
             read_array("state", state, length, &mut s.state)?;
             s.sim.set_state(time, &s.state)
-        })
-    }
-}
-
-/// Writes the rate of an arbitrary state at time `t` (s) to `rate`, for hosts with their own integrator: the
-/// velocities, then the accelerations. Both arrays have the length of the state and may be the same. The
-/// simulation's own state does not change.
-///
-/// # Safety
-/// `sim` is NULL or a live handle, the arrays are NULL or hold `length` numbers.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cagedyn_sim_derivative(
-    sim: *mut cagedyn_sim,
-    t: f64,
-    state: *const f64,
-    rate: *mut f64,
-    length: i64,
-) -> i32 {
-    // SAFETY: see above.
-    unsafe {
-        with(sim, |s| {
-            check_array("rate", rate.is_null(), length, s.state.len())?;
-            read_array("state", state, length, &mut s.state)?;
-            let n = s.state.len();
-            s.sim.derivative(t, &s.state, &mut s.result[..n])?;
-            write_array("rate", &s.result[..n], rate, length)
-        })
-    }
-}
-
-/// Writes the exact derivatives of what cagedyn_sim_derivative() gives over the state, at an arbitrary state and time
-/// `t` (s), to `jacobian`, for hosts with their own implicit integrator: a square matrix by columns, so that
-/// jacobian[i + k * length] is the derivative of rate i over state k. `length` is the length of the state, and
-/// `jacobian_length` its square. The simulation's own state does not change. The first call takes memory for one such
-/// matrix. Arrays may overlap.
-///
-/// # Safety
-/// `sim` is NULL or a live handle, `state` NULL or an array of `length` numbers, `jacobian` NULL or an array of
-/// `jacobian_length` numbers.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cagedyn_sim_jacobian(
-    sim: *mut cagedyn_sim,
-    t: f64,
-    state: *const f64,
-    length: i64,
-    jacobian: *mut f64,
-    jacobian_length: i64,
-) -> i32 {
-    // SAFETY: see above.
-    unsafe {
-        with(sim, |s| {
-            let size = s.state.len() * s.state.len();
-            check_array("jacobian", jacobian.is_null(), jacobian_length, size)?;
-            read_array("state", state, length, &mut s.state)?;
-            s.jacobian.resize(size, 0.0);
-            s.sim.jacobian(t, &s.state, &mut s.jacobian)?;
-            write_array("jacobian", &s.jacobian, jacobian, jacobian_length)
-        })
-    }
-}
-
-/// Evaluates the exact derivatives J of what cagedyn_sim_derivative() gives, at an arbitrary state and time `t` (s), and
-/// keeps them for cagedyn_sim_factorize(): the first of three functions that solve the linear systems of a host's own
-/// implicit integrator in time proportional to the number of rollers. `length` is the length of the state. The
-/// simulation's own state does not change. The first call takes memory.
-///
-/// # Safety
-/// `sim` is NULL or a live handle, `state` NULL or an array of `length` numbers.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cagedyn_sim_linearize(
-    sim: *mut cagedyn_sim,
-    t: f64,
-    state: *const f64,
-    length: i64,
-) -> i32 {
-    // SAFETY: see above.
-    unsafe {
-        with(sim, |s| {
-            read_array("state", state, length, &mut s.state)?;
-            s.sim.linearize(t, &s.state)
-        })
-    }
-}
-
-/// Factorizes I - gamma J with the derivatives of the last cagedyn_sim_linearize(); `gamma` in s, above zero. Can be
-/// repeated with another `gamma`.
-///
-/// # Safety
-/// `sim` is NULL or a live handle.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cagedyn_sim_factorize(sim: *mut cagedyn_sim, gamma: f64) -> i32 {
-    // SAFETY: see above.
-    unsafe { with(sim, |s| s.sim.factorize(gamma)) }
-}
-
-/// Replaces the right-hand side in `x` by the solution of (I - gamma J) x = b with the factors of the last
-/// cagedyn_sim_factorize(). `length` is the length of the state.
-///
-/// # Safety
-/// `sim` is NULL or a live handle, `x` NULL or an array of `length` numbers.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn cagedyn_sim_solve(sim: *mut cagedyn_sim, x: *mut f64, length: i64) -> i32 {
-    // SAFETY: see above.
-    unsafe {
-        with(sim, |s| {
-            read_array("x", x, length, &mut s.state)?;
-            s.sim.solve(&mut s.state)?;
-            write_array("x", &s.state, x, length)
         })
     }
 }

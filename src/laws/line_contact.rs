@@ -17,7 +17,7 @@ use crate::laws::rolling::RollingResistance;
 use crate::laws::traction::muraki_kimura::Traction;
 use crate::laws::traction::self_heating::SelfHeating;
 use crate::laws::traction::solid_friction::SolidFriction;
-use crate::scalar::{Base, Of};
+use crate::scalar::{Base, Of, math};
 
 /// The laws of one kind of line contact (for example all roller and inner ring contacts).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -107,7 +107,47 @@ impl<B> LineContact<B> {
     }
 }
 
+/// What is known of a loaded contact beside its forces. Zero where there is no such law, or no contact.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Loading {
+    /// Hertz half width b, m.
+    pub half_width: f64,
+    /// Hertz mean pressure P_mean, Pa.
+    pub mean_pressure: f64,
+    /// What heat at the inlet leaves of the film thickness, T_H or T_R.
+    pub film_thermal_factor: f64,
+    /// What it leaves of the rolling resistance, T_R.
+    pub rolling_thermal_factor: f64,
+}
+
 impl LineContact {
+    /// Half width, pressure and thermal factors of a contact that moves like this under this force, with the viscosity
+    /// e^`ln_viscosity` times that of the laws.
+    pub fn loading(
+        &self,
+        motion: &ContactMotion<f64>,
+        ln_viscosity: f64,
+        force: &ContactForce<f64>,
+    ) -> Loading {
+        let load = force.normal;
+        if load <= 0.0 {
+            return Loading::default();
+        }
+        let half_width = self.elastic.half_width(load);
+        let mean_pressure = self.elastic.mean_pressure(load, half_width);
+        let rolling = Entrainment::new(motion.u1, motion.u2, ln_viscosity);
+        // On edges there is neither.
+        let film = self.film.as_ref().filter(|_| force.film > 0.0);
+        let resistance = self.rolling_resistance.as_ref().filter(|_| force.rolling_resistance != 0.0);
+        Loading {
+            half_width,
+            mean_pressure,
+            film_thermal_factor: film
+                .map_or(0.0, |law| law.thermal_factor(math::ln(load), mean_pressure, &rolling)),
+            rolling_thermal_factor: resistance.map_or(0.0, |law| law.thermal_factor(mean_pressure, &rolling)),
+        }
+    }
+
     /// Whether the thermal factor of its rolling resistance, or without it that of its film, is at its floor in a contact that
     /// moves like this under this force, with the viscosity e^`ln_viscosity` times that of the laws.
     pub fn is_at_floor(

@@ -1,6 +1,6 @@
 //! The power balance of a run: what went in, what was lost, what is stored, and what is missing.
 
-use super::{Evaluated, Sim};
+use super::Sim;
 use crate::error::Result;
 use crate::integrate::throughput;
 use crate::model::{AT_FLOOR, Energy, POWERS, RATES};
@@ -119,14 +119,6 @@ impl Sim {
         let mut works = [0.0; RATES];
         self.driver.works_at(t, &mut works);
         works
-    }
-
-    /// Energy of a state at time `t` (s).
-    fn energy_at(&mut self, t: f64, state: &[f64]) -> Result<Energy> {
-        self.evaluated = Evaluated::Other;
-        let evaluated = self.bearing.accelerations_at(t, state, &mut self.accelerations);
-        evaluated.map_err(|fault| self.bad_state(t, fault))?;
-        Ok(self.bearing.energy())
     }
 
     /// Starts the balance at the last evaluated state, which must be the present one.

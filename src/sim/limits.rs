@@ -29,6 +29,11 @@ impl RunLimits {
         self.canceller.clone()
     }
 
+    /// Takes back a request that was not heard yet.
+    pub(super) fn withdraw(&self) {
+        self.canceller.0.store(false, Ordering::Relaxed);
+    }
+
     /// Lets runs end `seconds` of wall time from now; infinity for never.
     pub(super) fn set_wall_time(&mut self, seconds: f64) {
         // What a clock cannot count to is never.

@@ -2,6 +2,7 @@
 
 mod balance;
 mod bearing;
+mod elsewhere;
 mod errors;
 mod limits;
 mod linear;
@@ -14,6 +15,7 @@ pub use crate::integrate::Statistics as DriverStatistics;
 pub(crate) use balance::BalanceItem;
 pub use balance::{BALANCE_ITEMS, PowerBalance};
 pub use limits::Canceller;
+pub use linear::sparse::SparsePattern;
 pub use results::interval::Interval;
 pub use results::recording::{Recording, Spread};
 pub use results::sample::{LEVEL, Sample, Verdict, student};
@@ -182,26 +184,6 @@ impl Sim {
         Ok(&self.forces)
     }
 
-    /// Rate of an arbitrary state at time `t` (s), for hosts with their own integrator. The simulation's own state
-    /// is not touched.
-    ///
-    /// # Errors
-    /// [`Status::WrongSize`], [`Status::BadValue`], [`Status::BadState`]; `rate` is then unchanged.
-    pub fn derivative(&mut self, t: f64, state: &[f64], rate: &mut [f64]) -> Result<()> {
-        check_time("t", t)?;
-        self.check_state(state)?;
-        if rate.len() != state.len() {
-            return Err(wrong_size("rate", rate.len(), state.len()));
-        }
-        self.evaluated = Evaluated::Other;
-        let evaluated = self.bearing.accelerations_at(t, state, &mut self.accelerations);
-        evaluated.map_err(|f| self.bad_state(t, f))?;
-        let nq = self.model().layout().positions();
-        rate[..nq].copy_from_slice(&state[nq..2 * nq]);
-        rate[nq..].copy_from_slice(&self.accelerations);
-        Ok(())
-    }
-
     /// Advances by `dt` >= 0 seconds.
     ///
     /// # Errors
@@ -236,6 +218,11 @@ impl Sim {
     /// What stops this simulation from another thread.
     pub fn canceller(&self) -> Canceller {
         self.bearing.limits().canceller()
+    }
+
+    /// Takes back a request to stop that came when nothing ran.
+    pub(crate) fn withdraw_cancellation(&self) {
+        self.bearing.limits().withdraw();
     }
 
     /// Lets this simulation run for `seconds` of wall time from now; then it stops with [`Status::OutOfTime`], and so does

@@ -73,7 +73,11 @@ pub fn run_under_valgrind<A: AsRef<OsStr>>(program: &Path, arguments: &[A]) {
     if Command::new("valgrind").arg("--version").output().is_ok() {
         let kinds = ["--leak-check=full", "--errors-for-leak-kinds=definite,indirect,possible"];
         let mut command = Command::new("valgrind");
-        succeed(command.args(kinds).arg("--error-exitcode=99").arg(program).args(arguments));
+        let known = root().join("ctests/valgrind.supp");
+        // One thread runs at a time, and all get their turn.
+        command.args(kinds).args(["--error-exitcode=99", "--fair-sched=try"]);
+        command.arg(format!("--suppressions={}", known.display()));
+        succeed(command.arg(program).args(arguments));
     } else {
         assert!(std::env::var_os("CAGEDYN_REQUIRE_VALGRIND").is_none(), "valgrind is not installed");
         eprintln!("valgrind is not installed: ran {} without it", program.display());

@@ -21,6 +21,7 @@ pub const FRICTION: usize = 6;
 pub const ROLLING: usize = 7;
 pub const SLIP_SPEED: usize = 10;
 pub const ROLLING_SPEED: usize = 11;
+pub const ROLLING_FACTOR: usize = 18;
 
 // Bodies in force reports; the cage comes before the rollers.
 pub const INNER_RING: usize = 1;

@@ -4,7 +4,7 @@ use crate::common::bench::{Bearing, State, at_random_states};
 use crate::common::reports::{
     APPROACH, CAGE, FILM, FILM_RATIO, GUIDE, INNER, INNER_RING, NORMAL, OUTER, POCKET, largest_force, sum,
 };
-use cagedyn::model::{BodyForces, FORCE_SOURCES};
+use cagedyn::model::{BodyForces, ContactForces, FORCE_SOURCES};
 use serde_json::Value;
 
 #[test]
@@ -34,10 +34,10 @@ fn random_states_reach_every_regime() {
         see("eccentricity below 0.1", eccentricity < 0.1);
         for contact in forces.contacts.chunks_exact(4) {
             let [outer, inner, front, back] = contact else { unreachable!() };
-            let touches = |c: &[f64; 12]| c[NORMAL] > 0.0;
+            let touches = |c: &ContactForces| c[NORMAL] > 0.0;
             // Edges have no film.
-            let wall = |c: &[f64; 12]| touches(c) && c[FILM] > 0.0;
-            let edge = |c: &[f64; 12]| touches(c) && c[FILM] == 0.0;
+            let wall = |c: &ContactForces| touches(c) && c[FILM] > 0.0;
+            let edge = |c: &ContactForces| touches(c) && c[FILM] == 0.0;
             see("outer raceway apart", !touches(outer));
             see("inner raceway apart", !touches(inner));
             see("outer raceway deep", touches(outer) && outer[APPROACH] > 3e-6);

@@ -4,7 +4,7 @@ use crate::common::bench::{Bearing, STATES_PER_SCENE, State, at_random_states};
 use crate::common::palmgren::{BRASS, STEEL, palmgren_load};
 use crate::common::reports::{
     APPROACH, CAGE, FILM, FILM_RATIO, FRICTION, GRAVITY, GUIDE, INNER, LOAD, NORMAL, OUTER, POCKET, ROLLING,
-    ROLLING_SPEED, SLIP_SPEED, SUPPORT, TEMPERATURE,
+    ROLLING_FACTOR, ROLLING_SPEED, SLIP_SPEED, SUPPORT, TEMPERATURE,
 };
 use crate::common::{Random, example_with, with};
 use cagedyn::model::{FORCE_SOURCES, Forces};
@@ -98,7 +98,10 @@ fn rolling_resistance_vanishes_alone() {
         for (one, other) in a.contacts.iter().zip(&b.contacts) {
             assert_eq!(one[..=FRICTION], other[..=FRICTION]);
             assert_eq!(other[ROLLING..SLIP_SPEED], [0.0; 3]);
-            assert_eq!(one[SLIP_SPEED..], other[SLIP_SPEED..]);
+            assert_eq!(one[SLIP_SPEED..ROLLING_FACTOR], other[SLIP_SPEED..ROLLING_FACTOR]);
+            assert_eq!(one[ROLLING_FACTOR] != 0.0, one[ROLLING] != 0.0);
+            assert_eq!(other[ROLLING_FACTOR], 0.0);
+            assert_eq!(one[ROLLING_FACTOR + 1..], other[ROLLING_FACTOR + 1..]);
         }
     });
 }

@@ -42,6 +42,16 @@ fn c_guide() {
 }
 
 #[test]
+fn c_integrator() {
+    run_c_test("ctests/test_integrator.c", NU2310);
+}
+
+#[test]
+fn c_batch() {
+    run_c_test("ctests/test_batch.c", NU2310);
+}
+
+#[test]
 fn c_threads() {
     run_c_test("ctests/test_threads.c", NU2310);
 }

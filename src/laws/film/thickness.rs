@@ -191,6 +191,11 @@ impl<B: Base> FilmThickness<B> {
 }
 
 impl FilmThickness {
+    /// h_c/h_iso at ln(Q), Q in N, under this mean pressure (Pa); 1 without correction.
+    pub fn thermal_factor(&self, ln_q: f64, mean_pressure: f64, e: &Entrainment<f64>) -> f64 {
+        math::exp(self.ln_central(ln_q, mean_pressure, e) - self.ln_isothermal(ln_q, e))
+    }
+
     /// Whether Gupta's factor is at its floor under this mean pressure (Pa): the speed and pressure are far outside of what it was
     /// fitted to.
     pub fn is_at_floor(&self, mean_pressure: f64, e: &Entrainment<f64>) -> bool {
@@ -270,7 +275,7 @@ mod tests {
         let film = FilmThickness::new(&line, 0.06, 2e-8, Some(ThermalCorrection::Gupta(load)));
         for (pressure, u) in [(1e9, 5.0), (1e9, 100.0), (3e9, 100.0), (3e9, 500.0)] {
             let e = at(u, 0.0);
-            let factor = (film.ln_central(8.0, pressure, &e) - film.ln_isothermal(8.0, &e)).exp();
+            let factor = film.thermal_factor(8.0, pressure, &e);
             let told = film.is_at_floor(pressure, &e);
             assert_eq!(told, factor < GUPTA_FLOOR * 1.0001, "{pressure} {u} {factor}");
         }

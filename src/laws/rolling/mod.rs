@@ -128,9 +128,14 @@ impl<B: Base> RollingResistance<B> {
             Extent::All => q.like(1.0),
             Extent::Loaded { threshold } => smoothstep((q - threshold) / threshold),
         };
+        self.law.force(ln_q, e) * self.thermal_factor(mean_pressure, e) * share
+    }
+
+    /// T_R under the mean pressure in Pa.
+    #[inline(always)]
+    pub fn thermal_factor<T: Of<B>>(&self, mean_pressure: T, e: &Entrainment<T>) -> T {
         let pressure = mean_pressure * self.pressure_factor;
-        let t_r = self.thermal.gupta(pressure, e).floored(0.0);
-        self.law.force(ln_q, e) * t_r * share
+        self.thermal.gupta(pressure, e).floored(0.0)
     }
 }
 

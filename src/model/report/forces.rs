@@ -1,7 +1,8 @@
 //! Force report: every contact and every contribution to every body at one state.
 
-use crate::bodies::{BodyForces, BodyState, CAGE};
+use crate::bodies::{BodyForces, BodyState, CAGE, Element};
 use crate::laws::guide::GuideForce;
+use crate::laws::line_contact::Loading;
 use crate::model::Model;
 use crate::model::Workspace;
 use crate::pairs::Loaded;
@@ -18,13 +19,17 @@ pub struct Quantity {
     pub description: &'static str,
 }
 
-const fn quantity(name: &'static str, unit: &'static str, description: &'static str) -> Quantity {
+pub(super) const fn quantity(name: &'static str, unit: &'static str, description: &'static str) -> Quantity {
     Quantity { name, unit, description }
 }
 
 /// What is reported of a contact. All zero when the surfaces are apart. A contact that touches but whose damping
-/// would pull has a normal force of zero, its approach and its speeds.
-pub const CONTACT_QUANTITIES: [Quantity; 12] = [
+/// would pull has a normal force of zero, its approach, its speeds and its place.
+///
+/// The normal n points from the centre of the element to the contact, t is n turned by +90 degrees. The force on the element is
+/// -n Q + t (friction + rolling_resistance + film_pressure_roller); that on the mate, which is the opposite,
+/// n Q + t (-friction + rolling_resistance + film_pressure_mate).
+pub const CONTACT_QUANTITIES: [Quantity; 23] = [
     quantity("normal_force", "N", "normal force Q"),
     quantity("approach", "m", "elastic approach delta"),
     quantity("film_thickness", "m", "central film thickness h_c"),
@@ -41,6 +46,29 @@ pub const CONTACT_QUANTITIES: [Quantity; 12] = [
     quantity("film_pressure_mate", "N", "film pressure force F_px through the centre of the mate along t"),
     quantity("slip_speed", "m/s", "u1 - u2: surface speed of the roller less that of the mate"),
     quantity("rolling_speed", "m/s", "u: mean of the surface speeds"),
+    quantity("approach_speed", "m/s", "rate of the approach"),
+    quantity(
+        "surface_speed_roller",
+        "m/s",
+        "u1: surface speed of the roller along t relative to the contact",
+    ),
+    quantity("surface_speed_mate", "m/s", "u2: surface speed of the mate along t relative to the contact"),
+    quantity("half_width", "m", "Hertz half width b; 0 of a solid contact without it"),
+    quantity("mean_pressure", "Pa", "Hertz mean pressure; 0 of a solid contact without it"),
+    quantity(
+        "film_thermal_factor",
+        "1",
+        "what heat at the inlet leaves of the film thickness; 0 without film",
+    ),
+    quantity(
+        "rolling_thermal_factor",
+        "1",
+        "what heat at the inlet leaves of the rolling resistance; 0 without it",
+    ),
+    quantity("point_y", "m", "contact point, to the right of the centre of the bearing"),
+    quantity("point_z", "m", "contact point, above the centre of the bearing"),
+    quantity("normal_y", "1", "normal from the centre of the roller to the contact, to the right"),
+    quantity("normal_z", "1", "normal from the centre of the roller to the contact, upwards"),
 ];
 
 /// Values of [`CONTACT_QUANTITIES`].
@@ -105,8 +133,13 @@ impl Model {
         out.accelerations.extend_from_slice(a);
         for contact in ws.contacts.iter() {
             let site = contact.site;
-            out.contacts[self.contact_place(site)] = quantities(&contact);
-            let frame = ws.motions.frame(site.element);
+            let element = ws.motions.element(site.element);
+            let frame = element.frame;
+            let loading = self.laws[site.pair]
+                .line()
+                .map(|law| law.loading(&contact.motion, ws.fluid.ln_viscosity, &contact.force));
+            out.contacts[self.contact_place(site)] =
+                quantities(&contact, &element, &loading.unwrap_or_default());
             let source = self.infos[site.pair].source as usize;
             for (body, on_body) in [self.element_body(site.element), site.mate]
                 .into_iter()
@@ -166,9 +199,12 @@ fn add(sum: &mut [f64; 3], w: &Wrench<f64>) {
     }
 }
 
-fn quantities(contact: &Loaded<'_>) -> ContactForces {
-    let (f, m) = (contact.force, contact.motion);
-    let [pressure_roller, pressure_mate] = contact.grip.film_pressure_forces(&f);
+fn quantities(contact: &Loaded<'_>, element: &Element, loading: &Loading) -> ContactForces {
+    let (f, m, grip) = (contact.force, contact.motion, contact.grip);
+    let [pressure_roller, pressure_mate] = grip.film_pressure_forces(&f);
+    let [along, across] = grip.normal;
+    let point = element.frame.to_global([element.radius + grip.arm * along, grip.arm * across]);
+    let normal = element.frame.to_global(grip.normal);
     [
         f.normal,
         m.delta,
@@ -182,5 +218,16 @@ fn quantities(contact: &Loaded<'_>) -> ContactForces {
         pressure_mate,
         m.u1 - m.u2,
         0.5 * (m.u1 + m.u2),
+        m.delta_dot,
+        m.u1,
+        m.u2,
+        loading.half_width,
+        loading.mean_pressure,
+        loading.film_thermal_factor,
+        loading.rolling_thermal_factor,
+        point[0],
+        point[1],
+        normal[0],
+        normal[1],
     ]
 }

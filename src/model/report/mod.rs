@@ -3,6 +3,7 @@
 mod channels;
 mod faults;
 mod forces;
+mod geometry;
 mod names;
 mod selection;
 mod watch;

@@ -38,19 +38,22 @@ impl Slopes {
     fn write(&self, positions: usize, out: &mut [f64]) {
         let size = positions + self.linearization.over_time.len();
         out.fill(0.0);
-        for i in 0..positions {
-            out[(positions + i) * size + i] = 1.0;
+        for (row, column, value) in self.of_rates(positions) {
+            out[column * size + row] = value;
         }
+    }
+
+    /// Row, column and value of every derivative of these rates that is not always zero.
+    pub(super) fn of_rates(&self, positions: usize) -> impl Iterator<Item = (usize, usize, f64)> {
         let Linearization { over_positions, over_velocities, .. } = &self.linearization;
-        for (row, column, value) in entries(&self.structure, over_positions) {
-            // Spins have no position; what stands in their place is zero.
-            if column < positions {
-                out[column * size + positions + row] = value;
-            }
-        }
-        for (row, column, value) in entries(&self.structure, over_velocities) {
-            out[(positions + column) * size + positions + row] = value;
-        }
+        let rates = (0..positions).map(move |i| (i, positions + i, 1.0));
+        // Spins have no position; what stands in their place is zero.
+        let of_positions = entries(&self.structure, over_positions)
+            .filter(move |(_, column, _)| *column < positions)
+            .map(move |(row, column, value)| (positions + row, column, value));
+        let of_velocities = entries(&self.structure, over_velocities)
+            .map(move |(row, column, value)| (positions + row, positions + column, value));
+        rates.chain(of_positions).chain(of_velocities)
     }
 }
 
@@ -87,21 +90,40 @@ impl Sim {
     /// As [`Sim::derivative`], and [`Status::BadState`](crate::Status::BadState) where a derivative is not finite;
     /// `out` is then unchanged.
     pub fn jacobian(&mut self, t: f64, state: &[f64], out: &mut [f64]) -> Result<()> {
-        check_time("t", t)?;
-        self.check_state(state)?;
         let length = state.len() * state.len();
         if out.len() != length {
             return Err(wrong_size("jacobian", out.len(), length));
         }
-        self.evaluated = Evaluated::Other;
         let positions = self.model().layout().positions();
+        self.slopes_at(t, state)?.write(positions, out);
+        Ok(())
+    }
+
+    /// Derivative over time of what [`Sim::derivative`] gives, at a constant state: how inputs that change with time change the
+    /// rates, per second. The rates of inputs at a jump or kink are those after it.
+    ///
+    /// # Errors
+    /// As [`Sim::jacobian`].
+    pub fn time_derivative(&mut self, t: f64, state: &[f64], out: &mut [f64]) -> Result<()> {
+        if out.len() != state.len() {
+            return Err(wrong_size("rate", out.len(), state.len()));
+        }
+        let positions = self.model().layout().positions();
+        let over_time = &self.slopes_at(t, state)?.linearization.over_time;
+        out[..positions].fill(0.0);
+        out[positions..].copy_from_slice(over_time);
+        Ok(())
+    }
+
+    /// Finds the derivatives there.
+    pub(super) fn slopes_at(&mut self, t: f64, state: &[f64]) -> Result<&Slopes> {
+        check_time("t", t)?;
+        self.check_state(state)?;
+        self.evaluated = Evaluated::Other;
         let slopes = self.slopes.get_or_insert_with(|| Slopes::new(self.bearing.model()));
         let linearized = self.bearing.linearize_at(t, state, &mut self.accelerations, slopes);
         match linearized.and_then(|()| slopes.check()) {
-            Ok(()) => {
-                slopes.write(positions, out);
-                Ok(())
-            }
+            Ok(()) => Ok(self.slopes.get_or_insert_with(|| Slopes::new(self.bearing.model()))),
             Err(fault) => Err(self.bad_state(t, fault)),
         }
     }

@@ -2,3 +2,4 @@
 
 pub(in crate::sim) mod jacobian;
 pub(in crate::sim) mod newton;
+pub(in crate::sim) mod sparse;

@@ -1,0 +1,68 @@
+//! What a bearing does at arbitrary states, for hosts with their own integrator: rates, forces, outputs, energies. The state and
+//! the integration of the simulation are not touched, and nothing is counted.
+
+use super::errors::{check_time, wrong_size};
+use super::{Evaluated, Sim};
+use crate::error::Result;
+use crate::model::{Energy, Forces};
+
+impl Sim {
+    /// Rate of an arbitrary state at time `t` (s), for hosts with their own integrator. The simulation's own state
+    /// is not touched.
+    ///
+    /// # Errors
+    /// [`Status::WrongSize`], [`Status::BadValue`], [`Status::BadState`]; `rate` is then unchanged.
+    pub fn derivative(&mut self, t: f64, state: &[f64], rate: &mut [f64]) -> Result<()> {
+        if rate.len() != state.len() {
+            return Err(wrong_size("rate", rate.len(), state.len()));
+        }
+        self.evaluate_at(t, state)?;
+        let nq = self.model().layout().positions();
+        rate[..nq].copy_from_slice(&state[nq..2 * nq]);
+        rate[nq..].copy_from_slice(&self.accelerations);
+        Ok(())
+    }
+
+    /// All forces at an arbitrary state and time `t` (s).
+    ///
+    /// # Errors
+    /// As [`Sim::derivative`].
+    pub fn forces_at(&mut self, t: f64, state: &[f64]) -> Result<&Forces> {
+        self.evaluate_at(t, state)?;
+        self.bearing.report(state, &self.accelerations, &mut self.forces);
+        Ok(&self.forces)
+    }
+
+    /// Writes the value of every output channel at an arbitrary state and time `t` (s).
+    ///
+    /// # Errors
+    /// As [`Sim::derivative`]; `out` is then unchanged.
+    pub fn outputs_at(&mut self, t: f64, state: &[f64], out: &mut [f64]) -> Result<()> {
+        if out.len() != self.channels().len() {
+            return Err(wrong_size("outputs", out.len(), self.channels().len()));
+        }
+        self.forces_at(t, state)?;
+        for (out, channel) in out.iter_mut().zip(self.bearing.model().channels()) {
+            *out = self.bearing.channel_value(channel, t, state, &self.forces);
+        }
+        Ok(())
+    }
+
+    /// Energies of an arbitrary state at time `t` (s).
+    ///
+    /// # Errors
+    /// As [`Sim::derivative`].
+    pub fn energy_at(&mut self, t: f64, state: &[f64]) -> Result<Energy> {
+        self.evaluate_at(t, state)?;
+        Ok(self.bearing.energy())
+    }
+
+    /// Finds the accelerations there.
+    fn evaluate_at(&mut self, t: f64, state: &[f64]) -> Result<()> {
+        check_time("t", t)?;
+        self.check_state(state)?;
+        self.evaluated = Evaluated::Other;
+        let evaluated = self.bearing.accelerations_at(t, state, &mut self.accelerations);
+        evaluated.map_err(|fault| self.bad_state(t, fault))
+    }
+}
