@@ -6,9 +6,10 @@
  *
  * Units      SI everywhere, angles in rad. y points right, z up, rotation is counter-clockwise positive.
  *
- * Handles    cagedyn_model, cagedyn_sim and cagedyn_canceller are opaque. What a function named _new or _from_ returns belongs to the
+ * Handles    cagedyn_model, cagedyn_sim, cagedyn_batch, cagedyn_monitor and cagedyn_canceller are opaque. What a function named _new or _from_ returns belongs to the
  *            caller, who gives it to the matching _free. _free(NULL) does nothing. A simulation keeps what it needs
  *            of its model, so they may be freed in any order. Never use a handle after freeing it.
+ *            A simulation that was added to a batch is the batch's.
  *
  * Errors     A function that returns int32_t returns CAGEDYN_OK (0) or a negative CAGEDYN_ERR_ code. A function that
  *            returns int64_t returns a count or an index >= 0, or such a code. A function that returns a handle
@@ -26,12 +27,14 @@
  * Arrays     A pointer with a length next to it, in numbers, not bytes. The length must be exactly the one the
  *            function names; ask the model for it. Arrays stay the caller's.
  *
- * Threads    A model is immutable: any number of threads may use it at a time. A simulation may be used by one
+ * Threads    A model is immutable: any number of threads may use it at a time. A simulation or a batch may be used by one
  *            thread at a time, not always the same one. Results do not depend on the number of threads. A canceller
- *            stops a simulation from any thread.
+ *            stops a simulation from any thread, a monitor watches and stops a batch.
  *
- * Hosts      Everything can be done with handles, scalars, const char* and double* alone: no callbacks, no structs,
- *            no pointers to pointers.
+ * Hosts      Everything can be done with handles, scalars, const char* and arrays of double alone: no callbacks, no structs,
+ *            no pointers to pointers. Only the pattern of a sparse Jacobian is an array of int64_t. The header is plain C: but for
+ *            the integers of stdint.h it is C of 1989, and after the preprocessor it can be read by pycparser, cffi and
+ *            loadlibrary.
  */
 
 
@@ -40,272 +43,271 @@
 
 #include <stdint.h>
 
-// Major version of the library this header belongs to.
+/* Major version of the library this header belongs to. */
 #define CAGEDYN_VERSION_MAJOR 0
 
-// Minor version of the library this header belongs to.
+/* Minor version of the library this header belongs to. */
 #define CAGEDYN_VERSION_MINOR 1
 
-// Patch version of the library this header belongs to.
+/* Patch version of the library this header belongs to. */
 #define CAGEDYN_VERSION_PATCH 0
 
-// Preset for searching: many cases, trends, the kind of motion.
+/* Preset for searching: many cases, trends, the kind of motion. */
 #define CAGEDYN_PRESET_DRAFT 0
 
-// Preset for results; the default.
+/* Preset for results; the default. */
 #define CAGEDYN_PRESET_ENGINEERING 1
 
-// Preset for comparing: trajectories with controlled errors.
+/* Preset for comparing: trajectories with controlled errors. */
 #define CAGEDYN_PRESET_REFERENCE 2
 
-// Success.
+/* Success. */
 #define CAGEDYN_OK 0
 
-// A required pointer is NULL.
+/* A required pointer is NULL. */
 #define CAGEDYN_ERR_NULL_ARGUMENT -1
 
-// An array has the wrong length.
+/* An array has the wrong length. */
 #define CAGEDYN_ERR_WRONG_SIZE -2
 
-// A number is not finite or out of range.
+/* A number is not finite or out of range. */
 #define CAGEDYN_ERR_BAD_VALUE -3
 
-// An index is out of range.
+/* An index is out of range. */
 #define CAGEDYN_ERR_BAD_INDEX -4
 
-// No item of this name.
+/* No item of this name. */
 #define CAGEDYN_ERR_UNKNOWN_NAME -5
 
-// A text is not UTF-8.
+/* A text is not UTF-8. */
 #define CAGEDYN_ERR_BAD_TEXT -6
 
-// JSON syntax error, wrong type, unknown or missing field.
+/* JSON syntax error, wrong type, unknown or missing field. */
 #define CAGEDYN_ERR_BAD_JSON -7
 
-// Well-formed scene that describes nothing that can be simulated.
+/* Well-formed scene that describes nothing that can be simulated. */
 #define CAGEDYN_ERR_BAD_SCENE -8
 
-// A file cannot be read.
+/* A file cannot be read. */
 #define CAGEDYN_ERR_FILE -9
 
-// Forces are undefined at a state, for example without film between cage and guide.
+/* Forces are undefined at a state, for example without film between cage and guide. */
 #define CAGEDYN_ERR_BAD_STATE -10
 
-// The step size fell below its minimum.
+/* The step size fell below its minimum. */
 #define CAGEDYN_ERR_STEP_TOO_SMALL -11
 
-// The limit on the number of steps was reached.
+/* The limit on the number of steps was reached. */
 #define CAGEDYN_ERR_TOO_MANY_STEPS -12
 
-// A saved simulation does not fit this model or is damaged.
+/* A saved simulation does not fit this model or is damaged. */
 #define CAGEDYN_ERR_BAD_SNAPSHOT -13
 
-// A run was stopped on request, see cagedyn_canceller_cancel().
+/* A run was stopped on request, see cagedyn_canceller_cancel(). */
 #define CAGEDYN_ERR_CANCELLED -14
 
-// The limit on the wall time was reached, see cagedyn_sim_set_wall_time_limit().
+/* The limit on the wall time was reached, see cagedyn_sim_set_wall_time_limit(). */
 #define CAGEDYN_ERR_OUT_OF_TIME -15
 
-// A run did not keep what its preset promises, see cagedyn_sim_trust().
+/* A run did not keep what its preset promises, see cagedyn_sim_trust(). */
 #define CAGEDYN_ERR_UNTRUSTED -16
 
-// A defect in the library; free the object.
+/* A defect in the library; free the object. */
 #define CAGEDYN_ERR_INTERNAL -99
 
-// Simulations that run at once. May be used by one thread at a time.
+/* Simulations that run at once. May be used by one thread at a time. */
 typedef struct cagedyn_batch cagedyn_batch;
 
-// Asks one simulation to stop. May be used by any number of threads at a time.
+/* Asks one simulation to stop. May be used by any number of threads at a time. */
 typedef struct cagedyn_canceller cagedyn_canceller;
 
-// A compiled scene. Immutable; may be used from several threads at a time.
+/* A compiled scene. Immutable; may be used from several threads at a time. */
 typedef struct cagedyn_model cagedyn_model;
 
-// Watches and stops a batch. May be used by any number of threads at a time.
+/* Watches and stops a batch. May be used by any number of threads at a time. */
 typedef struct cagedyn_monitor cagedyn_monitor;
 
-// A running simulation. May be used by one thread at a time.
+/* A running simulation. May be used by one thread at a time. */
 typedef struct cagedyn_sim cagedyn_sim;
 
 #ifdef __cplusplus
 extern "C" {
-#endif // __cplusplus
+#endif  /* __cplusplus */
 
-// Version of the library that is linked, for example "0.1.0". Static text.
+/* Version of the library that is linked, for example "0.1.0". Static text. */
 const char *cagedyn_version(void);
 
-// Status of the last call in this thread that can fail; CAGEDYN_OK after a success.
+/* Status of the last call in this thread that can fail; CAGEDYN_OK after a success. */
 int32_t cagedyn_error_status(void);
 
-// Message of the last call in this thread that can fail: one line of UTF-8, empty after a success, never NULL.
-// Valid until the next call in this thread.
+/* Message of the last call in this thread that can fail: one line of UTF-8, empty after a success, never NULL.
+ * Valid until the next call in this thread. */
 const char *cagedyn_error_message(void);
 
-// Name of a status code without the prefix CAGEDYN_, for example "ERR_BAD_SCENE"; "UNKNOWN" for other numbers.
-// Static text, never NULL.
+/* Name of a status code without the prefix CAGEDYN_, for example "ERR_BAD_SCENE"; "UNKNOWN" for other numbers.
+ * Static text, never NULL. */
 const char *cagedyn_status_name(int32_t status);
 
-// Creates a batch without simulations. Returns NULL on failure. Free it with cagedyn_batch_free().
+/* Creates a batch without simulations. Returns NULL on failure. Free it with cagedyn_batch_free(). */
 cagedyn_batch *cagedyn_batch_new(void);
 
-// Frees a batch with its simulations. NULL is ignored, and the stored error stays.
+/* Frees a batch with its simulations. NULL is ignored, and the stored error stays. */
 void cagedyn_batch_free(cagedyn_batch *batch);
 
-// Gives a simulation to a batch and returns its place there, from 0 on. From then on it belongs to the batch, which frees it;
-// cagedyn_sim_free() does nothing to it. Every other function can be used with it while the batch does not run. Negative status
-// code on failure; it then stays the caller's.
+/* Gives a simulation to a batch and returns its place there, from 0 on. From then on it belongs to the batch, which frees it;
+ * cagedyn_sim_free() does nothing to it. Every other function can be used with it while the batch does not run. Negative status
+ * code on failure; it then stays the caller's. */
 int64_t cagedyn_batch_add(cagedyn_batch *batch,
                           cagedyn_sim *sim);
 
-// Number of simulations of a batch. Negative status code on failure.
+/* Number of simulations of a batch. Negative status code on failure. */
 int64_t cagedyn_batch_count(const cagedyn_batch *batch);
 
-// The simulation at a place, which belongs to the batch and lives as long. NULL on failure.
+/* The simulation at a place, which belongs to the batch and lives as long. NULL on failure. */
 cagedyn_sim *cagedyn_batch_sim(cagedyn_batch *batch, int64_t index);
 
-// Advances every simulation of a batch to time `t` (s), on so many threads; on as many as there are cores for 0. Every one gives
-// the results that it gives alone. One that fails is left as cagedyn_sim_advance_to() leaves it and does not stop the others.
-// CAGEDYN_OK if all have come to `t`, else the status of the first in order that has not: see cagedyn_batch_status(). Those that
-// will take longest should have been added first. Neither the batch nor its simulations may be used before the call returns;
-// see cagedyn_monitor_new() for what may.
+/* Advances every simulation of a batch to time `t` (s), on so many threads; on as many as there are cores for 0. Every one gives
+ * the results that it gives alone. One that fails is left as cagedyn_sim_advance_to() leaves it and does not stop the others.
+ * CAGEDYN_OK if all have come to `t`, else the status of the first in order that has not: see cagedyn_batch_status(). Those that
+ * will take longest should have been added first. Neither the batch nor its simulations may be used before the call returns;
+ * see cagedyn_monitor_new() for what may. */
 int32_t cagedyn_batch_advance_to(cagedyn_batch *batch,
                                  double t,
                                  int64_t threads);
 
-// What became of a simulation in the last cagedyn_batch_advance_to(): CAGEDYN_OK, also before the first, or the code with which
-// it failed. The code of this call, when `batch` or `index` is refused.
+/* What became of a simulation in the last cagedyn_batch_advance_to(): CAGEDYN_OK, also before the first, or the code with which
+ * it failed. The code of this call, when `batch` or `index` is refused. */
 int32_t cagedyn_batch_status(const cagedyn_batch *batch,
                              int64_t index);
 
-// Why it failed, one line; "" if it did not. Lives until the next cagedyn_batch_advance_to().
+/* Why it failed, one line; "" if it did not. Lives until the next cagedyn_batch_advance_to(). */
 const char *cagedyn_batch_message(const cagedyn_batch *batch, int64_t index);
 
-// Creates what watches and stops a batch from other threads, before it runs. It may outlive the batch. Returns NULL on
-// failure. Free it with cagedyn_monitor_free().
+/* Creates what watches and stops a batch from other threads, before it runs. It may outlive the batch. Returns NULL on
+ * failure. Free it with cagedyn_monitor_free(). */
 cagedyn_monitor *cagedyn_monitor_new(const cagedyn_batch *batch);
 
-// Frees a monitor. NULL is ignored, and the stored error stays.
+/* Frees a monitor. NULL is ignored, and the stored error stays. */
 void cagedyn_monitor_free(cagedyn_monitor *monitor);
 
-// Makes the running cagedyn_batch_advance_to(), or else the next one, return CAGEDYN_ERR_CANCELLED: simulations that run stop
-// after their present step, those that wait do not begin. The request is then spent, and all of them can go on.
+/* Makes the running cagedyn_batch_advance_to(), or else the next one, return CAGEDYN_ERR_CANCELLED: simulations that run stop
+ * after their present step, those that wait do not begin. The request is then spent, and all of them can go on. */
 int32_t cagedyn_monitor_cancel(const cagedyn_monitor *monitor);
 
-// Number of numbers that cagedyn_monitor_progress() writes.
+/* Number of numbers that cagedyn_monitor_progress() writes. */
 int64_t cagedyn_progress_count(void);
 
-// Name of one of these numbers; "" for others. Static text.
-//
-// - simulations: in the batch; waiting, running, arrived, failed: how many of them do what.
-// - share: of the way that is done, of all together, from 0 to 1.
+/* Name of one of these numbers; "" for others. Static text.
+ *
+ * - simulations: in the batch; waiting, running, arrived, failed: how many of them do what.
+ * - share: of the way that is done, of all together, from 0 to 1. */
 const char *cagedyn_progress_name(int64_t index);
 
-// Writes how far the running cagedyn_batch_advance_to() is, or how far the last one came (length: progress count).
+/* Writes how far the running cagedyn_batch_advance_to() is, or how far the last one came (length: progress count). */
 int32_t cagedyn_monitor_progress(const cagedyn_monitor *monitor,
                                  double *out,
                                  int64_t length);
 
-// Number of contacts: rows of cagedyn_sim_contact_forces(). Negative status code on failure.
+/* Number of contacts: rows of cagedyn_sim_contact_forces(). Negative status code on failure. */
 int64_t cagedyn_model_contact_count(const cagedyn_model *model);
 
-// Name of a contact that can exist; "" on failure. Lives as long as the model.
+/* Name of a contact that can exist; "" on failure. Lives as long as the model. */
 const char *cagedyn_model_contact_name(const cagedyn_model *model, int64_t index);
 
-// Index of the contact that can exist of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
+/* Index of the contact that can exist of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure. */
 int64_t cagedyn_model_find_contact(const cagedyn_model *model,
                                    const char *name);
 
-// Number of contact quantities: columns of cagedyn_sim_contact_forces(). Negative status code on failure.
+/* Number of contact quantities: columns of cagedyn_sim_contact_forces(). Negative status code on failure. */
 int64_t cagedyn_model_contact_quantity_count(const cagedyn_model *model);
 
-// Name of a contact quantity; "" on failure. Lives as long as the model.
+/* Name of a contact quantity; "" on failure. Lives as long as the model. */
 const char *cagedyn_model_contact_quantity_name(const cagedyn_model *model, int64_t index);
 
-// SI unit ("1" for ratios) of a contact quantity; "" on failure. Lives as long as the model.
+/* SI unit ("1" for ratios) of a contact quantity; "" on failure. Lives as long as the model. */
 const char *cagedyn_model_contact_quantity_unit(const cagedyn_model *model, int64_t index);
 
-// Meaning of a contact quantity; "" on failure. Lives as long as the model.
+/* Meaning of a contact quantity; "" on failure. Lives as long as the model. */
 const char *cagedyn_model_contact_quantity_description(const cagedyn_model *model, int64_t index);
 
-// Index of the contact quantity of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
+/* Index of the contact quantity of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure. */
 int64_t cagedyn_model_find_contact_quantity(const cagedyn_model *model,
                                             const char *name);
 
-// Number of bodies: blocks of cagedyn_sim_body_forces(). Negative status code on failure.
+/* Number of bodies: blocks of cagedyn_sim_body_forces(). Negative status code on failure. */
 int64_t cagedyn_model_body_count(const cagedyn_model *model);
 
-// Name of a body; "" on failure. Lives as long as the model.
+/* Name of a body; "" on failure. Lives as long as the model. */
 const char *cagedyn_model_body_name(const cagedyn_model *model, int64_t index);
 
-// Index of the body of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
+/* Index of the body of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure. */
 int64_t cagedyn_model_find_body(const cagedyn_model *model, const char *name);
 
-// Number of force sources: rows of a block of cagedyn_sim_body_forces(). Negative status code on failure.
+/* Number of force sources: rows of a block of cagedyn_sim_body_forces(). Negative status code on failure. */
 int64_t cagedyn_model_force_source_count(const cagedyn_model *model);
 
-// Name of a force source; "" on failure. Lives as long as the model.
+/* Name of a force source; "" on failure. Lives as long as the model. */
 const char *cagedyn_model_force_source_name(const cagedyn_model *model, int64_t index);
 
-// Index of the force source of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
-int64_t cagedyn_model_find_force_source(const cagedyn_model *model,
-                                        const char *name);
+/* Index of the force source of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure. */
+int64_t cagedyn_model_find_force_source(const cagedyn_model *model, const char *name);
 
-// Number of components of a force on a body: columns of a block of cagedyn_sim_body_forces(). Ask for it: it depends on the
-// directions in which the bodies of the model can move. Negative status code on failure.
+/* Number of components of a force on a body: columns of a block of cagedyn_sim_body_forces(). Ask for it: it depends on the
+ * directions in which the bodies of the model can move. Negative status code on failure. */
 int64_t cagedyn_model_force_component_count(const cagedyn_model *model);
 
-// Name of a component of a force; "" on failure. Lives as long as the model.
+/* Name of a component of a force; "" on failure. Lives as long as the model. */
 const char *cagedyn_model_force_component_name(const cagedyn_model *model, int64_t index);
 
-// SI unit of a component of a force; "" on failure. Lives as long as the model.
+/* SI unit of a component of a force; "" on failure. Lives as long as the model. */
 const char *cagedyn_model_force_component_unit(const cagedyn_model *model, int64_t index);
 
-// Meaning of a component of a force; "" on failure. Lives as long as the model.
+/* Meaning of a component of a force; "" on failure. Lives as long as the model. */
 const char *cagedyn_model_force_component_description(const cagedyn_model *model, int64_t index);
 
-// Index of the component of a force of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
+/* Index of the component of a force of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure. */
 int64_t cagedyn_model_find_force_component(const cagedyn_model *model,
                                            const char *name);
 
-// Number of lengths and counts of the bearing that follow from its scene. Negative status code on failure.
+/* Number of lengths and counts of the bearing that follow from its scene. Negative status code on failure. */
 int64_t cagedyn_model_geometry_count(const cagedyn_model *model);
 
-// Name of one of them, for example "pitch_radius"; "" on failure. Lives as long as the model. Those that the bearing has of
-// element_count, element_radius, pitch_radius, outer_raceway_radius, inner_raceway_radius, radial_internal_clearance,
-// guide_radius, guide_clearance, pocket_clearance.
+/* Name of one of them, for example "pitch_radius"; "" on failure. Lives as long as the model. Those that the bearing has of
+ * element_count, element_radius, pitch_radius, outer_raceway_radius, inner_raceway_radius, radial_internal_clearance,
+ * guide_radius, guide_clearance, pocket_clearance. */
 const char *cagedyn_model_geometry_name(const cagedyn_model *model,
                                         int64_t index);
 
-// SI unit ("1" for counts) of one of them; "" on failure. Lives as long as the model.
+/* SI unit ("1" for counts) of one of them; "" on failure. Lives as long as the model. */
 const char *cagedyn_model_geometry_unit(const cagedyn_model *model, int64_t index);
 
-// Meaning of one of them; "" on failure. Lives as long as the model.
+/* Meaning of one of them; "" on failure. Lives as long as the model. */
 const char *cagedyn_model_geometry_description(const cagedyn_model *model, int64_t index);
 
-// Index of the one of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
+/* Index of the one of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure. */
 int64_t cagedyn_model_find_geometry(const cagedyn_model *model, const char *name);
 
-// Writes one of them to `value`.
+/* Writes one of them to `value`. */
 int32_t cagedyn_model_get_geometry(const cagedyn_model *model, int64_t index, double *value);
 
-// Writes the rate of an arbitrary state at time `t` (s) to `rate`, for hosts with their own integrator: the
-// velocities, then the accelerations. Both arrays have the length of the state and may be the same. The
-// simulation's own state does not change.
+/* Writes the rate of an arbitrary state at time `t` (s) to `rate`, for hosts with their own integrator: the
+ * velocities, then the accelerations. Both arrays have the length of the state and may be the same. The
+ * simulation's own state does not change. */
 int32_t cagedyn_sim_derivative(cagedyn_sim *sim, double t, const double *state, double *rate, int64_t length);
 
-// Writes the derivative over time of what cagedyn_sim_derivative() gives, at a constant state, to `rate`: how inputs that change
-// with time change the rates. Rosenbrock methods need it. Arrays and the rest as there.
+/* Writes the derivative over time of what cagedyn_sim_derivative() gives, at a constant state, to `rate`: how inputs that change
+ * with time change the rates. Rosenbrock methods need it. Arrays and the rest as there. */
 int32_t cagedyn_sim_time_derivative(cagedyn_sim *sim,
                                     double t,
                                     const double *state,
                                     double *rate,
                                     int64_t length);
 
-// Writes the exact derivatives of what cagedyn_sim_derivative() gives over the state, at an arbitrary state and time
-// `t` (s), to `jacobian`, for hosts with their own implicit integrator: a square matrix by columns, so that
-// jacobian[i + k * length] is the derivative of rate i over state k. `length` is the length of the state, and
-// `jacobian_length` its square. The simulation's own state does not change. The first call takes memory for one such
-// matrix. Arrays may overlap.
+/* Writes the exact derivatives of what cagedyn_sim_derivative() gives over the state, at an arbitrary state and time
+ * `t` (s), to `jacobian`, for hosts with their own implicit integrator: a square matrix by columns, so that
+ * jacobian[i + k * length] is the derivative of rate i over state k. `length` is the length of the state, and
+ * `jacobian_length` its square. The simulation's own state does not change. The first call takes memory for one such
+ * matrix. Arrays may overlap. */
 int32_t cagedyn_sim_jacobian(cagedyn_sim *sim,
                              double t,
                              const double *state,
@@ -313,21 +315,21 @@ int32_t cagedyn_sim_jacobian(cagedyn_sim *sim,
                              double *jacobian,
                              int64_t jacobian_length);
 
-// Number of derivatives that cagedyn_sim_sparse_jacobian() gives. Negative status code on failure.
+/* Number of derivatives that cagedyn_sim_sparse_jacobian() gives. Negative status code on failure. */
 int64_t cagedyn_model_jacobian_entry_count(const cagedyn_model *model);
 
-// Writes where the derivatives of cagedyn_sim_sparse_jacobian() are, in compressed sparse columns counted from 0, the same
-// for all states: entries column_starts[k] to column_starts[k + 1] - 1 belong to column k, and rows[i] is the row of entry i,
-// ascending in each column. `starts_length` is one more than the length of the state, `rows_length` the number of entries.
+/* Writes where the derivatives of cagedyn_sim_sparse_jacobian() are, in compressed sparse columns counted from 0, the same
+ * for all states: entries column_starts[k] to column_starts[k + 1] - 1 belong to column k, and rows[i] is the row of entry i,
+ * ascending in each column. `starts_length` is one more than the length of the state, `rows_length` the number of entries. */
 int32_t cagedyn_model_jacobian_pattern(const cagedyn_model *model,
                                        int64_t *column_starts,
                                        int64_t starts_length,
                                        int64_t *rows,
                                        int64_t rows_length);
 
-// Writes what cagedyn_sim_jacobian() gives, without what is always zero, to `values`, in the order of
-// cagedyn_model_jacobian_pattern(). `length` is the length of the state, `values_length` the number of entries. The first
-// call takes memory.
+/* Writes what cagedyn_sim_jacobian() gives, without what is always zero, to `values`, in the order of
+ * cagedyn_model_jacobian_pattern(). `length` is the length of the state, `values_length` the number of entries. The first
+ * call takes memory. */
 int32_t cagedyn_sim_sparse_jacobian(cagedyn_sim *sim,
                                     double t,
                                     const double *state,
@@ -335,26 +337,26 @@ int32_t cagedyn_sim_sparse_jacobian(cagedyn_sim *sim,
                                     double *values,
                                     int64_t values_length);
 
-// Evaluates the exact derivatives J of what cagedyn_sim_derivative() gives, at an arbitrary state and time `t` (s), and
-// keeps them for cagedyn_sim_factorize(): the first of three functions that solve the linear systems of a host's own
-// implicit integrator in time proportional to the number of rollers. `length` is the length of the state. The
-// simulation's own state does not change. The first call takes memory.
+/* Evaluates the exact derivatives J of what cagedyn_sim_derivative() gives, at an arbitrary state and time `t` (s), and
+ * keeps them for cagedyn_sim_factorize(): the first of three functions that solve the linear systems of a host's own
+ * implicit integrator in time proportional to the number of rollers. `length` is the length of the state. The
+ * simulation's own state does not change. The first call takes memory. */
 int32_t cagedyn_sim_linearize(cagedyn_sim *sim,
                               double t,
                               const double *state,
                               int64_t length);
 
-// Factorizes I - gamma J with the derivatives of the last cagedyn_sim_linearize(); `gamma` in s, above zero. Can be
-// repeated with another `gamma`.
+/* Factorizes I - gamma J with the derivatives of the last cagedyn_sim_linearize(); `gamma` in s, above zero. Can be
+ * repeated with another `gamma`. */
 int32_t cagedyn_sim_factorize(cagedyn_sim *sim,
                               double gamma);
 
-// Replaces the right-hand side in `x` by the solution of (I - gamma J) x = b with the factors of the last
-// cagedyn_sim_factorize(). `length` is the length of the state.
+/* Replaces the right-hand side in `x` by the solution of (I - gamma J) x = b with the factors of the last
+ * cagedyn_sim_factorize(). `length` is the length of the state. */
 int32_t cagedyn_sim_solve(cagedyn_sim *sim, double *x, int64_t length);
 
-// As cagedyn_sim_contact_forces(), at an arbitrary state and time `t` (s). `state_length` is the length of the state, `length`
-// that of `out`.
+/* As cagedyn_sim_contact_forces(), at an arbitrary state and time `t` (s). `state_length` is the length of the state, `length`
+ * that of `out`. */
 int32_t cagedyn_sim_contact_forces_at(cagedyn_sim *sim,
                                       double t,
                                       const double *state,
@@ -362,8 +364,8 @@ int32_t cagedyn_sim_contact_forces_at(cagedyn_sim *sim,
                                       double *out,
                                       int64_t length);
 
-// As cagedyn_sim_body_forces(), at an arbitrary state and time `t` (s). `state_length` is the length of the state, `length`
-// that of `out`.
+/* As cagedyn_sim_body_forces(), at an arbitrary state and time `t` (s). `state_length` is the length of the state, `length`
+ * that of `out`. */
 int32_t cagedyn_sim_body_forces_at(cagedyn_sim *sim,
                                    double t,
                                    const double *state,
@@ -371,8 +373,8 @@ int32_t cagedyn_sim_body_forces_at(cagedyn_sim *sim,
                                    double *out,
                                    int64_t length);
 
-// As cagedyn_sim_get_outputs(), at an arbitrary state and time `t` (s), with the forces of that state. `state_length` is the
-// length of the state, `length` that of `out`.
+/* As cagedyn_sim_get_outputs(), at an arbitrary state and time `t` (s), with the forces of that state. `state_length` is the
+ * length of the state, `length` that of `out`. */
 int32_t cagedyn_sim_outputs_at(cagedyn_sim *sim,
                                double t,
                                const double *state,
@@ -380,14 +382,14 @@ int32_t cagedyn_sim_outputs_at(cagedyn_sim *sim,
                                double *out,
                                int64_t length);
 
-// Number of energies of a state.
+/* Number of energies of a state. */
 int64_t cagedyn_energy_count(void);
 
-// Name of an energy of a state: kinetic, elastic, potential; "" for other numbers. Static text.
+/* Name of an energy of a state: kinetic, elastic, potential; "" for other numbers. Static text. */
 const char *cagedyn_energy_name(int64_t index);
 
-// Writes the energies of an arbitrary state at time `t` (s), J: of motion, of contacts that are pressed together, and of weights,
-// zero with all bodies at the centre (length: energy count). `state_length` is the length of the state.
+/* Writes the energies of an arbitrary state at time `t` (s), J: of motion, of contacts that are pressed together, and of weights,
+ * zero with all bodies at the centre (length: energy count). `state_length` is the length of the state. */
 int32_t cagedyn_sim_energies_at(cagedyn_sim *sim,
                                 double t,
                                 const double *state,
@@ -395,274 +397,270 @@ int32_t cagedyn_sim_energies_at(cagedyn_sim *sim,
                                 double *out,
                                 int64_t length);
 
-// Number of outputs that are watched in every step: those that the scene names in record.extremes. Negative status code on
-// failure.
+/* Number of outputs that are watched in every step: those that the scene names in record.extremes. Negative status code on
+ * failure. */
 int64_t cagedyn_model_watched_count(const cagedyn_model *model);
 
-// Output that is at place `index` of those that are watched. Negative status code on failure.
+/* Output that is at place `index` of those that are watched. Negative status code on failure. */
 int64_t cagedyn_model_watched_output(const cagedyn_model *model, int64_t index);
 
-// Number of numbers that cagedyn_sim_get_interval() writes.
+/* Number of numbers that cagedyn_sim_get_interval() writes. */
 int64_t cagedyn_interval_count(void);
 
-// Name of one of these numbers; "" for others. Static text.
-//
-// - from, to: the interval, s.
-// - min, max: extremes in any step that touches it, in the unit of the output.
-// - mean: over time; integral: over time, in that unit times s; positive_integral: of the values above zero.
+/* Name of one of these numbers; "" for others. Static text.
+ *
+ * - from, to: the interval, s.
+ * - min, max: extremes in any step that touches it, in the unit of the output.
+ * - mean: over time; integral: over time, in that unit times s; positive_integral: of the values above zero. */
 const char *cagedyn_interval_name(int64_t index);
 
-// Begins at the present time the interval of cagedyn_sim_get_interval(). So do setting a state, a reset and restoring.
+/* Begins at the present time the interval of cagedyn_sim_get_interval(). So do setting a state, a reset and restoring. */
 int32_t cagedyn_sim_begin_interval(cagedyn_sim *sim);
 
-// Writes what a watched output did since cagedyn_sim_begin_interval(), from every step and not from where the host stopped
-// (length: interval count). Forces are those that acted in the steps, so that their integrals are the impulses that the
-// bodies were given.
+/* Writes what a watched output did since cagedyn_sim_begin_interval(), from every step and not from where the host stopped
+ * (length: interval count). Forces are those that acted in the steps, so that their integrals are the impulses that the
+ * bodies were given. */
 int32_t cagedyn_sim_get_interval(cagedyn_sim *sim,
                                  int64_t output,
                                  double *out,
                                  int64_t length);
 
-// Creates what stops a simulation from other threads, before it runs there. It may outlive the simulation. Returns NULL
-// on failure. Free it with cagedyn_canceller_free().
+/* Creates what stops a simulation from other threads, before it runs there. It may outlive the simulation. Returns NULL
+ * on failure. Free it with cagedyn_canceller_free(). */
 cagedyn_canceller *cagedyn_canceller_new(const cagedyn_sim *sim);
 
-// Makes the simulation's running cagedyn_sim_step() or cagedyn_sim_advance_to(), or else its next one, return
-// CAGEDYN_ERR_CANCELLED after its present step. The request is then spent, and the simulation can go on.
+/* Makes the simulation's running cagedyn_sim_step() or cagedyn_sim_advance_to(), or else its next one, return
+ * CAGEDYN_ERR_CANCELLED after its present step. The request is then spent, and the simulation can go on. */
 int32_t cagedyn_canceller_cancel(const cagedyn_canceller *canceller);
 
-// Frees a canceller. NULL is ignored, and the stored error stays.
+/* Frees a canceller. NULL is ignored, and the stored error stays. */
 void cagedyn_canceller_free(cagedyn_canceller *canceller);
 
-// Lets a simulation run for `seconds` of wall time from now. Then the running call returns CAGEDYN_ERR_OUT_OF_TIME, and
-// so does every later one until the limit is set again. INFINITY for no limit, as at first.
+/* Lets a simulation run for `seconds` of wall time from now. Then the running call returns CAGEDYN_ERR_OUT_OF_TIME, and
+ * so does every later one until the limit is set again. INFINITY for no limit, as at first. */
 int32_t cagedyn_sim_set_wall_time_limit(cagedyn_sim *sim,
                                         double seconds);
 
-// Creates a model from the JSON text of a scene. Returns NULL on failure. Free it with cagedyn_model_free().
+/* Creates a model from the JSON text of a scene. Returns NULL on failure. Free it with cagedyn_model_free(). */
 cagedyn_model *cagedyn_model_from_json(const char *json);
 
-// Creates a model from the JSON text of a scene with some values replaced. `overrides` has one replacement per line,
-// "path=value", for example "inner_ring.speed.constant=-104.7"; the value null removes an optional block. Returns
-// NULL on failure.
+/* Creates a model from the JSON text of a scene with some values replaced. `overrides` has one replacement per line,
+ * "path=value", for example "inner_ring.speed.constant=-104.7"; the value null removes an optional block. Returns
+ * NULL on failure. */
 cagedyn_model *cagedyn_model_from_json_with(const char *json,
                                             const char *overrides);
 
-// Creates a model from a scene file. Returns NULL on failure.
+/* Creates a model from a scene file. Returns NULL on failure. */
 cagedyn_model *cagedyn_model_from_file(const char *path);
 
-// Frees a model. Simulations made from it stay valid. NULL is ignored, and the stored error stays.
+/* Frees a model. Simulations made from it stay valid. NULL is ignored, and the stored error stays. */
 void cagedyn_model_free(cagedyn_model *model);
 
-// JSON text of the scene the model was made from, replacements included. "" on failure. Lives as long as the model.
+/* JSON text of the scene the model was made from, replacements included. "" on failure. Lives as long as the model. */
 const char *cagedyn_model_scene_json(const cagedyn_model *model);
 
-// Number of values of the scene that are legal and unlikely. Negative status code on failure.
+/* Number of values of the scene that are legal and unlikely. Negative status code on failure. */
 int64_t cagedyn_model_warning_count(const cagedyn_model *model);
 
-// One of these, as one line: JSON path, value, why it is unlikely. "" on failure. Lives as long as the model.
+/* One of these, as one line: JSON path, value, why it is unlikely. "" on failure. Lives as long as the model. */
 const char *cagedyn_model_warning(const cagedyn_model *model, int64_t index);
 
-// Number of positions: the first part of the state vector. Negative status code on failure.
+/* Number of positions: the first part of the state vector. Negative status code on failure. */
 int64_t cagedyn_model_position_count(const cagedyn_model *model);
 
-// Number of velocities: the second part of the state vector. Negative status code on failure.
+/* Number of velocities: the second part of the state vector. Negative status code on failure. */
 int64_t cagedyn_model_velocity_count(const cagedyn_model *model);
 
-// Number of states. Negative status code on failure.
+/* Number of states. Negative status code on failure. */
 int64_t cagedyn_model_state_count(const cagedyn_model *model);
 
-// Name of a state; "" on failure. Lives as long as the model.
+/* Name of a state; "" on failure. Lives as long as the model. */
 const char *cagedyn_model_state_name(const cagedyn_model *model, int64_t index);
 
-// SI unit ("1" for ratios) of a state; "" on failure. Lives as long as the model.
+/* SI unit ("1" for ratios) of a state; "" on failure. Lives as long as the model. */
 const char *cagedyn_model_state_unit(const cagedyn_model *model, int64_t index);
 
-// Meaning of a state; "" on failure. Lives as long as the model.
+/* Meaning of a state; "" on failure. Lives as long as the model. */
 const char *cagedyn_model_state_description(const cagedyn_model *model, int64_t index);
 
-// Index of the state of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
+/* Index of the state of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure. */
 int64_t cagedyn_model_find_state(const cagedyn_model *model, const char *name);
 
-// Number of inputs. Negative status code on failure.
+/* Number of inputs. Negative status code on failure. */
 int64_t cagedyn_model_input_count(const cagedyn_model *model);
 
-// Name of an input; "" on failure. Lives as long as the model.
+/* Name of an input; "" on failure. Lives as long as the model. */
 const char *cagedyn_model_input_name(const cagedyn_model *model, int64_t index);
 
-// SI unit ("1" for ratios) of an input; "" on failure. Lives as long as the model.
+/* SI unit ("1" for ratios) of an input; "" on failure. Lives as long as the model. */
 const char *cagedyn_model_input_unit(const cagedyn_model *model, int64_t index);
 
-// Meaning of an input; "" on failure. Lives as long as the model.
+/* Meaning of an input; "" on failure. Lives as long as the model. */
 const char *cagedyn_model_input_description(const cagedyn_model *model, int64_t index);
 
-// Index of the input of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
+/* Index of the input of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure. */
 int64_t cagedyn_model_find_input(const cagedyn_model *model, const char *name);
 
-// Number of outputs. Negative status code on failure.
+/* Number of outputs. Negative status code on failure. */
 int64_t cagedyn_model_output_count(const cagedyn_model *model);
 
-// Name of an output; "" on failure. Lives as long as the model.
+/* Name of an output; "" on failure. Lives as long as the model. */
 const char *cagedyn_model_output_name(const cagedyn_model *model, int64_t index);
 
-// SI unit ("1" for ratios) of an output; "" on failure. Lives as long as the model.
+/* SI unit ("1" for ratios) of an output; "" on failure. Lives as long as the model. */
 const char *cagedyn_model_output_unit(const cagedyn_model *model, int64_t index);
 
-// Meaning of an output; "" on failure. Lives as long as the model.
+/* Meaning of an output; "" on failure. Lives as long as the model. */
 const char *cagedyn_model_output_description(const cagedyn_model *model, int64_t index);
 
-// Index of the output of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
+/* Index of the output of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure. */
 int64_t cagedyn_model_find_output(const cagedyn_model *model, const char *name);
 
-// Creates a simulation at the start of the model's scene. It keeps what it needs of the model. Returns NULL on
-// failure; with a model of NULL an error of the call before, such as that which made no model, stays the stored one. Free it
-// with cagedyn_sim_free().
+/* Creates a simulation at the start of the model's scene. It keeps what it needs of the model. Returns NULL on
+ * failure; with a model of NULL an error of the call before, such as that which made no model, stays the stored one. Free it
+ * with cagedyn_sim_free(). */
 cagedyn_sim *cagedyn_sim_new(const cagedyn_model *model);
 
-// As cagedyn_sim_new(), with a preset (CAGEDYN_PRESET_...) instead of that of the scene: how accurate the simulation
-// is to be where the scene's method leaves that open.
+/* As cagedyn_sim_new(), with a preset (CAGEDYN_PRESET_...) instead of that of the scene: how accurate the simulation
+ * is to be where the scene's method leaves that open. */
 cagedyn_sim *cagedyn_sim_new_with_preset(const cagedyn_model *model,
                                          int32_t preset);
 
-// Frees a simulation. NULL is ignored, and so is a simulation that a batch owns; the stored error stays.
+/* Frees a simulation. NULL is ignored, and so is a simulation that a batch owns; the stored error stays. */
 void cagedyn_sim_free(cagedyn_sim *sim);
 
-// Back to the start of the scene; inputs follow the scene again, statistics start at zero.
+/* Back to the start of the scene; inputs follow the scene again, statistics start at zero. */
 int32_t cagedyn_sim_reset(cagedyn_sim *sim);
 
-// Writes the simulated time in s to `time`.
+/* Writes the simulated time in s to `time`. */
 int32_t cagedyn_sim_time(const cagedyn_sim *sim, double *time);
 
-// Writes the state to `state` (length: state count).
+/* Writes the state to `state` (length: state count). */
 int32_t cagedyn_sim_get_state(const cagedyn_sim *sim, double *state, int64_t length);
 
-// Sets time (s) and state (length: state count) and restarts the integrator. On failure nothing changes.
+/* Sets time (s) and state (length: state count) and restarts the integrator. On failure nothing changes. */
 int32_t cagedyn_sim_set_state(cagedyn_sim *sim, double time, const double *state, int64_t length);
 
-// Advances by `dt` >= 0 seconds. When a refused argument is the failure, nothing changes; otherwise time and state are then
-// those of the last step that could be made, and the simulation can be asked, changed, reset or advanced again.
+/* Advances by `dt` >= 0 seconds. When a refused argument is the failure, nothing changes; otherwise time and state are then
+ * those of the last step that could be made, and the simulation can be asked, changed, reset or advanced again. */
 int32_t cagedyn_sim_step(cagedyn_sim *sim,
                          double dt);
 
-// Advances to time `t` (s), not before the present time. A failure is as that of cagedyn_sim_step().
+/* Advances to time `t` (s), not before the present time. A failure is as that of cagedyn_sim_step(). */
 int32_t cagedyn_sim_advance_to(cagedyn_sim *sim, double t);
 
-// Writes the accelerations at the present state (length: velocity count, that is the states from position count on).
+/* Writes the accelerations at the present state (length: velocity count, that is the states from position count on). */
 int32_t cagedyn_sim_accelerations(cagedyn_sim *sim,
                                   double *out,
                                   int64_t length);
 
-// Writes the forces of all contacts at the present state: one row per contact, one column per contact quantity,
-// rows one after the other (length: contact count times contact quantity count).
-int32_t cagedyn_sim_contact_forces(cagedyn_sim *sim,
-                                   double *out,
-                                   int64_t length);
+/* Writes the forces of all contacts at the present state: one row per contact, one column per contact quantity,
+ * rows one after the other (length: contact count times contact quantity count). */
+int32_t cagedyn_sim_contact_forces(cagedyn_sim *sim, double *out, int64_t length);
 
-// Writes the forces on all bodies by source at the present state: for every body a block with one row per force
-// source and one column per force component (length: body count times force source count times force component
-// count).
-int32_t cagedyn_sim_body_forces(cagedyn_sim *sim,
-                                double *out,
-                                int64_t length);
+/* Writes the forces on all bodies by source at the present state: for every body a block with one row per force
+ * source and one column per force component (length: body count times force source count times force component
+ * count). */
+int32_t cagedyn_sim_body_forces(cagedyn_sim *sim, double *out, int64_t length);
 
-// Writes the present value of an input to `value`.
+/* Writes the present value of an input to `value`. */
 int32_t cagedyn_sim_get_input(const cagedyn_sim *sim, int64_t input, double *value);
 
-// Holds an input at `value` from now on, instead of the scene's function of time. Values have the range that scenes have.
-// The value that the input has already changes nothing.
+/* Holds an input at `value` from now on, instead of the scene's function of time. Values have the range that scenes have.
+ * The value that the input has already changes nothing. */
 int32_t cagedyn_sim_set_input(cagedyn_sim *sim,
                               int64_t input,
                               double value);
 
-// Lets an input follow the scene again.
+/* Lets an input follow the scene again. */
 int32_t cagedyn_sim_release_input(cagedyn_sim *sim, int64_t input);
 
-// Writes all outputs at the present state (length: output count).
+/* Writes all outputs at the present state (length: output count). */
 int32_t cagedyn_sim_get_outputs(cagedyn_sim *sim, double *out, int64_t length);
 
-// Writes one output at the present state to `value`.
+/* Writes one output at the present state to `value`. */
 int32_t cagedyn_sim_get_output(cagedyn_sim *sim, int64_t output, double *value);
 
-// Length of the array for cagedyn_sim_save(); constant over the life of a simulation. Negative status code on
-// failure.
+/* Length of the array for cagedyn_sim_save(); constant over the life of a simulation. Negative status code on
+ * failure. */
 int64_t cagedyn_sim_save_length(const cagedyn_sim *sim);
 
-// Writes everything the future of the simulation depends on (length: save length). After cagedyn_sim_restore() into
-// a simulation of the same physics, solver and preset, with the same build of the library, it continues with bit-identical
-// results; title, comments and what is recorded may differ.
+/* Writes everything the future of the simulation depends on (length: save length). After cagedyn_sim_restore() into
+ * a simulation of the same physics, solver and preset, with the same build of the library, it continues with bit-identical
+ * results; title, comments and what is recorded may differ. */
 int32_t cagedyn_sim_save(const cagedyn_sim *sim,
                          double *out,
                          int64_t length);
 
-// Continues from what cagedyn_sim_save() wrote. On failure nothing changes.
+/* Continues from what cagedyn_sim_save() wrote. On failure nothing changes. */
 int32_t cagedyn_sim_restore(cagedyn_sim *sim, const double *saved, int64_t length);
 
-// Number of statistics.
+/* Number of statistics. */
 int64_t cagedyn_statistic_count(void);
 
-// Name of a statistic. "" for other numbers. Static text.
-//
-// - steps, rejected_steps (by the error estimate), failed_steps (forces undefined), evaluations (of all forces),
-//   events: counts.
-// - smallest_step, largest_step: s.
-// - raceway_vibration_rms: root mean square approach speed of the loaded raceway contacts, m/s.
-// - leapfrog_steps, dormand_prince_steps, rosenbrock_steps, method_changes (of method or leapfrog step): what the
-//   method "auto" did; zero with other methods.
-// - highest_frequency (rad/s): what "auto" measured while it made leapfrog steps.
-// - failed_...: failed_steps by cause.
-// - jacobians: derivatives of all forces; undone_steps: steps that "auto" took back because they missed energy.
+/* Name of a statistic. "" for other numbers. Static text.
+ *
+ * - steps, rejected_steps (by the error estimate), failed_steps (forces undefined), evaluations (of all forces),
+ *   events: counts.
+ * - smallest_step, largest_step: s.
+ * - raceway_vibration_rms: root mean square approach speed of the loaded raceway contacts, m/s.
+ * - leapfrog_steps, dormand_prince_steps, rosenbrock_steps, method_changes (of method or leapfrog step): what the
+ *   method "auto" did; zero with other methods.
+ * - highest_frequency (rad/s): what "auto" measured while it made leapfrog steps.
+ * - failed_...: failed_steps by cause.
+ * - jacobians: derivatives of all forces; undone_steps: steps that "auto" took back because they missed energy. */
 const char *cagedyn_statistic_name(int64_t index);
 
-// Writes the statistics since creation or reset; a restored simulation goes on from the saved ones (length: statistic
-// count).
+/* Writes the statistics since creation or reset; a restored simulation goes on from the saved ones (length: statistic
+ * count). */
 int32_t cagedyn_sim_statistics(const cagedyn_sim *sim,
                                double *out,
                                int64_t length);
 
-// Whether the run since the start of the scene or the last set state kept what its preset promises: CAGEDYN_OK, or
-// CAGEDYN_ERR_UNTRUSTED with the reasons in cagedyn_error_message(). Promised is that no more than 1 % (draft), 0.1 %
-// (engineering) or 0.01 % (reference) of the energy that passed through is missing, and that leapfrog steps that were asked
-// for are stable, and that no thermal factor of a raceway contact was ever at its floor. Costs a force evaluation.
+/* Whether the run since the start of the scene or the last set state kept what its preset promises: CAGEDYN_OK, or
+ * CAGEDYN_ERR_UNTRUSTED with the reasons in cagedyn_error_message(). Promised is that no more than 1 % (draft), 0.1 %
+ * (engineering) or 0.01 % (reference) of the energy that passed through is missing, and that leapfrog steps that were asked
+ * for are stable, and that no thermal factor of a raceway contact was ever at its floor. Costs a force evaluation. */
 int32_t cagedyn_sim_trust(cagedyn_sim *sim);
 
-// What the integration does and why, and what went wrong on the way, in one line for people: the method and the reason
-// it was chosen for, failed attempts with the contact or body that caused the last one, what speaks against trusting the
-// run. "" on failure. Lives until the next call for this simulation.
+/* What the integration does and why, and what went wrong on the way, in one line for people: the method and the reason
+ * it was chosen for, failed attempts with the contact or body that caused the last one, what speaks against trusting the
+ * run. "" on failure. Lives until the next call for this simulation. */
 const char *cagedyn_sim_report(cagedyn_sim *sim);
 
-// Number of force laws whose evaluations are counted.
+/* Number of force laws whose evaluations are counted. */
 int64_t cagedyn_law_count(void);
 
-// Name of a force law, for example "guide_film"; "" for other numbers. Static text.
+/* Name of a force law, for example "guide_film"; "" for other numbers. Static text. */
 const char *cagedyn_law_name(int64_t index);
 
-// Writes how often each force law was evaluated, once per contact, by the integration since creation or reset (length:
-// law count). Laws that the scene does not use stay at zero.
+/* Writes how often each force law was evaluated, once per contact, by the integration since creation or reset (length:
+ * law count). Laws that the scene does not use stay at zero. */
 int32_t cagedyn_sim_law_evaluations(const cagedyn_sim *sim,
                                     double *out,
                                     int64_t length);
 
-// Number of items of a power balance.
+/* Number of items of a power balance. */
 int64_t cagedyn_balance_count(void);
 
-// Name of an item of a power balance; "" for other numbers. Static text.
-//
-// - loads, ring_drive, element_drive (of elements with prescribed motion), ring_support, raceway_damping,
-//   raceway_friction, rolling_resistance, pocket_damping, pocket_friction, guide_film, guide_solid: works in J, positive
-//   where they go into the bearing.
-// - kinetic_energy_gain, elastic_energy_gain, potential_energy_gain: what is stored, J.
-// - residual: works less gains, J, the error of the integration; relative_residual: as a share of the energy that passed
-//   through.
-// - from, to: the time that the balance is over, s.
+/* Name of an item of a power balance; "" for other numbers. Static text.
+ *
+ * - loads, ring_drive, element_drive (of elements with prescribed motion), ring_support, raceway_damping,
+ *   raceway_friction, rolling_resistance, pocket_damping, pocket_friction, guide_film, guide_solid: works in J, positive
+ *   where they go into the bearing.
+ * - kinetic_energy_gain, elastic_energy_gain, potential_energy_gain: what is stored, J.
+ * - residual: works less gains, J, the error of the integration; relative_residual: as a share of the energy that passed
+ *   through.
+ * - from, to: the time that the balance is over, s. */
 const char *cagedyn_balance_name(int64_t index);
 
-// Writes the power balance since the start of the scene or the last cagedyn_sim_set_state() (length: balance count).
+/* Writes the power balance since the start of the scene or the last cagedyn_sim_set_state() (length: balance count). */
 int32_t cagedyn_sim_power_balance(cagedyn_sim *sim,
                                   double *out,
                                   int64_t length);
 
 #ifdef __cplusplus
-}  // extern "C"
-#endif  // __cplusplus
+}  /* extern "C" */
+#endif  /* __cplusplus */
 
 #endif  /* CAGEDYN_H */

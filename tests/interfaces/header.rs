@@ -16,20 +16,35 @@ fn generated() -> String {
         .expect("the sources of the C ABI parse")
         .write(&mut header);
     let text = String::from_utf8(header).expect("UTF-8");
-    // Rust's safety sections repeat what the conventions at the top of the header say for every function.
-    let mut kept: Vec<&str> = Vec::new();
-    let mut in_safety = false;
-    for line in text.lines() {
-        in_safety = (in_safety || line == "// # Safety") && line.starts_with("//");
-        if in_safety {
-            if kept.last() == Some(&"//") {
-                kept.pop();
-            }
+    let (mut kept, mut lines) = (Vec::new(), text.lines());
+    while let Some(line) = lines.next() {
+        if line == "/*" {
+            let inside: Vec<&str> = lines.by_ref().take_while(|line| *line != " */").collect();
+            kept.extend(comment(&inside));
+        } else if let Some((code, comment)) = line.split_once("// ") {
+            // C of 1989 has no such comments.
+            kept.push(format!("{}  /* {comment} */", code.trim_end()));
         } else {
-            kept.push(line);
+            kept.push(line.to_owned());
         }
     }
     kept.join("\n") + "\n"
+}
+
+/// The lines of a comment, without Rust's section on safety, which repeats what the conventions at the top of the header say.
+fn comment(lines: &[&str]) -> Vec<String> {
+    let lines = lines.iter().map(|line| line.strip_prefix(' ').unwrap_or(line).trim_end());
+    let mut text: Vec<&str> = lines.take_while(|line| *line != "# Safety").collect();
+    while text.last().is_some_and(|line| line.is_empty()) {
+        text.pop();
+    }
+    let last = text.len().saturating_sub(1);
+    let begin = |i: usize| if i == 0 { "/* " } else { " * " };
+    let end = |i: usize| if i == last { " */" } else { "" };
+    text.iter()
+        .enumerate()
+        .map(|(i, line)| format!("{}{line}", begin(i)).trim_end().to_owned() + end(i))
+        .collect()
 }
 
 #[test]
@@ -51,7 +66,7 @@ fn every_function_is_documented_and_prefixed_and_declared_once() {
     for (i, name) in declarations(&header) {
         assert!(name.starts_with("cagedyn_"), "{name}");
         assert!(names.insert(name), "declared twice: {name}");
-        assert!(lines[i - 1].starts_with("//"), "undocumented: {name}");
+        assert!(lines[i - 1].ends_with("*/"), "undocumented: {name}");
     }
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/capi");
     let sources = std::fs::read_dir(folder).expect("the C ABI").flatten();
@@ -70,4 +85,33 @@ fn declarations(header: &str) -> impl Iterator<Item = (usize, &str)> {
 /// Names of the functions that a header declares.
 pub fn functions(header: &str) -> BTreeSet<&str> {
     declarations(header).map(|(_, name)| name).collect()
+}
+
+/// Strict compilers of every standard take the header by itself; of the oldest C but for the integers of stdint.h.
+#[test]
+#[cfg(unix)]
+fn strict_compilers_take_the_header() {
+    let header = Path::new(env!("CARGO_MANIFEST_DIR")).join("include");
+    let check = |compiler: &str, standard: &str, language: &str, file: &str| {
+        let mut command = std::process::Command::new(compiler);
+        command.args([
+            &format!("-std={standard}"),
+            "-pedantic",
+            "-Wall",
+            "-Wextra",
+            "-Werror",
+            "-fsyntax-only",
+        ]);
+        let output = command.args(["-x", language]).arg(header.join(file)).output().expect("a compiler");
+        assert!(output.status.success(), "{standard}: {}", String::from_utf8_lossy(&output.stderr));
+    };
+    for standard in ["c89", "c99", "c11", "c17"] {
+        check("cc", standard, "c", "cagedyn.h");
+    }
+    for standard in ["c++11", "c++17", "c++20"] {
+        check("c++", standard, "c++", "cagedyn.h");
+    }
+    for standard in ["c++17", "c++20"] {
+        check("c++", standard, "c++", "cagedyn.hpp");
+    }
 }
