@@ -1,0 +1,287 @@
+/* Gateway to cagedyn for MATLAB and Octave: cagedyn_mex(command, ...). The class Cagedyn uses it; see there.
+ *
+ *   MATLAB   mex cagedyn_mex.c -I../include -L<folder of the library> -lcagedyn
+ *   Octave   mkoctfile --mex cagedyn_mex.c -I../include -L<folder of the library> -lcagedyn
+ *
+ * Handles are numbers that this gateway gives out; it knows those that live, so that a wrong one is an error and no crash.
+ * Failures of the library are errors with the identifier cagedyn:ERR_... .
+ */
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cagedyn.h"
+#include "mex.h"
+
+typedef enum { FREE, MODEL, SIM } kind;
+
+typedef struct {
+    kind kind;
+    void *pointer;
+    /* Of a simulation: numbers of its model. */
+    int64_t states, outputs, contacts, quantities, bodies, sources, components, entries;
+} object;
+
+static object *objects = NULL;
+static size_t object_count = 0;
+
+static void release(object *o)
+{
+    if (o->kind == MODEL) cagedyn_model_free((cagedyn_model *)o->pointer);
+    if (o->kind == SIM) cagedyn_sim_free((cagedyn_sim *)o->pointer);
+    o->kind = FREE;
+}
+
+static void release_all(void)
+{
+    size_t i;
+    for (i = 0; i < object_count; i++) release(&objects[i]);
+    if (objects != NULL) mxFree(objects);
+    objects = NULL;
+    object_count = 0;
+}
+
+static void refuse(const char *what)
+{
+    mexErrMsgIdAndTxt("cagedyn:usage", "%s", what);
+}
+
+/* Ends the command with the error of the library. */
+static void fail(void)
+{
+    char id[64];
+    snprintf(id, sizeof id, "cagedyn:%s", cagedyn_status_name(cagedyn_error_status()));
+    mexErrMsgIdAndTxt(id, "%s", cagedyn_error_message());
+}
+
+static void check(int32_t status)
+{
+    if (status != CAGEDYN_OK) fail();
+}
+
+/* A place for an object; its number is its handle. */
+static object *new_object(kind k, void *pointer, mxArray **handle)
+{
+    size_t i = 0;
+    while (i < object_count && objects[i].kind != FREE) i++;
+    if (i == object_count) {
+        object *more = (object *)mxRealloc(objects, (object_count + 1) * sizeof(object));
+        mexMakeMemoryPersistent(more);
+        objects = more;
+        object_count++;
+    }
+    memset(&objects[i], 0, sizeof objects[i]);
+    objects[i].kind = k;
+    objects[i].pointer = pointer;
+    *handle = mxCreateDoubleScalar((double)(i + 1));
+    return &objects[i];
+}
+
+static object *object_of(const mxArray *handle, kind k)
+{
+    double number = mxIsDouble(handle) && mxGetNumberOfElements(handle) == 1 ? mxGetScalar(handle) : 0.0;
+    size_t i = number >= 1.0 && number <= (double)object_count ? (size_t)number - 1 : object_count;
+    if (i == object_count || objects[i].kind != k) refuse(k == MODEL ? "not a model" : "not a simulation");
+    return &objects[i];
+}
+
+static char *text_of(const mxArray *array)
+{
+    char *text = mxIsChar(array) ? mxArrayToString(array) : NULL;
+    if (text == NULL) refuse("a text is needed");
+    return text;
+}
+
+static double scalar_of(const mxArray *array)
+{
+    if (!mxIsDouble(array) || mxGetNumberOfElements(array) != 1) refuse("a number is needed");
+    return mxGetScalar(array);
+}
+
+static const double *numbers_of(const mxArray *array, int64_t *length)
+{
+    if (!mxIsDouble(array) || mxIsComplex(array) || mxIsSparse(array)) refuse("an array of real numbers is needed");
+    *length = (int64_t)mxGetNumberOfElements(array);
+    return mxGetPr(array);
+}
+
+static mxArray *column(int64_t length)
+{
+    return mxCreateDoubleMatrix((mwSize)length, 1, mxREAL);
+}
+
+typedef const char *(*text_fn)(const cagedyn_model *, int64_t);
+
+typedef struct {
+    const char *kind;
+    int64_t (*count)(const cagedyn_model *);
+    text_fn name, unit, description;
+} list;
+
+#define LIST(kind)                                                                                                     \
+    {#kind, cagedyn_model_##kind##_count, cagedyn_model_##kind##_name, cagedyn_model_##kind##_unit,                    \
+     cagedyn_model_##kind##_description}
+#define NAMES(kind) {#kind, cagedyn_model_##kind##_count, cagedyn_model_##kind##_name, NULL, NULL}
+
+static const list lists[] = {LIST(state),   LIST(input),         LIST(output),          LIST(contact_quantity),
+                             LIST(geometry), NAMES(contact),      NAMES(body),           NAMES(force_source),
+                             LIST(force_component)};
+
+/* names(model, kind, what): a column of texts; what is name, unit or description. */
+static mxArray *names(const cagedyn_model *model, const char *kind_name, const char *what)
+{
+    size_t k = 0;
+    int64_t i, n;
+    text_fn text;
+    mxArray *cell;
+    while (k < sizeof lists / sizeof lists[0] && strcmp(lists[k].kind, kind_name) != 0) k++;
+    if (k == sizeof lists / sizeof lists[0]) refuse("there are no names of this kind");
+    text = strcmp(what, "name") == 0 ? lists[k].name : strcmp(what, "unit") == 0 ? lists[k].unit : lists[k].description;
+    n = lists[k].count(model);
+    if (text == NULL) n = 0;
+    cell = mxCreateCellMatrix((mwSize)n, 1);
+    for (i = 0; i < n; i++) mxSetCell(cell, (mwIndex)i, mxCreateString(text(model, i)));
+    return cell;
+}
+
+/* The sparse Jacobian of a simulation. */
+static mxArray *jacobian(object *sim, const object *model, double t, const double *state, int64_t length)
+{
+    int64_t i, entries = cagedyn_model_jacobian_entry_count((cagedyn_model *)model->pointer);
+    int64_t n = cagedyn_model_state_count((cagedyn_model *)model->pointer);
+    int64_t *starts = (int64_t *)mxCalloc((size_t)n + 1, sizeof(int64_t));
+    int64_t *rows = (int64_t *)mxCalloc((size_t)entries, sizeof(int64_t));
+    mxArray *matrix = mxCreateSparse((mwSize)n, (mwSize)n, (mwSize)entries, mxREAL);
+    check(cagedyn_model_jacobian_pattern((cagedyn_model *)model->pointer, starts, n + 1, rows, entries));
+    check(cagedyn_sim_sparse_jacobian((cagedyn_sim *)sim->pointer, t, state, length, mxGetPr(matrix), entries));
+    for (i = 0; i <= n; i++) mxGetJc(matrix)[i] = (mwIndex)starts[i];
+    for (i = 0; i < entries; i++) mxGetIr(matrix)[i] = (mwIndex)rows[i];
+    mxFree(starts);
+    mxFree(rows);
+    return matrix;
+}
+
+static void new_model(int nrhs, const mxArray **args, mxArray **out)
+{
+    char *json = text_of(args[0]), *overrides = nrhs > 1 ? text_of(args[1]) : NULL;
+    cagedyn_model *model = cagedyn_model_from_json_with(json, overrides != NULL ? overrides : "");
+    mxFree(json);
+    if (overrides != NULL) mxFree(overrides);
+    if (model == NULL) fail();
+    new_object(MODEL, model, out);
+}
+
+static void new_sim(int nrhs, const mxArray **args, mxArray **out)
+{
+    cagedyn_model *m = (cagedyn_model *)object_of(args[0], MODEL)->pointer;
+    cagedyn_sim *sim = nrhs > 1 ? cagedyn_sim_new_with_preset(m, (int32_t)scalar_of(args[1])) : cagedyn_sim_new(m);
+    object *o;
+    if (sim == NULL) fail();
+    o = new_object(SIM, sim, out);
+    o->states = cagedyn_model_state_count(m);
+    o->outputs = cagedyn_model_output_count(m);
+    o->contacts = cagedyn_model_contact_count(m);
+    o->quantities = cagedyn_model_contact_quantity_count(m);
+    o->bodies = cagedyn_model_body_count(m);
+    o->sources = cagedyn_model_force_source_count(m);
+    o->components = cagedyn_model_force_component_count(m);
+}
+
+/* Commands on a simulation. `n` is the number of arguments after it. */
+static int sim_command(const char *c, object *o, int n, const mxArray **args, mxArray **out)
+{
+    cagedyn_sim *sim = (cagedyn_sim *)o->pointer;
+    int64_t length = 0;
+    const double *x;
+    if (strcmp(c, "time") == 0) {
+        *out = column(1);
+        check(cagedyn_sim_time(sim, mxGetPr(*out)));
+    } else if (strcmp(c, "state") == 0) {
+        *out = column(o->states);
+        check(cagedyn_sim_get_state(sim, mxGetPr(*out), o->states));
+    } else if (strcmp(c, "set_state") == 0 && n == 2) {
+        x = numbers_of(args[1], &length);
+        check(cagedyn_sim_set_state(sim, scalar_of(args[0]), x, length));
+    } else if (strcmp(c, "reset") == 0) {
+        check(cagedyn_sim_reset(sim));
+    } else if (strcmp(c, "advance") == 0 && n == 2) {
+        /* To a time, for so many seconds of wall time; whether it has come there. */
+        int32_t status;
+        check(cagedyn_sim_set_wall_time_limit(sim, scalar_of(args[1])));
+        status = cagedyn_sim_advance_to(sim, scalar_of(args[0]));
+        if (status != CAGEDYN_ERR_OUT_OF_TIME) check(status);
+        *out = mxCreateLogicalScalar(status == CAGEDYN_OK);
+    } else if (strcmp(c, "outputs") == 0) {
+        *out = column(o->outputs);
+        check(cagedyn_sim_get_outputs(sim, mxGetPr(*out), o->outputs));
+    } else if (strcmp(c, "outputs_at") == 0 && n == 2) {
+        x = numbers_of(args[1], &length);
+        *out = column(o->outputs);
+        check(cagedyn_sim_outputs_at(sim, scalar_of(args[0]), x, length, mxGetPr(*out), o->outputs));
+    } else if (strcmp(c, "input") == 0 && n == 1) {
+        *out = column(1);
+        check(cagedyn_sim_get_input(sim, (int64_t)scalar_of(args[0]) - 1, mxGetPr(*out)));
+    } else if (strcmp(c, "set_input") == 0 && n == 2) {
+        check(cagedyn_sim_set_input(sim, (int64_t)scalar_of(args[0]) - 1, scalar_of(args[1])));
+    } else if (strcmp(c, "release_input") == 0 && n == 1) {
+        check(cagedyn_sim_release_input(sim, (int64_t)scalar_of(args[0]) - 1));
+    } else if (strcmp(c, "derivative") == 0 && n == 2) {
+        x = numbers_of(args[1], &length);
+        *out = column(length);
+        check(cagedyn_sim_derivative(sim, scalar_of(args[0]), x, mxGetPr(*out), length));
+    } else if (strcmp(c, "jacobian") == 0 && n == 3) {
+        x = numbers_of(args[1], &length);
+        *out = jacobian(o, object_of(args[2], MODEL), scalar_of(args[0]), x, length);
+    } else if (strcmp(c, "contact_forces") == 0) {
+        /* One column per contact, one row per quantity. */
+        *out = mxCreateDoubleMatrix((mwSize)o->quantities, (mwSize)o->contacts, mxREAL);
+        check(cagedyn_sim_contact_forces(sim, mxGetPr(*out), o->quantities * o->contacts));
+    } else if (strcmp(c, "body_forces") == 0) {
+        /* Components, sources, bodies. */
+        mwSize sizes[3];
+        sizes[0] = (mwSize)o->components, sizes[1] = (mwSize)o->sources, sizes[2] = (mwSize)o->bodies;
+        *out = mxCreateNumericArray(3, sizes, mxDOUBLE_CLASS, mxREAL);
+        check(cagedyn_sim_body_forces(sim, mxGetPr(*out), o->components * o->sources * o->bodies));
+    } else if (strcmp(c, "doubts") == 0) {
+        int32_t status = cagedyn_sim_trust(sim);
+        if (status != CAGEDYN_ERR_UNTRUSTED) check(status);
+        *out = mxCreateString(status == CAGEDYN_OK ? "" : cagedyn_error_message());
+    } else if (strcmp(c, "report") == 0) {
+        *out = mxCreateString(cagedyn_sim_report(sim));
+    } else {
+        return 0;
+    }
+    return 1;
+}
+
+void mexFunction(int nlhs, mxArray *plhs[], int nrhs, const mxArray *prhs[])
+{
+    char command[32];
+    (void)nlhs;
+    mexAtExit(release_all);
+    if (nrhs < 1 || mxGetString(prhs[0], command, sizeof command) != 0) refuse("cagedyn_mex(command, ...)");
+    if (strcmp(command, "version") == 0) {
+        plhs[0] = mxCreateString(cagedyn_version());
+    } else if (nrhs < 2) {
+        refuse("this command needs more arguments, or there is none of this name");
+    } else if (strcmp(command, "model") == 0) {
+        new_model(nrhs - 1, prhs + 1, plhs);
+    } else if (strcmp(command, "sim") == 0) {
+        new_sim(nrhs - 1, prhs + 1, plhs);
+    } else if (strcmp(command, "free_model") == 0) {
+        release(object_of(prhs[1], MODEL));
+    } else if (strcmp(command, "free_sim") == 0) {
+        release(object_of(prhs[1], SIM));
+    } else if (strcmp(command, "names") == 0 && nrhs == 4) {
+        char *kind_name = text_of(prhs[2]), *what = text_of(prhs[3]);
+        plhs[0] = names((cagedyn_model *)object_of(prhs[1], MODEL)->pointer, kind_name, what);
+        mxFree(kind_name);
+        mxFree(what);
+    } else if (strcmp(command, "geometry") == 0 && nrhs == 3) {
+        plhs[0] = column(1);
+        check(cagedyn_model_get_geometry((cagedyn_model *)object_of(prhs[1], MODEL)->pointer,
+                                         (int64_t)scalar_of(prhs[2]) - 1, mxGetPr(plhs[0])));
+    } else if (!sim_command(command, object_of(prhs[1], SIM), nrhs - 2, prhs + 2, plhs)) {
+        refuse("there is no such command, or it has other arguments");
+    }
+}
