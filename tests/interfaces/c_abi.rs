@@ -57,6 +57,18 @@ fn c_threads() {
 }
 
 #[test]
+fn cpp_with_and_without_exceptions() {
+    let library = library();
+    let scene = root().join(NU2310);
+    let quiet = ["-fno-exceptions".as_ref()];
+    for (standard, more) in [("c++17", &[][..]), ("c++20", &[]), ("c++17", &quiet)] {
+        let program = compile(Path::new("ctests/test_cpp.cpp"), standard, library.path(), more);
+        succeed(Command::new(&program).arg(&scene));
+        run_under_valgrind(&program, &[&scene]);
+    }
+}
+
+#[test]
 fn c_example_as_c99_and_cpp17() {
     let library = library();
     for standard in ["c99", "c++17"] {

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// The directory of the static libraries that `sundials-sys` built: cargo puts it into the search path of the tests.
-fn sundials() -> PathBuf {
+pub fn sundials() -> PathBuf {
     let paths = std::env::var_os("LD_LIBRARY_PATH").unwrap_or_default();
     std::env::split_paths(&paths)
         .find(|path| path.join("libsundials_cvode.a").exists())

@@ -5,10 +5,13 @@ mod c_programs;
 #[path = "../common/mod.rs"]
 mod common;
 
+mod abi;
 mod c_abi;
 mod c_cvode;
 mod cli;
 mod cli_files;
 mod docs;
+mod examples;
 mod header;
+mod hosts;
 mod install;
