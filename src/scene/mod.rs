@@ -175,6 +175,7 @@ impl Scene {
             let text = format!("schema: '{schema}' is a case set, not a scene; `cagedyn cases` runs it");
             return Err(Error::new(Status::BadScene, text));
         }
+        check_format(value)?;
         let scene: Self = typed(value)?;
         scene.validate()?;
         Ok(scene)
@@ -183,5 +184,37 @@ impl Scene {
     /// JSON text of the scene.
     pub fn to_json(&self) -> String {
         serde_json::to_string_pretty(self).unwrap_or_default()
+    }
+}
+
+/// Refuses scenes of other versions of the format, before fields that only they have are found wanting.
+fn check_format(value: &serde_json::Value) -> Result<()> {
+    let name = SCENE_SCHEMA.trim_end_matches(char::is_numeric);
+    let Some(schema) = value.get("schema").and_then(|schema| schema.as_str()) else { return Ok(()) };
+    let [given, own] =
+        [schema, SCENE_SCHEMA].map(|text| text.strip_prefix(name).and_then(|n| n.parse::<u64>().ok()));
+    let why = match (given, own) {
+        (Some(given), Some(own)) if given > own => {
+            "is a newer format, which this version of the library does not know: it takes a newer one"
+        }
+        (Some(given), Some(own)) if given < own => "is an older format, which there has never been",
+        _ => return Ok(()),
+    };
+    let text = format!("schema: '{schema}' {why}; read is '{SCENE_SCHEMA}'");
+    Err(Error::new(Status::BadScene, text))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn another_format_is_named_before_its_fields() {
+        for (version, word) in [("2", "newer"), ("0", "older"), ("17", "newer")] {
+            let text = format!(r#"{{"schema": "cagedyn.scene/{version}", "wheels": 4}}"#);
+            let e = Scene::from_json(&text).unwrap_err();
+            assert!(e.message.contains(word) && e.message.contains(SCENE_SCHEMA), "{e}");
+            assert_eq!(e.status, crate::Status::BadScene);
+        }
     }
 }

@@ -11,7 +11,7 @@ pub fn rows() -> Vec<Row> {
             "format of the future",
             "schema",
             json!("cagedyn.scene/2"),
-            &["'cagedyn.scene/2'", "'cagedyn.scene/1'"],
+            &["'cagedyn.scene/2'", "newer", "'cagedyn.scene/1'"],
         ),
         value_row("format of a case set", "schema", json!("cagedyn.cases/1"), &["cagedyn.cases/1"]),
         value_row(
