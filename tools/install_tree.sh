@@ -18,7 +18,9 @@ if [ "${1:-}" = --remove ]; then
     [ -e "$list" ] || { echo "nothing of cagedyn is installed below $DESTDIR$PREFIX" >&2; exit 1; }
     while read -r file; do rm -f "$DESTDIR$file"; done < "$list"
     rm -f "$list"
-    find "$DESTDIR$share" "$DESTDIR$PREFIX/share/doc/cagedyn" -depth -type d -empty -delete
+    for folder in "$share" "$PREFIX/share/doc/cagedyn" "$LIBDIR/cmake/cagedyn"; do
+        [ ! -d "$DESTDIR$folder" ] || find "$DESTDIR$folder" -depth -type d -empty -delete
+    done
     exit 0
 fi
 
@@ -31,17 +33,30 @@ trap 'rm -rf "$tree"' EXIT
 put() { install -D -m "$1" "$2" "$tree$3"; }
 
 put 755 "$BUILT/libcagedyn.so" "$LIBDIR/libcagedyn.so.$VERSION"
+# What the dynamic linker does not need goes; STRIP=: keeps it.
+${STRIP:-strip} --strip-unneeded "$tree$LIBDIR/libcagedyn.so.$VERSION"
 ln -s "libcagedyn.so.$VERSION" "$tree$LIBDIR/libcagedyn.so.0"
 ln -s libcagedyn.so.0 "$tree$LIBDIR/libcagedyn.so"
 put 644 "$BUILT/libcagedyn.a" "$LIBDIR/libcagedyn.a"
 put 755 "$BUILT/cagedyn" "$PREFIX/bin/cagedyn"
-put 644 include/cagedyn.h "$PREFIX/include/cagedyn.h"
+${STRIP:-strip} "$tree$PREFIX/bin/cagedyn"
+for file in cagedyn.h cagedyn.hpp; do put 644 "include/$file" "$PREFIX/include/$file"; done
 for file in scenes/*.json schemas/*.json; do put 644 "$file" "$share/$file"; done
-for file in LICENSE-MIT LICENSE-APACHE README.md; do put 644 "$file" "$PREFIX/share/doc/cagedyn/$file"; done
-mkdir -p "$tree$LIBDIR/pkgconfig"
-sed -e "s|@PREFIX@|$PREFIX|" -e "s|@LIBDIR@|$LIBDIR|" -e "s|@VERSION@|$VERSION|" tools/cagedyn.pc.in \
-    > "$tree$LIBDIR/pkgconfig/cagedyn.pc"
-chmod 644 "$tree$LIBDIR/pkgconfig/cagedyn.pc"
+for file in matlab/cagedyn_mex.c matlab/Cagedyn.m; do put 644 "$file" "$share/$file"; done
+doc=$PREFIX/share/doc/cagedyn
+for file in LICENSE-MIT LICENSE-APACHE README.md CHANGELOG.md; do put 644 "$file" "$doc/$file"; done
+for file in docs/*.md docs/model/*.md docs/scene/*.md examples/*.c examples/*.h examples/*.cpp examples/*.py examples/*.m examples/*.jl; do
+    put 644 "$file" "$doc/$file"
+done
+# Texts with the folders and the version in them.
+fill() {
+    mkdir -p "$(dirname "$tree$2")"
+    sed -e "s|@PREFIX@|$PREFIX|" -e "s|@LIBDIR@|$LIBDIR|" -e "s|@VERSION@|$VERSION|" "$1" > "$tree$2"
+    chmod 644 "$tree$2"
+}
+fill tools/cagedyn.pc.in "$LIBDIR/pkgconfig/cagedyn.pc"
+fill tools/cagedynConfig.cmake.in "$LIBDIR/cmake/cagedyn/cagedynConfig.cmake"
+fill tools/cagedynConfigVersion.cmake.in "$LIBDIR/cmake/cagedyn/cagedynConfigVersion.cmake"
 mapfile -t files < <(cd "$tree" && find . ! -type d | sed 's|^\.||' | sort)
 printf '%s\n' "${files[@]}" > "$tree/list"
 put 644 "$tree/list" "$share/installed"

@@ -33,18 +33,34 @@ fn files(folder: &Path) -> Vec<String> {
     list
 }
 
+/// A folder with what `make build` makes, from the build of this test.
+fn built() -> tempfile::TempDir {
+    let test = std::env::current_exe().expect("path of this test");
+    let deps = test.parent().expect("a directory");
+    let folder = tempfile::tempdir().expect("a directory");
+    let files = [deps.join("libcagedyn.so"), deps.join("libcagedyn.a"), env!("CARGO_BIN_EXE_cagedyn").into()];
+    for file in files {
+        let name = file.file_name().expect("a name");
+        std::os::unix::fs::symlink(&file, folder.path().join(name)).expect("a link");
+    }
+    folder
+}
+
 #[test]
 fn installing_puts_everything_in_place_and_removing_takes_it_away() {
-    let [root, built] = [(); 2].map(|()| tempfile::tempdir().expect("a directory"));
-    for name in ["libcagedyn.so", "libcagedyn.a", "cagedyn"] {
-        std::fs::write(built.path().join(name), name).expect("a file");
-    }
+    let (root, built) = (tempfile::tempdir().expect("a directory"), built());
     let output = make("install", root.path(), built.path());
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let installed = files(root.path());
     for file in [
         "bin/cagedyn",
         "include/cagedyn.h",
+        "include/cagedyn.hpp",
+        "lib64/cmake/cagedyn/cagedynConfig.cmake",
+        "lib64/cmake/cagedyn/cagedynConfigVersion.cmake",
+        "share/cagedyn/matlab/Cagedyn.m",
+        "share/doc/cagedyn/examples/nu2310.c",
+        "share/doc/cagedyn/docs/scene.md",
         "lib64/libcagedyn.a",
         "lib64/libcagedyn.so",
         "lib64/libcagedyn.so.0",
@@ -56,8 +72,15 @@ fn installing_puts_everything_in_place_and_removing_takes_it_away() {
     ] {
         assert!(installed.contains(&format!("opt/bearing/{file}")), "{file} is not in {installed:#?}");
     }
-    let config = std::fs::read_to_string(root.path().join("opt/bearing/lib64/pkgconfig/cagedyn.pc")).unwrap();
+    let read =
+        |file: &str| std::fs::read_to_string(root.path().join("opt/bearing/lib64").join(file)).unwrap();
+    let config = read("pkgconfig/cagedyn.pc");
     assert!(config.contains("libdir=/opt/bearing/lib64") && !config.contains('@'), "{config}");
+    assert!(!read("cmake/cagedyn/cagedynConfig.cmake").contains('@'));
+    let library = root.path().join("opt/bearing/lib64/libcagedyn.so.0");
+    let symbols = Command::new("nm").arg(&library).output().expect("nm runs");
+    assert!(symbols.stdout.is_empty(), "the installed library has symbols that nobody needs");
+    assert!(std::fs::metadata(&library).expect("the library").len() < 8_000_000);
     assert!(make("uninstall", root.path(), built.path()).status.success());
     assert_eq!(files(root.path()), [""; 0]);
 }
@@ -65,10 +88,7 @@ fn installing_puts_everything_in_place_and_removing_takes_it_away() {
 /// Folders may have any name; relative ones would end up anywhere.
 #[test]
 fn folders_with_spaces_and_quotes_are_as_good_as_others() {
-    let [root, built] = [(); 2].map(|()| tempfile::tempdir().expect("a directory"));
-    for name in ["libcagedyn.so", "libcagedyn.a", "cagedyn"] {
-        std::fs::write(built.path().join(name), name).expect("a file");
-    }
+    let (root, built) = (tempfile::tempdir().expect("a directory"), built());
     let odd = root.path().join("it's a place");
     assert!(make("install", &odd, built.path()).status.success());
     assert!(odd.join("opt/bearing/bin/cagedyn").is_file());
@@ -91,12 +111,73 @@ fn what_is_missing_or_does_not_fit_leaves_nothing() {
     assert!(!output.status.success());
     assert!(String::from_utf8_lossy(&output.stderr).contains("run 'make build' first"));
     assert_eq!(files(root.path()), [""; 0]);
-    for name in ["libcagedyn.a", "cagedyn"] {
-        std::fs::write(built.path().join(name), name).expect("a file");
-    }
+    let built = self::built();
     // A file where a folder must be.
     std::fs::create_dir_all(root.path().join("opt/bearing/share")).expect("a folder");
     std::fs::write(root.path().join("opt/bearing/share/cagedyn"), "").expect("a file");
     assert!(!make("install", root.path(), built.path()).status.success());
     assert_eq!(files(root.path()), ["opt/bearing/share/cagedyn"]);
+}
+
+/// The example builds and runs from the installed tree: in C and C++, shared and static, by pkg-config and by CMake.
+#[test]
+fn programs_build_from_the_installed_tree() {
+    let (root, built) = (tempfile::tempdir().expect("a directory"), built());
+    let prefix = root.path().join("opt");
+    let output = Command::new("make")
+        .current_dir(repository("."))
+        .arg("install")
+        .arg(format!("PREFIX={}", prefix.display()))
+        .arg(format!("BUILT={}", built.path().display()))
+        .output()
+        .expect("make runs");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let shell = |script: &str| {
+        let mut shell = Command::new("sh");
+        shell.args(["-euc", script]).current_dir(root.path()).env("PREFIX", &prefix);
+        shell.env("PKG_CONFIG_PATH", prefix.join("lib/pkgconfig")).env("SOURCE", repository("."));
+        let output = shell.output().expect("a shell");
+        let [out, err] =
+            [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text).into_owned());
+        assert!(output.status.success(), "{script}: {out}\n{err}");
+        out
+    };
+    let places = "cage centre (-0.566, 0.240) of the guide clearance";
+    let text = shell(
+        r#"strict="-Wall -Wextra -Wpedantic -Werror"
+        doc=$PREFIX/share/doc/cagedyn/examples
+        scene=$PREFIX/share/cagedyn/scenes/nu2310.json
+        rpath=-Wl,-rpath,$(pkg-config --variable=libdir cagedyn)
+        cc -std=c99 $strict $doc/nu2310.c -o c $(pkg-config --cflags --libs cagedyn) $rpath
+        c++ -std=c++17 $strict $doc/nu2310.cpp -o cpp $(pkg-config --cflags --libs cagedyn) $rpath
+        cc -std=c99 $strict $doc/nu2310.c -o static $(pkg-config --cflags cagedyn) $PREFIX/lib/libcagedyn.a \
+            $(pkg-config --libs-only-l --static cagedyn | sed 's/-lcagedyn//')
+        ! readelf -d static | grep -q libcagedyn
+        ./c $scene c.csv > c.txt
+        ./static $scene static.csv > static.txt
+        cmp c.csv static.csv
+        ./cpp $scene"#,
+    );
+    assert!(text.contains(places), "{text}");
+    let text = shell(
+        r#"mkdir -p project build
+        cp $PREFIX/share/doc/cagedyn/examples/nu2310.cpp project
+        cat > project/CMakeLists.txt <<'END'
+cmake_minimum_required(VERSION 3.16)
+project(host LANGUAGES C CXX)
+set(CMAKE_CXX_STANDARD 17)
+find_package(cagedyn 0.1 CONFIG REQUIRED)
+add_executable(shared nu2310.cpp)
+target_link_libraries(shared PRIVATE cagedyn::cagedyn)
+add_executable(static nu2310.cpp)
+target_link_libraries(static PRIVATE cagedyn::static)
+END
+        cmake -S project -B build -DCMAKE_PREFIX_PATH=$PREFIX > cmake.txt
+        cmake --build build > build.txt
+        build/shared $PREFIX/share/cagedyn/scenes/nu2310.json
+        build/static $PREFIX/share/cagedyn/scenes/nu2310.json > static2.txt
+        sed -i 's/cagedyn 0.1 CONFIG/cagedyn 0.2 CONFIG/' project/CMakeLists.txt
+        ! cmake -S project -B newer -DCMAKE_PREFIX_PATH=$PREFIX > newer.txt 2>&1"#,
+    );
+    assert!(text.contains(places), "{text}");
 }
