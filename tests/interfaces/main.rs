@@ -8,6 +8,7 @@ mod common;
 mod abi;
 mod c_abi;
 mod c_cvode;
+mod calls;
 mod cli;
 mod cli_files;
 mod docs;
