@@ -62,16 +62,22 @@ fn python_examples() {
     }
 }
 
-/// The ten lines of the README, in Python.
+/// The lines of Python of the pages.
 #[test]
-fn python_of_the_page() {
-    let page = std::fs::read_to_string(root().join("python/README.md")).expect("a page");
-    let code = page.split("```python\n").nth(1).and_then(|rest| rest.split("```").next()).expect("code");
+fn python_of_the_pages() {
     let library = library();
-    if let Some(mut python) = python(library.path(), "numpy, cffi") {
-        let output = succeed(python.args(["-c", code]));
-        let text = String::from_utf8_lossy(&output.stdout);
-        assert!(text.starts_with("0.02 ") && text.contains("leapfrog"), "{text}");
+    for (page, printed) in [
+        ("python/README.md", "leapfrog"),
+        ("docs/hosts.md", "-0.566"),
+        ("README.md", "cage centre y: -0.546 of the clearance"),
+    ] {
+        let text = std::fs::read_to_string(root().join(page)).expect("a page");
+        let code = text.split("```python\n").nth(1).and_then(|rest| rest.split("```").next()).expect("code");
+        if let Some(mut python) = python(library.path(), "numpy, cffi") {
+            let output = succeed(python.args(["-c", code]));
+            let text = String::from_utf8_lossy(&output.stdout);
+            assert!(text.contains(printed), "{page}: {text}");
+        }
     }
 }
 
