@@ -1,5 +1,6 @@
 # make check     formatting, lints and quick tests, for every change: about two minutes
-# make test      everything that CI runs: formatting, lints, all tests
+# make test      everything that CI runs: formatting, lints, all tests, with C, C++ and Python as hosts
+# make release-check  what a release needs beside: sanitizers, fuzzing, packages, Octave, other platforms; an hour
 # make run       the NU2310 example, results in out/
 # make cases     the twelve NU2310 cases, the grease guide over speed, its variants and without grease, results in out/cases/
 # make example   the C example, compiled and run, table in out/
@@ -15,6 +16,8 @@
 # make bench     time of a force evaluation and of a step, cost of roundness, throughput of cases
 # make build-times  what building and testing takes: docs/building.md; half an hour
 # make header    writes include/cagedyn.h and schemas/ anew after a change
+# make abi       commits to the ABI of the header anew, after it grew: ctests/abi
+# make deb       a Debian package in out/
 # make build     library and tool, for make install
 # make install   library, header, tool, scenes, schemas, licences and pkg-config file below $(DESTDIR)$(PREFIX); libraries in LIBDIR
 # make uninstall removes them
@@ -26,7 +29,10 @@ BUILT := $(or $(CARGO_TARGET_DIR),target)/release
 VERSION := $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -n 1)
 CARGO ?= cargo
 
-.PHONY: check test tools fmt lint doc shipped quick unit run cases pictures example effects verify hard judge tuning random statistics \
+# Python with what tests of its package need.
+PYTHON := $(abspath out/venv/bin/python)
+
+.PHONY: check test release-check tools python-env fmt lint doc shipped quick unit abi deb run cases pictures example effects verify hard judge tuning random statistics \
 	accuracy bench build-times header build install uninstall clean
 
 # The same flags everywhere, so that nothing is built twice.
@@ -34,7 +40,11 @@ FLAGS := --locked --workspace --all-features
 
 check: tools fmt lint quick
 
-test: tools fmt lint doc shipped unit
+test: tools python-env fmt lint doc shipped unit
+
+# A tool that is missing is an error there.
+release-check: tools python-env
+	PYTHON=$(PYTHON) tools/release_check.sh $(STEPS)
 
 # What a fresh Debian machine lacks. Each line says what it installs; nothing happens when it is there.
 tools:
@@ -44,8 +54,18 @@ tools:
 	@ls /usr/lib/llvm-*/lib/libclang.so >/dev/null 2>&1 || [ -n "$$LIBCLANG_PATH" ] \
 		|| ./tools/install.sh libclang-dev
 	@command -v valgrind >/dev/null || ./tools/install.sh valgrind
+	@command -v abidw >/dev/null || ./tools/install.sh abigail-tools
+	@command -v pkg-config >/dev/null || ./tools/install.sh pkg-config
+	@python3 -c "import venv, ensurepip" 2>/dev/null || ./tools/install.sh python3-venv
 	@$(CARGO) fmt --version >/dev/null 2>&1 || { echo "installing rustfmt"; rustup component add rustfmt; }
 	@$(CARGO) clippy --version >/dev/null 2>&1 || { echo "installing clippy"; rustup component add clippy; }
+
+python-env: out/venv/ready
+
+out/venv/ready: python/requirements.txt
+	python3 -m venv out/venv
+	$(PYTHON) -m pip install -q --disable-pip-version-check -r python/requirements.txt
+	touch $@
 
 fmt:
 	$(CARGO) fmt --check
@@ -66,7 +86,7 @@ quick:
 	$(CARGO) test $(FLAGS) --lib --test scene --test forces --test methods --test runs
 
 unit:
-	CAGEDYN_REQUIRE_VALGRIND=1 $(CARGO) test $(FLAGS)
+	CAGEDYN_REQUIRE_VALGRIND=1 CAGEDYN_REQUIRE_HOSTS=1 CAGEDYN_PYTHON=$(PYTHON) $(CARGO) test $(FLAGS)
 
 run:
 	$(CARGO) run --release --locked -- run scenes/nu2310.json --out out
@@ -132,6 +152,12 @@ build-times: tools
 
 header:
 	CAGEDYN_BLESS=1 $(CARGO) test $(FLAGS) --test interfaces --test scene -- committed
+
+abi:
+	CAGEDYN_BLESS=1 $(CARGO) test $(FLAGS) --test interfaces -- abi::
+
+deb: build
+	BUILT=$(BUILT) VERSION=$(VERSION) tools/deb.sh out
 
 # What install needs; `make` as a user, `sudo make install` builds nothing.
 build:
