@@ -3,7 +3,7 @@
 # calls package python octave deb c-sanitizers sanitizers fuzz platforms; without names all are made.
 set -euo pipefail
 
-NIGHTLY=nightly-2026-11-01
+NIGHTLY=nightly-2026-10-30
 HOST=$(rustc -vV | sed -n 's/^host: //p')
 NEEDS_GLIBC=2.17
 FUZZ_SECONDS=${FUZZ_SECONDS:-60}
