@@ -214,7 +214,7 @@ mod tests {
             let text = format!(r#"{{"schema": "cagedyn.scene/{version}", "wheels": 4}}"#);
             let e = Scene::from_json(&text).unwrap_err();
             assert!(e.message.contains(word) && e.message.contains(SCENE_SCHEMA), "{e}");
-            assert_eq!(e.status, crate::Status::BadScene);
+            assert_eq!(e.status, Status::BadScene);
         }
     }
 }
