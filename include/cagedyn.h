@@ -319,7 +319,7 @@ int32_t cagedyn_sim_jacobian(cagedyn_sim *sim,
 int64_t cagedyn_model_jacobian_entry_count(const cagedyn_model *model);
 
 /* Writes where the derivatives of cagedyn_sim_sparse_jacobian() are, in compressed sparse columns counted from 0, the same
- * for all states: entries column_starts[k] to column_starts[k + 1] - 1 belong to column k, and rows[i] is the row of entry i,
+ * for all states: entries `column_starts[k]` to `column_starts[k + 1] - 1` belong to column k, `rows[i]` is the row of entry i,
  * ascending in each column. `starts_length` is one more than the length of the state, `rows_length` the number of entries. */
 int32_t cagedyn_model_jacobian_pattern(const cagedyn_model *model,
                                        int64_t *column_starts,

@@ -102,7 +102,7 @@ pub unsafe extern "C" fn cagedyn_model_jacobian_entry_count(model: *const cagedy
 }
 
 /// Writes where the derivatives of cagedyn_sim_sparse_jacobian() are, in compressed sparse columns counted from 0, the same
-/// for all states: entries column_starts[k] to column_starts[k + 1] - 1 belong to column k, and rows[i] is the row of entry i,
+/// for all states: entries `column_starts[k]` to `column_starts[k + 1] - 1` belong to column k, `rows[i]` is the row of entry i,
 /// ascending in each column. `starts_length` is one more than the length of the state, `rows_length` the number of entries.
 ///
 /// # Safety

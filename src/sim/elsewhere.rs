@@ -11,7 +11,7 @@ impl Sim {
     /// is not touched.
     ///
     /// # Errors
-    /// [`Status::WrongSize`], [`Status::BadValue`], [`Status::BadState`]; `rate` is then unchanged.
+    /// [`crate::Status::WrongSize`], [`crate::Status::BadValue`], [`crate::Status::BadState`]; `rate` is then unchanged.
     pub fn derivative(&mut self, t: f64, state: &[f64], rate: &mut [f64]) -> Result<()> {
         if rate.len() != state.len() {
             return Err(wrong_size("rate", rate.len(), state.len()));
