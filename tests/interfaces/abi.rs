@@ -23,13 +23,15 @@ fn stand_in(header: &str, folder: &Path, name: &str) -> PathBuf {
         source += &format!("{declaration} {{ {} }}\n", if nothing { "" } else { "return 0;" });
     }
     std::fs::write(folder.join("declared.h"), header).expect("a file");
-    let (c, so) = (folder.join(format!("{name}.c")), folder.join(format!("{name}.so")));
-    std::fs::write(&c, source).expect("a file");
+    let (c, so) = (format!("{name}.c"), format!("{name}.so"));
+    std::fs::write(folder.join(&c), source).expect("a file");
     let mut compiler = cc::Build::new();
     compiler.opt_level(0).cargo_metadata(false).target(env!("CAGEDYN_TARGET")).host(env!("CAGEDYN_HOST"));
     let mut command = compiler.out_dir(folder).get_compiler().to_command();
-    succeed(command.args(["-g", "-shared", "-fPIC"]).arg(&c).arg("-o").arg(&so));
-    so
+    // Debug information has no path of this machine.
+    command.arg(format!("-fdebug-prefix-map={}=.", folder.display())).current_dir(folder);
+    succeed(command.args(["-g", "-shared", "-fPIC", &c, "-o", &so]));
+    folder.join(so)
 }
 
 /// Exit status of abidiff: bit 2 for a change, bit 3 for an incompatible one.
