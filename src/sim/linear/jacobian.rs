@@ -90,6 +90,8 @@ impl Sim {
     /// As [`Sim::derivative`], and [`Status::BadState`](crate::Status::BadState) where a derivative is not finite;
     /// `out` is then unchanged.
     pub fn jacobian(&mut self, t: f64, state: &[f64], out: &mut [f64]) -> Result<()> {
+        check_time("t", t)?;
+        self.check_state(state)?;
         let length = state.len() * state.len();
         if out.len() != length {
             return Err(wrong_size("jacobian", out.len(), length));
