@@ -15,8 +15,9 @@ use std::time::Instant;
 const TEXT: &str = include_str!("../scenes/nu2310.json");
 /// Simulated time at which rates are asked for, s.
 const DEVELOPED: f64 = 0.01;
-const CALLS: usize = 2000;
-const PAIRS: usize = 101;
+const CALLS: usize = 500;
+const ROUNDS: usize = 10;
+const PAIRS: usize = 51;
 const RUNS: usize = 24;
 /// Simulated time of each run of the batch, s.
 const DURATION: f64 = 0.1;
@@ -50,34 +51,39 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (n, mut rate) = (state.len() as i64, vec![0.0; state.len()]);
     let text = CString::new(TEXT)?;
     // SAFETY: a text; handles that live until they are freed below, and arrays of the length of the state.
-    let (in_c, handle) = unsafe {
-        let model = cagedyn_model_from_json(text.as_ptr());
-        (cagedyn_sim_new(model), model)
-    };
+    let handle = unsafe { cagedyn_model_from_json(text.as_ptr()) };
     let [mut in_rust, mut ratios] = [(); 2].map(|()| Vec::new());
     for _ in 0..PAIRS {
-        let rust = time(|| {
-            for _ in 0..CALLS {
-                sim.derivative(t, &state, &mut rate).expect("rates");
-            }
-        });
-        let c = time(|| {
-            for _ in 0..CALLS {
-                // SAFETY: see above.
-                let status = unsafe { cagedyn_sim_derivative(in_c, t, state.as_ptr(), rate.as_mut_ptr(), n) };
-                assert_eq!(status, 0);
-            }
-        });
-        in_rust.push(rust / CALLS as f64);
-        ratios.push(c / rust);
+        // New ones every time: where the memory of a simulation lies makes a per cent.
+        let mut own = Sim::new(model.clone())?;
+        // SAFETY: see above.
+        let in_c = unsafe { cagedyn_sim_new(handle) };
+        let mut best = [f64::INFINITY; 2];
+        for _ in 0..ROUNDS {
+            let rust = time(|| {
+                for _ in 0..CALLS {
+                    own.derivative(t, &state, &mut rate).expect("rates");
+                }
+            });
+            let c = time(|| {
+                for _ in 0..CALLS {
+                    // SAFETY: see above.
+                    let status =
+                        unsafe { cagedyn_sim_derivative(in_c, t, state.as_ptr(), rate.as_mut_ptr(), n) };
+                    assert_eq!(status, 0);
+                }
+            });
+            best = [best[0].min(rust), best[1].min(c)];
+        }
+        // SAFETY: it is not used any more.
+        unsafe { cagedyn_sim_free(in_c) };
+        in_rust.push(best[0] / CALLS as f64);
+        ratios.push(best[1] / best[0]);
     }
-    // SAFETY: they are not used any more.
-    unsafe {
-        cagedyn_sim_free(in_c);
-        cagedyn_model_free(handle);
-    }
+    // SAFETY: it is not used any more.
+    unsafe { cagedyn_model_free(handle) };
     println!(
-        "rates of the NU2310: {:.0} ns in Rust; by the C ABI {:.4} times as long, median of {PAIRS} pairs of {CALLS}",
+        "rates of the NU2310: {:.0} ns in Rust; by the C ABI {:.4} times as long, median of {PAIRS} pairs of simulations",
         1e9 * median(in_rust),
         median(ratios)
     );
