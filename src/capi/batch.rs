@@ -82,7 +82,8 @@ pub unsafe extern "C" fn cagedyn_batch_add(batch: *mut cagedyn_batch, sim: *mut 
             return Err(Error::new(Status::BadValue, "sim: a batch has it already".to_owned()));
         }
         added.in_batch = true;
-        batch.sims.push(Owned(NonNull::from(added)));
+        // The host's own pointer, so that both may be used in turn.
+        batch.sims.extend(NonNull::new(sim).map(Owned));
         batch.results.push((0, CString::default()));
         Ok(batch.sims.len() - 1)
     })
