@@ -3,7 +3,7 @@
 //! | body | file | coordinates |
 //! |---|---|---|
 //! | rings | `ring` | centre (y, z), or none for one that is held |
-//! | cage | `cage` | centre (y, z), angle |
+//! | cage | `cage` | centre (y, z), angle, modes of an elastic ring |
 //! | rollers | `elements/rollers` | radial offset and orbit angle, spin speed |
 //! | elements of prescribed motion | `elements/kinematic` | none |
 //! | nodes | `nodes` | states that are no motion |
@@ -27,6 +27,7 @@ pub use fault::{FAULTS, Fault, FaultCounts};
 pub use inputs::{HostInputs, INPUTS, Input, InputValues};
 pub use layout::Layout;
 
+pub(crate) use cage::{OF_MOTION as CAGE_MOTION, along_factor};
 pub(crate) use elements::{Damping, ElementSlopes, Elements, UPPER};
 pub(crate) use layout::{OF_ELEMENT, Owner};
 pub(crate) use motions::{Element, ElementBlock, ElementMotion, ElementSet, Motions, WrenchLanes};
@@ -56,9 +57,9 @@ pub(crate) const SHARED: usize = 3;
 /// The shared bodies of a bearing.
 pub(crate) type SharedBodies = [Option<Box<dyn SharedBody>>; SHARED];
 
-/// The shared bodies of a checked scene: outer ring, inner ring, cage.
-pub(crate) fn shared_bodies(scene: &Scene) -> SharedBodies {
-    [Some(Box::new(Ring::outer())), Some(Box::new(Ring::inner(scene))), Cage::new(scene)]
+/// The shared bodies of a checked scene with these elements: outer ring, inner ring, cage.
+pub(crate) fn shared_bodies(scene: &Scene, elements: &ElementSet) -> SharedBodies {
+    [Some(Box::new(Ring::outer())), Some(Box::new(Ring::inner(scene))), Cage::new(scene, elements)]
 }
 
 /// The rolling elements of a checked scene.
@@ -140,13 +141,15 @@ registry! {
         PocketFriction = "pocket_friction",
         GuideFilm = "guide_film",
         GuideSolid = "guide_solid",
+        CageBending = "cage_bending",
     }
 }
 
-/// Energy of a body's motion and of its weight, J.
+/// Energy of a body's motion, of its deformation and of its weight, J.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct BodyEnergy {
     pub(crate) kinetic: f64,
+    pub(crate) elastic: f64,
     pub(crate) potential: f64,
 }
 
@@ -165,6 +168,14 @@ pub(crate) struct BodyState<'a> {
     pub(crate) v: &'a [f64],
 }
 
+/// Forces on a shared body.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OnBody<'a> {
+    pub(crate) wrench: &'a Wrench<f64>,
+    /// Over its coordinates behind those of its motion, N or N m.
+    pub(crate) coordinates: &'a [f64],
+}
+
 /// A body that every element can touch. Slices of its coordinates begin with its first.
 pub(crate) trait SharedBody: Debug + Send + Sync {
     /// Name of the body.
@@ -176,6 +187,12 @@ pub(crate) trait SharedBody: Debug + Send + Sync {
 
     /// Its motion at these positions, velocities and inputs.
     fn motion(&self, q: &[f64], v: &[f64], inputs: &InputValues) -> Motion<f64>;
+
+    /// How each of its coordinates behind those of its motion displaces the place that it has for element `j`, outwards and
+    /// counter-clockwise, per unit; none of a rigid body.
+    fn displacements(&self, _j: usize) -> &[[f64; 2]] {
+        &[]
+    }
 
     /// What it is when it is further than the pitch radius from the centre.
     fn lost(&self) -> Fault;
@@ -190,7 +207,7 @@ pub(crate) trait SharedBody: Debug + Send + Sync {
     fn respond(&self, forces: &mut [f64], q: &[f64]);
 
     /// Accelerations `a` of its coordinates by all other forces on it and its weight.
-    fn accelerate(&self, on_body: &Wrench<f64>, state: &BodyState<'_>, gravity: [f64; 2], a: &mut [f64]);
+    fn accelerate(&self, on_body: &OnBody<'_>, state: &BodyState<'_>, gravity: [f64; 2], a: &mut [f64]);
 
     /// The wrench beside the weight that makes these accelerations of its coordinates: what [`SharedBody::accelerate`] turns
     /// round.
@@ -208,7 +225,7 @@ pub(crate) trait SharedBody: Debug + Send + Sync {
     /// the derivatives over positions and velocities.
     fn add_inertial_slopes(
         &self,
-        _on_body: &Wrench<f64>,
+        _on_body: &OnBody<'_>,
         _state: &BodyState<'_>,
         _over_position: DMatrixViewMut<'_, f64>,
         _over_velocity: DMatrixViewMut<'_, f64>,
@@ -230,6 +247,13 @@ pub(crate) trait SharedBody: Debug + Send + Sync {
     /// Largest squared frequency in 1/s^2 that a stiffness of `radial` (N/m) between centre and surroundings, and of `turning`
     /// (N/m) along the circle with the radius `lever` (m), gives the body.
     fn frequency_on(&self, radial: f64, turning: f64, lever: f64) -> f64;
+}
+
+/// Displacement, or its rate, of a place that these amplitudes, or their rates, displace by so much each.
+#[inline]
+pub(crate) fn displaced(basis: &[[f64; 2]], amplitudes: &[f64]) -> [f64; 2] {
+    let sum = |[x, y]: [f64; 2], ([outwards, ahead], a): (&[f64; 2], &f64)| [x + outwards * a, y + ahead * a];
+    basis.iter().zip(amplitudes).fold([0.0; 2], sum)
 }
 
 /// Weight of `mass` kg as a row of a report.

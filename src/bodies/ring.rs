@@ -7,8 +7,8 @@
 //! P load, c damping of the support. What turns the ring is no state: it takes the moment that the speed needs.
 
 use super::{
-    BodyEnergy, BodyForces, BodyState, CENTRE, Coordinate, Fault, ForceSource, Input, InputValues, Power,
-    SharedBody, weight,
+    BodyEnergy, BodyForces, BodyState, CENTRE, Coordinate, Fault, ForceSource, Input, InputValues, OnBody,
+    Power, SharedBody, weight,
 };
 use crate::scene::{RingMotion, Scene};
 use crate::space::{Motion, Wrench};
@@ -101,10 +101,10 @@ impl SharedBody for Ring {
         forces.iter_mut().for_each(|force| *force /= mass);
     }
 
-    fn accelerate(&self, on_body: &Wrench<f64>, _state: &BodyState<'_>, gravity: [f64; 2], a: &mut [f64]) {
+    fn accelerate(&self, on_body: &OnBody<'_>, _state: &BodyState<'_>, gravity: [f64; 2], a: &mut [f64]) {
         let Some(mass) = self.mass() else { return };
         for k in 0..2 {
-            a[k] = on_body.force[k] / mass + gravity[k];
+            a[k] = on_body.wrench.force[k] / mass + gravity[k];
         }
     }
 
@@ -125,6 +125,7 @@ impl SharedBody for Ring {
         BodyEnergy {
             kinetic: 0.5 * mass * (y * y + z * z),
             potential: BodyEnergy::of_weight(mass, gravity, state.motion.position),
+            elastic: 0.0,
         }
     }
 

@@ -13,7 +13,8 @@ use crate::scene::{Temperature, VISCOSITY, Viscosity, bad_scene, interpolate};
 
 /// Builds the model of a checked scene.
 pub(super) fn compile(scene: Scene) -> Result<Model> {
-    let (shared, elements) = (bodies::shared_bodies(&scene), bodies::elements(&scene));
+    let elements = bodies::elements(&scene);
+    let shared = bodies::shared_bodies(&scene, elements.set());
     let nodes = bodies::nodes(&scene);
     let inputs = inputs(&scene)?;
     let viscosity = viscosity_at_start(&scene, &inputs);

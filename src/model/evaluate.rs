@@ -5,11 +5,11 @@
 
 use super::workspace::Workspace;
 use super::{Fault, Input, InputValues, Model};
-use crate::bodies::{BodyState, OF_ELEMENT, SHARED, WrenchLanes};
+use crate::bodies::{BodyState, CAGE, CAGE_MOTION, OF_ELEMENT, OnBody, SHARED, WrenchLanes, displaced};
 use crate::laws::contact_pair::ContactForce;
 use crate::laws::fluid::Fluid;
 use crate::pairs::{ContactBlock, Law};
-use crate::scalar::{ZEROS, math};
+use crate::scalar::{ZEROS, math, place_of};
 use crate::space::Wrench;
 
 /// A ring or cage this far from the centre, in pitch radii, has left the bearing.
@@ -69,6 +69,8 @@ impl Model {
         step.forget();
         let reach = LOST_BODY * self.pitch_radius();
         self.find_motions(q, v, inputs, &mut motions.shared);
+        self.find_deformation(ws);
+        let Workspace { motions, contacts, inputs, .. } = ws;
         for (place, body, _) in self.free_bodies() {
             let [y, z] = motions.shared[place].position;
             if math::hypot(y, z) > reach {
@@ -110,11 +112,11 @@ impl Model {
     /// Evaluates the pairs of shared bodies.
     pub(super) fn apply_between(&self, ws: &mut Workspace) -> Result<(), Fault> {
         let mut pairs = self.between.iter().zip(&mut ws.between);
-        let (shared, fluid) = (&ws.motions.shared, ws.fluid);
+        let (motions, fluid) = (&ws.motions, ws.fluid);
         if ws.splitting {
-            pairs.try_for_each(|(pair, force)| pair.evaluate_with_damping(shared, fluid, force))
+            pairs.try_for_each(|(pair, force)| pair.evaluate_with_damping(motions, fluid, force))
         } else {
-            pairs.try_for_each(|(pair, force)| pair.evaluate(shared, fluid, force))
+            pairs.try_for_each(|(pair, force)| pair.evaluate(motions, fluid, force))
         }
     }
 
@@ -133,16 +135,32 @@ impl Model {
             batch.add_wrenches(ws.motions.instructions, &mut ws.on_elements);
         }
         self.add_on_mates(ws, &mut on, |block| &block.on_mates);
-        let Workspace { motions, of_shared: [q, v, _], between, on_elements, on_shared, inputs, .. } = ws;
+        let mut on_modes = std::mem::take(&mut ws.on_modes);
+        on_modes.fill(0.0);
+        self.add_on_modes(ws, &mut on_modes, |block| &block.on_mates);
+        ws.on_modes = on_modes;
+        let Workspace {
+            motions,
+            of_shared: [q, v, _],
+            between,
+            on_elements,
+            on_shared,
+            on_modes,
+            inputs,
+            ..
+        } = ws;
         for (info, force) in self.between_infos.iter().zip(between) {
             for (body, on_body) in info.bodies.into_iter().zip(&force.on) {
                 on[body].add(on_body);
             }
+            on_modes.iter_mut().zip(force.on_modes()).for_each(|(sum, force)| *sum += force);
         }
         for (place, body, at) in self.free_bodies() {
             let state = BodyState { motion: &motions.shared[place], q: &q[at.clone()], v: &v[at.clone()] };
             body.add_external(&state, inputs, &mut on[place]);
-            body.accelerate(&on[place], &state, self.gravity, &mut a[at]);
+            let coordinates = if place == CAGE { on_modes.as_slice() } else { &[] };
+            let on_body = OnBody { wrench: &on[place], coordinates };
+            body.accelerate(&on_body, &state, self.gravity, &mut a[at]);
         }
         *on_shared = on;
         self.elements.accelerate(&self.layout, motions, on_elements, self.gravity, a);
@@ -162,6 +180,48 @@ impl Model {
                 let (block, lane) = batch.at(i);
                 let [y, z, moment] = wrenches(block);
                 sum.add(&Wrench { force: [y[lane], z[lane]], moment: moment[lane] });
+            }
+        }
+    }
+
+    /// Adds what all contacts do to the coordinates of a cage behind those of its motion, from the wrenches in their blocks.
+    pub(super) fn add_on_modes(
+        &self,
+        ws: &Workspace,
+        on: &mut [f64],
+        wrenches: impl Fn(&ContactBlock) -> &WrenchLanes,
+    ) {
+        let Some(cage) = self.shared[CAGE].as_ref().filter(|_| !on.is_empty()) else { return };
+        for (batch, _, contacts) in ws.contacts.by_pair(&self.infos).filter(|(_, info, _)| info.mate == CAGE)
+        {
+            for i in contacts {
+                let (block, lane) = batch.at(i);
+                let [y, z, _] = wrenches(block);
+                let j = batch.sites[i].element;
+                let [outwards, ahead] = ws.motions.pocket_frame(j).to_local([y[lane], z[lane]]);
+                for (sum, [x, t]) in on.iter_mut().zip(cage.displacements(j)) {
+                    *sum += outwards * x + ahead * t;
+                }
+            }
+        }
+    }
+
+    /// Finds how the cage is deformed and where its pockets are.
+    fn find_deformation(&self, ws: &mut Workspace) {
+        let Workspace { motions, of_shared: [q, v, _], .. } = ws;
+        let at = self.layout.range(CAGE);
+        if motions.displaced.is_empty() {
+            return;
+        }
+        for (modes, x) in motions.modes.iter_mut().zip([q, v]) {
+            modes.copy_from_slice(&x[at.clone()][CAGE_MOTION..]);
+        }
+        let Some(cage) = &self.shared[CAGE] else { return };
+        for j in 0..motions.count {
+            let (block, lane) = place_of(j);
+            for (part, amplitudes) in motions.displaced[block].iter_mut().zip(&motions.modes) {
+                let moved = displaced(cage.displacements(j), amplitudes);
+                part.iter_mut().zip(moved).for_each(|(column, x)| column[lane] = x);
             }
         }
     }

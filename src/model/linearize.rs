@@ -8,7 +8,7 @@
 
 use super::workspace::Workspace;
 use super::{Input, InputValues, Model};
-use crate::bodies::{ElementSlopes, OF_ELEMENT};
+use crate::bodies::{ElementSlopes, OF_ELEMENT, OnBody};
 use crate::integrate::{Linearization, Structure};
 use crate::pairs::SlopeSums;
 use crate::scalar::place_of;
@@ -34,6 +34,7 @@ impl Model {
         }
         let mut sums = SlopeSums {
             layout: &self.layout,
+            bodies: &self.shared,
             rates,
             ln_viscosity_rate: self.ln_viscosity_rate(ws, rates),
             out: &mut *out,
@@ -42,8 +43,8 @@ impl Model {
             let (batch, contacts) = ws.contacts.range(place);
             pair.add_slopes(batch, contacts, &ws.motions, &mut sums, &mut ws.relative_slopes);
         }
-        for pair in &self.between {
-            pair.add_slopes(&ws.motions, ws.fluid, &mut sums);
+        for (pair, force) in self.between.iter().zip(&mut ws.between) {
+            pair.add_slopes(&ws.motions, ws.fluid, force, &mut sums);
         }
         self.divide_by_inertias(ws, rates, out);
         self.add_node_slopes(ws, out);
@@ -88,7 +89,8 @@ impl Model {
         for (place, body, at) in self.free_bodies() {
             let [k, d] = [&mut *over_positions, &mut *over_velocities]
                 .map(|part| part.hub.view_mut((at.start, at.start), (at.len(), at.len())));
-            body.add_inertial_slopes(&ws.on_shared[place], &ws.body(place, at), k, d);
+            let on_body = OnBody { wrench: &ws.on_shared[place], coordinates: ws.on_coordinates(place) };
+            body.add_inertial_slopes(&on_body, &ws.body(place, at), k, d);
         }
         for j in 0..self.layout.count {
             let (block, lane) = place_of(j);

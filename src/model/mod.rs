@@ -45,7 +45,7 @@ pub use workspace::Workspace;
 pub(crate) use workspace::{AT_FLOOR, RATES};
 
 use crate::bodies::{
-    CAGE, Elements, ForceSource, INNER_RING, Node, OUTER_RING, SHARED, SharedBodies, SharedBody,
+    CAGE, CAGE_MOTION, Elements, ForceSource, INNER_RING, Node, OUTER_RING, SHARED, SharedBodies, SharedBody,
 };
 use crate::error::{Error, Result, Status};
 use crate::pairs::raceway::RacewayGeometry;
@@ -238,6 +238,11 @@ impl Model {
         self.shared[body]
             .as_ref()
             .map_or_else(Motion::default, |b| b.motion(&q[first..], &v[first..], inputs))
+    }
+
+    /// Number of coordinates of the cage behind those of its motion.
+    fn mode_count(&self) -> usize {
+        self.layout.range(CAGE).len().saturating_sub(CAGE_MOTION)
     }
 
     /// Whether there is a cage.

@@ -2,7 +2,7 @@
 
 use super::{InputValues, Model, Workspace};
 use crate::bodies::{
-    BodyEnergy, BodyForces, BodyState, CAGE, Coordinate, Fault, Input, Moves, SharedBody, layout_of,
+    BodyEnergy, BodyForces, BodyState, CAGE, Coordinate, Fault, Input, Moves, OnBody, SharedBody, layout_of,
 };
 use crate::model::HostInputs;
 use crate::space::{Motion, Wrench};
@@ -51,7 +51,7 @@ impl SharedBody for VibratingCage {
         self.cage.respond(&mut forces[..3], q);
     }
 
-    fn accelerate(&self, on_body: &Wrench<f64>, state: &BodyState<'_>, gravity: [f64; 2], a: &mut [f64]) {
+    fn accelerate(&self, on_body: &OnBody<'_>, state: &BodyState<'_>, gravity: [f64; 2], a: &mut [f64]) {
         self.cage.accelerate(on_body, state, gravity, a);
         for k in 0..2 {
             a[3 + k] = DRIVE[k] - SQUARE[k] * state.q[3 + k] - DAMPING[k] * state.v[3 + k];
@@ -68,7 +68,7 @@ impl SharedBody for VibratingCage {
 
     fn add_inertial_slopes(
         &self,
-        on_body: &Wrench<f64>,
+        on_body: &OnBody<'_>,
         state: &BodyState<'_>,
         mut over_position: DMatrixViewMut<'_, f64>,
         mut over_velocity: DMatrixViewMut<'_, f64>,

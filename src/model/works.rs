@@ -3,7 +3,7 @@
 //! ```text
 //! d/dt (kinetic + elastic + potential energy) = sum of the powers
 //! kinetic    m v^2/2 of ring, cage (at its centre of mass) and rollers, I w^2/2 of cage and rollers
-//! elastic    line contacts U = (9/19) delta Q_el(delta), plane pockets U = k delta^2/2
+//! elastic    line contacts U = (9/19) delta Q_el(delta), plane pockets U = k delta^2/2, modes of the cage K (A^2 + B^2)/2
 //! contacts   -(Q - Q_el) delta_dot,  F_T (u1 - u2),  F_EHLr (u1 + u2)
 //! ```
 //!
@@ -13,7 +13,7 @@
 
 use super::Model;
 use super::workspace::{AT_FLOOR, Workspace};
-use crate::bodies::{INNER_RING, Input, Power};
+use crate::bodies::{CAGE, INNER_RING, Input, Power, SharedBody};
 use crate::integrate::SemiImplicit;
 use crate::pairs::{Batch, ContactBlock, Loaded};
 use crate::space::Wrench;
@@ -68,13 +68,10 @@ impl Model {
                 }
             }
         }
-        for ((pair, info), force) in self.between.iter().zip(&self.between_infos).zip(&ws.between) {
-            let [a, b] = info.bodies.map(|body| &motions.shared[body]);
-            let power = |[on_a, on_b]: [Wrench<f64>; 2]| on_a.power(a) + on_b.power(b);
-            let (all, film) = (power(force.on), power(pair.of_film(&motions.shared, force)));
-            let [of_film, of_solid] = info.powers;
-            p[of_film as usize] += film;
-            p[of_solid as usize] += all - film;
+        for (place, (info, force)) in self.between_infos.iter().zip(&ws.between).enumerate() {
+            for (power, of) in self.power_between(place, ws).into_iter().zip(info.powers) {
+                p[of as usize] += power;
+            }
             for (body, on_body) in info.bodies.iter().zip(&force.on) {
                 on_ring += if *body == INNER_RING { on_body.moment } else { 0.0 };
             }
@@ -88,6 +85,27 @@ impl Model {
         if self.elements.mass().is_none() {
             p[Power::ElementDrive as usize] = -self.power_on_elements(ws);
         }
+    }
+
+    /// Power of the film and of the solid contact of a pair of shared bodies, W.
+    pub(in crate::model) fn power_between(&self, place: usize, ws: &Workspace) -> [f64; 2] {
+        let (pair, force, motions) = (&self.between[place], &ws.between[place], &ws.motions);
+        let [a, b] = self.between_infos[place].bodies.map(|body| &motions.shared[body]);
+        let power = |[on_a, on_b]: [Wrench<f64>; 2]| on_a.power(a) + on_b.power(b);
+        let (mut all, mut film) = (power(force.on), power(pair.of_film(motions, force)));
+        let [_, rates] = &motions.modes;
+        if let Some([on_modes, by_film]) = force.of_modes() {
+            let power = |on: &[f64]| on.iter().zip(rates).map(|(force, rate)| force * rate).sum::<f64>();
+            (all, film) = (all + power(on_modes), film + power(by_film));
+        }
+        [film, all - film]
+    }
+
+    /// Energy of the deformed cage at the last evaluated state, J.
+    pub(in crate::model) fn elastic_energy_of_cage(&self, ws: &Workspace) -> f64 {
+        let energy =
+            |body: &dyn SharedBody| body.energy(&ws.body(CAGE, self.layout.range(CAGE)), self.gravity);
+        self.shared[CAGE].as_ref().map_or(0.0, |cage| energy(&**cage).elastic)
     }
 
     /// Power of contact forces on elements whose motion is prescribed, W.
@@ -112,7 +130,7 @@ impl Model {
     /// Energy of the last evaluated state of `ws`.
     #[doc(hidden)]
     pub fn energy(&self, ws: &Workspace) -> Energy {
-        let mut e = Energy::default();
+        let (mut e, mut elastic) = (Energy::default(), 0.0);
         let of_shared = self.shared.iter().enumerate().filter_map(|(place, body)| {
             Some(body.as_ref()?.energy(&ws.body(place, self.layout.range(place)), self.gravity))
         });
@@ -120,9 +138,11 @@ impl Model {
         let of_elements = free.map(|element| self.elements.energy(&element, self.gravity));
         for energy in of_shared.chain(of_elements) {
             e.kinetic += energy.kinetic;
+            elastic += energy.elastic;
             e.potential += energy.potential;
         }
-        e.elastic = ws.contacts.iter().map(|c| self.laws[c.site.pair].spring(c.motion.delta)[1]).sum();
+        e.elastic = ws.contacts.iter().map(|c| self.laws[c.site.pair].spring(c.motion.delta)[1]).sum::<f64>()
+            + elastic;
         e
     }
 }

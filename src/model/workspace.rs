@@ -3,7 +3,7 @@
 use super::integration::step_forces::StepMemory;
 use super::inverse_inertia::InverseInertia;
 use super::{InputValues, Model};
-use crate::bodies::{BodyState, Motions, OF_ELEMENT, POWERS, SHARED, WrenchLanes};
+use crate::bodies::{BodyState, CAGE, Motions, OF_ELEMENT, POWERS, SHARED, WrenchLanes};
 use crate::integrate::Vibration;
 use crate::laws::fluid::Fluid;
 use crate::pairs::{Contacts, LAWS, LAWS_OF_PAIR, Law, LawCounts, PairInfo, RelativeSlopes, SharedForce};
@@ -34,6 +34,8 @@ pub struct Workspace {
     pub(super) on_elements: Vec<WrenchLanes>,
     /// Forces on the shared bodies but their weight, moments about their geometric centres, global frame.
     pub(super) on_shared: [Wrench<f64>; SHARED],
+    /// Forces over the coordinates of the cage behind those of its motion, but those of its own stiffness and damping.
+    pub(super) on_modes: Vec<f64>,
     /// Memory for derivatives.
     pub(super) relative_slopes: RelativeSlopes,
     pub(super) inverse_inertia: InverseInertia,
@@ -61,15 +63,16 @@ impl Workspace {
     pub fn new(model: &Model) -> Self {
         let contacts = Contacts::new(&model.pairs, model.element_count());
         Self {
-            step: StepMemory::new(model.layout.count),
-            motions: Motions::new(model.elements.set()),
+            step: StepMemory::new(model.layout.count, model.mode_count()),
+            motions: Motions::new(model.elements.set(), model.mode_count()),
             of_shared: std::array::from_fn(|_| vec![0.0; model.layout.of_shared()]),
             contacts,
             infos: model.infos.clone(),
-            between: vec![SharedForce::default(); model.between.len()],
+            between: model.between.iter().map(|pair| pair.memory()).collect(),
             inputs: InputValues::default(),
             on_elements: vec![[ZEROS; OF_ELEMENT]; blocks_for(model.layout.count)],
             on_shared: [Wrench::default(); SHARED],
+            on_modes: vec![0.0; model.mode_count()],
             relative_slopes: RelativeSlopes::new(),
             inverse_inertia: InverseInertia::new(model.layout.of_shared()),
             powers: vec![0.0; RATES],
@@ -90,6 +93,12 @@ impl Workspace {
     pub(super) fn body(&self, place: usize, at: Range<usize>) -> BodyState<'_> {
         let [q, v, _] = &self.of_shared;
         BodyState { motion: &self.motions.shared[place], q: &q[at.clone()], v: &v[at] }
+    }
+
+    /// Forces over the coordinates of a shared body behind those of its motion.
+    #[inline]
+    pub(super) fn on_coordinates(&self, place: usize) -> &[f64] {
+        if place == CAGE { &self.on_modes } else { &[] }
     }
 
     /// Normal speeds of the touching contacts that elements roll in, at the last evaluated state.

@@ -3,6 +3,7 @@
 //! Forces act through the centre of the journal; the bush carries in addition the moment of the force about its own
 //! centre, so both wrenches balance.
 
+use super::deformed_guide::DeformedGuide;
 use super::line_laws::LawBuilder;
 use super::passage::Passage;
 use super::slope_sums::{Slope, SlopeSums};
@@ -12,7 +13,8 @@ use crate::error::Result;
 use crate::integrate::Tuning;
 use crate::laws::elastic::solid::SolidContact;
 use crate::laws::fluid::Fluid;
-use crate::laws::guide::journal::{Harmonic, JournalMotion};
+use crate::laws::guide::bent::Wanted;
+use crate::laws::guide::journal::{Harmonic, JournalMotion, NoFilm};
 use crate::laws::guide::lubricant_layer::{LubricantLayer, PressureShear};
 use crate::laws::guide::short_bearing::ShortBearing;
 use crate::laws::guide::{GuideFilm, GuideForce, GuideLaw, GuideSolid};
@@ -135,6 +137,8 @@ pub(super) struct Guide {
     side: GuideSide,
     /// The ring that guides, a shared body.
     ring: usize,
+    /// How it acts on a cage that bends.
+    deformed: Option<DeformedGuide>,
 }
 
 const SHORT_BEARING: Cost = Cost { value: 160.0, slopes: 1550.0, per_element: false };
@@ -163,6 +167,7 @@ impl Guide {
             .map(|a| Harmonic { order: a.order, amplitude: sign * a.amplitude, phase: a.phase })
             .collect();
         let free_clearance = clearance - highest_place(&roundness);
+        let profile = roundness.clone();
         let film = match &guide.film {
             None => None,
             Some(scene::GuideFilm::ShortBearing(film)) => Some(GuideFilm::ShortBearing(ShortBearing {
@@ -198,12 +203,13 @@ impl Guide {
             contact: SolidContact::from(&law.contact),
             asperity_height: law.asperity_height.unwrap_or(ASPERITY_HEIGHT * roughness),
         });
-        let law = GuideLaw { radius, free_clearance, film, solid, roughness, touching_ratio };
+        let law = GuideLaw { radius, clearance, free_clearance, film, solid, roughness, touching_ratio };
         let (side, ring) = match guide.ring {
             GuideRing::OuterRing => (GuideSide::CageInside, OUTER_RING),
             GuideRing::InnerRing => (GuideSide::CageOutside, INNER_RING),
         };
-        Ok(Some(Box::new(Self { law, side, ring })))
+        let deformed = DeformedGuide::of(laws.scene(), side, ring, radius, &profile);
+        Ok(Some(Box::new(Self { law, side, ring, deformed })))
     }
 
     #[inline]
@@ -226,14 +232,21 @@ impl SharedPair for Guide {
         }
     }
 
+    fn memory(&self) -> SharedForce {
+        SharedForce { deformed: self.deformed.as_ref().map(DeformedGuide::memory), ..SharedForce::default() }
+    }
+
     #[inline]
     fn evaluate(
         &self,
-        shared: &[Motion<f64>; SHARED],
+        motions: &Motions,
         fluid: Fluid,
         out: &mut SharedForce,
     ) -> std::result::Result<(), Fault> {
-        let motion = self.journal_motion(shared);
+        if let Some(deformed) = &self.deformed {
+            return deformed.evaluate(&self.law, motions, fluid, Wanted::Forces, out).map_err(fault);
+        }
+        let motion = self.journal_motion(&motions.shared);
         match self.law.force(&motion, fluid) {
             Ok(force) => {
                 out.on = self.side.wrenches(&force, &motion);
@@ -241,16 +254,20 @@ impl SharedPair for Guide {
                 out.damping = None;
                 Ok(())
             }
-            Err(gone) => Err(Fault::NoGuideFilm { minimum_film: gone.minimum_film }),
+            Err(gone) => Err(fault(gone)),
         }
     }
 
     fn evaluate_with_damping(
         &self,
-        shared: &[Motion<f64>; SHARED],
+        motions: &Motions,
         fluid: Fluid,
         out: &mut SharedForce,
     ) -> std::result::Result<(), Fault> {
+        if let Some(deformed) = &self.deformed {
+            return deformed.evaluate(&self.law, motions, fluid, Wanted::Damping, out).map_err(fault);
+        }
+        let shared = &motions.shared;
         // Over the velocity of the journal and the speed of the cage, which may be either.
         let plain = self.journal_motion(shared);
         let (constant, variable) = (Dual::<3>::constant, Dual::<3>::variable);
@@ -269,7 +286,7 @@ impl SharedPair for Guide {
         };
         let force = match self.law.force(&motion, fluid) {
             Ok(force) => force,
-            Err(gone) => return Err(Fault::NoGuideFilm { minimum_film: gone.minimum_film }),
+            Err(gone) => return Err(fault(gone)),
         };
         let wrenches = self.side.wrenches(&force, &motion);
         out.on = wrenches.map(|on| Wrench { force: on.force.map(|f| f.value()), moment: on.moment.value() });
@@ -291,19 +308,29 @@ impl SharedPair for Guide {
         [self.law.film.is_some() && film_share > 0.0, solid != [0.0; 2]]
     }
 
-    fn of_film(&self, shared: &[Motion<f64>; SHARED], force: &SharedForce) -> [Wrench<f64>; 2] {
-        self.side.wrenches(&force.of_law.of_film(), &self.journal_motion(shared))
+    fn of_film(&self, motions: &Motions, force: &SharedForce) -> [Wrench<f64>; 2] {
+        self.side.wrenches(&force.of_law.of_film(), &self.journal_motion(&motions.shared))
     }
 
-    fn parts(&self, shared: &[Motion<f64>; SHARED], force: &SharedForce) -> GuideForce<f64> {
-        self.side.on_cage(&force.of_law, &self.journal_motion(shared))
+    fn parts(&self, motions: &Motions, force: &SharedForce) -> GuideForce<f64> {
+        self.side.on_cage(&force.of_law, &self.journal_motion(&motions.shared))
     }
 
-    fn smallest_gap(&self, shared: &[Motion<f64>; SHARED]) -> f64 {
-        self.law.smallest_gap(&self.journal_motion(shared))
+    fn smallest_gap(&self, motions: &Motions) -> f64 {
+        match &self.deformed {
+            Some(deformed) => deformed.smallest_gap(&self.law, motions),
+            None => self.law.smallest_gap(&self.journal_motion(&motions.shared)),
+        }
     }
 
-    fn add_slopes(&self, motions: &Motions, fluid: Fluid, sums: &mut SlopeSums<'_>) {
+    fn wet_arcs(&self, motions: &Motions) -> (u32, f64) {
+        self.deformed.as_ref().map_or((0, 0.0), |deformed| deformed.wet_arcs(&self.law, motions))
+    }
+
+    fn add_slopes(&self, motions: &Motions, fluid: Fluid, force: &mut SharedForce, sums: &mut SlopeSums<'_>) {
+        if let Some(deformed) = &self.deformed {
+            return deformed.add_slopes(&self.law, motions, fluid, force, sums);
+        }
         let m = self.journal_motion(&motions.shared);
         let motion = lift(&m);
         let Ok(force) = self.law.force(&motion, fluid) else { return };
@@ -336,6 +363,9 @@ impl SharedPair for Guide {
 
     /// Bodies move on straight lines for this.
     fn longest_step(&self, ahead: &Ahead<'_>) -> f64 {
+        if let Some(deformed) = &self.deformed {
+            return deformed.longest_step(&self.law, ahead);
+        }
         let [body, ring] = [&ahead.shared[CAGE], &ahead.shared[self.ring]];
         let relative = CagePlace {
             position: difference(body.position, ring.position),
@@ -354,11 +384,18 @@ impl SharedPair for Guide {
     }
 
     fn cost(&self) -> Option<Cost> {
+        if let Some(deformed) = &self.deformed {
+            return Some(deformed.cost());
+        }
         self.law.film.as_ref().map(|film| match film {
             GuideFilm::ShortBearing(_) => SHORT_BEARING,
             GuideFilm::LubricantLayer(_) => LAYER,
         })
     }
+}
+
+fn fault(gone: NoFilm) -> Fault {
+    Fault::NoGuideFilm { minimum_film: gone.minimum_film }
 }
 
 /// Largest height of a profile, m, to about a thousandth of its amplitude.
@@ -451,6 +488,7 @@ mod tests {
         let solid = Some(GuideSolid { contact, asperity_height: 0.0 });
         GuideLaw {
             radius: 35e-3,
+            clearance: 0.2e-3,
             free_clearance: 0.2e-3,
             film: None,
             solid,

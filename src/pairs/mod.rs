@@ -14,6 +14,7 @@
 //! names that it is counted and reported by, in `Law`, `ForceSource` and `Power`.
 
 mod contacts;
+mod deformed_guide;
 pub(crate) mod grip;
 pub mod guide;
 pub(crate) mod line_laws;
@@ -25,10 +26,14 @@ mod slope_sums;
 pub(crate) use contacts::{
     Batch, ContactBlock, Contacts, Found, LAWS_OF_PAIR, Loaded, RelativeSlopes, Search, Site, SpeedChanges,
 };
+use deformed_guide::OnDeformed;
 pub(crate) use grip::Grip;
 pub(crate) use slope_sums::SlopeSums;
 
-use crate::bodies::{Elements, Fault, ForceSource, InputValues, Layout, Motions, Power, SHARED};
+use crate::bodies::{
+    CAGE, CAGE_MOTION, Elements, Fault, ForceSource, InputValues, Layout, Motions, Power, SHARED,
+    SharedBodies, displaced,
+};
 use crate::error::Result;
 use crate::integrate::Tuning;
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
@@ -40,7 +45,7 @@ use crate::registry::registry;
 use crate::scene::Scene;
 use crate::space::{Frame, Motion, Wrench};
 use line_laws::LawBuilder;
-use nalgebra::Matrix3;
+use nalgebra::{DMatrix, Matrix3};
 use std::fmt::Debug;
 use std::ops::Range;
 
@@ -176,6 +181,7 @@ impl ContactLaw {
 /// What a pair may look at to say how long a step may be.
 pub(crate) struct Ahead<'a> {
     pub(crate) shared: &'a [Motion<f64>],
+    pub(crate) bodies: &'a SharedBodies,
     pub(crate) elements: &'a dyn Elements,
     pub(crate) layout: &'a Layout,
     pub(crate) q: &'a [f64],
@@ -190,6 +196,18 @@ pub(crate) struct Ahead<'a> {
 }
 
 impl Ahead<'_> {
+    /// Coordinates of the cage behind those of its motion, and their rates.
+    pub(crate) fn modes(&self) -> [&[f64]; 2] {
+        let at = self.layout.range(CAGE);
+        [self.q, self.v].map(|x| x[at.clone()].get(CAGE_MOTION..).unwrap_or(&[]))
+    }
+
+    /// How a deformed cage displaces the pocket of element `j`, outwards and counter-clockwise in m, and how fast, in m/s.
+    pub(crate) fn displacement(&self, j: usize) -> [[f64; 2]; 2] {
+        let basis = self.bodies[CAGE].as_ref().map_or(&[][..], |cage| cage.displacements(j));
+        self.modes().map(|x| displaced(basis, x))
+    }
+
     /// Smaller of the masses of this shared body and of a free element, kg.
     pub(crate) fn lightest(&self, mate: usize) -> f64 {
         self.elements.mass().map_or(self.masses[mate], |mass| mass.min(self.masses[mate]))
@@ -260,7 +278,7 @@ pub(crate) struct SharedInfo {
 }
 
 /// Forces of a pair of shared bodies at one state.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct SharedForce {
     /// Wrenches on both bodies.
     pub(crate) on: [Wrench<f64>; 2],
@@ -269,6 +287,26 @@ pub(crate) struct SharedForce {
     /// How the wrench on each body opposes its own motion, if it was asked for: -d(force, moment)/d(velocity, speed), N s/m and
     /// its kin.
     pub(crate) damping: Option<[Matrix3<f64>; 2]>,
+    /// What belongs to the deformation of the first body, if it has any.
+    deformed: Option<Box<OnDeformed>>,
+}
+
+impl SharedForce {
+    /// Forces over the coordinates of a deformed cage behind those of its motion; none on a rigid one.
+    pub(crate) fn on_modes(&self) -> &[f64] {
+        self.deformed.as_ref().map_or(&[], |deformed| deformed.on_modes())
+    }
+
+    /// These, and what the film alone does, where there is a deformed cage.
+    pub(crate) fn of_modes(&self) -> Option<[&[f64]; 2]> {
+        self.deformed.as_ref().map(|deformed| deformed.of_modes())
+    }
+
+    /// How the forces on a deformed cage oppose the rates of all its coordinates, if it was asked for and beyond what
+    /// [`SharedForce::damping`] has.
+    pub(crate) fn damping_of_modes(&self) -> Option<&DMatrix<f64>> {
+        self.deformed.as_ref().and_then(|deformed| deformed.damping())
+    }
 }
 
 /// Contact of two shared bodies.
@@ -276,13 +314,18 @@ pub(crate) trait SharedPair: Debug + Send + Sync {
     /// Names and places.
     fn info(&self) -> SharedInfo;
 
+    /// Memory for its forces.
+    fn memory(&self) -> SharedForce {
+        SharedForce::default()
+    }
+
     /// Writes the forces at this motion of the bodies with this lubricant, without damping.
     ///
     /// # Errors
     /// The fault of a state where it has no law.
     fn evaluate(
         &self,
-        shared: &[Motion<f64>; SHARED],
+        motions: &Motions,
         fluid: Fluid,
         out: &mut SharedForce,
     ) -> std::result::Result<(), Fault>;
@@ -293,7 +336,7 @@ pub(crate) trait SharedPair: Debug + Send + Sync {
     /// As [`SharedPair::evaluate`].
     fn evaluate_with_damping(
         &self,
-        shared: &[Motion<f64>; SHARED],
+        motions: &Motions,
         fluid: Fluid,
         out: &mut SharedForce,
     ) -> std::result::Result<(), Fault>;
@@ -302,16 +345,21 @@ pub(crate) trait SharedPair: Debug + Send + Sync {
     fn acting(&self, force: &SharedForce) -> [bool; 2];
 
     /// Wrenches of the film alone on both bodies, which moved like this.
-    fn of_film(&self, shared: &[Motion<f64>; SHARED], force: &SharedForce) -> [Wrench<f64>; 2];
+    fn of_film(&self, motions: &Motions, force: &SharedForce) -> [Wrench<f64>; 2];
 
     /// The force on the first body by its parts.
-    fn parts(&self, shared: &[Motion<f64>; SHARED], force: &SharedForce) -> GuideForce<f64>;
+    fn parts(&self, motions: &Motions, force: &SharedForce) -> GuideForce<f64>;
 
     /// Smallest gap between the bodies, m.
-    fn smallest_gap(&self, shared: &[Motion<f64>; SHARED]) -> f64;
+    fn smallest_gap(&self, motions: &Motions) -> f64;
 
-    /// Adds the derivatives of its forces over the coordinates of both bodies.
-    fn add_slopes(&self, motions: &Motions, fluid: Fluid, sums: &mut SlopeSums<'_>);
+    /// Number of arcs in which its film touches a deformed body, and the angle that they take, rad.
+    fn wet_arcs(&self, _motions: &Motions) -> (u32, f64) {
+        (0, 0.0)
+    }
+
+    /// Adds the derivatives of its forces over the coordinates of both bodies. `force` was evaluated at this state.
+    fn add_slopes(&self, motions: &Motions, fluid: Fluid, force: &mut SharedForce, sums: &mut SlopeSums<'_>);
 
     /// The longest step (s) that passes no onset of its laws unseen.
     fn longest_step(&self, ahead: &Ahead<'_>) -> f64;
@@ -333,6 +381,8 @@ pub(crate) struct ElementPlace {
     /// Angle travelled since the start, rad.
     pub(crate) travel: f64,
     pub(crate) mate: Motion<f64>,
+    /// How far its place in the mate is displaced, outwards and counter-clockwise, m.
+    pub(crate) displacement: [f64; 2],
 }
 
 /// Time of a part of an evaluation, and of its derivatives, ns. Only ratios matter: `cargo bench --bench jacobian` shows them

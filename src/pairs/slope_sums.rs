@@ -1,7 +1,7 @@
 //! Sums of the derivatives of all wrenches over the coordinates, in the structure of the bearing: shared bodies are coupled to
 //! every element, elements to nothing else.
 
-use crate::bodies::{Input, InputValues, Layout, OF_ELEMENT};
+use crate::bodies::{CAGE_MOTION, Input, InputValues, Layout, Motions, OF_ELEMENT, SharedBodies};
 use crate::integrate::Linearization;
 use crate::integrate::linear::Arrowhead;
 use crate::scalar::{Lanes, WIDEST, ZEROS};
@@ -10,6 +10,7 @@ use std::ops::Range;
 /// Sums in the making.
 pub(crate) struct SlopeSums<'a> {
     pub(crate) layout: &'a Layout,
+    pub(crate) bodies: &'a SharedBodies,
     /// How the inputs change, per second.
     pub(crate) rates: &'a InputValues,
     /// Rate of the logarithm of the viscosity, 1/s.
@@ -155,6 +156,99 @@ impl SlopeSums<'_> {
             self.out.over_time[place] += travel[i][lane] * rates.orbit_travel
                 + orbit[i][lane] * rates.of(Input::OrbitSpeed)
                 + spin[i][lane] * rates.of(Input::SpinSpeed);
+        }
+    }
+
+    /// Adds what belongs to the coordinates of a deformed mate behind those of its motion, by the contact at a place of the
+    /// columns, of element `j`, that acts on the mate with the force `on_mate` (N).
+    ///
+    /// With b the displacement of the place of the element per unit of such a coordinate, in global axes: the force over it is
+    /// b F, and what derivatives over b and its rate are is known from those over place and velocity of the mate, which moves
+    /// the levers and the axes, too.
+    pub(crate) fn add_displaced(
+        &mut self,
+        j: usize,
+        mate: usize,
+        on_mate: [f64; 2],
+        motions: &Motions,
+        columns: &ContactColumns,
+        lane: usize,
+    ) {
+        use ContactColumns as C;
+        let bodies = self.bodies;
+        let Some(body) = &bodies[mate] else { return };
+        let (basis, frame) = (body.displacements(j), motions.pocket_frame(j));
+        let speed = motions.shared[mate].speed;
+        let (first, width) = (self.layout.range(mate).start, self.layout.hub());
+        let modes = first + CAGE_MOTION;
+        let free = j < self.layout.count;
+        // Rates of what is prescribed.
+        let rates = self.rates;
+        let prescribed = [rates.orbit_travel, rates.of(Input::OrbitSpeed), rates.of(Input::SpinSpeed)];
+        let of = |rows: &[[Lanes; OF_ELEMENT]; C::COUNT], c: usize, i: usize| rows[c][i][lane];
+        // Over the displacement in global axes, of component i.
+        let over_place = |rows: &[[Lanes; OF_ELEMENT]; C::COUNT], i: usize| {
+            let [y, z] = [C::PLACE, C::PLACE + 1].map(|c| of(rows, c, i));
+            let [vy, vz] = [C::VELOCITY, C::VELOCITY + 1].map(|c| of(rows, c, i));
+            [y + speed * vz, z - speed * vy]
+        };
+        let over_rate = |rows: &[[Lanes; OF_ELEMENT]; C::COUNT], i: usize| {
+            [C::VELOCITY, C::VELOCITY + 1].map(|c| of(rows, c, i))
+        };
+        let along = |b: [f64; 2], x: [f64; 2]| b[0] * x[0] + b[1] * x[1];
+        for (k, b) in basis.iter().enumerate() {
+            let b = frame.to_global(*b);
+            // The forces over this coordinate, over everything but such coordinates.
+            let row = |c: usize| {
+                let turned = if c == C::PLACE + 2 { b[0] * on_mate[1] - b[1] * on_mate[0] } else { 0.0 };
+                along(b, [of(&columns.on_mate, c, 0), of(&columns.on_mate, c, 1)]) + turned
+            };
+            let time = row(C::TIME);
+            self.out.over_time[modes + k] += time;
+            if !free {
+                let over = [row(C::OFFSET + 1), row(C::RADIAL_SPEED + 1), row(C::RADIAL_SPEED + 2)];
+                self.out.over_time[modes + k] +=
+                    over.iter().zip(prescribed).map(|(x, rate)| x * rate).sum::<f64>();
+            }
+            for (is_rate, (part, by_own, by_mate)) in self.parts().into_iter().enumerate() {
+                for (i, c) in by_mate.enumerate() {
+                    part.hub[(modes + k, first + i)] += row(c);
+                }
+                if free {
+                    let to_hub = part.to_hub.as_mut_slice()[OF_ELEMENT * width * j..].chunks_exact_mut(width);
+                    for (column, c) in to_hub.zip(by_own) {
+                        column[modes + k] += row(c);
+                    }
+                    let from_hub =
+                        &mut chunks(&mut part.from_hub.as_mut_slice()[OF_ELEMENT * j * width..])[modes + k];
+                    for (i, sum) in from_hub.iter_mut().enumerate() {
+                        let rows = &columns.own;
+                        let over = if is_rate == 1 { over_rate(rows, i) } else { over_place(rows, i) };
+                        *sum += along(b, over);
+                    }
+                }
+                let over = |i: usize| {
+                    let mut over = if is_rate == 1 {
+                        over_rate(&columns.on_mate, i)
+                    } else {
+                        over_place(&columns.on_mate, i)
+                    };
+                    if is_rate == 0 && i == 2 {
+                        // The lever stays where it is.
+                        (over[0], over[1]) = (over[0] + on_mate[1], over[1] - on_mate[0]);
+                    }
+                    over
+                };
+                for i in 0..OF_ELEMENT {
+                    part.hub[(first + i, modes + k)] += along(b, over(i));
+                }
+                let [over_y, over_z] = [over(0), over(1)];
+                for (other, b_other) in basis.iter().enumerate() {
+                    let b_other = frame.to_global(*b_other);
+                    let force = [along(b, over_y), along(b, over_z)];
+                    part.hub[(modes + other, modes + k)] += along(b_other, force);
+                }
+            }
         }
     }
 

@@ -1,6 +1,6 @@
 //! The cage of a scene, with its pockets and its guide.
 
-use super::{ContactLaws, PlaneVector, Signal};
+use super::{ContactLaws, ElasticRing, PlaneVector, Signal};
 use serde::{Deserialize, Serialize};
 
 /// The cage.
@@ -21,6 +21,9 @@ pub struct Cage {
     /// at angle zero, m. Absent: balanced.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mass_eccentricity: Option<PlaneVector>,
+    /// In-plane bending of the ring of the cage. Absent: a rigid cage.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub elastic_ring: Option<ElasticRing>,
     /// External force through the geometric centre and torque over time. Absent: none, and no such inputs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub load: Option<CageLoad>,
@@ -235,8 +238,7 @@ pub enum PressureShear {
     Absent,
     /// The gradient within the wet arcs, not across the jump of the pressure at their ends, as the paper reads.
     WithinArc,
-    /// The gradient with that jump, and the moment of the pressure on the lobes of a profile. Only then does the film take
-    /// energy at every motion.
+    /// The gradient with that jump. Only then does the film take energy at every motion.
     #[default]
     WithEdges,
 }

@@ -7,6 +7,7 @@ mod cage;
 mod cases;
 mod check;
 mod contact_laws;
+mod elastic_ring;
 mod elements;
 mod json;
 mod lubricant;
@@ -25,6 +26,8 @@ pub use contact_laws::{
     BoundaryFriction, ContactDamping, ContactLaws, Extent, FilmLaw, Raceways, RollingLaw, RollingResistance,
     SelfHeating, ThermalCorrection, TractionLaw,
 };
+pub(crate) use elastic_ring::MOST_RING_ORDERS;
+pub use elastic_ring::{ElasticRing, FiniteElementModes, RingSection, RingStiffness};
 pub use elements::{ElementMotion, KinematicElements, Rollers};
 pub use json::{parse_override, set_path};
 pub use lubricant::{Lubricant, Temperature, Viscosity, ViscosityPoint, WaltherViscosity};

@@ -56,6 +56,7 @@ fn law(random: &mut Random, layered: bool, shear: PressureShear, side: GuideSide
     };
     GuideLaw {
         radius,
+        clearance,
         free_clearance: clearance - lobes,
         film: Some(film),
         solid: None,

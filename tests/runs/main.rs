@@ -3,6 +3,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod elastic_cage;
 mod extremes;
 mod grease_guide;
 mod limits;

@@ -207,6 +207,7 @@ impl Elements for Rollers {
             kinetic: 0.5
                 * (mass * (m.radial_speed * m.radial_speed + across * across)
                     + moment * m.spin_speed * m.spin_speed),
+            elastic: 0.0,
             potential: BodyEnergy::of_weight(mass, gravity, element.frame.to_global([element.radius, 0.0])),
         }
     }

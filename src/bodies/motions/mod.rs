@@ -5,10 +5,10 @@ mod turning;
 
 pub(crate) use element_set::ElementSet;
 
-use super::SHARED;
 use super::layout::OF_ELEMENT;
-use crate::scalar::{Lanes, Pack, WIDEST, ZEROS, blocks_for, place_of};
-use crate::space::{Frame, Motion, Wrench};
+use super::{CAGE, SHARED};
+use crate::scalar::{Lanes, Pack, WIDEST, ZEROS, blocks_for, math, place_of};
+use crate::space::{Frame, Motion, Wrench, rotate};
 use pulp::{Arch, Simd};
 
 /// Motion of one element in cylindrical coordinates about the centre of the bearing.
@@ -102,11 +102,18 @@ impl ElementBlock {
     };
 }
 
+/// How a block of places for elements is displaced in a deformed cage, outwards and counter-clockwise in m, and how fast, in m/s.
+pub(crate) type DisplacedBlock = [[Lanes; 2]; 2];
+
 /// Motion of all bodies at one state: all that pairs see of them.
 #[derive(Clone, Debug)]
 pub(crate) struct Motions {
     /// Of the shared bodies.
     pub(crate) shared: [Motion<f64>; SHARED],
+    /// Coordinates of the cage behind those of its motion, and their rates; none of a rigid one.
+    pub(crate) modes: [Vec<f64>; 2],
+    /// Pockets of a cage that is not rigid.
+    pub(crate) displaced: Vec<DisplacedBlock>,
     /// Of the elements.
     pub(crate) blocks: Vec<ElementBlock>,
     /// Number of elements.
@@ -120,10 +127,12 @@ pub(crate) struct Motions {
 }
 
 impl Motions {
-    /// Memory for the motion of these elements.
-    pub(crate) fn new(set: &ElementSet) -> Self {
+    /// Memory for the motion of these elements and of a cage with so many modes.
+    pub(crate) fn new(set: &ElementSet, modes: usize) -> Self {
         Self {
             shared: [Motion::default(); SHARED],
+            modes: [vec![0.0; modes], vec![0.0; modes]],
+            displaced: vec![[[ZEROS; 2]; 2]; if modes > 0 { blocks_for(set.count) } else { 0 }],
             blocks: vec![ElementBlock::ZERO; blocks_for(set.count)],
             count: set.count,
             together: None,
@@ -143,6 +152,21 @@ impl Motions {
     pub(crate) fn travel(&self, j: usize) -> f64 {
         let (block, lane) = place_of(j);
         self.together.unwrap_or(self.blocks[block].travel[lane])
+    }
+
+    /// How the pocket of element `j` is displaced, and how fast: see [`DisplacedBlock`].
+    #[inline]
+    pub(crate) fn displacement(&self, j: usize) -> [[f64; 2]; 2] {
+        let (block, lane) = place_of(j);
+        self.displaced.get(block).map_or([[0.0; 2]; 2], |block| block.map(|part| part.map(|x| x[lane])))
+    }
+
+    /// Axes of the pocket of element `j`, which turn with the cage.
+    pub(crate) fn pocket_frame(&self, j: usize) -> Frame<f64> {
+        let (sin, cos) = math::sin_cos(self.travel(j) - self.shared[CAGE].angle);
+        let Frame { sin: s, cos: c } = self.frame(j);
+        let [cos, sin] = rotate([c, s], -sin, cos);
+        Frame { sin, cos }
     }
 
     /// Axes of element `j`.

@@ -28,8 +28,10 @@ const FEWEST_BLOCKS: usize = 2;
 const LONGEST: usize = 4;
 /// Largest number of brackets that one step needs.
 const MOST_OF_STEP: usize = FUNCTIONS + 1;
-/// Room for breaks: of a full block of brackets, and of those that it leads to.
-pub(super) const BREAKS: usize = 2 * WIDEST;
+/// Most changes of sign in dry parts that one stretch has.
+const MOST_DRY: usize = WIDEST;
+/// Room for breaks: of a full block of brackets, of those that it leads to, and of dry parts.
+pub(super) const BREAKS: usize = 2 * WIDEST + MOST_DRY + FUNCTIONS;
 /// Largest number of Newton steps; each that fails to be one halves a bracket.
 const MOST_STEPS: usize = 60;
 /// A drop of the film between two points by this share of it is looked at.
@@ -67,10 +69,16 @@ pub(super) struct Stretch {
     pub last_step: usize,
     /// Whether each of the functions is negative at its start.
     pub negative: [bool; FUNCTIONS],
-    /// Smallest film of those looked at, m.
+    /// Smallest film of those looked at, m, and where it is, rad.
     pub thinnest: f64,
+    pub thinnest_at: f64,
+    /// Smallest film at the ends of steps so far, m; of bent surfaces only. Between them none is thinner by more than the
+    /// curvature allows.
+    pub lowest: f64,
     breaks: [Break; BREAKS],
     count: usize,
+    /// How many of them are in dry parts.
+    dry: usize,
 }
 
 impl Stretch {
@@ -82,8 +90,11 @@ impl Stretch {
             last_step: 0,
             negative: [false; FUNCTIONS],
             thinnest: f64::INFINITY,
+            thinnest_at: -PI,
+            lowest: f64::INFINITY,
             breaks: [Break::default(); BREAKS],
             count: 0,
+            dry: 0,
         }
     }
 
@@ -102,11 +113,11 @@ impl Stretch {
         self.count += 1;
     }
 
-    fn look_at(&mut self, film: f64) {
+    fn look_at(&mut self, film: f64, angle: f64) {
         // A NaN is kept.
         let thicker = film >= self.thinnest || self.thinnest.is_nan();
         if !thicker {
-            self.thinnest = film;
+            (self.thinnest, self.thinnest_at) = (film, angle);
         }
     }
 }
@@ -179,21 +190,34 @@ struct Sampled {
 }
 
 impl Sampled {
+    /// The smallest film of the block and this one, m; a NaN is kept.
+    fn lowest(&self, other: f64) -> f64 {
+        self.film.iter().fold(other, |low, film| if *film >= low || low.is_nan() { low } else { *film })
+    }
+
     /// Whether a film that seems to drop by this between these points (m) has to be known better. Forces only ask
     /// whether there is one.
     fn may_be_thinnest(&self, k: usize, drop: f64, aims: Aims) -> bool {
         aims == Aims::Minima || drop > THIN * self.film[k].min(self.film[k + 1])
     }
 
-    /// Adds the brackets of step `k`.
-    fn step(&self, k: usize, aims: Aims, brackets: &mut Brackets) {
+    /// Adds the brackets of step `k`. Where it is dry, nothing acts: what changes its sign there does so at the end of the step.
+    fn step(&self, k: usize, aims: Aims, brackets: &mut Brackets, out: &mut Stretch) {
         let [before, after] = [self.signs[k] as u32, self.signs[k + 1] as u32];
         let changed = before ^ after;
         let ends = [self.angles[k], self.angles[k + 1]];
         let length = ends[1] - ends[0];
+        let of_dry = brackets.count;
         for (of, [values, slopes]) in self.functions.iter().enumerate() {
             let (value, slope) = (1 << of, 1 << (FUNCTIONS + of));
             if changed & (value | slope) == 0 {
+                continue;
+            }
+            if of != DRY && (before | after) & (1 << DRY) == 0 && brackets.count == of_dry {
+                if changed & value != 0 {
+                    out.add(ends[1], of);
+                    out.dry += 1;
+                }
                 continue;
             }
             let ([a, b], [da, db]) = ([values[k], values[k + 1]], [slopes[k], slopes[k + 1]]);
@@ -258,7 +282,7 @@ impl Search<'_> {
 
     /// Goes on to the next stretch of a circle of `steps`.
     pub fn next(&self, steps: usize, out: &mut Stretch) {
-        (out.from, out.count) = (out.to, 0);
+        (out.from, out.count, out.dry) = (out.to, 0, 0);
         let mut brackets = Brackets::none();
         let mut sampled =
             Sampled { angles: ZEROS, functions: [[ZEROS; 2]; FUNCTIONS], film: ZEROS, signs: ZEROS };
@@ -268,17 +292,20 @@ impl Search<'_> {
                 break;
             }
             dispatch(self.instructions, Scan { search: self, start, steps, sampled: &mut sampled });
+            if !self.gap.harmonics.is_empty() {
+                out.lowest = sampled.lowest(out.lowest);
+            }
             if block == 0 {
                 let signs = sampled.signs[0] as u32;
                 out.negative = std::array::from_fn(|of| signs >> of & 1 == 1);
-                out.look_at(sampled.film[0]);
+                out.look_at(sampled.film[0], sampled.angles[0]);
             }
             for k in 0..STEPS.min(steps - start) {
                 if sampled.signs[k] != sampled.signs[k + 1] {
-                    if !brackets.has_room() {
+                    if !brackets.has_room() || out.dry >= MOST_DRY {
                         break 'blocks;
                     }
-                    sampled.step(k, self.aims, &mut brackets);
+                    sampled.step(k, self.aims, &mut brackets, out);
                 }
                 (out.last_step, out.to) = (start + k + 1, sampled.angles[k + 1]);
             }
@@ -286,6 +313,38 @@ impl Search<'_> {
         if brackets.count > 0 {
             self.refine(&mut brackets, out);
         }
+    }
+
+    /// Tells every part of the circle where the film is thinner than the layer, cut where G changes its sign, rad.
+    pub fn over_wet(&self, mut tell: impl FnMut(f64, f64)) {
+        let (steps, mut stretch) = (self.steps(), Stretch::new());
+        while stretch.last_step < steps {
+            self.next(steps, &mut stretch);
+            let (mut wet, mut from) = (stretch.negative[DRY], stretch.from);
+            let end = Break { angle: stretch.to, of: OPENING };
+            for b in stretch.breaks().iter().chain([&end]) {
+                if wet && b.angle > from {
+                    tell(from, b.angle);
+                }
+                wet ^= b.of == DRY;
+                from = b.angle;
+            }
+        }
+    }
+
+    /// Number of arcs where the film is thinner than the layer, and the angle that they take together, rad.
+    pub fn wet_arcs(&self) -> (u32, f64) {
+        let (mut starts, mut angle, mut last) = (0, 0.0, f64::NAN);
+        let mut first = None;
+        self.over_wet(|from, to| {
+            first.get_or_insert(from);
+            starts += u32::from(from != last);
+            angle += to - from;
+            last = to;
+        });
+        // What ends where the circle does goes on where it begins.
+        let goes_on = starts > 1 && first == Some(-PI) && last >= PI - 1e-12;
+        (starts - u32::from(goes_on), angle)
     }
 
     /// Finds the places in these brackets; where functions turned back beyond zero, there are more.
@@ -303,7 +362,7 @@ impl Search<'_> {
                 continue;
             }
             if of == DRY {
-                out.look_at(film[i]);
+                out.look_at(film[i], angle);
             }
             let [a, b] = [brackets.ends[0][i], brackets.ends[1][i]];
             let Aim::Turn { negative } = aim else { continue };

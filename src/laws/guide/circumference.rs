@@ -8,7 +8,7 @@ use crate::laws::guide::breaks::{Aims, BREAKS, DRY, EXCESS, FUNCTIONS, OPENING, 
 use crate::laws::guide::gap::{Gap, Lobe};
 use crate::laws::guide::journal::{FilmForce, Harmonic, JournalMotion, NoFilm};
 use crate::laws::guide::land::{Land, OUTPUTS, VARIABLES, VELOCITIES};
-use crate::laws::guide::panels::{Panels, Sums, totals};
+use crate::laws::guide::panels::{PanelSums, Panels, Sums, totals};
 use crate::scalar::{Real, ZEROS, math};
 use pulp::Arch;
 
@@ -97,7 +97,7 @@ impl Film<'_> {
             }
         };
         let [height, largest_opening] = gap.bounds();
-        let sums = Sums { values: [ZEROS; OUTPUTS], slopes };
+        let sums = Sums { land: self.land, values: [ZEROS; OUTPUTS], slopes };
         let instructions = self.instructions;
         let mut panels = Panels { land: self.land, gap: &gap, largest_opening, instructions, sums };
         self.integrate(&mut panels, height)?;
@@ -122,10 +122,19 @@ impl Film<'_> {
     }
 
     /// Sums over the circle. Lobes have this height, m.
-    fn integrate(&self, panels: &mut Panels<'_>, height: f64) -> Result<(), NoFilm> {
-        let Panels { gap, largest_opening, instructions, .. } = *panels;
-        let excess = self.excess(gap, height, largest_opening);
-        let aims = excess.map_or(Aims::Edges, Aims::EdgesAndExcess);
+    fn integrate<S: PanelSums>(&self, panels: &mut Panels<'_, S>, height: f64) -> Result<(), NoFilm> {
+        let Panels { gap, largest_opening, .. } = *panels;
+        let excess = self.excess(gap.thinnest - height, largest_opening);
+        self.integrate_with(panels, excess.map_or(Aims::Edges, Aims::EdgesAndExcess)).map(|_| ())
+    }
+
+    /// Sums over the circle with these breaks; the smallest film of those looked at, m.
+    pub fn integrate_with<S: PanelSums>(
+        &self,
+        panels: &mut Panels<'_, S>,
+        aims: Aims,
+    ) -> Result<f64, NoFilm> {
+        let Panels { gap, instructions, .. } = *panels;
         let search = Search { gap, layer: self.layer, aims, instructions };
         let (steps, mut stretch) = (search.steps(), Stretch::new());
         while stretch.last_step < steps {
@@ -154,7 +163,7 @@ impl Film<'_> {
             }
             panels.add_ends(&ends[..count], self.within_arc);
         }
-        Ok(())
+        Ok(stretch.lowest)
     }
 
     /// Whether the film does something where the functions of the breaks have these signs.
@@ -162,12 +171,11 @@ impl Film<'_> {
         negative[DRY] && (negative[OPENING] || self.land.drag != 0.0)
     }
 
-    /// c of K = G + c h^3, if s_cap may be reached.
-    fn excess(&self, gap: &Gap<'_>, height: f64, largest_opening: f64) -> Option<f64> {
+    /// c of K = G + c h^3, if s_cap may be reached in a film that is nowhere thinner than this, m.
+    pub fn excess(&self, thinnest: f64, largest_opening: f64) -> Option<f64> {
         let land = &self.land;
         let scale = land.peak_scale * land.barus.pressure_viscosity;
-        let thinnest = (gap.thinnest - height).max(0.0);
-        let below = scale * largest_opening < land.barus.cap * thinnest.powi(3);
+        let below = scale * largest_opening < land.barus.cap * thinnest.max(0.0).powi(3);
         (!below).then(|| land.barus.cap / scale)
     }
 

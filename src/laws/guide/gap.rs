@@ -25,6 +25,19 @@ pub(super) struct Lobe {
     pub rate: [f64; 2],
 }
 
+/// Waves of one order of all that a bent surface does to its gap: the factors of cos(n d) and sin(n d).
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Harmonics {
+    /// Of h, m.
+    pub film: [f64; 2],
+    /// Of G, m/s.
+    pub opening: [f64; 2],
+    /// Of u_1 - u_2, m/s.
+    pub sliding: [f64; 2],
+    /// Of the part of dh/dd that turns with the surface, m.
+    pub lobe_slope: [f64; 2],
+}
+
 /// The gap at one state, in axes along the eccentricity and across it.
 pub(super) struct Gap<'a> {
     /// e, m.
@@ -43,6 +56,8 @@ pub(super) struct Gap<'a> {
     pub squeeze: f64,
     /// Lobes in any order; those in ascending order take least time.
     pub lobes: &'a [Lobe],
+    /// All of the gap but its mean by order, from one on, where the surface is bent; lobes do not count then.
+    pub harmonics: &'a [Harmonics],
 }
 
 /// The gap at one place, or at several.
@@ -62,6 +77,12 @@ pub(super) struct Place<B> {
 }
 
 impl Lobe {
+    /// Not less than any second derivative, m.
+    pub fn curvature(&self) -> f64 {
+        let (n, [a, b]) = (f64::from(self.order), self.height);
+        n * n * (a * a + b * b).sqrt()
+    }
+
     /// One harmonic of a profile that is turned by this angle, rad.
     pub fn of(harmonic: &Harmonic, turned: f64) -> Self {
         let Harmonic { order, amplitude, phase } = *harmonic;
@@ -89,7 +110,41 @@ impl<'a> Gap<'a> {
             lobe_speed: motion.profile_speed,
             squeeze: 2.0,
             lobes,
+            harmonics: &[],
         }
+    }
+
+    /// That of a bent surface.
+    #[inline(always)]
+    fn bent_at<B: Base>(&self, d: B) -> Place<B> {
+        let (sin, cos) = elementary::sin_cos(d);
+        let zero = d.splat(0.0);
+        let mut place = Place {
+            cos,
+            sin,
+            film: [d.splat(self.thinnest), zero, zero, zero],
+            lobe_slope: zero,
+            opening: [zero; 3],
+            sliding: d.splat(self.rolling),
+        };
+        let (mut n, mut wave) = (1.0, [cos, sin]);
+        for of in self.harmonics {
+            let [film, slope, bend, turn] = derivatives_of(wave, n, of.film);
+            let [opening, opening_slope, opening_bend, _] = derivatives_of(wave, n, of.opening);
+            place.film[0] += film;
+            place.film[1] += slope;
+            place.film[2] += bend;
+            place.film[3] += turn;
+            place.opening[0] += opening;
+            place.opening[1] += opening_slope;
+            place.opening[2] += opening_bend;
+            let [c, s] = wave;
+            place.sliding += c * of.sliding[0] + s * of.sliding[1];
+            place.lobe_slope += c * of.lobe_slope[0] + s * of.lobe_slope[1];
+            wave = [c * cos - s * sin, s * cos + c * sin];
+            n += 1.0;
+        }
+        place
     }
 
     /// Highest order of h and G, at least 1.
@@ -114,6 +169,9 @@ impl<'a> Gap<'a> {
     /// The gap at `d`, rad, from -pi to pi.
     #[inline(always)]
     pub fn at<B: Base>(&self, d: B) -> Place<B> {
+        if !self.harmonics.is_empty() {
+            return self.bent_at(d);
+        }
         let (sin_half, cos_half) = elementary::sin_cos(d * 0.5);
         let square = sin_half * sin_half;
         let (sin, cos) = (sin_half * cos_half * 2.0, -(square * 2.0) + 1.0);
@@ -153,8 +211,13 @@ impl<'a> Gap<'a> {
 
 /// a cos + b sin of order `n` with its derivatives.
 #[inline(always)]
-fn derivatives<B: Base>([cos, sin]: [B; 2], n: u32, [a, b]: [f64; 2]) -> [B; 4] {
-    let n = f64::from(n);
+fn derivatives<B: Base>(wave: [B; 2], n: u32, factors: [f64; 2]) -> [B; 4] {
+    derivatives_of(wave, f64::from(n), factors)
+}
+
+/// The same, with the order as a number.
+#[inline(always)]
+fn derivatives_of<B: Base>([cos, sin]: [B; 2], n: f64, [a, b]: [f64; 2]) -> [B; 4] {
     let (even, odd) = (cos * a + sin * b, (cos * b - sin * a) * n);
     [even, odd, -(even * (n * n)), -(odd * (n * n))]
 }

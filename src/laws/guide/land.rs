@@ -46,11 +46,11 @@ pub(super) struct Stress<T> {
     /// Pressure on the journal, N.
     pub normal: T,
     /// Part of the gradient of the pressure, along the normal, N.
-    inward: T,
+    pub inward: T,
     /// Along the surface, N.
-    along: T,
+    pub along: T,
     /// About the centre, N m.
-    moment: T,
+    pub moment: T,
 }
 
 impl<T: Numeric> Stress<T> {

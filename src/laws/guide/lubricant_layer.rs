@@ -6,7 +6,8 @@
 //! q = -(3 eta_0/h^3) G (L^2/4 - y^2),   G = (u_1 + u_2) dh/dx + 2 dh/dt
 //! p(q) and eta(q) as in `BarusFilm`,   p = 0 and eta = eta_0 where q <= 0
 //! tau = (h/2) dp/dx + eta (u_1 - u_2)/h,   u_1 - u_2 = R (w_1 - w_2) - v_eps sin(d) + v_phi cos(d)
-//! F_P = -R Int p (cos, sin) dd dy,   F_S = R Int tau (sin, -cos) dd dy,   M = -R^2 Int tau dd dy
+//! F_P = -R Int p (cos, sin) dd dy,   F_S = R Int tau (sin, -cos) dd dy,
+//! M = -R^2 Int tau dd dy + R Int p w' dd dy,   w = Sum a_n cos(n (theta - psi) + b_n) on the journal
 //! ```
 //!
 //! Components are along the eccentricity and across it. d is counted from the thinnest place of a round gap, so
@@ -27,6 +28,7 @@
 
 use crate::laws::fluid::Fluid;
 use crate::laws::guide::barus_film::BarusFilm;
+use crate::laws::guide::bent::BentFilm;
 use crate::laws::guide::circumference::Film;
 use crate::laws::guide::journal::{FilmForce, Harmonic, JournalMotion, NoFilm};
 use crate::laws::guide::land::Land;
@@ -40,8 +42,7 @@ pub enum PressureShear {
     Absent,
     /// The gradient within the wet arcs, but not across the jump of the pressure at their ends.
     WithinArc,
-    /// The gradient with that jump, and the moment of the pressure on the lobes of a profile. Only then does the film
-    /// dissipate at every motion.
+    /// The gradient with that jump. Only then does the film dissipate at every motion.
     WithEdges,
 }
 
@@ -81,10 +82,16 @@ impl LubricantLayer {
         self.film(self.viscosity, Arch::new()).minimum(m)
     }
 
+    /// The film in the gap of a bent cage.
+    pub(super) fn around(&self, fluid: Fluid) -> BentFilm<'_> {
+        let mut film = self.film(self.viscosity * fluid.relative_viscosity, Arch::new());
+        film.land.lobe_moment = 0.0;
+        BentFilm { film, drags: true }
+    }
+
     /// The film with this viscosity in Pa s.
     fn film(&self, viscosity: f64, instructions: Arch) -> Film<'_> {
         let of_gradient = if self.pressure_shear == PressureShear::Absent { 0.0 } else { 1.0 };
-        let turns_lobes = self.pressure_shear == PressureShear::WithEdges && self.profile_on_journal;
         let land = Land {
             barus: BarusFilm { pressure_viscosity: self.pressure_viscosity, cap: self.cap },
             peak_scale: 0.75 * viscosity * self.width * self.width,
@@ -93,7 +100,7 @@ impl LubricantLayer {
             radius: self.radius,
             gradient_force: of_gradient,
             gradient_moment: of_gradient,
-            lobe_moment: if turns_lobes { 1.0 } else { 0.0 },
+            lobe_moment: if self.profile_on_journal { 1.0 } else { 0.0 },
         };
         Film {
             land,

@@ -17,6 +17,7 @@
 //! product goes to infinity as the gap closes and is gone when it has closed. With it the force is continuous.
 
 pub mod barus_film;
+pub mod bent;
 mod breaks;
 mod circumference;
 mod gap;
@@ -29,7 +30,8 @@ pub mod short_bearing;
 use crate::laws::contact_pair::ContactMotion;
 use crate::laws::elastic::solid::SolidContact;
 use crate::laws::fluid::Fluid;
-use crate::laws::guide::journal::{FilmForce, JournalMotion, NoFilm};
+use crate::laws::guide::bent::BentFilm;
+use crate::laws::guide::journal::{FilmForce, Harmonic, JournalMotion, NoFilm};
 use crate::laws::guide::lubricant_layer::{LubricantLayer, PressureShear};
 use crate::laws::guide::short_bearing::ShortBearing;
 use crate::scalar::{Real, math, smoothstep};
@@ -60,6 +62,8 @@ pub struct GuideSolid {
 pub struct GuideLaw {
     /// R, radius of the journal, m.
     pub radius: f64,
+    /// C, radial clearance, m.
+    pub clearance: f64,
     /// C - a, radial clearance less the highest place of the roundness profile, m.
     pub free_clearance: f64,
     /// Film.
@@ -136,6 +140,30 @@ impl GuideFilm {
         match self {
             GuideFilm::ShortBearing(film) => film.minimum(m),
             GuideFilm::LubricantLayer(film) => film.minimum(m),
+        }
+    }
+
+    /// Fixed lobes.
+    fn roundness(&self) -> &[Harmonic] {
+        match self {
+            GuideFilm::ShortBearing(film) => &film.roundness,
+            GuideFilm::LubricantLayer(film) => &film.roundness,
+        }
+    }
+
+    /// Factor of dh/dt in G.
+    fn squeeze(&self) -> f64 {
+        match self {
+            GuideFilm::ShortBearing(film) if !film.squeeze => 0.0,
+            GuideFilm::ShortBearing(_) | GuideFilm::LubricantLayer(_) => 2.0,
+        }
+    }
+
+    /// The film in the gap of a bent cage, without what its fixed lobes do.
+    fn around(&self, fluid: Fluid) -> BentFilm<'_> {
+        match self {
+            GuideFilm::ShortBearing(film) => film.around(fluid),
+            GuideFilm::LubricantLayer(film) => film.around(fluid),
         }
     }
 
@@ -265,6 +293,7 @@ mod tests {
         let contact = SolidContact { stiffness: 1e6, damping: 44.4, softening_depth: 1e-6, friction };
         GuideLaw {
             radius: 46.6615e-3,
+            clearance: 0.2135e-3,
             free_clearance: 0.2135e-3,
             film: Some(GuideFilm::LubricantLayer(layer())),
             solid: Some(GuideSolid { contact, asperity_height: 3e-6 }),

@@ -22,8 +22,22 @@ const PANELS_PER_PERIOD: f64 = 1.0;
 /// Round-off of G relative to its largest part.
 const ROUND_OFF: f64 = 1e-11;
 
+/// What is summed over the places of panels.
+pub(super) trait PanelSums {
+    /// Adds the film at the places of a panel, unless its series do not suit, where it can be halved. Whether it did.
+    fn add(&mut self, panel: &Panel<'_>, halves: bool, noise: f64, instructions: Arch) -> bool;
+
+    /// Adds what the ends of wet arcs do: see [`Panels::add_ends`]. `jump` is the tangential force there over the pressure times
+    /// the film; 0 for none.
+    fn add_ends(&mut self, places: &Ends<'_>, instructions: Arch);
+
+    /// Whether ends matter without a jump.
+    fn moves_ends(&self) -> bool;
+}
+
 /// Sums over the places of all panels, lane by lane.
 pub(super) struct Sums<'a> {
+    pub land: Land,
     /// Outputs.
     pub values: [Lanes; OUTPUTS],
     /// Their derivatives over all variables, over velocities only, or none.
@@ -37,7 +51,7 @@ pub(super) fn totals(lanes: &[Lanes; OUTPUTS]) -> [f64; OUTPUTS] {
 
 /// Sum of all lanes, in an order that lets neighbours be added at a time.
 #[inline]
-fn total(lanes: &Lanes) -> f64 {
+pub(super) fn total(lanes: &Lanes) -> f64 {
     let mut sums = *lanes;
     for half in [8, 4, 2, 1] {
         for i in 0..half {
@@ -47,26 +61,58 @@ fn total(lanes: &Lanes) -> f64 {
     sums[0]
 }
 
+impl PanelSums for Sums<'_> {
+    fn add(&mut self, panel: &Panel<'_>, halves: bool, noise: f64, instructions: Arch) -> bool {
+        let mut found = Found { outputs: [ZEROS; OUTPUTS], pressure: ZEROS, stress: ZEROS, cubes: ZEROS };
+        dispatch(instructions, Values { land: &self.land, panel, found: &mut found });
+        if halves && !suits([&found.pressure, &found.stress, &found.cubes], noise) {
+            return false;
+        }
+        for (sum, output) in self.values.iter_mut().zip(&found.outputs) {
+            for (sum, output) in sum.iter_mut().zip(output) {
+                *sum += output;
+            }
+        }
+        if !self.slopes.is_empty() {
+            dispatch(instructions, Slopes { land: &self.land, panel, slopes: self.slopes });
+        }
+        true
+    }
+
+    fn add_ends(&mut self, ends: &Ends<'_>, instructions: Arch) {
+        dispatch(instructions, EndSums { ends, sums: self });
+    }
+
+    fn moves_ends(&self) -> bool {
+        self.slopes.len() > VELOCITIES
+    }
+}
+
 /// Integrator over the panels of one state.
-pub(super) struct Panels<'a> {
+pub(super) struct Panels<'a, S> {
     pub land: Land,
     pub gap: &'a Gap<'a>,
     /// Not less than any |G|, m/s.
     pub largest_opening: f64,
     pub instructions: Arch,
-    pub sums: Sums<'a>,
+    pub sums: S,
 }
 
 /// Part of the circle between two breaks, or of its map.
 #[derive(Clone, Copy)]
-struct Piece {
+pub(super) struct Piece {
     /// Whether d = middle - half cos(x); else d = x.
     mapped: bool,
     middle: f64,
     half: f64,
 }
 
-impl Panels<'_> {
+impl Piece {
+    /// One that is not mapped.
+    pub const STRAIGHT: Self = Self { mapped: false, middle: 0.0, half: 0.0 };
+}
+
+impl<S: PanelSums> Panels<'_, S> {
     /// Adds the film between `from` and `to`; `capped` where s > s_cap.
     pub fn add(&mut self, from: f64, to: f64, capped: bool) {
         // Written so that a NaN leads nowhere.
@@ -86,29 +132,18 @@ impl Panels<'_> {
 
     fn panel(&mut self, piece: &Piece, from: f64, to: f64, depth: u32) {
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-        let panel = Panel { land: &self.land, gap: self.gap, piece, middle, half };
-        let mut found = Found { outputs: [ZEROS; OUTPUTS], pressure: ZEROS, stress: ZEROS, cubes: ZEROS };
-        dispatch(self.instructions, Values { panel: &panel, found: &mut found });
+        let panel = Panel { gap: self.gap, piece, middle, half };
         let noise = ROUND_OFF * self.land.area * self.land.peak_scale * self.largest_opening;
-        if depth < DEEPEST && !found.suits(noise) {
+        if !self.sums.add(&panel, depth < DEEPEST, noise, self.instructions) {
             self.panel(piece, from, middle, depth + 1);
             self.panel(piece, middle, to, depth + 1);
-            return;
-        }
-        for (sum, output) in self.sums.values.iter_mut().zip(&found.outputs) {
-            for (sum, output) in sum.iter_mut().zip(output) {
-                *sum += output;
-            }
-        }
-        if !self.sums.slopes.is_empty() {
-            dispatch(self.instructions, Slopes { panel: &panel, slopes: self.sums.slopes });
         }
     }
 
     /// Adds what the ends of wet arcs do: the jump of the pressure there, if `jumps`, and to the derivatives that they move.
     /// Each is an angle in rad and +1 at the end of an arc, -1 at its start.
     pub fn add_ends(&mut self, ends: &[[f64; 2]], jumps: bool) {
-        if !jumps && self.sums.slopes.len() <= VELOCITIES {
+        if !jumps && !self.sums.moves_ends() {
             return;
         }
         let jump = if jumps { -0.5 / self.land.radius } else { 0.0 };
@@ -117,26 +152,30 @@ impl Panels<'_> {
             for (i, end) in chunk.iter().enumerate() {
                 [angles[i], sides[i]] = *end;
             }
-            let Self { land, gap, sums, .. } = self;
-            let ends = Ends { land, gap, angles: &angles, sides: &sides, count: chunk.len(), jump, sums };
-            dispatch(self.instructions, ends);
+            let Self { gap, sums, instructions, .. } = self;
+            let ends = Ends { gap, angles: &angles, sides: &sides, count: chunk.len(), jump };
+            sums.add_ends(&ends, *instructions);
         }
     }
 }
 
 /// Places of a panel.
-struct Panel<'a> {
-    land: &'a Land,
-    gap: &'a Gap<'a>,
+pub(super) struct Panel<'a> {
+    pub gap: &'a Gap<'a>,
     piece: &'a Piece,
     middle: f64,
     half: f64,
 }
 
-impl Panel<'_> {
+impl<'a> Panel<'a> {
+    /// The places at most `half` from `middle`, rad.
+    pub fn new(gap: &'a Gap<'a>, piece: &'a Piece, middle: f64, half: f64) -> Self {
+        Self { gap, piece, middle, half }
+    }
+
     /// Places (rad) and their weights (rad) in the sums, of a group.
     #[inline(always)]
-    fn places<S: Simd, const K: usize>(&self, simd: S, first: usize) -> [Pack<S, K>; 2] {
+    pub fn places<S: Simd, const K: usize>(&self, simd: S, first: usize) -> [Pack<S, K>; 2] {
         let x = Pack::load(simd, &NODES[first..]) * self.half + self.middle;
         let weight = Pack::load(simd, &WEIGHTS[first..]) * self.half;
         if !self.piece.mapped {
@@ -158,13 +197,11 @@ struct Found {
     cubes: Lanes,
 }
 
-impl Found {
-    /// Whether the last terms of the series are small, or at least of round-off. A NaN suits, or nothing would.
-    fn suits(&self, noise: f64) -> bool {
-        let rough = tail(&self.pressure) > TAIL * total(&self.pressure) + noise * total(&self.cubes)
-            || tail(&self.stress) > TAIL * total(&self.stress);
-        !rough
-    }
+/// Whether the last terms of the series of pressure and stress are small, or at least of round-off. A NaN suits, or nothing would.
+pub(super) fn suits([pressure, stress, cubes]: [&Lanes; 3], noise: f64) -> bool {
+    let rough =
+        tail(pressure) > TAIL * total(pressure) + noise * total(cubes) || tail(stress) > TAIL * total(stress);
+    !rough
 }
 
 /// Size of the last two terms of the series.
@@ -178,6 +215,7 @@ fn tail(parts: &Lanes) -> f64 {
 }
 
 struct Values<'a> {
+    land: &'a Land,
     panel: &'a Panel<'a>,
     found: &'a mut Found,
 }
@@ -191,7 +229,7 @@ impl Columns for Values<'_> {
     fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
         let [d, weight] = self.panel.places::<S, K>(simd, first);
         let place = self.panel.gap.at(d);
-        let (stress, mean, inverse) = self.panel.land.at(&place);
+        let (stress, mean, inverse) = self.land.at(&place);
         let outputs = stress.outputs(place.cos, place.sin);
         let Found { outputs: columns, pressure, stress: stresses, cubes } = &mut *self.found;
         for (column, output) in columns.iter_mut().zip(&outputs) {
@@ -205,6 +243,7 @@ impl Columns for Values<'_> {
 
 /// Derivatives of the sums of a panel at places that stay.
 struct Slopes<'a> {
+    land: &'a Land,
     panel: &'a Panel<'a>,
     slopes: &'a mut [[Lanes; OUTPUTS]],
 }
@@ -214,7 +253,7 @@ impl Slopes<'_> {
     #[allow(clippy::needless_range_loop)]
     #[inline(always)]
     fn add<S: Simd, const K: usize, const N: usize>(&mut self, simd: S, first: usize) {
-        let Panel { gap, land, .. } = *self.panel;
+        let (gap, land) = (self.panel.gap, self.land);
         let [d, weight] = self.panel.places::<S, K>(simd, first);
         let place = gap.at(d);
         let outputs = land.with_slopes::<S, K, N>(&place).outputs(place.cos, place.sin);
@@ -262,34 +301,42 @@ fn add<S: Simd, const K: usize>(more: &[Pack<S, K>; OUTPUTS], sums: &mut [Lanes;
     }
 }
 
-/// The ends of wet arcs.
-struct Ends<'a, 'b> {
-    land: &'a Land,
-    gap: &'a Gap<'a>,
-    angles: &'a Lanes,
-    sides: &'a Lanes,
-    count: usize,
+/// Some ends of wet arcs.
+pub(super) struct Ends<'a> {
+    pub gap: &'a Gap<'a>,
+    /// rad
+    pub angles: &'a Lanes,
+    /// +1 where an arc ends, -1 where it starts.
+    pub sides: &'a Lanes,
+    pub count: usize,
     /// Tangential force there over the pressure times the film; 0 for none.
-    jump: f64,
+    pub jump: f64,
+}
+
+/// Adds their part of the sums.
+struct EndSums<'a, 'b> {
+    ends: &'a Ends<'a>,
     sums: &'a mut Sums<'b>,
 }
 
-impl Columns for Ends<'_, '_> {
+impl Columns for EndSums<'_, '_> {
     const PAIRED: bool = false;
 
     fn rows(&self) -> usize {
-        self.count
+        self.ends.count
     }
 
     #[inline(always)]
     fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
-        let side = Pack::<S, K>::load(simd, &self.sides[first..]);
-        let place = self.gap.at(Pack::load(simd, &self.angles[first..]));
+        let Ends { gap, angles, sides, jump, .. } = *self.ends;
+        let land = self.sums.land;
+        let side = Pack::<S, K>::load(simd, &sides[first..]);
+        let place = gap.at(Pack::load(simd, &angles[first..]));
         let (cos, sin, film) = (place.cos, place.sin, place.film[0]);
-        let stress = self.land.with_slopes::<S, K, 4>(&place);
-        let of_jump = film * side * self.jump;
+        let stress = land.with_slopes::<S, K, 4>(&place);
+        let of_jump = film * side * jump;
         let along = stress.normal.re * of_jump;
-        let radius = self.land.radius;
+        let radius = land.radius;
         add(&tangential(along, cos, sin, radius), &mut self.sums.values, first);
         if self.sums.slopes.is_empty() {
             return;
@@ -298,7 +345,7 @@ impl Columns for Ends<'_, '_> {
         // The film at an end stays that of the layer.
         let zero = side.like(0.0);
         let over_opening = stress.normal.eps[0];
-        let velocities = over_velocities(self.gap, &place, over_opening, zero);
+        let velocities = over_velocities(gap, &place, over_opening, zero);
         for (sums, over) in of_velocities.iter_mut().zip(&velocities) {
             add(&tangential(*over * of_jump, cos, sin, radius), sums, first);
         }
@@ -307,7 +354,7 @@ impl Columns for Ends<'_, '_> {
         let inverse = Pack::select(inverse.abs().below(1e100), inverse, zero);
         let moved = [cos * inverse, sin * inverse];
         let density = stress.outputs(cos, sin);
-        let positions = over_positions(self.gap, &place, over_opening, zero, zero);
+        let positions = over_positions(gap, &place, over_opening, zero, zero);
         for ((sums, over), moved) in of_positions.iter_mut().zip(&positions).zip(&moved) {
             let normal = *over + over_opening * place.opening[1] * *moved;
             let turned = along * *moved;

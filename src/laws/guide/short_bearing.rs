@@ -20,6 +20,7 @@
 
 use crate::laws::fluid::Fluid;
 use crate::laws::guide::barus_film::BarusFilm;
+use crate::laws::guide::bent::BentFilm;
 use crate::laws::guide::circumference::Film;
 use crate::laws::guide::journal::{FilmForce, Harmonic, JournalMotion, NoFilm};
 use crate::laws::guide::land::Land;
@@ -111,6 +112,15 @@ impl ShortBearing {
             roundness: &self.roundness,
             instructions: Arch::new(),
         }
+    }
+
+    /// The film in the gap of a bent cage. Its drag turns both surfaces and does not push them, as that of a round gap.
+    pub(super) fn around(&self, fluid: Fluid) -> BentFilm<'_> {
+        let viscosity = self.viscosity * fluid.relative_viscosity;
+        let mut film = self.lobed(viscosity);
+        film.land.lobe_moment = 0.0;
+        film.land.drag = viscosity * film.land.area;
+        BentFilm { film, drags: false }
     }
 
     #[inline]

@@ -3,11 +3,11 @@
 //! Of an element that of its contacts (`pairs/contacts/damping`), of a shared body that of the guide, exact by dual numbers, and
 //! of its contacts with elements of prescribed motion.
 
-use crate::bodies::{Damping, SHARED, UPPER};
+use crate::bodies::{CAGE, CAGE_MOTION, Damping, SHARED, UPPER};
 use crate::model::Model;
 use crate::model::workspace::Workspace;
 use crate::scalar::ZEROS;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{DMatrix, Matrix3, Vector3};
 
 impl Model {
     /// Damping of every group for a step of size `h` (s), after an evaluation with [`Workspace::set_splitting`].
@@ -33,11 +33,44 @@ impl Model {
             for (column, own) in full.as_mut_slice().chunks_exact_mut(n).zip(&slope.data.0) {
                 column.iter_mut().zip(own).for_each(|(x, slope)| *x = *slope);
             }
+            if place == CAGE && n > CAGE_MOTION {
+                self.add_damping_of_modes(ws, full);
+            }
             body.add_damping(&mut |[i, k], damping| full[(i, k)] += damping);
             full.as_mut_slice().chunks_exact_mut(n).for_each(|column| body.respond(column, q));
             block.split(h, factor);
         }
         self.node_damping(h, ws, out);
+    }
+
+    /// That of the cage by what its modes add: by the pairs of shared bodies, and by contacts with elements of prescribed motion.
+    fn add_damping_of_modes(&self, ws: &Workspace, full: &mut DMatrix<f64>) {
+        for damping in ws.between.iter().filter_map(|force| force.damping_of_modes()) {
+            *full += damping;
+        }
+        let Some(cage) = self.shared[CAGE].as_ref().filter(|_| self.elements.mass().is_none()) else {
+            return;
+        };
+        for contact in ws.contacts.iter().filter(|contact| contact.site.mate == CAGE) {
+            let j = contact.site.element;
+            let (frame, pocket) = (ws.motions.frame(j), ws.motions.pocket_frame(j));
+            let rows = contact.grip.rows_on_mate(&frame);
+            for (row, rate) in rows.into_iter().zip([contact.force.damping, contact.force.friction_secant]) {
+                let [x, t] = pocket.to_local([row[0], row[1]]);
+                let lever = |k: usize| match k.checked_sub(CAGE_MOTION) {
+                    None => row[k],
+                    Some(k) => cage.displacements(j).get(k).map_or(0.0, |b| x * b[0] + t * b[1]),
+                };
+                for k in CAGE_MOTION..full.ncols() {
+                    for i in 0..k {
+                        let entry = lever(i) * lever(k) * rate;
+                        full[(i, k)] += entry;
+                        full[(k, i)] += entry;
+                    }
+                    full[(k, k)] += lever(k) * lever(k) * rate;
+                }
+            }
+        }
     }
 
     /// That of each element over (radial speed, orbit speed, spin speed).

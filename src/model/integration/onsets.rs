@@ -34,6 +34,7 @@ impl Model {
         let shared = self.motions_at(q, v, &inputs);
         let ahead = Ahead {
             shared: &shared,
+            bodies: &self.shared,
             elements: &*self.elements,
             layout: &self.layout,
             q,

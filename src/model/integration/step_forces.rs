@@ -1,7 +1,7 @@
 //! Forces of a semi-implicit step, which differ from those of its evaluation: of all contacts by `pairs/contacts/step`, found
 //! once for all that ask.
 
-use crate::bodies::{OF_ELEMENT, SHARED};
+use crate::bodies::{CAGE, CAGE_MOTION, OF_ELEMENT, SHARED};
 use crate::integrate::SemiImplicit;
 use crate::model::Model;
 use crate::model::workspace::Workspace;
@@ -13,14 +13,20 @@ use crate::space::Wrench;
 #[derive(Clone, Debug)]
 pub(in crate::model) struct StepMemory {
     of_elements: Vec<SpeedChanges>,
+    /// What it has added to the forces over the coordinates of the cage behind those of its motion.
+    on_modes: Vec<f64>,
     /// Step whose forces the contacts have, s; zero where they have those of the state itself.
     found: Option<f64>,
 }
 
 impl StepMemory {
-    /// Memory for these elements.
-    pub(in crate::model) fn new(elements: usize) -> Self {
-        Self { of_elements: vec![[[ZEROS; OF_ELEMENT]; 2]; blocks_for(elements)], found: None }
+    /// Memory for these elements and a cage with so many modes.
+    pub(in crate::model) fn new(elements: usize, modes: usize) -> Self {
+        Self {
+            of_elements: vec![[[ZEROS; OF_ELEMENT]; 2]; blocks_for(elements)],
+            on_modes: vec![0.0; modes],
+            found: None,
+        }
     }
 
     /// Forgets it, as another state is evaluated.
@@ -39,14 +45,21 @@ impl Model {
         self.find_step(v, Some(step), ws);
         let mut on = [Wrench::default(); SHARED];
         self.add_on_mates(ws, &mut on, |block| &block.step.reaction);
+        let mut on_modes = std::mem::take(&mut ws.step.on_modes);
+        on_modes.fill(0.0);
+        self.add_on_modes(ws, &mut on_modes, |block| &block.step.reaction);
         for (place, body, at) in self.free_bodies() {
             let [q, _, change] = &mut ws.of_shared;
             let change = &mut change[at.clone()];
             change.fill(0.0);
             change.iter_mut().zip(on[place].components()).for_each(|(change, on_body)| *change = on_body);
+            if place == CAGE {
+                change.iter_mut().skip(CAGE_MOTION).zip(&on_modes).for_each(|(change, on)| *change = *on);
+            }
             body.respond(change, &q[at.clone()]);
             a[at].iter_mut().zip(change).for_each(|(a, change)| *a += *change);
         }
+        ws.step.on_modes = on_modes;
     }
 
     /// Makes the forces at the last evaluated state, whose velocities are `v`, those of a semi-implicit step from there; zero
@@ -68,7 +81,7 @@ impl Model {
     pub(in crate::model) fn find_step(&self, v: &[f64], step: Option<&SemiImplicit<'_>>, ws: &mut Workspace) {
         let step = step.filter(|_| self.layout.count > 0);
         let wanted = step.map_or(0.0, |step| step.h);
-        let Workspace { contacts, motions, step: StepMemory { of_elements, found }, .. } = ws;
+        let Workspace { contacts, motions, step: StepMemory { of_elements, found, .. }, .. } = ws;
         if *found == Some(wanted) {
             return;
         }

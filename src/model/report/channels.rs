@@ -1,7 +1,7 @@
 //! Output channels: the named quantities that a run records.
 
 use super::forces::{FILM_THICKNESS, FRICTION, Forces, GuideReport, NORMAL_FORCE, SLIP_SPEED};
-use crate::bodies::{CAGE, ForceSource, INNER_RING, Input, InputValues, OUTER_RING};
+use crate::bodies::{CAGE, CAGE_MOTION, ForceSource, INNER_RING, Input, InputValues, OUTER_RING, displaced};
 use crate::model::Model;
 use crate::model::Workspace;
 use crate::pairs::{ContactLaw, ElementPlace};
@@ -48,6 +48,13 @@ pub(super) enum Source {
     InnerFilm(usize),
     OuterFilm(usize),
     CageAngle,
+    /// Amplitude of a pair of modes of the cage by the place of its first coordinate, and where its wave is highest.
+    ModeAmplitude(usize),
+    ModePhase(usize),
+    ElasticEnergy,
+    GuideHeat,
+    WetArcs,
+    WetAngle,
     /// Of a contact: its place among those of the element, and element.
     Traction(usize, usize),
     HertzPressure(usize, usize),
@@ -151,6 +158,7 @@ impl Model {
                 }
             }
         }
+        self.add_elastic_channels(list);
         if self.has_pockets() {
             let text = "all pocket forces on the cage, along the line from guide to cage centre";
             list.add("pocket.force_eps", "N", text, Source::PocketSum(0));
@@ -159,6 +167,26 @@ impl Model {
             list.add("pocket.moment", "N m", "all pocket moments on the cage", Source::PocketMoment);
             let text = "number of elements that touch the cage";
             list.add("pocket.touching_elements", "1", text, Source::TouchingElements);
+        }
+    }
+
+    /// Those of a cage that bends.
+    fn add_elastic_channels(&self, list: &mut ChannelList) {
+        let Some(ring) = self.scene.cage.as_ref().and_then(|cage| cage.elastic_ring.as_ref()) else { return };
+        for (k, order) in (2..=ring.modes).enumerate() {
+            let text = "amplitude of this wave of the bent ring";
+            list.add(&format!("cage.mode[{order}].amplitude"), "m", text, Source::ModeAmplitude(2 * k));
+            let text = "angle in the cage at which this wave is highest, as an angle of the wave";
+            list.add(&format!("cage.mode[{order}].phase"), "rad", text, Source::ModePhase(2 * k));
+        }
+        list.add("cage.elastic_energy", "J", "energy of the bent ring", Source::ElasticEnergy);
+        if let Some((_, guide)) = self.guide() {
+            let text = "power that the guide takes: what its film and friction lose, and what its solid contact stores";
+            list.add("guide.heat", "W", text, Source::GuideHeat);
+            if guide.laws[0].is_some() {
+                list.add("guide.wet_arcs", "1", "number of arcs that carry a film", Source::WetArcs);
+                list.add("guide.wet_angle", "rad", "angle of all these arcs together", Source::WetAngle);
+            }
         }
     }
 
@@ -275,6 +303,14 @@ impl Model {
             Source::InnerFilm(j) => raceway(j, ForceSource::InnerRaceway, FILM_THICKNESS),
             Source::OuterFilm(j) => raceway(j, ForceSource::OuterRaceway, FILM_THICKNESS),
             Source::CageAngle => cage(2),
+            Source::ModeAmplitude(k) => math::hypot(cage(CAGE_MOTION + k), cage(CAGE_MOTION + k + 1)),
+            Source::ModePhase(k) => math::atan2(cage(CAGE_MOTION + k + 1), cage(CAGE_MOTION + k)),
+            Source::ElasticEnergy => self.elastic_energy_of_cage(ws),
+            Source::GuideHeat => {
+                self.guide().map_or(0.0, |(place, _)| -self.power_between(place, ws).iter().sum::<f64>())
+            }
+            Source::WetArcs => f64::from(self.wet_arcs(ws).0),
+            Source::WetAngle => self.wet_arcs(ws).1,
             Source::Traction(ring, j) => contact(j, ring)[FRICTION],
             Source::HertzPressure(ring, j) => {
                 self.hertz_pressure(ring, contact(j, ring)[NORMAL_FORCE]).unwrap_or(0.0)
@@ -305,8 +341,16 @@ impl Model {
         let [travel, radial_offset] = self.elements.travel(&self.layout, q, inputs, j);
         let frame = self.elements.frame(&self.layout, q, inputs, j);
         let mate = self.motion_of(CAGE, q, v, inputs);
-        let place = ElementPlace { frame, radial_offset, travel, mate };
+        let modes = q[self.layout.range(CAGE)].get(CAGE_MOTION..).unwrap_or(&[]);
+        let basis = self.shared[CAGE].as_ref().map_or(&[][..], |cage| cage.displacements(j));
+        let displacement = displaced(basis, modes);
+        let place = ElementPlace { frame, radial_offset, travel, mate, displacement };
         self.pairs.iter().find_map(|pair| pair.offset(&place)).unwrap_or(0.0)
+    }
+
+    /// Number of wet arcs in the guide of a cage that bends, and their angle, rad.
+    fn wet_arcs(&self, ws: &Workspace) -> (u32, f64) {
+        self.guide().map_or((0, 0.0), |(place, _)| self.between[place].wet_arcs(&ws.motions))
     }
 
     /// Viscosity of the lubricant in Pa s at these inputs, if it follows the temperature.

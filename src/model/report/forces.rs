@@ -183,13 +183,13 @@ impl Model {
 
     /// Smallest gap of the guide, m, at the last evaluated state; 0 without a guide.
     pub(super) fn smallest_gap(&self, ws: &Workspace) -> f64 {
-        self.guide().map_or(0.0, |(place, _)| self.between[place].smallest_gap(&ws.motions.shared))
+        self.guide().map_or(0.0, |(place, _)| self.between[place].smallest_gap(&ws.motions))
     }
 
     /// Force of the guide on the cage by its parts, at the last evaluated state.
     pub(super) fn force_of_guide(&self, ws: &Workspace) -> Option<GuideForce<f64>> {
         let (place, _) = self.guide()?;
-        Some(self.between[place].parts(&ws.motions.shared, &ws.between[place]))
+        Some(self.between[place].parts(&ws.motions, &ws.between[place]))
     }
 }
 

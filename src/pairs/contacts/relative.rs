@@ -14,7 +14,7 @@
 
 use super::law_slopes::{DIRECTIONS, EDGE_SHARE, FORCES, LawSlopes, VISCOSITY, contact_force};
 use super::{Batch, ContactBlock};
-use crate::bodies::{ElementMotion, INNER_RING, Input, Motions};
+use crate::bodies::{CAGE, ElementMotion, INNER_RING, Input, Motions};
 use crate::laws::contact_pair::ContactMotion;
 use crate::pairs::slope_sums::{ContactColumns, SlopeSums};
 use crate::pairs::{ElementPair, Grip};
@@ -38,6 +38,8 @@ pub(in crate::pairs) struct Beside<B> {
     /// Which contact of the pair it is.
     pub(in crate::pairs) contact: B,
     pub(in crate::pairs) mate: Motion<B>,
+    /// How a deformed mate displaces its places for the elements, and how fast: outwards and counter-clockwise, m and m/s.
+    pub(in crate::pairs) displacement: Option<[[B; 2]; 2]>,
 }
 
 impl<B: Base> Beside<B> {
@@ -69,12 +71,19 @@ pub(crate) struct RelativeSlopes {
     element: [Lanes; 4],
     travel: Lanes,
     contact: Lanes,
+    displaced: [[Lanes; 2]; 2],
     columns: ContactColumns,
 }
 
 impl RelativeSlopes {
     pub(crate) fn new() -> Self {
-        Self { element: [ZEROS; 4], travel: ZEROS, contact: ZEROS, columns: ContactColumns::ZERO }
+        Self {
+            element: [ZEROS; 4],
+            travel: ZEROS,
+            contact: ZEROS,
+            displaced: [[ZEROS; 2]; 2],
+            columns: ContactColumns::ZERO,
+        }
     }
 }
 
@@ -98,6 +107,7 @@ pub(in crate::pairs) fn add_slopes<P: Kinematics>(
     let slopes = &batch.slopes;
     let changing = speeding != 0.0 || warming != 0.0 || sums.layout.count == 0;
     let holds = sums.layout.shared(mate).is_some();
+    let deforms = mate == CAGE && !motions.displaced.is_empty();
     let work = Chain {
         pair,
         batch,
@@ -106,6 +116,7 @@ pub(in crate::pairs) fn add_slopes<P: Kinematics>(
         first,
         mate,
         holds,
+        deforms,
         motions,
         speeding,
         warming,
@@ -128,6 +139,8 @@ struct Chain<'a, 'b, P> {
     mate: usize,
     /// Whether the mate is free.
     holds: bool,
+    /// Whether the mate displaces its places for the elements.
+    deforms: bool,
     motions: &'a Motions,
     /// Rate of the speed of the mate, rad/s^2, and of the logarithm of the viscosity, 1/s.
     speeding: f64,
@@ -162,6 +175,14 @@ impl<P: Kinematics> Columns for Chain<'_, '_, P> {
         }
         let ((_, lane), count) = (place_of(here.start), here.len());
         sums.add_on_mate(self.mate, columns, lane..lane + count);
+        if self.deforms {
+            for i in here.clone() {
+                let (block, lane) = self.batch.at(i);
+                let [y, z, _] = &block.on_mates;
+                let j = self.batch.sites[i].element;
+                sums.add_displaced(j, self.mate, [y[lane], z[lane]], self.motions, columns, lane);
+            }
+        }
         if self.changing {
             for i in here {
                 let (_, lane) = place_of(i);
@@ -175,7 +196,7 @@ impl<P: Kinematics> Chain<'_, '_, P> {
     /// Brings the elements of contacts to the places of these.
     #[inline(always)]
     fn gather(&mut self, contacts: Range<usize>) {
-        let RelativeSlopes { element, travel, contact, .. } = &mut *self.memory;
+        let RelativeSlopes { element, travel, contact, displaced, .. } = &mut *self.memory;
         for i in contacts {
             let site = &self.batch.sites[i];
             let ((block, from), (_, lane)) = (place_of(site.element), place_of(i));
@@ -185,6 +206,12 @@ impl<P: Kinematics> Chain<'_, '_, P> {
             element[2][lane] = m.orbit_speed[from];
             element[3][lane] = m.spin_speed[from];
             travel[lane] = self.motions.travel(site.element);
+            if self.deforms {
+                let displacement = self.motions.displacement(site.element);
+                for (part, now) in displaced.iter_mut().zip(displacement) {
+                    part.iter_mut().zip(now).for_each(|(column, x)| column[lane] = x);
+                }
+            }
             contact[lane] = site.contact as f64;
         }
     }
@@ -213,7 +240,12 @@ impl<P: Kinematics> Chain<'_, '_, P> {
         };
         let (travel, contact) = (load(&self.memory.travel), load(&self.memory.contact));
         let radius = element.radial_offset + self.motions.pitch_radius();
-        let at = Beside { element, radius, travel, contact, mate };
+        let displaced = &self.memory.displaced;
+        let displacement = self.deforms.then(|| {
+            let [[outwards, ahead], [outwards_rate, ahead_rate]] = displaced;
+            [[load(outwards), load(ahead)], [load(outwards_rate), load(ahead_rate)]]
+        });
+        let at = Beside { element, radius, travel, contact, mate, displacement };
         let VariedContact { motion, edge_share, grip } = self.pair.contact(&at);
 
         let zero = all(0.0);

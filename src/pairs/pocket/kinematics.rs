@@ -3,7 +3,7 @@
 //! Each pocket has two pillars, which are evaluated separately, so an element can rest on both. The contact point is
 //! fixed in the pocket: u1 is the sliding speed of the element's surface, u2 = 0.
 //!
-//! Local frame: (radial, circumferential) at the pocket centre, turning with the cage.
+//! Local frame: (radial, circumferential) at the pocket centre, turning with the cage. Walls keep its direction in a bent cage.
 
 use crate::bodies::ElementMotion;
 use crate::laws::contact_pair::ContactMotion;
@@ -39,6 +39,18 @@ pub struct PocketMotion<T> {
     pub velocity: [T; 2],
     /// Spin of the roller relative to the cage, rad/s.
     pub spin: T,
+}
+
+impl<T: Numeric> PocketMotion<T> {
+    /// The same in a pocket that a deformed cage displaces by the first of these (radial, circumferential), m, at the rate of the
+    /// second, m/s.
+    #[inline(always)]
+    pub fn displace(&mut self, [by, rate]: [[T; 2]; 2]) {
+        for k in 0..2 {
+            self.offset[k] -= by[k];
+            self.velocity[k] -= rate[k];
+        }
+    }
 }
 
 /// One pillar in contact.

@@ -81,7 +81,10 @@ impl<S: PocketShape> ElementPair for Pockets<S> {
                 let (lead, offset) = (lead.of(lane), [along[lane], across[lane]]);
                 let element = motions.element(first + lane);
                 let velocity = lead.to_global(element.frame.to_local(cage.velocity));
-                let relative = place.relative_motion(offset, &element.motion, lead, velocity, cage.speed);
+                let mut relative = place.relative_motion(offset, &element.motion, lead, velocity, cage.speed);
+                if !motions.displaced.is_empty() {
+                    relative.displace(motions.displacement(first + lane));
+                }
                 for side in [Pillar::Front, Pillar::Back] {
                     let contact = shape.pillar(side == Pillar::Front, &relative);
                     let PillarContact { motion, normal, edge_share } = contact;
@@ -123,7 +126,7 @@ impl<S: PocketShape> ElementPair for Pockets<S> {
         let (sin, cos) = math::sin_cos(at.travel - at.mate.angle);
         let lead = Frame { sin, cos };
         let cage = lead.to_global(at.frame.to_local(at.mate.position));
-        Some(self.shape.place().offset(at.radial_offset, lead, cage)[1])
+        Some(self.shape.place().offset(at.radial_offset, lead, cage)[1] - at.displacement[1])
     }
 
     fn cost(&self) -> Cost {
@@ -153,10 +156,16 @@ impl<P: PocketShape> Kinematics for Pockets<P> {
             ],
             spin: varied(m.spin, [zero, zero, zero, zero, one]),
         };
+        // Levers are those of the contact point from the centre of the cage, wherever the pocket is.
+        let offset = m.offset;
+        let mut m = m;
+        if let Some(displacement) = at.displacement {
+            m.displace(displacement.map(|part| part.map(Varied::lift)));
+        }
         let front = at.contact.below(0.5);
         let PillarContact { motion, normal, edge_share } = self.shape.pillar(front, &m);
         let lead = Frame { sin: Varied::lift(sin), cos: Varied::lift(cos) };
-        VariedContact { motion, edge_share: Some(edge_share), grip: place.grip(m.offset, normal, lead) }
+        VariedContact { motion, edge_share: Some(edge_share), grip: place.grip(offset, normal, lead) }
     }
 }
 
@@ -190,7 +199,13 @@ impl<P: PocketShape> Columns for Offsets<'_, P> {
         let [along, across] = self.place.offset(radial_offset, turned, centre);
         let Found { lead, offset, near, any_near, .. } = &mut self.found[block];
         lead.store(at, turned);
-        let apart = self.shape.apart([along, across]);
+        let apart = match self.motions.displaced.get(block) {
+            None => self.shape.apart([along, across]),
+            Some([[outwards, ahead], _]) => {
+                let moved = [outwards, ahead].map(|x| Pack::load(simd, &x[at..]));
+                self.shape.apart([along - moved[0], across - moved[1]])
+            }
+        };
         let touching = Pack::select(apart, all(0.0), all(1.0));
         touching.store(&mut near[at..]);
         *any_near |= Pack::any(touching.above(0.0));

@@ -98,8 +98,9 @@ fn longest_step(shape: &PlanePocket, law: &ContactLaw, ahead: &Ahead<'_>) -> f64
         } else {
             prescribed
         };
-        let offset = pitch * (angle - cage.angle) - (place[1] * x - place[0] * y);
-        let approach = pitch * (orbit - cage.speed) - (speed[1] * x - speed[0] * y);
+        let [[_, moved], [_, moving]] = ahead.displacement(j);
+        let offset = pitch * (angle - cage.angle) - (place[1] * x - place[0] * y) - moved;
+        let approach = pitch * (orbit - cage.speed) - (speed[1] * x - speed[0] * y) - moving;
         let rest = shape.clearance - offset * approach.signum();
         if rest > 0.0 && rest <= approach.abs() * ahead.wanted {
             longest = longest.min(rest / approach.abs() + pass.time(approach.abs()));

@@ -27,6 +27,9 @@ impl Scene {
             let largest = 0.5 * self.pitch_radius();
             vector("cage.mass_eccentricity", offset, range(-largest, largest, "m"))?;
         }
+        if let Some(ring) = &cage.elastic_ring {
+            self.validate_elastic_ring(ring, cage)?;
+        }
         if let Some(load) = &cage.load {
             signal("cage.load.force_y", &load.force_y, FORCE)?;
             signal("cage.load.force_z", &load.force_z, FORCE)?;

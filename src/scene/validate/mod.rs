@@ -4,6 +4,7 @@
 //! checked where the law is built, in the model.
 
 mod cage;
+mod elastic_ring;
 mod plausible;
 
 pub(crate) use cage::TORQUE;

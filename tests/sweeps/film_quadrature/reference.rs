@@ -150,7 +150,7 @@ impl<'a> Reference<'a> {
 
     /// Moment per angle of the pressure on the lobes of the journal, by which it holds back what turns them.
     fn on_lobes(&self, d: f64, section: &Section, pressure: f64) -> f64 {
-        let turns = self.layer.profile_on_journal && self.layer.pressure_shear == PressureShear::WithEdges;
+        let turns = self.layer.profile_on_journal;
         let lobes = section.film[1] - self.eccentricity * d.sin();
         if turns { self.layer.radius * pressure * lobes } else { 0.0 }
     }

@@ -1,0 +1,549 @@
+//! Fourier coefficients around the circle of what a film or a solid contact does at each place, and of its derivatives.
+
+use super::Wanted;
+use super::moments::Shape;
+use crate::laws::contact_pair::ContactMotion;
+use crate::laws::elastic::solid::SolidContact;
+use crate::laws::guide::gap::{Gap, Place};
+use crate::laws::guide::land::Land;
+use crate::laws::guide::panels::{Ends, Panel, PanelSums, Piece, suits, total};
+use crate::scalar::{Base, Columns, Duals, Lanes, Numeric, Pack, WIDEST, ZEROS, dispatch};
+use pulp::{Arch, Simd};
+
+/// Widest panel of a solid contact, rad.
+const WIDEST_PANEL: f64 = 0.25;
+/// Halvings of one: its damper has kinks.
+const DEEPEST: u32 = 8;
+
+/// What a surface does at one place, per angle.
+#[derive(Clone, Copy)]
+pub(super) struct Surface<T> {
+    /// Pressure on the journal, N.
+    normal: T,
+    /// Tangential force, N.
+    along: T,
+    /// What integration by parts leaves of the gradient of the pressure, N.
+    inward: T,
+    /// Moment about the centre of the journal without that of the pressure on waves, N m.
+    moment: T,
+}
+
+/// A law of the gap that acts at every place by itself.
+pub(super) trait SurfaceLaw {
+    /// What it does at these places, and the parts of series that tell whether panels are fine enough.
+    fn values<S: Simd, const K: usize>(
+        &self,
+        place: &Place<Pack<S, K>>,
+    ) -> (Surface<Pack<S, K>>, [Pack<S, K>; 3]);
+
+    /// The same with derivatives over G and the sliding speed and, if there are four, h and h'.
+    fn slopes<S: Simd, const K: usize, const N: usize>(
+        &self,
+        place: &Place<Pack<S, K>>,
+    ) -> Surface<Duals<N, Pack<S, K>>>;
+
+    /// The shape of the surface.
+    fn shape(&self) -> &Shape<'_>;
+}
+
+/// A film.
+pub(super) struct FilmSurface<'a> {
+    pub land: Land,
+    pub drags: bool,
+    /// R (w_1 - w_2), which is what a drag sees that does not push, m/s.
+    pub rolling: f64,
+    pub shape: &'a Shape<'a>,
+}
+
+impl FilmSurface<'_> {
+    /// What a drag that does not push sees of a place.
+    #[inline(always)]
+    fn seen<B: Base>(&self, place: &Place<B>) -> Place<B> {
+        let sliding = if self.drags { place.sliding } else { place.sliding.splat(self.rolling) };
+        Place { sliding, ..*place }
+    }
+}
+
+impl SurfaceLaw for FilmSurface<'_> {
+    #[inline(always)]
+    fn values<S: Simd, const K: usize>(
+        &self,
+        place: &Place<Pack<S, K>>,
+    ) -> (Surface<Pack<S, K>>, [Pack<S, K>; 3]) {
+        let (stress, mean, inverse) = self.land.at(&self.seen(place));
+        let along = if self.drags { stress.along } else { place.cos.like(0.0) };
+        let surface = Surface { normal: stress.normal, along, inward: stress.inward, moment: stress.moment };
+        (surface, [stress.normal, mean.viscosity * inverse, inverse * inverse * inverse])
+    }
+
+    #[inline(always)]
+    fn slopes<S: Simd, const K: usize, const N: usize>(
+        &self,
+        place: &Place<Pack<S, K>>,
+    ) -> Surface<Duals<N, Pack<S, K>>> {
+        let stress = self.land.with_slopes::<S, K, N>(&self.seen(place));
+        let along = if self.drags { stress.along } else { stress.along.like(0.0) };
+        Surface { normal: stress.normal, along, inward: stress.inward, moment: stress.moment }
+    }
+
+    #[inline(always)]
+    fn shape(&self) -> &Shape<'_> {
+        self.shape
+    }
+}
+
+/// A solid contact that is spread along the surface.
+pub(super) struct SolidSurface<'a> {
+    pub contact: SolidContact,
+    pub asperity_height: f64,
+    pub radius: f64,
+    pub shape: &'a Shape<'a>,
+}
+
+impl SurfaceLaw for SolidSurface<'_> {
+    #[inline(always)]
+    fn values<S: Simd, const K: usize>(
+        &self,
+        place: &Place<Pack<S, K>>,
+    ) -> (Surface<Pack<S, K>>, [Pack<S, K>; 3]) {
+        let force = self.contact.force(&ContactMotion {
+            delta: -place.film[0] + self.asperity_height,
+            delta_dot: -place.opening[0],
+            u1: place.sliding,
+            u2: place.sliding.like(0.0),
+        });
+        let zero = force.normal.like(0.0);
+        let moment = force.friction * self.radius;
+        let series = [force.normal, force.normal, zero];
+        (Surface { normal: force.normal, along: force.friction, inward: zero, moment }, series)
+    }
+
+    #[inline(always)]
+    fn slopes<S: Simd, const K: usize, const N: usize>(
+        &self,
+        place: &Place<Pack<S, K>>,
+    ) -> Surface<Duals<N, Pack<S, K>>> {
+        let film = place.film[0];
+        let film = if N > 2 { Duals::variable(film, 2) } else { Duals::lift(film) };
+        let opening = Duals::<N, Pack<S, K>>::variable(place.opening[0], 0);
+        let sliding = Duals::variable(place.sliding, 1);
+        let force = self.contact.force(&ContactMotion {
+            delta: -film + self.asperity_height,
+            delta_dot: -opening,
+            u1: sliding,
+            u2: sliding.like(0.0),
+        });
+        let moment = force.friction * self.radius;
+        Surface { normal: force.normal, along: force.friction, inward: moment.like(0.0), moment }
+    }
+
+    #[inline(always)]
+    fn shape(&self) -> &Shape<'_> {
+        self.shape
+    }
+}
+
+/// Functions of the place whose coefficients are found. First those up to the highest order of the waves, then those up to twice
+/// that; of each the ones for derivatives over velocities before those over positions. Where only the mean is needed, it stands
+/// with the others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(usize)]
+pub(super) enum Of {
+    Normal,
+    Along,
+    Inward,
+    /// Moment with that of the pressure on waves.
+    Moment,
+    MomentOverOpening,
+    MomentOverSliding,
+    /// Derivatives over G times h', and times the slope of what turns with the cage.
+    NormalByFilmSlope,
+    AlongByFilmSlope,
+    InwardByFilmSlope,
+    MomentByFilmSlope,
+    NormalByWaveSlope,
+    AlongByWaveSlope,
+    InwardByWaveSlope,
+    MomentByWaveSlope,
+    MomentOverFilm,
+    MomentOverSlope,
+    NormalOverOpening,
+    AlongOverOpening,
+    AlongOverSliding,
+    InwardOverOpening,
+    NormalOverFilm,
+    AlongOverFilm,
+    AlongOverSlope,
+    InwardOverFilm,
+}
+
+/// Numbers of functions: all, those of forces, those of one order, those of one order without derivatives over positions, those
+/// without derivatives over positions.
+const FUNCTIONS: usize = Of::InwardOverFilm as usize + 1;
+const OF_FORCES: usize = Of::Moment as usize + 1;
+const SHORT: usize = Of::MomentOverSlope as usize + 1;
+const SHORT_OF_VELOCITIES: usize = Of::MomentByWaveSlope as usize + 1;
+const OF_VELOCITIES: usize = Of::InwardOverOpening as usize + 1;
+
+/// Cosine and sine coefficients of a function times two pi (times pi for the mean's cosine), lane by lane.
+type Coefficients = [Lanes; 2];
+
+/// The sums of one state.
+#[derive(Clone, Debug)]
+pub(super) struct Sums {
+    /// Highest order of the waves.
+    order: usize,
+    wanted: Wanted,
+    lanes: Vec<Coefficients>,
+    /// Their totals, once they are complete.
+    totals: Vec<[f64; 2]>,
+    points: Box<Points>,
+}
+
+/// Functions at the places of a panel, times their weights.
+#[derive(Clone, Debug)]
+struct Points {
+    of: [Lanes; FUNCTIONS],
+    /// Direction of each place.
+    cos: Lanes,
+    sin: Lanes,
+    series: [Lanes; 3],
+}
+
+/// Forces of the sums on the journal.
+pub(super) struct Found {
+    pub pressure: [f64; 2],
+    pub shear: [f64; 2],
+    pub moment: f64,
+}
+
+impl Sums {
+    /// Memory for waves up to this order.
+    pub(super) fn new(order: usize) -> Self {
+        let count = SHORT * (order + 1) + (FUNCTIONS - SHORT) * (2 * order + 1);
+        let points = Points { of: [ZEROS; FUNCTIONS], cos: ZEROS, sin: ZEROS, series: [ZEROS; 3] };
+        Self {
+            order,
+            wanted: Wanted::Forces,
+            lanes: vec![[ZEROS; 2]; count],
+            totals: vec![[0.0; 2]; count],
+            points: Box::new(points),
+        }
+    }
+
+    /// Starts anew.
+    pub(super) fn begin(&mut self, wanted: Wanted) {
+        self.wanted = wanted;
+        for range in self.used() {
+            self.lanes[range].fill([ZEROS; 2]);
+        }
+    }
+
+    /// Places of the coefficients that are found.
+    fn used(&self) -> [std::ops::Range<usize>; 2] {
+        let (short, long) = match self.wanted {
+            Wanted::Forces => (OF_FORCES, SHORT),
+            Wanted::Damping => (SHORT_OF_VELOCITIES, OF_VELOCITIES),
+            Wanted::Slopes => (SHORT, FUNCTIONS),
+        };
+        let first = SHORT * (self.order + 1);
+        [0..short * (self.order + 1), first..first + (long - SHORT) * (2 * self.order + 1)]
+    }
+
+    /// Place of the first coefficients of a function.
+    #[inline(always)]
+    fn first(&self, of: usize) -> usize {
+        let short = self.order + 1;
+        if of < SHORT { of * short } else { SHORT * short + (of - SHORT) * (2 * self.order + 1) }
+    }
+
+    /// The sums over panels of a law.
+    pub(super) fn over<'a, L: SurfaceLaw>(&'a mut self, law: &'a L) -> SumsOver<'a, L> {
+        SumsOver { sums: self, law }
+    }
+
+    /// Coefficients of a function of this order; of a negative one, the sine is the opposite.
+    #[inline]
+    pub(super) fn of(&self, function: Of, order: isize) -> [f64; 2] {
+        let [cos, sin] = self.totals[self.first(function as usize) + order.unsigned_abs()];
+        [cos, if order < 0 { -sin } else { sin }]
+    }
+
+    /// Completes the sums; the forces.
+    pub(super) fn forces(&mut self) -> Found {
+        for range in self.used() {
+            for (totals, lanes) in self.totals[range.clone()].iter_mut().zip(&self.lanes[range]) {
+                *totals = lanes.each_ref().map(total);
+            }
+        }
+        let [n, t, e] = [Of::Normal, Of::Along, Of::Inward].map(|function| self.of(function, 1));
+        let [moment, _] = self.of(Of::Moment, 0);
+        Found { pressure: [-n[0], -n[1]], shear: [-t[1] - e[0], t[0] - e[1]], moment }
+    }
+
+    /// Adds the places from `from` to `to` (rad).
+    pub(super) fn add_pieces<L: SurfaceLaw>(
+        &mut self,
+        law: &L,
+        gap: &Gap<'_>,
+        from: f64,
+        to: f64,
+        instructions: Arch,
+    ) {
+        let panels = ((to - from) / WIDEST_PANEL).ceil().max(1.0);
+        let width = (to - from) / panels;
+        for i in 0..panels as usize {
+            let start = from + i as f64 * width;
+            self.add_panel(law, gap, [start, start + width], DEEPEST, instructions);
+        }
+    }
+
+    /// Adds a panel, or its halves.
+    fn add_panel<L: SurfaceLaw>(
+        &mut self,
+        law: &L,
+        gap: &Gap<'_>,
+        [from, to]: [f64; 2],
+        halvings: u32,
+        instructions: Arch,
+    ) {
+        let middle = 0.5 * (from + to);
+        let panel = Panel::new(gap, &Piece::STRAIGHT, middle, 0.5 * (to - from));
+        if !self.over(law).add(&panel, halvings > 0, 0.0, instructions) {
+            self.add_panel(law, gap, [from, middle], halvings - 1, instructions);
+            self.add_panel(law, gap, [middle, to], halvings - 1, instructions);
+        }
+    }
+
+    /// Adds the functions at the points to their coefficients.
+    fn add_points(&mut self, instructions: Arch, count: usize) {
+        let (order, wanted) = (self.order, self.wanted);
+        let first = [SHORT * (order + 1), 2 * order + 1];
+        let Self { lanes, points, .. } = self;
+        dispatch(instructions, Waves { order, wanted, first, lanes, points, count });
+    }
+}
+
+/// Sums over panels of a law.
+pub(super) struct SumsOver<'a, L> {
+    sums: &'a mut Sums,
+    law: &'a L,
+}
+
+impl<L: SurfaceLaw> PanelSums for SumsOver<'_, L> {
+    fn add(&mut self, panel: &Panel<'_>, halves: bool, noise: f64, instructions: Arch) -> bool {
+        let Self { sums, law } = self;
+        let points = &mut *sums.points;
+        dispatch(instructions, Values { law: *law, panel, points });
+        let [normal, stress, cubes] = &points.series;
+        if halves && !suits([normal, stress, cubes], noise) {
+            return false;
+        }
+        match sums.wanted {
+            Wanted::Forces => {}
+            Wanted::Damping => dispatch(instructions, Slopes::<_, 2> { law: *law, panel, points }),
+            Wanted::Slopes => dispatch(instructions, Slopes::<_, 4> { law: *law, panel, points }),
+        }
+        sums.add_points(instructions, WIDEST);
+        true
+    }
+
+    fn add_ends(&mut self, ends: &Ends<'_>, instructions: Arch) {
+        let Self { sums, law } = self;
+        sums.points.of.fill(ZEROS);
+        dispatch(instructions, AtEnds { law: *law, ends, points: &mut sums.points });
+        sums.add_points(instructions, ends.count);
+    }
+
+    fn moves_ends(&self) -> bool {
+        self.sums.wanted == Wanted::Slopes
+    }
+}
+
+struct Values<'a, L> {
+    law: &'a L,
+    panel: &'a Panel<'a>,
+    points: &'a mut Points,
+}
+
+impl<L: SurfaceLaw> Columns for Values<'_, L> {
+    fn rows(&self) -> usize {
+        WIDEST
+    }
+
+    #[inline(always)]
+    fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
+        let [d, weight] = self.panel.places::<S, K>(simd, first);
+        let place = self.panel.gap.at(d);
+        let (surface, series) = self.law.values(&place);
+        let shape = self.law.shape();
+        let mut moment = surface.moment;
+        if shape.turns_waves() {
+            moment += surface.normal * -place.lobe_slope;
+        }
+        let points = &mut *self.points;
+        place.cos.store(&mut points.cos[first..]);
+        place.sin.store(&mut points.sin[first..]);
+        let values = [surface.normal, surface.along, surface.inward, moment];
+        for (column, value) in points.of.iter_mut().zip(values) {
+            (value * weight).store(&mut column[first..]);
+        }
+        for (column, value) in points.series.iter_mut().zip(series) {
+            (value * weight).store(&mut column[first..]);
+        }
+    }
+}
+
+struct Slopes<'a, L, const N: usize> {
+    law: &'a L,
+    panel: &'a Panel<'a>,
+    points: &'a mut Points,
+}
+
+/// Stores a function.
+macro_rules! put {
+    ($points:ident, $first:ident: $($of:ident = $value:expr),* $(,)?) => {
+        $($value.store(&mut $points.of[Of::$of as usize][$first..]);)*
+    };
+}
+
+impl<L: SurfaceLaw, const N: usize> Columns for Slopes<'_, L, N> {
+    const PAIRED: bool = false;
+
+    fn rows(&self) -> usize {
+        WIDEST
+    }
+
+    #[inline(always)]
+    fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
+        let [d, weight] = self.panel.places::<S, K>(simd, first);
+        let place = self.panel.gap.at(d);
+        let surface = self.law.slopes::<S, K, N>(&place);
+        let turned = -place.lobe_slope;
+        let on_waves = if self.law.shape().turns_waves() { turned } else { turned.like(0.0) };
+        let points = &mut *self.points;
+        let Surface { normal: n, along: t, inward: e, moment: m } = surface;
+        let moment = |k: usize| (m.eps[k] + n.eps[k] * on_waves) * weight;
+        let [n_g, t_g, t_u, e_g] =
+            [n.eps[0] * weight, t.eps[0] * weight, t.eps[1] * weight, e.eps[0] * weight];
+        let [m_g, m_u] = [moment(0), moment(1)];
+        let slope = place.film[1];
+        put!(points, first:
+            NormalOverOpening = n_g, AlongOverOpening = t_g, AlongOverSliding = t_u, InwardOverOpening = e_g,
+            MomentOverOpening = m_g, MomentOverSliding = m_u,
+            NormalByFilmSlope = (n_g * slope), AlongByFilmSlope = (t_g * slope),
+            InwardByFilmSlope = (e_g * slope), MomentByFilmSlope = (m_g * slope),
+            NormalByWaveSlope = (n_g * turned), AlongByWaveSlope = (t_g * turned),
+            InwardByWaveSlope = (e_g * turned), MomentByWaveSlope = (m_g * turned),
+        );
+        if N > 2 {
+            let (h, slope) = (2, N - 1);
+            put!(points, first:
+                NormalOverFilm = (n.eps[h] * weight), AlongOverFilm = (t.eps[h] * weight),
+                InwardOverFilm = (e.eps[h] * weight), AlongOverSlope = (t.eps[slope] * weight),
+                MomentOverFilm = moment(h), MomentOverSlope = moment(slope),
+            );
+        }
+    }
+}
+
+/// What the ends of wet arcs do: the jump of the pressure, and how they move.
+struct AtEnds<'a, L> {
+    law: &'a L,
+    ends: &'a Ends<'a>,
+    points: &'a mut Points,
+}
+
+impl<L: SurfaceLaw> Columns for AtEnds<'_, L> {
+    const PAIRED: bool = false;
+
+    fn rows(&self) -> usize {
+        self.ends.count
+    }
+
+    #[inline(always)]
+    fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
+        let Ends { gap, angles, sides, jump, .. } = self.ends;
+        let side = Pack::<S, K>::load(simd, &sides[first..]);
+        let place = gap.at(Pack::load(simd, &angles[first..]));
+        let surface = self.law.slopes::<S, K, 4>(&place);
+        let turned = -place.lobe_slope;
+        let on_waves = if self.law.shape().turns_waves() { turned } else { turned.like(0.0) };
+        let Surface { normal: n, along: t, inward: e, moment: m } = surface;
+        let (of_jump, radius) = (place.film[0] * side * *jump, self.law.shape().radius);
+        let (jumped, jumped_g) = (n.re * of_jump, n.eps[0] * of_jump);
+        // How far an end moves with the film; where the arc is about to open or close, it has no derivative.
+        let inverse = side.like(1.0) / place.film[1];
+        let moved = -Pack::select(inverse.abs().below(1e100), inverse, side.like(0.0));
+        let swept = moved * side;
+        let jumped_h = jumped_g * place.opening[1] * moved;
+        let points = &mut *self.points;
+        place.cos.store(&mut points.cos[first..]);
+        place.sin.store(&mut points.sin[first..]);
+        let slope = place.film[1];
+        put!(points, first:
+            Along = jumped, Moment = (jumped * radius),
+            AlongOverOpening = jumped_g, MomentOverOpening = (jumped_g * radius),
+            AlongByFilmSlope = (jumped_g * slope), MomentByFilmSlope = (jumped_g * radius * slope),
+            AlongByWaveSlope = (jumped_g * turned), MomentByWaveSlope = (jumped_g * radius * turned),
+            NormalOverFilm = (n.re * swept), AlongOverFilm = (t.re * swept + jumped_h),
+            InwardOverFilm = (e.re * swept + jumped * moved),
+            MomentOverFilm = ((m.re + n.re * on_waves) * swept + jumped_h * radius),
+        );
+    }
+}
+
+/// Multiplies the functions at the points with all waves.
+struct Waves<'a> {
+    order: usize,
+    wanted: Wanted,
+    /// Place of the first coefficients of the long functions, and their number of each.
+    first: [usize; 2],
+    lanes: &'a mut [Coefficients],
+    points: &'a Points,
+    count: usize,
+}
+
+impl Columns for Waves<'_> {
+    const PAIRED: bool = false;
+
+    fn rows(&self) -> usize {
+        self.count
+    }
+
+    #[inline(always)]
+    fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
+        let Points { of, cos, sin, .. } = self.points;
+        let (cos, sin) = (Pack::<S, K>::load(simd, &cos[first..]), Pack::load(simd, &sin[first..]));
+        let rows = self.count;
+        let (short, long) = match self.wanted {
+            Wanted::Forces => (OF_FORCES, SHORT),
+            Wanted::Damping => (SHORT_OF_VELOCITIES, OF_VELOCITIES),
+            Wanted::Slopes => (SHORT, FUNCTIONS),
+        };
+        let [of_long, each] = self.first;
+        let mut wave = [cos.like(1.0), cos.like(0.0)];
+        let highest = if long > SHORT { 2 * self.order } else { self.order };
+        debug_assert!(rows <= WIDEST);
+        for order in 0..=highest {
+            // Of the moment alone, only the mean is needed.
+            let count = if order > 0 && self.wanted == Wanted::Forces { short - 1 } else { short };
+            if order <= self.order {
+                for function in 0..count {
+                    let value = Pack::<S, K>::load(simd, &of[function][first..]);
+                    let [c, s] = &mut self.lanes[function * (self.order + 1) + order];
+                    (value * wave[0]).add_to(&mut c[first..]);
+                    (value * wave[1]).add_to(&mut s[first..]);
+                }
+            }
+            for function in SHORT..long {
+                let value = Pack::<S, K>::load(simd, &of[function][first..]);
+                let [c, s] = &mut self.lanes[of_long + (function - SHORT) * each + order];
+                (value * wave[0]).add_to(&mut c[first..]);
+                (value * wave[1]).add_to(&mut s[first..]);
+            }
+            let [c, s] = wave;
+            wave = [c * cos - s * sin, s * cos + c * sin];
+        }
+    }
+}
