@@ -47,7 +47,6 @@ impl Model {
         p.fill(0.0);
         self.find_step(v, step, ws);
         let ws = &*ws;
-        let motions = &ws.motions;
         // Moment on the inner ring, which its drive holds up.
         let mut on_ring = 0.0;
         for (batch, info, contacts) in ws.contacts.by_pair(&self.infos) {

@@ -1,5 +1,6 @@
 //! The elastic ring of a cage: how it bends in its plane.
 
+use crate::scalar::math;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
@@ -97,7 +98,7 @@ impl RingSection {
         let (radius, pitch) = (0.5 * diameter, 2.0 * PI * a / pockets as f64);
         let share = diameter / self.width;
         let rest = 1.0 - share * share;
-        let turned = 4.0 / rest.sqrt() * ((1.0 + share) / (1.0 - share)).sqrt().atan();
+        let turned = 4.0 / rest.sqrt() * math::atan2((1.0 + share).sqrt(), (1.0 - share).sqrt());
         let beside = radius / share * (turned - PI);
         pitch / (pitch - diameter + beside)
     }

@@ -183,3 +183,45 @@ fn check_cage_columns(sim: &mut Sim, label: &str) {
         assert!(best < 2e-4, "{label} at {t}: {}: {best:e}", names[c].name);
     }
 }
+
+#[test]
+fn hard_rings_finish_or_say_why_not() {
+    let layer = "cage.guide.film.lubricant_layer.thickness";
+    let bending = "cage.elastic_ring.stiffness.bending";
+    let leapfrog = r#"{"method": {"leapfrog": {"step": 4e-6}}}"#;
+    let cases: [(&str, &str, Vec<(&str, &str)>); 7] = [
+        ("a ring like rubber", SCENE, vec![(bending, "1e-4")]),
+        ("a layer that floods", SCENE, vec![(layer, "1e-3")]),
+        ("arcs that merge", SCENE, vec![(layer, "180e-6")]),
+        ("a layer thinner than the roughness", SCENE, vec![(layer, "1e-7")]),
+        ("waves beyond any step", SCENE, vec![("cage.elastic_ring.modes", "12"), (bending, "1e4")]),
+        ("no damping", SCENE, vec![("cage.elastic_ring.damping", "0")]),
+        ("modes faster than the step of a leapfrog", "nu2310_elastic", vec![("solver", leapfrog)]),
+    ];
+    for (label, scene, changes) in cases {
+        let mut sim = sim(scene, &changes);
+        let end = sim.advance_to(8e-3);
+        let balance = sim.power_balance().unwrap();
+        let missing = balance.residual().abs() / balance.throughput().max(1e-12);
+        match &end {
+            // What a run may miss without saying so.
+            Ok(()) => assert!(missing < 1e-3 || sim.trust().is_err(), "{label}: {missing:e}"),
+            Err(e) => {
+                assert!(!e.message.is_empty() && sim.state().iter().all(|x| x.is_finite()), "{label}: {e}")
+            }
+        }
+        println!("{label}: {end:?}, {missing:.1e} of the energy missing");
+    }
+}
+
+#[test]
+fn a_ring_that_collapses_is_a_failed_step_and_leaves_the_state() {
+    let mut sim = sim(SCENE, &[("cage.guide", "null"), ("cage.pocket", "null"), ("gravity", "null")]);
+    let mut state = sim.state().to_vec();
+    let wave = place(&sim, "cage.mode[4].a");
+    // A wave of this size would leave no moment of inertia.
+    state[wave] = 25e-3;
+    sim.set_state(0.0, &state).unwrap_err();
+    assert!(sim.state().iter().all(|x| x.is_finite()));
+    sim.advance_to(1e-3).unwrap();
+}

@@ -20,6 +20,7 @@
 
 mod moments;
 mod sums;
+mod surface;
 
 use crate::laws::elastic::solid::SolidContact;
 use crate::laws::fluid::Fluid;
@@ -34,7 +35,8 @@ use moments::Shape;
 use nalgebra::{DMatrix, DVector};
 use pulp::Arch;
 use std::f64::consts::TAU;
-use sums::{FilmSurface, SolidSurface, Sums};
+use sums::Sums;
+use surface::{FilmSurface, SolidSurface};
 
 /// Coordinates of the motion of the whole cage in front of those of its waves: place (y, z) and angle.
 pub const OF_MOTION: usize = 3;

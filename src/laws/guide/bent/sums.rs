@@ -1,147 +1,16 @@
 //! Fourier coefficients around the circle of what a film or a solid contact does at each place, and of its derivatives.
 
 use super::Wanted;
-use super::moments::Shape;
-use crate::laws::contact_pair::ContactMotion;
-use crate::laws::elastic::solid::SolidContact;
-use crate::laws::guide::gap::{Gap, Place};
-use crate::laws::guide::land::Land;
+use super::surface::{Surface, SurfaceLaw};
+use crate::laws::guide::gap::Gap;
 use crate::laws::guide::panels::{Ends, Panel, PanelSums, Piece, suits, total};
-use crate::scalar::{Base, Columns, Duals, Lanes, Numeric, Pack, WIDEST, ZEROS, dispatch};
+use crate::scalar::{Columns, Lanes, Numeric, Pack, WIDEST, ZEROS, dispatch};
 use pulp::{Arch, Simd};
 
 /// Widest panel of a solid contact, rad.
 const WIDEST_PANEL: f64 = 0.25;
 /// Halvings of one: its damper has kinks.
 const DEEPEST: u32 = 8;
-
-/// What a surface does at one place, per angle.
-#[derive(Clone, Copy)]
-pub(super) struct Surface<T> {
-    /// Pressure on the journal, N.
-    normal: T,
-    /// Tangential force, N.
-    along: T,
-    /// What integration by parts leaves of the gradient of the pressure, N.
-    inward: T,
-    /// Moment about the centre of the journal without that of the pressure on waves, N m.
-    moment: T,
-}
-
-/// A law of the gap that acts at every place by itself.
-pub(super) trait SurfaceLaw {
-    /// What it does at these places, and the parts of series that tell whether panels are fine enough.
-    fn values<S: Simd, const K: usize>(
-        &self,
-        place: &Place<Pack<S, K>>,
-    ) -> (Surface<Pack<S, K>>, [Pack<S, K>; 3]);
-
-    /// The same with derivatives over G and the sliding speed and, if there are four, h and h'.
-    fn slopes<S: Simd, const K: usize, const N: usize>(
-        &self,
-        place: &Place<Pack<S, K>>,
-    ) -> Surface<Duals<N, Pack<S, K>>>;
-
-    /// The shape of the surface.
-    fn shape(&self) -> &Shape<'_>;
-}
-
-/// A film.
-pub(super) struct FilmSurface<'a> {
-    pub land: Land,
-    pub drags: bool,
-    /// R (w_1 - w_2), which is what a drag sees that does not push, m/s.
-    pub rolling: f64,
-    pub shape: &'a Shape<'a>,
-}
-
-impl FilmSurface<'_> {
-    /// What a drag that does not push sees of a place.
-    #[inline(always)]
-    fn seen<B: Base>(&self, place: &Place<B>) -> Place<B> {
-        let sliding = if self.drags { place.sliding } else { place.sliding.splat(self.rolling) };
-        Place { sliding, ..*place }
-    }
-}
-
-impl SurfaceLaw for FilmSurface<'_> {
-    #[inline(always)]
-    fn values<S: Simd, const K: usize>(
-        &self,
-        place: &Place<Pack<S, K>>,
-    ) -> (Surface<Pack<S, K>>, [Pack<S, K>; 3]) {
-        let (stress, mean, inverse) = self.land.at(&self.seen(place));
-        let along = if self.drags { stress.along } else { place.cos.like(0.0) };
-        let surface = Surface { normal: stress.normal, along, inward: stress.inward, moment: stress.moment };
-        (surface, [stress.normal, mean.viscosity * inverse, inverse * inverse * inverse])
-    }
-
-    #[inline(always)]
-    fn slopes<S: Simd, const K: usize, const N: usize>(
-        &self,
-        place: &Place<Pack<S, K>>,
-    ) -> Surface<Duals<N, Pack<S, K>>> {
-        let stress = self.land.with_slopes::<S, K, N>(&self.seen(place));
-        let along = if self.drags { stress.along } else { stress.along.like(0.0) };
-        Surface { normal: stress.normal, along, inward: stress.inward, moment: stress.moment }
-    }
-
-    #[inline(always)]
-    fn shape(&self) -> &Shape<'_> {
-        self.shape
-    }
-}
-
-/// A solid contact that is spread along the surface.
-pub(super) struct SolidSurface<'a> {
-    pub contact: SolidContact,
-    pub asperity_height: f64,
-    pub radius: f64,
-    pub shape: &'a Shape<'a>,
-}
-
-impl SurfaceLaw for SolidSurface<'_> {
-    #[inline(always)]
-    fn values<S: Simd, const K: usize>(
-        &self,
-        place: &Place<Pack<S, K>>,
-    ) -> (Surface<Pack<S, K>>, [Pack<S, K>; 3]) {
-        let force = self.contact.force(&ContactMotion {
-            delta: -place.film[0] + self.asperity_height,
-            delta_dot: -place.opening[0],
-            u1: place.sliding,
-            u2: place.sliding.like(0.0),
-        });
-        let zero = force.normal.like(0.0);
-        let moment = force.friction * self.radius;
-        let series = [force.normal, force.normal, zero];
-        (Surface { normal: force.normal, along: force.friction, inward: zero, moment }, series)
-    }
-
-    #[inline(always)]
-    fn slopes<S: Simd, const K: usize, const N: usize>(
-        &self,
-        place: &Place<Pack<S, K>>,
-    ) -> Surface<Duals<N, Pack<S, K>>> {
-        let film = place.film[0];
-        let film = if N > 2 { Duals::variable(film, 2) } else { Duals::lift(film) };
-        let opening = Duals::<N, Pack<S, K>>::variable(place.opening[0], 0);
-        let sliding = Duals::variable(place.sliding, 1);
-        let force = self.contact.force(&ContactMotion {
-            delta: -film + self.asperity_height,
-            delta_dot: -opening,
-            u1: sliding,
-            u2: sliding.like(0.0),
-        });
-        let moment = force.friction * self.radius;
-        Surface { normal: force.normal, along: force.friction, inward: moment.like(0.0), moment }
-    }
-
-    #[inline(always)]
-    fn shape(&self) -> &Shape<'_> {
-        self.shape
-    }
-}
 
 /// Functions of the place whose coefficients are found. First those up to the highest order of the waves, then those up to twice
 /// that; of each the ones for derivatives over velocities before those over positions. Where only the mean is needed, it stands
@@ -512,6 +381,7 @@ impl Columns for Waves<'_> {
     }
 
     #[inline(always)]
+    #[expect(clippy::needless_range_loop, reason = "iterators might not be inlined")]
     fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
         let Points { of, cos, sin, .. } = self.points;
         let (cos, sin) = (Pack::<S, K>::load(simd, &cos[first..]), Pack::load(simd, &sin[first..]));
