@@ -184,12 +184,15 @@ fn check_cage_columns(sim: &mut Sim, label: &str) {
     }
 }
 
+/// What is hard, the scene, what is changed in it.
+type HardRing<'a> = (&'a str, &'a str, Vec<(&'a str, &'a str)>);
+
 #[test]
 fn hard_rings_finish_or_say_why_not() {
     let layer = "cage.guide.film.lubricant_layer.thickness";
     let bending = "cage.elastic_ring.stiffness.bending";
     let leapfrog = r#"{"method": {"leapfrog": {"step": 4e-6}}}"#;
-    let cases: [(&str, &str, Vec<(&str, &str)>); 7] = [
+    let cases: [HardRing<'_>; 7] = [
         ("a ring like rubber", SCENE, vec![(bending, "1e-4")]),
         ("a layer that floods", SCENE, vec![(layer, "1e-3")]),
         ("arcs that merge", SCENE, vec![(layer, "180e-6")]),
