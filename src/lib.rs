@@ -26,6 +26,7 @@ mod bodies;
 #[doc(hidden)]
 pub mod capi;
 mod error;
+pub mod heat;
 #[doc(hidden)]
 pub mod integrate;
 #[doc(hidden)]

@@ -9,12 +9,13 @@
 //! | `guide` | films between cage and ring, shared with solid contact |
 //! | `fluid` | viscosity |
 //!
-//! `line_contact` puts those of a lubricated line contact together.
+//! `bearing_torque` is the friction of a whole bearing from catalogue values. `line_contact` puts those of a lubricated line contact together.
 //!
 //! A law knows its own constants and nothing else: no bodies, no JSON, no planar or spatial geometry. All
 //! quantities are in SI units. Laws are generic over [`crate::scalar::Real`], so the code that gives a force
 //! also gives its exact derivatives.
 
+pub mod bearing_torque;
 pub mod contact_pair;
 pub mod elastic;
 #[cfg(test)]

@@ -94,7 +94,10 @@ fn inputs(scene: &Scene) -> Result<InputSignals> {
         Some(Viscosity::Walther(walther)) => {
             let point = |p: crate::scene::ViscosityPoint| (p.temperature, p.kinematic_viscosity);
             let law = Walther::new(point(walther.cold), point(walther.hot), walther.density);
-            let (source, at_start) = match &walther.temperature {
+            let start = scene.heat.as_ref().map_or(f64::NAN, |heat| heat.lubricant_start());
+            let warmed = Temperature::OverTime(Signal::Constant(start));
+            let temperature = walther.temperature.as_ref().unwrap_or(&warmed);
+            let (source, at_start) = match temperature {
                 Temperature::OverTime(signal) => (InputSource::Time(signal.clone()), signal.at(0.0)),
                 Temperature::OverSpeed { speed, temperature } => {
                     let ring = scene.inner_ring.as_ref().ok_or_else(|| {
@@ -107,7 +110,7 @@ fn inputs(scene: &Scene) -> Result<InputSignals> {
                     (InputSource::RingSpeed(speed.clone(), temperature.clone()), at_start)
                 }
             };
-            let (coldest, hottest) = match &walther.temperature {
+            let (coldest, hottest) = match temperature {
                 Temperature::OverTime(signal) => signal.bounds(),
                 Temperature::OverSpeed { temperature, .. } => {
                     temperature.iter().fold((f64::INFINITY, 0.0), |(a, b), t| (t.min(a), t.max(b)))

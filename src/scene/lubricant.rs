@@ -56,8 +56,9 @@ pub struct WaltherViscosity {
     /// Density rho, kg/m^3: eta0 = nu rho.
     #[cfg_attr(feature = "schema", schemars(range(min = 100.0, max = 20000.0)))]
     pub density: f64,
-    /// Temperature of the lubricant.
-    pub temperature: Temperature,
+    /// Temperature of the lubricant. Absent: that of a lump of `heat`; a scene has one or the other.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub temperature: Option<Temperature>,
 }
 
 /// Kinematic viscosity at one temperature.

@@ -9,6 +9,7 @@ mod check;
 mod contact_laws;
 mod elastic_ring;
 mod elements;
+pub(crate) mod heat;
 mod json;
 mod lubricant;
 mod rings;
@@ -29,6 +30,7 @@ pub use contact_laws::{
 pub(crate) use elastic_ring::MOST_RING_ORDERS;
 pub use elastic_ring::{ElasticRing, FiniteElementModes, RingSection, RingStiffness};
 pub use elements::{ElementMotion, KinematicElements, Rollers};
+pub use heat::{BearingTorque, Conductance, Heat, HeatLink, HeatNode, HeatSource};
 pub use json::{parse_override, set_path};
 pub use lubricant::{Lubricant, Temperature, Viscosity, ViscosityPoint, WaltherViscosity};
 pub use rings::{FreeRing, InnerRing, Load, OuterRing, RingMotion};
@@ -83,6 +85,9 @@ pub struct Scene {
     /// The cage. Absent: rollers without a cage; they do not touch each other. Needed by kinematic elements.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cage: Option<Cage>,
+    /// Heat balance, which the viscosity follows. Absent: the lubricant has the temperature that it is given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub heat: Option<Heat>,
     /// Start of the run. Absent: everything centred, at kinematic speeds.
     #[serde(default)]
     pub initial: Initial,

@@ -304,3 +304,27 @@ fn info_and_schema_print_what_they_promise() {
         assert_eq!(printed, json(&path));
     }
 }
+
+#[test]
+fn heat_tells_temperatures_powers_and_flows() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("heat");
+    let scene = "scenes/grease_guide_heat.json";
+    let output = run(&["heat", scene, "--warm-up", "--out", &out.to_string_lossy()]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let printed = text(&output.stdout);
+    for expected in ["film", "guide_film", "housing to ambient", "temperatures over time", "whirl"] {
+        assert!(printed.contains(expected), "{expected} in {printed}");
+    }
+    let table = std::fs::read_to_string(out.join("temperatures.csv")).expect("a table");
+    assert!(table.starts_with("time_s,film_K,cage_K,") && table.lines().count() == 17, "{table}");
+    let picture = std::fs::read_to_string(out.join("heat_flow.svg")).expect("a picture");
+    assert!(picture.contains("outer ring") && !picture.contains("NaN"));
+    let steady: serde_json::Value =
+        serde_json::from_slice(&run(&["heat", scene, "--json"]).stdout).expect("JSON");
+    let film = &steady["nodes"][0];
+    assert_eq!(film["name"], "film");
+    assert!((film["temperature_k"].as_f64().expect("a number") - 330.95).abs() < 0.3, "{steady}");
+    let refused = run(&["heat", "scenes/grease_guide.json"]);
+    assert!(!refused.status.success() && text(&refused.stderr).contains("heat: missing"));
+}

@@ -92,6 +92,11 @@ fn cage(scene: &Scene, list: &mut List) {
     list.add("cage", Some(format!("6 states: cage of {} kg moves and turns in the plane", cage.mass)));
     let offset = cage.mass_eccentricity.map(|u| format!("inertia: centre of mass ({}, {}) m off", u.y, u.z));
     list.add("cage.mass_eccentricity", offset);
+    let ring = cage.elastic_ring.as_ref();
+    let states = |modes: u32| {
+        format!("{} states: the ring of the cage bends in waves of order 2 to {modes}", 4 * (modes - 1))
+    };
+    list.add("cage.elastic_ring", ring.map(|ring| states(ring.modes)));
     list.flag("cage.load", cage.load.is_some(), "inputs: external force and torque on the cage");
     pocket(cage.pocket.as_ref(), list);
     guide(cage.guide.as_ref(), list);
@@ -102,6 +107,11 @@ fn lubricant(scene: &Scene, list: &mut List) {
         let heated = matches!(lubricant.viscosity, Viscosity::Walther(_));
         list.flag("lubricant.viscosity.walther", heated, "law: viscosity follows the temperature");
     }
+    let heat = scene
+        .heat
+        .as_ref()
+        .map(|heat| format!("balance: {} temperatures, by `cagedyn heat`", heat.nodes.len()));
+    list.add("heat", heat);
 }
 
 fn pocket(pocket: Option<&Pocket>, list: &mut List) {

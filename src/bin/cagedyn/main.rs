@@ -2,6 +2,7 @@
 
 mod cases;
 mod effects;
+mod heat;
 mod info;
 mod plots;
 mod results;
@@ -33,6 +34,8 @@ enum Command {
     Run(RunArgs),
     /// Run every case of a case set; write each like `run`, and a comparison.
     Cases(CasesArgs),
+    /// Temperatures of a scene with a heat balance: steady, or warming up; powers, flows, a picture of the network.
+    Heat(HeatArgs),
     /// Show what a scene contains: bodies, states, effects, channels, geometry.
     Info(InfoArgs),
     /// Print the JSON Schema of a file format.
@@ -121,6 +124,24 @@ pub struct InfoArgs {
     sets: Sets,
 }
 
+/// Arguments of `heat`.
+#[derive(Args)]
+pub struct HeatArgs {
+    /// Scene file with `heat`.
+    scene: PathBuf,
+    /// Folder for heat.json, heat_flow.svg and, with --warm-up, temperatures.csv; made if it does not exist.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Warm up from the start for some hours of bearing time, instead of where temperatures stay.
+    #[arg(long)]
+    warm_up: bool,
+    /// Print the result as JSON.
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    sets: Sets,
+}
+
 /// Arguments of `schema`.
 #[derive(Args)]
 pub struct SchemaArgs {
@@ -167,6 +188,7 @@ fn dispatch(command: &Command) -> Result<ExitCode> {
     match command {
         Command::Run(args) => run::command(args),
         Command::Cases(args) => cases::command(args),
+        Command::Heat(args) => heat::command(args),
         Command::Info(args) => info::command(args),
         Command::Schema(args) => schema::command(args),
     }

@@ -5,6 +5,7 @@
 
 mod cage;
 mod elastic_ring;
+mod heat;
 mod plausible;
 
 pub(crate) use cage::TORQUE;
@@ -53,6 +54,24 @@ impl Scene {
         }
         if let Some(lubricant) = &self.lubricant {
             lubricant.validate()?;
+            if let Viscosity::Walther(walther) = &lubricant.viscosity {
+                let path = "lubricant.viscosity.walther.temperature";
+                match (&walther.temperature, &self.heat) {
+                    (None, None) => {
+                        return Err(bad(path, "missing; give it, or 'heat', which it follows from"));
+                    }
+                    (Some(_), Some(_)) => {
+                        return Err(bad(
+                            path,
+                            "not allowed beside 'heat', which it follows from; remove one of them",
+                        ));
+                    }
+                    _ => {}
+                }
+            }
+        }
+        if let Some(heat) = &self.heat {
+            self.validate_heat(heat)?;
         }
         match (&self.rollers, &self.kinematic_elements) {
             (Some(_), None) | (None, Some(_)) => {}
@@ -364,8 +383,9 @@ impl WaltherViscosity {
         }
         number(&at("density"), self.density, range(100.0, 2e4, "kg/m^3"))?;
         match &self.temperature {
-            Temperature::OverTime(time) => signal(&at("temperature.over_time"), time, TEMPERATURE),
-            Temperature::OverSpeed { speed, temperature } => {
+            None => Ok(()),
+            Some(Temperature::OverTime(time)) => signal(&at("temperature.over_time"), time, TEMPERATURE),
+            Some(Temperature::OverSpeed { speed, temperature }) => {
                 let path = at("temperature.over_speed");
                 table(
                     &path,

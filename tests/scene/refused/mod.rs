@@ -1,5 +1,6 @@
 //! Malformed and impossible scenes: each is refused with the right status and one line that names the place.
 
+mod beyond;
 mod cage;
 mod elements;
 mod fields;
@@ -29,6 +30,7 @@ fn rows() -> Vec<Row> {
         laws::rows(),
         elements::rows(),
         oil::rows(),
+        beyond::rows(),
         cage::rows(),
         pocket::rows(),
         guide::rows(),

@@ -56,11 +56,11 @@ fn fields() -> Vec<Row> {
             walther,
             &["missing field `density`"],
         ),
-        grease().missing(
+        grease().needed(
             "temperature missing",
             "lubricant.viscosity.walther.temperature",
-            walther,
-            &["missing field `temperature`"],
+            "lubricant.viscosity.walther.temperature",
+            &["missing", "'heat'"],
         ),
         grease().missing(
             "temperature of a point missing",

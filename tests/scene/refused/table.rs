@@ -29,6 +29,16 @@ pub fn grease() -> Base {
     Base(serde_json::from_str(&grease_text()).expect("the example scene is JSON"))
 }
 
+/// The same with an elastic cage.
+pub fn bent() -> Base {
+    Base(serde_json::from_str(&read("scenes/grease_guide_elastic.json")).expect("the example scene is JSON"))
+}
+
+/// The same with a heat balance.
+pub fn warm() -> Base {
+    Base(serde_json::from_str(&read("scenes/grease_guide_heat.json")).expect("the example scene is JSON"))
+}
+
 fn grease_text() -> String {
     read("scenes/grease_guide.json")
 }

@@ -2,6 +2,7 @@
 
 mod axis;
 mod cage_positions;
+pub mod heat_flow;
 mod orbit;
 mod panel;
 mod position;

@@ -1,0 +1,157 @@
+//! The command `heat`.
+
+use crate::plots::heat_flow;
+use crate::results::files::{write_csv, write_json, write_text};
+use crate::results::table::{self, Align, number};
+use crate::results::{facts, files};
+use crate::run::{in_file, read, stem};
+use crate::{HeatArgs, terminal};
+use cagedyn::heat::{HeatBalance, HeatState};
+use cagedyn::{Model, Result, Scene};
+use serde_json::json;
+use std::process::ExitCode;
+use std::time::Instant;
+
+/// Temperatures of a bearing, where its heat comes from and where it goes.
+///
+/// # Errors
+/// A scene that cannot be used, or whose temperatures do not settle; results that cannot be written.
+pub fn command(args: &HeatArgs) -> Result<ExitCode> {
+    let scene = Scene::from_json_with(&read(&args.scene)?, args.sets.pairs());
+    let in_scene = |e| in_file(&args.scene, e);
+    let mut heat = scene.and_then(Model::new).and_then(HeatBalance::new).map_err(in_scene)?;
+    let started = Instant::now();
+    let mut history = Vec::new();
+    let state = if args.warm_up {
+        heat.warm_up(|time, state| history.push((time, state.clone())))
+    } else {
+        heat.settle()
+    };
+    let state = state.map_err(in_scene)?;
+    let set: Vec<String> = args.sets.pairs().map(|(path, value)| format!("{path}={value}")).collect();
+    let title = facts::title(heat.model().scene().title.as_deref(), &stem(&args.scene), &set);
+    let names: Vec<String> = heat.names().map(str::to_owned).collect();
+    let links: Vec<[String; 2]> = heat.links().map(|ends| ends.map(str::to_owned)).collect();
+    if let Some(folder) = &args.out {
+        std::fs::create_dir_all(folder).map_err(|e| files::file_error(folder, e))?;
+        write_json(&folder.join("heat.json"), &as_json(&names, &links, &state))?;
+        let ambient = heat.model().scene().heat.as_ref().map_or(f64::NAN, |heat| heat.ambient);
+        let picture = heat_flow::draw(&title, &names, &links, &state, ambient)?;
+        write_text(&folder.join("heat_flow.svg"), &picture)?;
+        if args.warm_up {
+            let head = ["time_s".to_owned()].into_iter().chain(names.iter().map(|name| format!("{name}_K")));
+            let rows = history.iter().map(|(time, state)| {
+                std::iter::once(time).chain(&state.temperatures).map(|x| files::plain(*x)).collect()
+            });
+            write_csv(&folder.join("temperatures.csv"), std::iter::once(head.collect()).chain(rows))?;
+        }
+    }
+    if args.json {
+        terminal::print(&format!("{:#}\n", as_json(&names, &links, &state)))?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    let mut text = format!("{title}\n");
+    let last = history.last().map_or(f64::NAN, |(time, _)| *time);
+    text.push_str(&if args.warm_up {
+        format!("warming up from the start, after {} s\n", number(last))
+    } else {
+        "steady temperatures\n".to_owned()
+    });
+    section(&mut text, "", temperatures(&names, &state));
+    section(&mut text, "heat", sources(&state));
+    section(&mut text, "flows", flows(&links, &state));
+    if !history.is_empty() {
+        section(&mut text, "temperatures over time, K", over_time(&names, &history));
+    }
+    text.push_str(&format!(
+        "\n  lubricant  {} Pa s\n  whirl      {} rad/s\n  time       {} bursts of motion in {:.2} s wall time\n",
+        number(state.viscosity),
+        number(state.whirl_speed),
+        state.bursts,
+        started.elapsed().as_secs_f64()
+    ));
+    terminal::print(&text)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn section(text: &mut String, name: &str, rows: Vec<Vec<String>>) {
+    text.push('\n');
+    if !name.is_empty() {
+        text.push_str(&format!("{name}\n"));
+    }
+    let align =
+        [Align::Left, Align::Right, Align::Right, Align::Right, Align::Right, Align::Right, Align::Right];
+    for line in table::lines(&rows, &align) {
+        text.push_str(&format!("  {line}\n"));
+    }
+}
+
+fn temperatures(names: &[String], state: &HeatState) -> Vec<Vec<String>> {
+    let rows = names.iter().zip(state.temperatures.iter().zip(&state.heat));
+    rows.map(|(name, (temperature, heat))| {
+        vec![
+            name.clone(),
+            format!("{temperature:.2} K"),
+            format!("{:.2} C", temperature - 273.15),
+            format!("{} W", number(*heat)),
+        ]
+    })
+    .collect()
+}
+
+fn sources(state: &HeatState) -> Vec<Vec<String>> {
+    let all: f64 = state.heat.iter().sum();
+    let bearing = std::iter::once(("bearing, from catalogue values", state.of_bearing));
+    let motion = state.of_motion.iter().map(|(name, power)| (name.as_str(), *power));
+    motion
+        .chain(bearing)
+        .filter(|(_, power)| *power != 0.0)
+        .map(|(name, power)| {
+            vec![name.to_owned(), format!("{} W", number(power)), format!("{:.1} %", 100.0 * power / all)]
+        })
+        .collect()
+}
+
+fn flows(links: &[[String; 2]], state: &HeatState) -> Vec<Vec<String>> {
+    let rows = links.iter().zip(&state.flows);
+    rows.map(|([from, to], flow)| {
+        let (from, to) = if *flow >= 0.0 { (from, to) } else { (to, from) };
+        vec![format!("{from} to {to}"), format!("{} W", number(flow.abs()))]
+    })
+    .collect()
+}
+
+fn over_time(names: &[String], history: &[(f64, HeatState)]) -> Vec<Vec<String>> {
+    let head = std::iter::once("s".to_owned()).chain(names.iter().cloned()).collect();
+    let rows = history.iter().map(|(time, state)| {
+        let temperatures = state.temperatures.iter().map(|t| format!("{t:.2}"));
+        std::iter::once(number(*time)).chain(temperatures).collect()
+    });
+    std::iter::once(head).chain(rows).collect()
+}
+
+fn as_json(names: &[String], links: &[[String; 2]], state: &HeatState) -> serde_json::Value {
+    let nodes: Vec<_> = names
+        .iter()
+        .zip(state.temperatures.iter().zip(&state.heat))
+        .map(
+            |(name, (temperature, heat))| json!({"name": name, "temperature_k": temperature, "heat_w": heat}),
+        )
+        .collect();
+    let flows: Vec<_> = links
+        .iter()
+        .zip(&state.flows)
+        .map(|([from, to], flow)| json!({"from": from, "to": to, "flow_w": flow}))
+        .collect();
+    let sources: Vec<_> =
+        state.of_motion.iter().map(|(name, power)| json!({"power": name, "heat_w": power})).collect();
+    json!({
+        "nodes": nodes,
+        "links": flows,
+        "sources": sources,
+        "bearing_torque_heat_w": state.of_bearing,
+        "viscosity_pa_s": state.viscosity,
+        "whirl_speed_rad_s": state.whirl_speed,
+        "bursts": state.bursts,
+    })
+}

@@ -1,0 +1,137 @@
+//! Checks of the heat balance.
+
+use crate::scene::check::{Range, bad, number, optional, range};
+use crate::scene::heat::AMBIENT;
+use crate::scene::validate::*;
+use crate::scene::*;
+
+const CAPACITY: Range = range(1e-6, 1e9, "J/K");
+const CONDUCTANCE: Range = range(0.0, 1e6, "W/K");
+const SHARE: Range = range(0.0, 1.0, "");
+const MOST_NODES: usize = 64;
+
+impl Scene {
+    pub(in crate::scene) fn validate_heat(&self, heat: &Heat) -> Result<()> {
+        number("heat.ambient", heat.ambient, TEMPERATURE)?;
+        if !(1..=MOST_NODES).contains(&heat.nodes.len()) {
+            return Err(bad(
+                "heat.nodes",
+                format!("{} lumps, allowed are 1 to {MOST_NODES}", heat.nodes.len()),
+            ));
+        }
+        for (i, node) in heat.nodes.iter().enumerate() {
+            let at = |field: &str| format!("heat.nodes.{i}.{field}");
+            if node.name == AMBIENT || heat.node(&node.name) != Some(i) {
+                return Err(bad(
+                    &at("name"),
+                    format!("'{}' is taken; each lump has a name of its own", node.name),
+                ));
+            }
+            number(&at("capacity"), node.capacity, CAPACITY)?;
+            optional(&at("start"), node.start, TEMPERATURE)?;
+        }
+        let known = |path: String, name: &str| match heat.node(name) {
+            Some(place) => Ok(place),
+            None => {
+                let names: Vec<_> = heat.nodes.iter().map(|node| node.name.as_str()).collect();
+                Err(bad(&path, format!("there is no lump '{name}'; there are {}", names.join(", "))))
+            }
+        };
+        known("heat.lubricant".to_owned(), &heat.lubricant)?;
+        for (i, link) in heat.links.iter().enumerate() {
+            for (k, name) in link.between.iter().enumerate() {
+                if name != AMBIENT {
+                    known(format!("heat.links.{i}.between.{k}"), name)?;
+                }
+            }
+            if link.between[0] == link.between[1] {
+                let text = format!("both ends are '{}'", link.between[0]);
+                return Err(bad(&format!("heat.links.{i}.between"), text));
+            }
+            let at = |field: &str| format!("heat.links.{i}.conductance.{field}");
+            match link.conductance {
+                Conductance::Constant(value) => number(&at("constant"), value, CONDUCTANCE)?,
+                Conductance::Balls(factor) => number(&at("balls"), factor, range(0.0, 1e3, ""))?,
+            }
+        }
+        for (i, source) in heat.sources.iter().enumerate() {
+            let at = |field: &str| format!("heat.sources.{i}.{field}");
+            if !HEATING_POWERS.contains(&source.power.as_str()) {
+                let text = format!("'{}' is none of {}", source.power, HEATING_POWERS.join(", "));
+                return Err(bad(&at("power"), text));
+            }
+            known(at("node"), &source.node)?;
+            number(&at("share"), source.share, SHARE)?;
+        }
+        for power in HEATING_POWERS {
+            let total: f64 = heat.sources.iter().filter(|s| s.power == *power).map(|s| s.share).sum();
+            if total > 1.0 + 1e-12 {
+                return Err(bad("heat.sources", format!("the shares of '{power}' add up to {total:?}")));
+            }
+        }
+        if let Some(torque) = &heat.bearing_torque {
+            let at = |field: &str| format!("heat.bearing_torque.{field}");
+            number(&at("f0"), torque.f0, range(0.0, 100.0, ""))?;
+            number(&at("f1"), torque.f1, range(0.0, 0.1, ""))?;
+            number(&at("load"), torque.load, range(0.0, 1e9, "N"))?;
+            number(&at("inner_share"), torque.inner_share, SHARE)?;
+            for (k, name) in torque.nodes.iter().enumerate() {
+                known(at(&format!("nodes.{k}")), name)?;
+            }
+        }
+        if self.inner_ring.is_none() {
+            return Err(bad("inner_ring", "missing; 'heat' needs its speed"));
+        }
+        match self.lubricant.as_ref().map(|lubricant| &lubricant.viscosity) {
+            Some(Viscosity::Walther(_)) => {}
+            _ => {
+                let text = "missing; 'heat' needs a viscosity that follows the temperature";
+                return Err(bad("lubricant.viscosity.walther", text));
+            }
+        }
+        heat.reaches_ambient()
+    }
+}
+
+/// Powers that turn energy into heat.
+const HEATING_POWERS: &[&str] = &[
+    "raceway_damping",
+    "raceway_friction",
+    "rolling_resistance",
+    "pocket_damping",
+    "pocket_friction",
+    "guide_film",
+    "guide_solid",
+    "cage_bending",
+];
+
+impl Heat {
+    /// Whether every lump can give its heat to the surroundings.
+    fn reaches_ambient(&self) -> Result<()> {
+        let mut reached = vec![false; self.nodes.len()];
+        for _ in &self.nodes {
+            for link in &self.links {
+                let conducts = match link.conductance {
+                    Conductance::Constant(value) | Conductance::Balls(value) => value > 0.0,
+                };
+                let is_reached =
+                    |name: &str| name == AMBIENT || self.node(name).is_some_and(|place| reached[place]);
+                if conducts && link.between.iter().any(|name| is_reached(name)) {
+                    for place in link.between.iter().filter_map(|name| self.node(name)) {
+                        reached[place] = true;
+                    }
+                }
+            }
+        }
+        match reached.iter().position(|reached| !reached) {
+            None => Ok(()),
+            Some(place) => {
+                let text = format!(
+                    "nothing conducts from '{}' to '{AMBIENT}', on whatever way; its temperature would grow without end",
+                    self.nodes[place].name
+                );
+                Err(bad("heat.links", text))
+            }
+        }
+    }
+}
