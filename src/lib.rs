@@ -43,6 +43,7 @@ pub mod sim;
 pub mod space;
 #[doc(hidden)]
 pub mod stored;
+pub mod whirl;
 
 pub use error::{Error, Result, Status};
 pub use model::Model;

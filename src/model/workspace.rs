@@ -101,6 +101,11 @@ impl Workspace {
         if place == CAGE { &self.on_modes } else { &[] }
     }
 
+    /// Number of touching contacts at the last evaluated state.
+    pub(crate) fn touching(&self) -> usize {
+        self.contacts.batches.iter().map(|batch| batch.len()).sum()
+    }
+
     /// Normal speeds of the touching contacts that elements roll in, at the last evaluated state.
     pub(crate) fn vibration(&self) -> Vibration {
         let mut sum = Vibration::default();

@@ -328,3 +328,39 @@ fn heat_tells_temperatures_powers_and_flows() {
     let refused = run(&["heat", "scenes/grease_guide.json"]);
     assert!(!refused.status.success() && text(&refused.stderr).contains("heat: missing"));
 }
+
+#[test]
+fn whirl_tells_the_steady_state_and_follows_it() {
+    let scene = "scenes/grease_guide.json";
+    let printed = text(&run(&["whirl", scene]).stdout);
+    for expected in ["whirl speed", "stable", "yes", "eigenvalues"] {
+        assert!(printed.contains(expected), "{expected} in {printed}");
+    }
+    let steady: serde_json::Value =
+        serde_json::from_slice(&run(&["whirl", scene, "--json"]).stdout).expect("JSON");
+    assert!((steady["whirl_speed"].as_f64().expect("a number") / -1962.1 - 1.0).abs() < 1e-3, "{steady}");
+    assert_eq!(steady["eigenvalues"].as_array().map(Vec::len), Some(5));
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("whirl");
+    let vary = "cage.guide.diametral_clearance=0.40e-3:0.46e-3";
+    let output = run(&["whirl", scene, "--vary", vary, "--out", &out.to_string_lossy()]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert!(text(&output.stdout).contains("ends at range"), "{}", text(&output.stdout));
+    let branch = json(&out.join("whirl.json"));
+    assert_eq!(branch["end"], "range");
+    assert!(branch["points"].as_array().is_some_and(|points| points.len() > 5), "{branch}");
+    let svg = std::fs::read_to_string(out.join("whirl.svg")).expect("a picture");
+    assert!(svg.contains("whirl speed [rad/s]") && !svg.contains("NaN"));
+    for (arguments, says) in [
+        (vec!["whirl", "scenes/nu2310.json"], "elements of prescribed motion"),
+        (vec!["whirl", scene, "--vary", "cage.mass=1"], "PATH=FROM:TO"),
+        (vec!["whirl", scene, "--vary", "cage.masses=1e-2:2e-2"], "cage.masses"),
+    ] {
+        let refused = run(&arguments);
+        assert!(
+            !refused.status.success() && text(&refused.stderr).contains(says),
+            "{}",
+            text(&refused.stderr)
+        );
+    }
+}

@@ -11,6 +11,7 @@ mod schema;
 mod spectrum;
 mod starts;
 mod terminal;
+mod whirl;
 mod workers;
 
 use cagedyn::scene::Preset;
@@ -36,6 +37,8 @@ enum Command {
     Cases(CasesArgs),
     /// Temperatures of a scene with a heat balance: steady, or warming up; powers, flows, a picture of the network.
     Heat(HeatArgs),
+    /// Steady whirl of the cage without time stepping: speed, place, stability; a branch over a number of the scene.
+    Whirl(WhirlArgs),
     /// Show what a scene contains: bodies, states, effects, channels, geometry.
     Info(InfoArgs),
     /// Print the JSON Schema of a file format.
@@ -142,6 +145,24 @@ pub struct HeatArgs {
     sets: Sets,
 }
 
+/// Arguments of `whirl`.
+#[derive(Args)]
+pub struct WhirlArgs {
+    /// Scene file of a cage among elements of prescribed motion.
+    scene: PathBuf,
+    /// Follow the whirl over a number of the scene, as in inner_ring.speed.constant=52.4:837.8.
+    #[arg(long, value_name = "PATH=FROM:TO", value_parser = whirl::parse_vary)]
+    vary: Option<whirl::Vary>,
+    /// Folder for whirl.json and, with --vary, whirl.csv and whirl.svg; made if it does not exist.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print the result as JSON.
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    sets: Sets,
+}
+
 /// Arguments of `schema`.
 #[derive(Args)]
 pub struct SchemaArgs {
@@ -189,6 +210,7 @@ fn dispatch(command: &Command) -> Result<ExitCode> {
         Command::Run(args) => run::command(args),
         Command::Cases(args) => cases::command(args),
         Command::Heat(args) => heat::command(args),
+        Command::Whirl(args) => whirl::command(args),
         Command::Info(args) => info::command(args),
         Command::Schema(args) => schema::command(args),
     }

@@ -349,7 +349,7 @@ impl Model {
     }
 
     /// Number of wet arcs in the guide of a cage that bends, and their angle, rad.
-    fn wet_arcs(&self, ws: &Workspace) -> (u32, f64) {
+    pub(crate) fn wet_arcs(&self, ws: &Workspace) -> (u32, f64) {
         self.guide().map_or((0, 0.0), |(place, _)| self.between[place].wet_arcs(&ws.motions))
     }
 

@@ -1,0 +1,198 @@
+//! The command `whirl`.
+
+use crate::plots::whirl_branch;
+use crate::results::facts;
+use crate::results::files::{self, write_csv, write_json, write_text};
+use crate::results::table::{self, Align, number};
+use crate::run::{in_file, read, stem};
+use crate::{WhirlArgs, terminal};
+use cagedyn::whirl::{self, Branch, End, Point, Whirl};
+use cagedyn::{Result, Scene};
+use serde_json::{Value, json};
+use std::process::ExitCode;
+use std::time::Instant;
+
+/// The steady whirl of a cage, or a branch of it.
+///
+/// # Errors
+/// A scene that cannot be used or has no steady whirl; results that cannot be written.
+pub fn command(args: &WhirlArgs) -> Result<ExitCode> {
+    let text = read(&args.scene)?;
+    let in_scene = |e| in_file(&args.scene, e);
+    let scene = Scene::from_json_with(&text, args.sets.pairs()).map_err(in_scene)?;
+    let set: Vec<String> = args.sets.pairs().map(|(path, value)| format!("{path}={value}")).collect();
+    let title = facts::title(scene.title.as_deref(), &stem(&args.scene), &set);
+    let started = Instant::now();
+    let Some(vary) = &args.vary else {
+        let whirl = whirl::steady(&scene, None).map_err(in_scene)?;
+        return tell(args, &title, &whirl, started);
+    };
+    // Values are put into the text again, so that any number of a scene can be varied and is checked.
+    let with = |_: &Scene, value: f64| {
+        let value = format!("{value:?}");
+        Scene::from_json_with(&text, args.sets.pairs().chain([(vary.path.as_str(), value.as_str())]))
+    };
+    let branch = whirl::follow(&scene, vary.range, with, |_| ()).map_err(in_scene)?;
+    let found = as_json(&vary.path, &branch);
+    if let Some(folder) = &args.out {
+        std::fs::create_dir_all(folder).map_err(|e| files::file_error(folder, e))?;
+        write_json(&folder.join("whirl.json"), &found)?;
+        write_csv(&folder.join("whirl.csv"), csv(&vary.path, &branch))?;
+        write_text(&folder.join("whirl.svg"), &whirl_branch::draw(&title, &vary.path, &branch)?)?;
+    }
+    if args.json {
+        terminal::print(&format!("{found:#}\n"))?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    let mut text = format!("{title}\nsteady whirl without gravity over {}\n\n", vary.path);
+    let head = ["", "whirl rad/s", "eccentricity um", "leading rate 1/s", "arcs", "", ""]
+        .map(str::to_owned)
+        .to_vec();
+    let rows = branch.points.iter().map(|point| {
+        let Point { parameter, whirl, fold, hopf } = point;
+        let marks = [(*fold, "fold"), (*hopf, "Hopf point")];
+        let marks: Vec<_> = marks.into_iter().filter_map(|(is, name)| is.then_some(name)).collect();
+        vec![
+            number(*parameter),
+            format!("{:.2}", whirl.speed),
+            format!("{:.2}", 1e6 * whirl.eccentricity),
+            number(whirl.eigenvalues.first().map_or(f64::NAN, |value| value[0])),
+            whirl.arcs.to_string(),
+            if whirl.stable() { "stable" } else { "unstable" }.to_owned(),
+            marks.join(", "),
+        ]
+    });
+    let rows: Vec<Vec<String>> = std::iter::once(head).chain(rows).collect();
+    for line in table::lines(&rows, &[Align::Right; 5]) {
+        text.push_str(&format!("  {line}\n"));
+    }
+    text.push_str(&format!(
+        "\n  ends at {}{}\n  {} points in {:.2} s wall time\n",
+        branch.end.name(),
+        match &branch.end {
+            End::Lost(why) => format!(": {why}"),
+            _ => String::new(),
+        },
+        branch.points.len(),
+        started.elapsed().as_secs_f64()
+    ));
+    terminal::print(&text)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// One whirl.
+fn tell(args: &WhirlArgs, title: &str, whirl: &Whirl, started: Instant) -> Result<ExitCode> {
+    if let Some(folder) = &args.out {
+        std::fs::create_dir_all(folder).map_err(|e| files::file_error(folder, e))?;
+        write_json(&folder.join("whirl.json"), &of_whirl(whirl))?;
+    }
+    if args.json {
+        terminal::print(&format!("{:#}\n", of_whirl(whirl)))?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    let mut rows = vec![
+        vec!["whirl speed".to_owned(), format!("{:.2} rad/s", whirl.speed)],
+        vec!["eccentricity".to_owned(), format!("{:.3} um", 1e6 * whirl.eccentricity)],
+        vec!["elements ahead of their pockets".to_owned(), format!("{} rad", number(whirl.lead))],
+        vec!["wet arcs".to_owned(), whirl.arcs.to_string()],
+        vec!["stable".to_owned(), if whirl.stable() { "yes" } else { "no" }.to_owned()],
+    ];
+    for (k, amplitude) in whirl.amplitudes.iter().enumerate() {
+        rows.push(vec![format!("wave of order {}", k + 2), format!("{:.3} um", 1e6 * amplitude)]);
+    }
+    let mut text = format!("{title}\nsteady whirl without gravity\n\n");
+    for line in table::lines(&rows, &[Align::Left]) {
+        text.push_str(&format!("  {line}\n"));
+    }
+    text.push_str("\n  eigenvalues: rate 1/s, frequency rad/s\n");
+    let values = whirl.eigenvalues.iter().filter(|[_, frequency]| *frequency >= 0.0);
+    let rows: Vec<_> = values.map(|[rate, frequency]| vec![number(*rate), number(*frequency)]).collect();
+    for line in table::lines(&rows, &[Align::Right, Align::Right]) {
+        text.push_str(&format!("  {line}\n"));
+    }
+    let seconds = started.elapsed().as_secs_f64();
+    text.push_str(&format!("\n  {} Newton steps in {seconds:.3} s wall time\n", whirl.steps));
+    terminal::print(&text)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn of_whirl(whirl: &Whirl) -> Value {
+    let eigenvalues: Vec<_> = whirl
+        .eigenvalues
+        .iter()
+        .map(|[rate, frequency]| json!({"rate": rate, "frequency": frequency}))
+        .collect();
+    json!({
+        "whirl_speed": whirl.speed,
+        "eccentricity": whirl.eccentricity,
+        "lead": whirl.lead,
+        "amplitudes": whirl.amplitudes,
+        "arcs": whirl.arcs,
+        "stable": whirl.stable(),
+        "eigenvalues": eigenvalues,
+    })
+}
+
+fn as_json(path: &str, branch: &Branch) -> Value {
+    let points: Vec<_> = branch
+        .points
+        .iter()
+        .map(|point| {
+            let mut value = of_whirl(&point.whirl);
+            value["parameter"] = json!(point.parameter);
+            value["fold"] = json!(point.fold);
+            value["hopf"] = json!(point.hopf);
+            value
+        })
+        .collect();
+    let why = match &branch.end {
+        End::Lost(why) => Some(why),
+        _ => None,
+    };
+    json!({"vary": path, "points": points, "end": branch.end.name(), "why": why})
+}
+
+fn csv(path: &str, branch: &Branch) -> Vec<Vec<String>> {
+    let head = [
+        path,
+        "whirl_speed_rad_s",
+        "eccentricity_m",
+        "leading_rate_1_s",
+        "leading_frequency_rad_s",
+        "arcs",
+        "stable",
+        "fold",
+        "hopf",
+    ];
+    let rows = branch.points.iter().map(|point| {
+        let whirl = &point.whirl;
+        let [rate, frequency] = whirl.eigenvalues.first().copied().unwrap_or([f64::NAN; 2]);
+        let numbers = [point.parameter, whirl.speed, whirl.eccentricity, rate, frequency].map(files::plain);
+        let flags = [whirl.stable(), point.fold, point.hopf].map(|flag| flag.to_string());
+        numbers.into_iter().chain([whirl.arcs.to_string()]).chain(flags).collect()
+    });
+    std::iter::once(head.map(str::to_owned).to_vec()).chain(rows).collect()
+}
+
+/// What is varied.
+#[derive(Clone, Debug)]
+pub struct Vary {
+    path: String,
+    range: [f64; 2],
+}
+
+/// Reads `PATH=from:to`.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn parse_vary(text: &str) -> std::result::Result<Vary, String> {
+    let form = || "must have the form PATH=FROM:TO".to_owned();
+    let (path, range) = text.split_once('=').ok_or_else(form)?;
+    let (from, to) = range.split_once(':').ok_or_else(form)?;
+    let read = |text: &str| text.trim().parse::<f64>().ok().filter(|x| x.is_finite()).ok_or_else(form);
+    let range = [read(from)?, read(to)?];
+    if range[0] == range[1] {
+        return Err("must go from one number to another".to_owned());
+    }
+    Ok(Vary { path: path.trim().to_owned(), range })
+}

@@ -1,0 +1,154 @@
+//! Steady whirl of a cage without time stepping: its place, its speed and its stability from averaged equations.
+//!
+//! Elements of prescribed motion pass the moving contact of a whirling cage much faster than it or its pockets can answer, so their
+//! train counts as its mean. Without gravity the averaged cage is autonomous in its own axes, and a circular whirl is a state at
+//! rest there: a Newton step finds it in a millisecond, eigenvalues tell whether it is stable, and continuation follows it over
+//! speed, temperature, clearance, stiffness, or any other number of the scene.
+//!
+//! ```no_run
+//! fn main() -> cagedyn::Result<()> {
+//!     let text = std::fs::read_to_string("scenes/grease_guide.json").unwrap_or_default();
+//!     let whirl = cagedyn::whirl::steady(&cagedyn::Scene::from_json(&text)?, None)?;
+//!     println!("{} rad/s at {} m, stable: {}", whirl.speed, whirl.eccentricity, whirl.stable());
+//!     Ok(())
+//! }
+//! ```
+
+mod averaged;
+mod branch;
+mod start;
+
+pub use branch::{Branch, End, Point, follow};
+
+use crate::error::{Error, Result, Status};
+use crate::scalar::math;
+use crate::scene::Scene;
+use averaged::{Averaged, Unknowns};
+use nalgebra::{DMatrix, DVector};
+
+/// Newton steps, the largest change of an unknown in one in units of its scale, and the change at which they end.
+const MOST_STEPS: usize = 40;
+const LARGEST_STEP: f64 = 3.0;
+const CONVERGED: f64 = 1e-9;
+/// Step of differences in units of the scales.
+const DIFFERENCE: f64 = 1e-4;
+
+/// A steady whirl.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Whirl {
+    /// Speed of the cage centre about that of the guide, rad/s; negative clockwise.
+    pub speed: f64,
+    /// Distance of both, m.
+    pub eccentricity: f64,
+    /// Angle by which elements are ahead of their pockets, rad.
+    pub lead: f64,
+    /// Amplitudes of the waves of an elastic cage from order 2 on, m.
+    pub amplitudes: Vec<f64>,
+    /// Rates of growth and frequencies of small disturbances, seen from axes that go round with the whirl, 1/s and rad/s; one of them is zero, that of
+    /// its phase, and left out. The largest rate comes first.
+    pub eigenvalues: Vec<[f64; 2]>,
+    /// Number of wet arcs of a film that does not fill the guide; 1 for one that does, 0 where there is none.
+    pub arcs: u32,
+    /// Newton steps.
+    pub steps: usize,
+    /// What was solved for, to start from next to it.
+    unknowns: Vec<f64>,
+}
+
+impl Whirl {
+    /// Whether every small disturbance decays.
+    pub fn stable(&self) -> bool {
+        self.eigenvalues.first().is_none_or(|[rate, _]| *rate < 0.0)
+    }
+}
+
+/// The steady whirl of a scene without its gravity, near `guess`, or near where a closed estimate or a short run leads.
+///
+/// # Errors
+/// [`Status::BadScene`] for a scene of free rollers, with unbalance or without a guide, [`Status::BadState`] where there is no such whirl near.
+pub fn steady(scene: &Scene, guess: Option<&Whirl>) -> Result<Whirl> {
+    let mut averaged = Averaged::new(scene)?;
+    let first = match guess {
+        Some(whirl) => whirl.unknowns.clone(),
+        None => start::guess(scene, &averaged)?,
+    };
+    solve(&mut averaged, first)
+}
+
+/// Newton's method from these unknowns.
+fn solve(averaged: &mut Averaged, first: Vec<f64>) -> Result<Whirl> {
+    let scales = averaged.scales();
+    let mut u = DVector::from_vec(first);
+    for steps in 1..=MOST_STEPS {
+        let (residual, matrix) = linearized(averaged, &u, &scales)?;
+        let Some(step) = matrix.lu().solve(&residual) else { break };
+        let largest = step.amax();
+        if !largest.is_finite() {
+            break;
+        }
+        let share = (LARGEST_STEP / largest).min(1.0);
+        for ((u, step), scale) in u.iter_mut().zip(&step).zip(&scales) {
+            *u -= share * step * scale;
+        }
+        if largest < CONVERGED {
+            return whirl(averaged, &u, steps);
+        }
+    }
+    let text = format!(
+        "no steady whirl found: Newton's method ended at {:.1} rad/s and {:.3e} m",
+        averaged.speed(u.as_slice()),
+        averaged.eccentricity(u.as_slice())
+    );
+    Err(Error::new(Status::BadState, text))
+}
+
+/// Residual at these unknowns, and its derivatives over them in units of their scales.
+fn linearized(
+    averaged: &mut Averaged,
+    u: &DVector<f64>,
+    scales: &[f64],
+) -> Result<(DVector<f64>, DMatrix<f64>)> {
+    let n = u.len();
+    let residual = DVector::from_vec(averaged.residual(u.as_slice())?);
+    let mut matrix = DMatrix::zeros(n, n);
+    let mut moved = u.clone();
+    for k in 0..n {
+        let h = DIFFERENCE * scales[k];
+        let mut at = |by: f64| {
+            moved[k] = u[k] + by;
+            let found = averaged.residual(moved.as_slice());
+            moved[k] = u[k];
+            found.map(DVector::from_vec)
+        };
+        let column = (at(h)? - at(-h)?) / (2.0 * DIFFERENCE);
+        matrix.set_column(k, &column);
+    }
+    Ok((residual, matrix))
+}
+
+/// What is known of the whirl at a solution.
+fn whirl(averaged: &mut Averaged, u: &DVector<f64>, steps: usize) -> Result<Whirl> {
+    let Unknowns { eccentricity, speed, lead, waves } = averaged.unknowns(u.as_slice());
+    let amplitudes = waves.chunks(2).map(|pair| math::hypot(pair[0], pair[1])).collect();
+    let slopes = averaged.slopes(u.as_slice())?;
+    let mut eigenvalues: Vec<[f64; 2]> =
+        slopes.complex_eigenvalues().iter().map(|value| [value.re, value.im]).collect();
+    // The phase of the whirl is arbitrary: the eigenvalue nearest to zero is that of it.
+    let size = |value: &[f64; 2]| math::hypot(value[0], value[1]);
+    eigenvalues.sort_by(|a, b| size(a).total_cmp(&size(b)));
+    let mut eigenvalues = eigenvalues.split_off(1.min(eigenvalues.len()));
+    eigenvalues.sort_by(|a, b| b[0].total_cmp(&a[0]).then(b[1].total_cmp(&a[1])));
+    Ok(Whirl {
+        speed,
+        eccentricity,
+        lead,
+        amplitudes,
+        eigenvalues,
+        arcs: averaged.arcs(u.as_slice())?,
+        steps,
+        unknowns: u.as_slice().to_vec(),
+    })
+}
+
+#[cfg(test)]
+mod tests;
