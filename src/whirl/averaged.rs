@@ -15,7 +15,7 @@ use crate::model::{Fault, HostInputs, Input, InputValues, Model, Workspace};
 use crate::scalar::math;
 use crate::scene::{GuideFilm, Scene};
 use crate::space::rotate;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
 
 /// Places of the train in a pitch at which contacts are counted, and halvings of a step in which one begins or ends.
@@ -29,6 +29,8 @@ const WAVE: f64 = 1e-5;
 /// Steps of differences of the state for its stability: place m, velocity m/s, lead rad, speed rad/s, waves m and their rates m/s.
 const STEPS: [f64; 6] = [1e-9, 1e-5, 1e-9, 1e-3, 1e-9, 1e-5];
 
+/// Step of differences over the motion in axes at rest, in units of its scales.
+pub(super) const DIFFERENCE_OF_MOTION: f64 = 1e-3;
 /// Positive nodes and weights of the Gauss-Legendre rule of twelve points on [-1, 1].
 const GAUSS: [(f64, f64); 6] = [
     (0.125_233_408_511_468_9, 0.249_147_045_813_402_8),
@@ -55,6 +57,8 @@ pub(super) struct Averaged {
     growth: f64,
     layer: Option<f64>,
     a: Vec<f64>,
+    /// Whether elements pass the contact counter-clockwise.
+    passes_forwards: bool,
 }
 
 /// A whirl, as it is solved for.
@@ -122,6 +126,7 @@ impl Averaged {
             growth,
             layer,
             a: vec![0.0; model.layout().velocities()],
+            passes_forwards: true,
             inputs,
             model,
         })
@@ -297,6 +302,64 @@ impl Averaged {
         }
         let Self { model, inputs, ws, a, .. } = self;
         model.accelerations(inputs, &q, &v, ws, a).map_err(|fault| failed(fault, model))
+    }
+
+    /// Angle from one element to the next, rad.
+    pub(super) fn pitch(&self) -> f64 {
+        self.pitch
+    }
+
+    /// The motion of a whirl in axes at rest, with the elements where they are at the start: place, angle and waves, and their
+    /// rates.
+    pub(super) fn at_rest(&self, u: &[f64]) -> Vec<f64> {
+        let (state, _) = self.state(u);
+        let places = [state.position[0], state.position[1], -state.lead];
+        let rates = [state.velocity[0], state.velocity[1], state.speed];
+        places.into_iter().chain(state.waves).chain(rates).chain(state.rates).collect()
+    }
+
+    /// Scales of its numbers, with `second` in place of that of the second.
+    pub(super) fn motion_scales(&self, second: f64) -> Vec<f64> {
+        let waves = 2 * self.orders.len();
+        let places = [1e-6, if second > 0.0 { 1e-2 * second } else { 1e-6 }, LEAD];
+        let rates = [1e-2, 1e-2, 1.0];
+        let of = |scale: f64| std::iter::repeat_n(scale, waves);
+        places.into_iter().chain(of(1e-6)).chain(rates).chain(of(1e-2)).collect()
+    }
+
+    /// Rates of the motion in axes at rest at the time `t`, s, among single elements.
+    pub(super) fn full_rate(&mut self, t: f64, x: &DVector<f64>) -> Result<DVector<f64>> {
+        let n = x.len() / 2;
+        self.inputs.orbit_travel = self.orbit * t;
+        let (q, v) = x.as_slice().split_at(n);
+        let Self { model, inputs, ws, a, .. } = self;
+        model.accelerations(inputs, q, v, ws, a).map_err(|fault| failed(fault, model))?;
+        Ok(DVector::from_iterator(2 * n, v.iter().chain(&self.a[..n]).copied()))
+    }
+
+    /// Turns a motion back after one element has passed in this time, s.
+    pub(super) fn turn_back(&self, x: &mut DVector<f64>, passage: f64) {
+        let n = x.len() / 2;
+        let passed = if self.passes_forwards { self.pitch } else { -self.pitch };
+        let (sin, cos) = math::sin_cos(self.orbit * passage - passed);
+        for at in [0, n] {
+            let [y, z] = rotate([x[at], x[at + 1]], -sin, cos);
+            (x[at], x[at + 1]) = (y, z);
+        }
+        x[2] -= self.orbit * passage;
+        for (k, order) in self.orders.iter().enumerate() {
+            // Pockets are alike one place further.
+            let (sin, cos) = math::sin_cos(f64::from(*order) * passed);
+            for at in [CAGE_MOTION + 2 * k, n + CAGE_MOTION + 2 * k] {
+                let [a, b] = rotate([x[at], x[at + 1]], sin, cos);
+                (x[at], x[at + 1]) = (a, b);
+            }
+        }
+    }
+
+    /// Tells whether elements go round faster than the whirl, seen counter-clockwise.
+    pub(super) fn set_passing(&mut self, whirl_speed: f64) {
+        self.passes_forwards = self.orbit > whirl_speed;
     }
 
     /// Derivatives of the averaged motion at a whirl in axes that go round with it: position, velocity, lead, speed, waves and

@@ -16,9 +16,11 @@
 
 mod averaged;
 mod branch;
+mod exact;
 mod start;
 
 pub use branch::{Branch, End, Point, follow};
+pub use exact::Exact;
 
 use crate::error::{Error, Result, Status};
 use crate::scalar::math;
@@ -73,6 +75,16 @@ pub fn steady(scene: &Scene, guess: Option<&Whirl>) -> Result<Whirl> {
         None => start::guess(scene, &averaged)?,
     };
     solve(&mut averaged, first)
+}
+
+/// The exact whirl next to the averaged one of a scene without its gravity: periodic over the passing of one element.
+///
+/// # Errors
+/// As [`steady`].
+pub fn exact(scene: &Scene, near: &Whirl) -> Result<Exact> {
+    let mut averaged = Averaged::new(scene)?;
+    averaged.set_passing(near.speed);
+    exact::exact(&mut averaged, near)
 }
 
 /// Newton's method from these unknowns.

@@ -18,6 +18,20 @@ fn the_averaged_whirl_is_that_of_an_independent_prototype() {
 }
 
 #[test]
+fn averaging_is_a_thousandth_fast() {
+    let rigid = scene("grease_guide", &[]);
+    let averaged = steady(&rigid, None).unwrap();
+    let found = exact(&rigid, &averaged).unwrap();
+    assert!((found.speed / -1959.87 - 1.0).abs() < 1e-4, "{found:?}");
+    assert!((found.leading_rate / -294.0 - 1.0).abs() < 0.01, "{found:?}");
+    let elastic = scene("grease_guide_elastic", &[]);
+    let averaged = steady(&elastic, None).unwrap();
+    let found = exact(&elastic, &averaged).unwrap();
+    let fast = averaged.speed / found.speed - 1.0;
+    assert!((1e-3..1e-2).contains(&fast), "{found:?}");
+}
+
+#[test]
 fn an_elastic_cage_whirls_with_its_waves() {
     let whirl = steady(&scene("grease_guide_elastic", &[]), None).unwrap();
     assert!((whirl.speed / -1732.28 - 1.0).abs() < 1e-3, "{whirl:?}");

@@ -6,7 +6,7 @@ use crate::results::files::{self, write_csv, write_json, write_text};
 use crate::results::table::{self, Align, number};
 use crate::run::{in_file, read, stem};
 use crate::{WhirlArgs, terminal};
-use cagedyn::whirl::{self, Branch, End, Point, Whirl};
+use cagedyn::whirl::{self, Branch, End, Exact, Point, Whirl};
 use cagedyn::{Result, Scene};
 use serde_json::{Value, json};
 use std::process::ExitCode;
@@ -25,7 +25,9 @@ pub fn command(args: &WhirlArgs) -> Result<ExitCode> {
     let started = Instant::now();
     let Some(vary) = &args.vary else {
         let whirl = whirl::steady(&scene, None).map_err(in_scene)?;
-        return tell(args, &title, &whirl, started);
+        // Averaging may find what single elements have not.
+        let exact = whirl::exact(&scene, &whirl);
+        return tell(args, &title, (&whirl, exact.ok().as_ref()), started);
     };
     // Values are put into the text again, so that any number of a scene can be varied and is checked.
     let with = |_: &Scene, value: f64| {
@@ -81,13 +83,27 @@ pub fn command(args: &WhirlArgs) -> Result<ExitCode> {
 }
 
 /// One whirl.
-fn tell(args: &WhirlArgs, title: &str, whirl: &Whirl, started: Instant) -> Result<ExitCode> {
+fn tell(
+    args: &WhirlArgs,
+    title: &str,
+    (whirl, exact): (&Whirl, Option<&Exact>),
+    started: Instant,
+) -> Result<ExitCode> {
+    let found = || {
+        let mut found = of_whirl(whirl);
+        found["exact"] = json!(exact.map(|exact| json!({
+            "whirl_speed": exact.speed,
+            "passage": exact.passage,
+            "leading_rate": exact.leading_rate,
+        })));
+        found
+    };
     if let Some(folder) = &args.out {
         std::fs::create_dir_all(folder).map_err(|e| files::file_error(folder, e))?;
-        write_json(&folder.join("whirl.json"), &of_whirl(whirl))?;
+        write_json(&folder.join("whirl.json"), &found())?;
     }
     if args.json {
-        terminal::print(&format!("{:#}\n", of_whirl(whirl)))?;
+        terminal::print(&format!("{:#}\n", found()))?;
         return Ok(ExitCode::SUCCESS);
     }
     let mut rows = vec![
@@ -97,6 +113,10 @@ fn tell(args: &WhirlArgs, title: &str, whirl: &Whirl, started: Instant) -> Resul
         vec!["wet arcs".to_owned(), whirl.arcs.to_string()],
         vec!["stable".to_owned(), if whirl.stable() { "yes" } else { "no" }.to_owned()],
     ];
+    let speed = exact.map_or("none found".to_owned(), |exact| {
+        format!("{:.2} rad/s, leading rate {} 1/s", exact.speed, number(exact.leading_rate))
+    });
+    rows.push(vec!["exact, among single elements".to_owned(), speed]);
     for (k, amplitude) in whirl.amplitudes.iter().enumerate() {
         rows.push(vec![format!("wave of order {}", k + 2), format!("{:.3} um", 1e6 * amplitude)]);
     }

@@ -20,6 +20,7 @@ pub mod barus_film;
 pub mod bent;
 mod breaks;
 mod circumference;
+pub mod dry_whirl;
 mod gap;
 pub mod journal;
 mod land;
