@@ -48,12 +48,14 @@ const OIL_HOLDS: [f64; 2] = [250.0, 450.0];
 /// A bearing whose temperatures follow from its motion.
 pub struct HeatBalance {
     model: Arc<Model>,
+    heat: Heat,
     network: Network,
     burst: Burst,
     /// Temperatures now, K.
     temperatures: Vec<f64>,
     /// Place of the lubricant's lump.
     lubricant: usize,
+    /// Friction of the whole bearing: its law, lumps of both rings, share of the first, and the kinematic viscosity of the oil.
     torque: Option<(Palmgren, [usize; 2], f64, Walther)>,
 }
 
@@ -110,7 +112,7 @@ impl HeatBalance {
         let network = Network::new(&heat, model.scene(), burst.ring_speed());
         let temperatures = heat.nodes.iter().map(|node| node.start.unwrap_or(heat.ambient)).collect();
         let lubricant = heat.node(&heat.lubricant).unwrap_or(0);
-        Ok(Self { burst, model, network, temperatures, lubricant, torque })
+        Ok(Self { burst, model, heat, network, temperatures, lubricant, torque })
     }
 
     /// The scene.
@@ -120,17 +122,12 @@ impl HeatBalance {
 
     /// Names of the lumps.
     pub fn names(&self) -> impl Iterator<Item = &str> {
-        self.heat().nodes.iter().map(|node| node.name.as_str())
+        self.heat.nodes.iter().map(|node| node.name.as_str())
     }
 
     /// Names of both ends of the links.
     pub fn links(&self) -> impl Iterator<Item = [&str; 2]> {
-        self.heat().links.iter().map(|link| link.between.each_ref().map(String::as_str))
-    }
-
-    #[expect(clippy::expect_used, reason = "checked when this was made")]
-    fn heat(&self) -> &Heat {
-        self.model.scene().heat.as_ref().expect("a heat balance has a scene with one")
+        self.heat.links.iter().map(|link| link.between.each_ref().map(String::as_str))
     }
 
     /// The temperatures at which the bearing stays.

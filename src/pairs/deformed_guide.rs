@@ -15,7 +15,7 @@ use crate::pairs::passage::Passage;
 use crate::scalar::math;
 use crate::scene::Scene;
 use crate::space::{Motion, rotate};
-use nalgebra::{DMatrix, Matrix3};
+use nalgebra::{DMatrix, DVector, Matrix3};
 use std::f64::consts::TAU;
 
 /// Places around the circle that tell how long a step may be, per order of the highest wave.
@@ -254,23 +254,14 @@ impl DeformedGuide {
             }
         }
         let speeding = if self.ring == INNER_RING { sums.rates.of(Input::RingSpeed) } else { 0.0 };
-        self.add_over_time(&beside, &forces.all, &forces.over_ring_speed, speeding, sums);
+        self.add_over_time(&beside, &forces.over_ring_speed, speeding, sums);
         if sums.ln_viscosity_rate != 0.0 {
-            // Films know the viscosity only in its products with velocities, so their forces are those of a lubricant that is
-            // thicker by a share.
             self.add_warming(law, motions, fluid, force, sums);
         }
     }
 
-    /// Adds rates `rate` times `slope`, over the coordinates in axes of the cage; the second is the moment on the journal.
-    fn add_over_time(
-        &self,
-        beside: &Beside,
-        _forces: &[f64],
-        slope: &nalgebra::DVector<f64>,
-        rate: f64,
-        sums: &mut SlopeSums<'_>,
-    ) {
+    /// Adds `rate` times the slope of the forces over all coordinates, in axes of the cage and with the moment on the journal.
+    fn add_over_time(&self, beside: &Beside, slope: &DVector<f64>, rate: f64, sums: &mut SlopeSums<'_>) {
         if rate == 0.0 {
             return;
         }
@@ -304,7 +295,7 @@ impl DeformedGuide {
         let rate = sums.ln_viscosity_rate;
         // A central difference over the logarithm.
         let step = VISCOSITY_STEP;
-        let mut slope = nalgebra::DVector::zeros(CAGE_MOTION + 2 * self.surface.waves.len());
+        let mut slope = DVector::zeros(CAGE_MOTION + 2 * self.surface.waves.len());
         for side in [1.0, -1.0] {
             let thicker = Fluid::new(fluid.relative_viscosity * math::exp(side * step));
             if self.evaluate(law, motions, thicker, Wanted::Forces, force).is_err() {
@@ -314,7 +305,7 @@ impl DeformedGuide {
                 slope.iter_mut().zip(&deformed.forces.all).for_each(|(x, f)| *x += side * f / (2.0 * step));
             }
         }
-        self.add_over_time(&beside, &[], &slope, rate, sums);
+        self.add_over_time(&beside, &slope, rate, sums);
         // The memory holds the forces of the state again.
         let _ = self.evaluate(law, motions, fluid, Wanted::Forces, force);
     }
