@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What a release needs beside `make test`. A tool that is missing is installed, or is an error. Steps may be named:
-# calls package python octave deb c-sanitizers sanitizers fuzz platforms; without names all are made.
+# calls package python octave deb c-sanitizers sanitizers c-threads fuzz platforms; without names all are made.
 set -euo pipefail
 
 NIGHTLY=nightly-2026-10-30
@@ -63,7 +63,7 @@ c-sanitizers() {
     $CARGO build --release --locked --lib
     ln -sf libcagedyn.so target/release/libcagedyn.so.0
     local flags="-g -O1 -fsanitize=address,undefined -fno-sanitize-recover=all"
-    cc $flags tools/planted/planted.c -o "$out/planted-c"
+    cc $flags tools/planted/planted.c -pthread -o "$out/planted-c"
     must_fail "$out/planted-c" overflow
     must_fail "$out/planted-c" undefined
     "$out/planted-c" nothing || { echo "finds what is not there" >&2; exit 1; }
@@ -98,6 +98,26 @@ sanitizers() {
     # The standard library must be watched, too, or its locks are seen as races.
     RUSTFLAGS=-Zsanitizer=thread $CARGO +$NIGHTLY test -Zbuild-std --release --locked --target "$HOST" \
         --target-dir target/tsan --no-default-features --lib -- batch::
+}
+
+# The C tests of threads and batches for races, on a library that is compiled with the thread sanitizer. Its runtime is that of
+# the Rust compiler, which knows the calls of both compilers.
+c-threads() {
+    nightly
+    RUSTFLAGS=-Zsanitizer=thread $CARGO +$NIGHTLY build -Zbuild-std --release --locked --target "$HOST" \
+        --target-dir target/tsan --no-default-features --lib
+    local runtime test
+    runtime=$(rustc +$NIGHTLY --print sysroot)/lib/rustlib/$HOST/lib/librustc-nightly_rt.tsan.a
+    for test in planted threads batch; do
+        local source=ctests/test_$test.c
+        [ $test != planted ] || source=tools/planted/planted.c
+        cc -std=c11 -g -O1 -fsanitize=thread -Iinclude -c "$source" -o "$out/$test-tsan.o"
+        cc "$out/$test-tsan.o" "target/tsan/$HOST/release/libcagedyn.a" -Wl,--whole-archive "$runtime" \
+            -Wl,--no-whole-archive -Wl,--export-dynamic -lm -pthread -ldl -lrt -lstdc++ -o "$out/$test-tsan"
+    done
+    must_fail "$out/planted-tsan" race
+    "$out/planted-tsan" nothing
+    for test in threads batch; do "$out/$test-tsan" scenes/nu2310.json; done
 }
 
 # Fuzzing of what comes from outside, from a committed corpus on.
@@ -140,7 +160,7 @@ platforms() {
     done
 }
 
-for step in ${*:-calls package python octave deb c-sanitizers sanitizers fuzz platforms}; do
+for step in ${*:-calls package python octave deb c-sanitizers sanitizers c-threads fuzz platforms}; do
     echo "== $step"
     $step
 done

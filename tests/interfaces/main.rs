@@ -13,6 +13,7 @@ mod cli;
 mod cli_files;
 mod docs;
 mod examples;
+mod fuzzed;
 mod header;
 mod hosts;
 mod install;

@@ -1,7 +1,16 @@
 /* Defects that sanitizers must find in C, one by the name that is given. */
 #include <limits.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
+
+static int shared;
+
+static void *write_shared(void *data)
+{
+    shared = *(int *)data;
+    return NULL;
+}
 
 int main(int argc, char **argv)
 {
@@ -15,5 +24,12 @@ int main(int argc, char **argv)
         free(x);
     }
     if (strcmp(defect, "undefined") == 0) n = INT_MAX - 1 + n;
-    return n == 12345;
+    if (strcmp(defect, "race") == 0) {
+        pthread_t other;
+        int one = 1, two = 2;
+        if (pthread_create(&other, NULL, write_shared, &one) != 0) return 0;
+        write_shared(&two);
+        pthread_join(other, NULL);
+    }
+    return n == 12345 || shared == 12345;
 }
