@@ -139,6 +139,7 @@ fn guide_films() {
     };
     let layer = LubricantLayer {
         viscosity: 0.1,
+        thickener: None,
         pressure_viscosity: 2e-8,
         cap: 0.9,
         radius: 0.045,

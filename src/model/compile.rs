@@ -132,7 +132,10 @@ fn inputs(scene: &Scene) -> Result<InputSignals> {
                 }
             }
             list.push((Input::Temperature, source));
-            Some(Oil { law, built_at: (at_start, law.viscosity(at_start)) })
+            let viscosity = law.viscosity(at_start);
+            let grease = scene.lubricant.as_ref().and_then(|lubricant| lubricant.grease.as_ref());
+            let thickener = grease.map(|grease| pairs::line_laws::thickener(grease, viscosity));
+            Some(Oil { law, built_at: (at_start, viscosity), thickener })
         }
         _ => None,
     };

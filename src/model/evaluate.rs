@@ -7,7 +7,6 @@ use super::workspace::Workspace;
 use super::{Fault, Input, InputValues, Model};
 use crate::bodies::{BodyState, CAGE, CAGE_MOTION, OF_ELEMENT, OnBody, SHARED, WrenchLanes, displaced};
 use crate::laws::contact_pair::ContactForce;
-use crate::laws::fluid::Fluid;
 use crate::pairs::{ContactBlock, Law};
 use crate::scalar::{ZEROS, math, place_of};
 use crate::space::Wrench;
@@ -51,11 +50,11 @@ impl Model {
             return Ok(());
         };
         ws.counts[Law::ViscosityTemperature as usize] += u64::from(ws.counting);
-        let ratio = oil.law.viscosity(temperature) / oil.built_at.1;
-        if ratio.is_nan() {
+        let fluid = oil.fluid_at(temperature);
+        if fluid.relative_viscosity.is_nan() {
             return Err(Fault::NoViscosity { temperature });
         }
-        ws.fluid = Fluid::new(ratio);
+        ws.fluid = fluid;
         ws.temperature = temperature;
         Ok(())
     }

@@ -37,6 +37,7 @@ impl Model {
             bodies: &self.shared,
             rates,
             ln_viscosity_rate: self.ln_viscosity_rate(ws, rates),
+            ln_structure_ratio: self.ln_structure_ratio(ws),
             out: &mut *out,
         };
         for (place, pair) in self.pairs.iter().enumerate() {
@@ -57,6 +58,13 @@ impl Model {
             Some(oil) if warming != 0.0 => oil.law.relative_slope(ws.inputs.of(Input::Temperature)) * warming,
             _ => 0.0,
         }
+    }
+
+    /// Change of the logarithm of a soap's structure over that of the viscosity.
+    fn ln_structure_ratio(&self, ws: &Workspace) -> f64 {
+        let Some(oil) = &self.inputs.oil else { return 0.0 };
+        let of_viscosity = oil.law.relative_slope(ws.inputs.of(Input::Temperature));
+        oil.thickener.map_or(0.0, |law| law.ln_structure_slope() / of_viscosity)
     }
 
     /// From forces to accelerations, with the terms that are no contact forces.

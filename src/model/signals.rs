@@ -2,6 +2,8 @@
 //! what follows from them: the prescribed motion of kinematic elements.
 
 use crate::bodies::{HostInputs, Input, InputValues};
+use crate::laws::fluid::Fluid;
+use crate::laws::fluid::grease::Thickener;
 use crate::laws::fluid::walther::Walther;
 use crate::scene::{Signal, SignalIntegral, interpolate, slope};
 
@@ -31,6 +33,16 @@ pub(super) struct Oil {
     pub(super) law: Walther,
     /// Temperature (K) and viscosity (Pa s) that the laws were built with.
     pub(super) built_at: (f64, f64),
+    /// What thickens it where it is sheared.
+    pub(super) thickener: Option<Thickener>,
+}
+
+impl Oil {
+    /// The lubricant at a temperature in K, against that which laws were built with; its viscosity is NaN where the law has none.
+    pub(super) fn fluid_at(&self, temperature: f64) -> Fluid {
+        let fluid = Fluid::new(self.law.viscosity(temperature) / self.built_at.1);
+        Fluid { structure: self.thickener.map_or(1.0, |law| law.structure(temperature)), ..fluid }
+    }
 }
 
 /// The inputs that a scene has.

@@ -84,7 +84,7 @@ impl Workspace {
             differentiating: false,
             splitting: false,
             temperature: model.inputs.oil.map_or(f64::NAN, |oil| oil.built_at.0),
-            fluid: Fluid::SAME,
+            fluid: model.inputs.oil.map_or(Fluid::SAME, |oil| oil.fluid_at(oil.built_at.0)),
         }
     }
 

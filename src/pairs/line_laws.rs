@@ -5,12 +5,13 @@ use crate::laws::elastic::line::{ElasticLine, NormalDamping, effective_modulus};
 use crate::laws::elastic::solid::SolidContact;
 use crate::laws::film::regime::LubricationRegime;
 use crate::laws::film::thickness::{FilmThickness, ThermalCorrection, ThermalLoad};
+use crate::laws::fluid::grease::{Polymer, Soap, Thickener};
 use crate::laws::line_contact::LineContact;
 use crate::laws::rolling::{Extent, Isothermal, RigidLimit, RollingFilm, RollingResistance, ZhouHoeprich};
 use crate::laws::traction::muraki_kimura::Traction;
 use crate::laws::traction::self_heating::SelfHeating;
 use crate::laws::traction::solid_friction::SolidFriction;
-use crate::scene::{self, ContactLaws, Lubricant, Material, Scene, bad_scene, needed};
+use crate::scene::{self, ContactLaws, Grease, Lubricant, Material, Scene, bad_scene, needed};
 
 /// The parts of the scene that several laws need, with the path of the law being built.
 pub(crate) struct LawBuilder<'a> {
@@ -25,6 +26,27 @@ struct Element<'a> {
     path: &'a str,
     material: &'a str,
     effective_length: f64,
+}
+
+/// What thickens an oil of this viscosity (Pa s).
+pub(crate) fn thickener(grease: &Grease, base_viscosity: f64) -> Thickener {
+    match grease {
+        Grease::Soap(soap) => Thickener::Soap(Soap {
+            yield_stress: soap.yield_stress,
+            yield_time: soap.yield_time,
+            consistency: soap.consistency,
+            exponent: soap.exponent,
+            lowest_shear_rate: soap.lowest_shear_rate,
+            reference_temperature: soap.reference_temperature,
+            halving: soap.halving,
+            base_viscosity,
+        }),
+        Grease::Polymer(polymer) => Thickener::Polymer(Polymer {
+            plateau: polymer.plateau,
+            relaxation_time: polymer.relaxation_time,
+            exponent: polymer.exponent,
+        }),
+    }
 }
 
 impl<'a> LawBuilder<'a> {
@@ -71,6 +93,12 @@ impl<'a> LawBuilder<'a> {
 
     fn law(&self, field: &str) -> String {
         format!("{}.{field}", self.path)
+    }
+
+    /// What thickens the oil where it is sheared.
+    pub(crate) fn thickener(&self, by: &str) -> Result<Option<Thickener>> {
+        let viscosity = self.viscosity(by)?;
+        Ok(self.lubricant(by)?.grease.as_ref().map(|grease| thickener(grease, viscosity)))
     }
 
     pub(crate) fn pressure_viscosity(&self, by: &str) -> Result<f64> {

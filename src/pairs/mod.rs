@@ -14,7 +14,6 @@
 //! names that it is counted and reported by, in `Law`, `ForceSource` and `Power`.
 
 mod contacts;
-mod deformed_guide;
 pub(crate) mod grip;
 pub mod guide;
 pub(crate) mod line_laws;
@@ -26,8 +25,8 @@ mod slope_sums;
 pub(crate) use contacts::{
     Batch, ContactBlock, Contacts, Found, LAWS_OF_PAIR, Loaded, RelativeSlopes, Search, Site, SpeedChanges,
 };
-use deformed_guide::OnDeformed;
 pub(crate) use grip::Grip;
+use guide::OnDeformed;
 pub(crate) use slope_sums::SlopeSums;
 
 use crate::bodies::{

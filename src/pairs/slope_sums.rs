@@ -15,6 +15,8 @@ pub(crate) struct SlopeSums<'a> {
     pub(crate) rates: &'a InputValues,
     /// Rate of the logarithm of the viscosity, 1/s.
     pub(crate) ln_viscosity_rate: f64,
+    /// Change of the logarithm of the structure of a grease over that of its viscosity.
+    pub(crate) ln_structure_ratio: f64,
     pub(crate) out: &'a mut Linearization<OF_ELEMENT>,
 }
 
@@ -59,6 +61,9 @@ fn chunks(columns: &mut [f64]) -> &mut [[f64; OF_ELEMENT]] {
 }
 
 impl SlopeSums<'_> {
+    /// Step of the logarithm of the viscosity, where a difference over it is taken.
+    pub(crate) const VISCOSITY_STEP: f64 = 1e-4;
+
     /// Adds the derivatives of the contact at a place of the columns, of this element with this mate, but for those of the mate
     /// over its own coordinates.
     #[inline(always)]

@@ -1,6 +1,6 @@
 //! The lubricant of a scene: viscosity, and the constants of films and traction.
 
-use super::Signal;
+use super::{Grease, Signal};
 use serde::{Deserialize, Serialize};
 
 /// Lubricant. Only the constants that the scene's laws use are needed.
@@ -31,6 +31,9 @@ pub struct Lubricant {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 1e6, max = 1e12)))]
     pub shear_modulus: Option<f64>,
+    /// What thickens the oil where it is sheared, for lubricant layers. Absent: bled oil, which nothing thickens.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub grease: Option<Grease>,
 }
 
 /// Viscosity at inlet temperature and ambient pressure.

@@ -9,6 +9,7 @@ mod check;
 mod contact_laws;
 mod elastic_ring;
 mod elements;
+mod grease;
 pub(crate) mod heat;
 mod json;
 mod lubricant;
@@ -30,6 +31,7 @@ pub use contact_laws::{
 pub(crate) use elastic_ring::MOST_RING_ORDERS;
 pub use elastic_ring::{ElasticRing, FiniteElementModes, RingSection, RingStiffness};
 pub use elements::{ElementMotion, KinematicElements, Rollers};
+pub use grease::{Grease, PolymerGrease, SoapGrease};
 pub use heat::{BearingTorque, Conductance, Heat, HeatLink, HeatNode, HeatSource};
 pub use json::{parse_override, set_path};
 pub use lubricant::{Lubricant, Temperature, Viscosity, ViscosityPoint, WaltherViscosity};

@@ -6,7 +6,7 @@ use cagedyn::laws::guide::journal::Harmonic;
 use cagedyn::laws::guide::lubricant_layer::{LubricantLayer, PressureShear};
 use cagedyn::laws::guide::short_bearing::ShortBearing;
 use cagedyn::laws::guide::{GuideFilm, GuideLaw};
-use cagedyn::pairs::guide::GuideSide;
+use cagedyn::pairs::guide::side::GuideSide;
 use cagedyn::space::Motion;
 use std::f64::consts::TAU;
 

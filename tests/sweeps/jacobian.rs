@@ -150,7 +150,7 @@ fn compare(model: &Model, t: f64, state: &[f64]) -> (usize, usize, f64, String) 
 
 #[test]
 fn derivatives_match_differences_in_every_combination() {
-    let (mut compared, mut skipped, mut largest) = (0, 0, 0.0f64);
+    let (mut compared, mut skipped, mut largest, mut thickened) = (0, 0, 0.0f64, 0);
     for (i, parts) in all().into_iter().enumerate() {
         // Everything that can change with time does.
         let mut scene = scene(parts);
@@ -172,6 +172,14 @@ fn derivatives_match_differences_in_every_combination() {
             "hot": {"temperature": 373.15, "kinematic_viscosity": 12e-6},
             "density": 880.0, "temperature": warming
         }});
+        let in_layer = !scene["cage"]["guide"]["film"]["lubricant_layer"].is_null();
+        if in_layer && i % 3 > 0 {
+            scene["lubricant"]["grease"] = match i % 3 {
+                1 => json!({"soap": {"yield_stress": 300.0, "consistency": 20.0, "exponent": 0.4}}),
+                _ => json!({"polymer": {"plateau": 0.3, "relaxation_time": 1e-4, "exponent": 0.6}}),
+            };
+            thickened += 1;
+        }
         let model = Arc::new(Model::from_json(&scene.to_string()).unwrap());
         let mut sim = Sim::new(model.clone()).unwrap();
         for k in 1..=2 {
@@ -185,6 +193,7 @@ fn derivatives_match_differences_in_every_combination() {
     }
     println!("{compared} derivatives compared, {skipped} skipped at kinks, largest error {largest:e}");
     assert!(skipped < compared / 200, "{skipped} of {compared} skipped");
+    assert!(thickened > 20, "{thickened}");
 }
 
 #[test]

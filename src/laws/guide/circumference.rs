@@ -175,7 +175,8 @@ impl Film<'_> {
     pub fn excess(&self, thinnest: f64, largest_opening: f64) -> Option<f64> {
         let land = &self.land;
         let scale = land.peak_scale * land.barus.pressure_viscosity;
-        let below = scale * largest_opening < land.barus.cap * thinnest.max(0.0).powi(3);
+        let thickest = land.thickener.as_ref().map_or(1.0, |(law, fluid)| law.largest(fluid));
+        let below = scale * thickest * largest_opening < land.barus.cap * thinnest.max(0.0).powi(3);
         (!below).then(|| land.barus.cap / scale)
     }
 

@@ -27,6 +27,7 @@
 //! and the error grows as the inverse of that depth.
 
 use crate::laws::fluid::Fluid;
+use crate::laws::fluid::grease::Thickener;
 use crate::laws::guide::barus_film::BarusFilm;
 use crate::laws::guide::bent::BentFilm;
 use crate::laws::guide::circumference::Film;
@@ -51,6 +52,8 @@ pub enum PressureShear {
 pub struct LubricantLayer {
     /// eta_0, Pa s.
     pub viscosity: f64,
+    /// What thickens the oil where it is sheared, if anything.
+    pub thickener: Option<Thickener>,
     /// alpha >= 0, 1/Pa; 0 is an isoviscous film.
     pub pressure_viscosity: f64,
     /// s_cap, value of alpha q above which the pressure follows its tangent; between 0 and 1, usually 0.9.
@@ -74,23 +77,24 @@ pub struct LubricantLayer {
 impl LubricantLayer {
     /// Film force on the journal, or [`NoFilm`] where h <= 0.
     pub fn force<T: Real>(&self, m: &JournalMotion<T>, fluid: Fluid) -> Result<FilmForce<T>, NoFilm> {
-        self.film(self.viscosity * fluid.relative_viscosity, Arch::new()).force(m)
+        self.film(fluid, Arch::new()).force(m)
     }
 
     /// Smallest thickness, m.
     pub fn minimum(&self, m: &JournalMotion<f64>) -> f64 {
-        self.film(self.viscosity, Arch::new()).minimum(m)
+        self.film(Fluid::SAME, Arch::new()).minimum(m)
     }
 
     /// The film in the gap of a bent cage.
     pub(super) fn around(&self, fluid: Fluid) -> BentFilm<'_> {
-        let mut film = self.film(self.viscosity * fluid.relative_viscosity, Arch::new());
+        let mut film = self.film(fluid, Arch::new());
         film.land.lobe_moment = 0.0;
         BentFilm { film, drags: true }
     }
 
-    /// The film with this viscosity in Pa s.
-    fn film(&self, viscosity: f64, instructions: Arch) -> Film<'_> {
+    /// The film of this fluid.
+    fn film(&self, fluid: Fluid, instructions: Arch) -> Film<'_> {
+        let viscosity = self.viscosity * fluid.relative_viscosity;
         let of_gradient = if self.pressure_shear == PressureShear::Absent { 0.0 } else { 1.0 };
         let land = Land {
             barus: BarusFilm { pressure_viscosity: self.pressure_viscosity, cap: self.cap },
@@ -101,6 +105,7 @@ impl LubricantLayer {
             gradient_force: of_gradient,
             gradient_moment: of_gradient,
             lobe_moment: if self.profile_on_journal { 1.0 } else { 0.0 },
+            thickener: self.thickener.map(|law| (law, fluid)),
         };
         Film {
             land,

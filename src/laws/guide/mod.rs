@@ -160,6 +160,11 @@ impl GuideFilm {
         }
     }
 
+    /// What thickens its oil where it is sheared.
+    pub fn thickens(&self) -> bool {
+        matches!(self, GuideFilm::LubricantLayer(film) if film.thickener.is_some())
+    }
+
     /// The film in the gap of a bent cage, without what its fixed lobes do.
     fn around(&self, fluid: Fluid) -> BentFilm<'_> {
         match self {

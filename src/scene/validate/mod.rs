@@ -5,6 +5,7 @@
 
 mod cage;
 mod elastic_ring;
+mod grease;
 mod heat;
 mod plausible;
 
@@ -54,6 +55,11 @@ impl Scene {
         }
         if let Some(lubricant) = &self.lubricant {
             lubricant.validate()?;
+            let guide = self.cage.as_ref().and_then(|cage| cage.guide.as_ref()?.film.as_ref());
+            if lubricant.grease.is_some() && !matches!(guide, Some(GuideFilm::LubricantLayer(_))) {
+                let text = "nothing sees it; it thickens the oil of cage.guide.film.lubricant_layer only";
+                return Err(bad("lubricant.grease", text));
+            }
             if let Viscosity::Walther(walther) = &lubricant.viscosity {
                 let path = "lubricant.viscosity.walther.temperature";
                 match (&walther.temperature, &self.heat) {
@@ -360,7 +366,7 @@ impl Lubricant {
         ] {
             optional(&format!("lubricant.{name}"), value, allowed)?;
         }
-        Ok(())
+        self.grease.as_ref().map_or(Ok(()), Grease::validate)
     }
 }
 

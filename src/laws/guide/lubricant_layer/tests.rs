@@ -1,4 +1,5 @@
 use super::*;
+use crate::laws::fluid::grease::Soap;
 use crate::laws::guide::journal::tests::motion;
 use crate::scalar::Dual;
 use std::f64::consts::PI;
@@ -9,6 +10,7 @@ const SHEARS: [PressureShear; 3] =
 pub(in crate::laws::guide) fn layer() -> LubricantLayer {
     LubricantLayer {
         viscosity: 0.0924,
+        thickener: None,
         pressure_viscosity: 2e-8,
         cap: 0.9,
         radius: 46.6615e-3,
@@ -212,15 +214,27 @@ fn all_instructions_give_the_same_bits_and_derivatives_the_same_values() {
     #[cfg(target_arch = "x86_64")]
     all.extend(pulp::x86::V3::try_new().map(Arch::V3));
     let bits = |f: &FilmForce<f64>| self::all(f).map(f64::to_bits);
-    for roundness in [vec![], profile] {
+    let soap = Soap {
+        yield_stress: 300.0,
+        yield_time: 1.0,
+        consistency: 20.0,
+        exponent: 0.4,
+        lowest_shear_rate: 100.0,
+        reference_temperature: 298.0,
+        halving: 30.0,
+        base_viscosity: 0.0924,
+    };
+    let kinds = [vec![], profile]
+        .map(|roundness| [None, Some(Thickener::Soap(soap))].map(|t| (roundness.clone(), t)));
+    for (roundness, thickener) in kinds.into_iter().flatten() {
         for i in 0..100 {
             let (e, v) = (100e-6 + f64::from(i) * 1.09e-6, 0.3 * (f64::from(i) * 0.7).sin());
-            let l = LubricantLayer { roundness: roundness.clone(), ..layer() };
+            let l = LubricantLayer { roundness: roundness.clone(), thickener, ..layer() };
             let m = motion([0.6 * e, -0.8 * e], [v, -1.1 * v], 142.5);
             let m = JournalMotion { profile_angle: 0.37 * f64::from(i), ..m };
-            let portable = l.film(l.viscosity, Arch::Scalar).force(&m).unwrap();
+            let portable = l.film(Fluid::SAME, Arch::Scalar).force(&m).unwrap();
             for instructions in &all {
-                assert_eq!(bits(&l.film(l.viscosity, *instructions).force(&m).unwrap()), bits(&portable));
+                assert_eq!(bits(&l.film(Fluid::SAME, *instructions).force(&m).unwrap()), bits(&portable));
             }
             let varied = JournalMotion {
                 position: m.position.map(|x| Dual::<1>::variable(x, 0)),

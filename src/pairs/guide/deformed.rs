@@ -3,15 +3,15 @@
 //! Forces act over the place of the cage, its angle and its waves. The ring feels the opposite force, and the moment that
 //! both together have about its centre.
 
-use super::guide::GuideSide;
-use super::slope_sums::SlopeSums;
-use super::{Ahead, Cost, SharedForce};
+use super::side::GuideSide;
 use crate::bodies::{CAGE, CAGE_MOTION, INNER_RING, Input, Motions, SHARED, along_factor};
 use crate::laws::fluid::Fluid;
 use crate::laws::guide::bent::{BentForces, BentMotion, BentSurface, Wanted};
 use crate::laws::guide::journal::{Harmonic, NoFilm};
 use crate::laws::guide::{GuideFilm, GuideForce, GuideLaw};
 use crate::pairs::passage::Passage;
+use crate::pairs::slope_sums::SlopeSums;
+use crate::pairs::{Ahead, Cost, SharedForce};
 use crate::scalar::math;
 use crate::scene::Scene;
 use crate::space::{Motion, rotate};
@@ -32,7 +32,7 @@ pub(super) struct DeformedGuide {
 
 /// Forces over the coordinates of a bent cage, and memory for them.
 #[derive(Clone, Debug)]
-pub(super) struct OnDeformed {
+pub(in crate::pairs) struct OnDeformed {
     forces: BentForces,
     /// Over the waves: all, and those of the film.
     on_modes: [Vec<f64>; 2],
@@ -44,15 +44,15 @@ pub(super) struct OnDeformed {
 }
 
 impl OnDeformed {
-    pub(super) fn on_modes(&self) -> &[f64] {
+    pub(in crate::pairs) fn on_modes(&self) -> &[f64] {
         &self.on_modes[0]
     }
 
-    pub(super) fn of_modes(&self) -> [&[f64]; 2] {
+    pub(in crate::pairs) fn of_modes(&self) -> [&[f64]; 2] {
         self.on_modes.each_ref().map(Vec::as_slice)
     }
 
-    pub(super) fn damping(&self) -> Option<&DMatrix<f64>> {
+    pub(in crate::pairs) fn damping(&self) -> Option<&DMatrix<f64>> {
         self.damped.then_some(&self.damping)
     }
 }
@@ -294,10 +294,10 @@ impl DeformedGuide {
         let beside = Beside::new(&shared[CAGE], &shared[self.ring]);
         let rate = sums.ln_viscosity_rate;
         // A central difference over the logarithm.
-        let step = VISCOSITY_STEP;
+        let step = SlopeSums::VISCOSITY_STEP;
         let mut slope = DVector::zeros(CAGE_MOTION + 2 * self.surface.waves.len());
         for side in [1.0, -1.0] {
-            let thicker = Fluid::new(fluid.relative_viscosity * math::exp(side * step));
+            let thicker = fluid.moved(side * step, sums.ln_structure_ratio);
             if self.evaluate(law, motions, thicker, Wanted::Forces, force).is_err() {
                 return;
             }
@@ -393,6 +393,3 @@ impl DeformedGuide {
         longest
     }
 }
-
-/// Step of the logarithm of the viscosity for its difference.
-const VISCOSITY_STEP: f64 = 1e-4;

@@ -1,16 +1,14 @@
-//! Cage and guiding ring: who is the journal, and the way back from the force on it to both bodies. Global frame.
+//! Cage and guiding ring, between which a film and a solid contact act. Global frame.
 //!
 //! Forces act through the centre of the journal; the bush carries in addition the moment of the force about its own
 //! centre, so both wrenches balance.
 
-use super::deformed_guide::DeformedGuide;
-use super::line_laws::LawBuilder;
-use super::passage::Passage;
-use super::slope_sums::{Slope, SlopeSums};
-use super::{Ahead, Cost, Law, SharedForce, SharedInfo, SharedPair};
+mod deformed;
+mod longest_step;
+pub mod side;
+
 use crate::bodies::{CAGE, Fault, ForceSource, INNER_RING, Input, Motions, OUTER_RING, Power, SHARED};
 use crate::error::Result;
-use crate::integrate::Tuning;
 use crate::laws::elastic::solid::SolidContact;
 use crate::laws::fluid::Fluid;
 use crate::laws::guide::bent::Wanted;
@@ -18,86 +16,23 @@ use crate::laws::guide::journal::{Harmonic, JournalMotion, NoFilm};
 use crate::laws::guide::lubricant_layer::{LubricantLayer, PressureShear};
 use crate::laws::guide::short_bearing::ShortBearing;
 use crate::laws::guide::{GuideFilm, GuideForce, GuideLaw, GuideSolid};
+use crate::pairs::line_laws::LawBuilder;
+use crate::pairs::slope_sums::SlopeSums;
+use crate::pairs::{Ahead, Cost, Law, SharedForce, SharedInfo, SharedPair};
 use crate::scalar::{Dual, Real, math};
 use crate::scene::{self, GuideRing};
 use crate::space::{Motion, Wrench};
+use deformed::DeformedGuide;
+pub(super) use deformed::OnDeformed;
+use longest_step::{CagePlace, longest_step};
 use nalgebra::Matrix3;
+use side::{GuideSide, JournalDual, difference};
 use std::f64::consts::TAU;
 
 /// Asperities begin to touch at this many times the roughness, unless the scene says otherwise.
 const ASPERITY_HEIGHT: f64 = 3.0;
 /// Samples per period of the highest harmonic, for the highest place of a roundness profile.
 const PROFILE_SAMPLES: u32 = 64;
-
-/// Side of the guide.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum GuideSide {
-    /// The cage is the journal inside the ring.
-    CageInside,
-    /// The cage is the bush around the ring.
-    CageOutside,
-}
-
-impl GuideSide {
-    /// Motion of the journal in the bush. The roundness profile is that of the cage.
-    #[inline]
-    pub fn journal_motion<T: Real>(self, cage: &Motion<T>, ring: &Motion<T>) -> JournalMotion<T> {
-        let (journal, bush) = match self {
-            GuideSide::CageInside => (cage, ring),
-            GuideSide::CageOutside => (ring, cage),
-        };
-        JournalMotion {
-            position: difference(journal.position, bush.position),
-            velocity: difference(journal.velocity, bush.velocity),
-            journal_speed: journal.speed,
-            bush_speed: bush.speed,
-            profile_angle: cage.angle,
-            profile_speed: cage.speed,
-        }
-    }
-
-    /// Derivatives over the motions of cage and ring: y, z and angle, and their rates.
-    #[inline]
-    fn over_bodies(self, row: &JournalDual) -> [Slope<3, 3>; 2] {
-        let [y, z, vy, vz, journal, bush, angle, profile] = row.eps;
-        match self {
-            GuideSide::CageInside => {
-                [([y, z, angle], [vy, vz, journal + profile]), ([-y, -z, 0.0], [-vy, -vz, bush])]
-            }
-            GuideSide::CageOutside => {
-                [([-y, -z, angle], [-vy, -vz, bush + profile]), ([y, z, 0.0], [vy, vz, journal])]
-            }
-        }
-    }
-
-    /// The force on the cage, with its moment about the cage centre.
-    #[inline]
-    pub fn on_cage<T: Real>(self, f: &GuideForce<T>, m: &JournalMotion<T>) -> GuideForce<T> {
-        match self {
-            GuideSide::CageInside => *f,
-            GuideSide::CageOutside => GuideForce {
-                pressure: opposite(f.pressure),
-                shear: opposite(f.shear),
-                solid: opposite(f.solid),
-                moment: -(f.moment + carried(f, m)),
-                film_moment: -(f.film_moment + carried(&f.of_film(), m)),
-                ..*f
-            },
-        }
-    }
-
-    /// Wrenches on the cage and on the ring.
-    #[inline]
-    pub fn wrenches<T: Real>(self, f: &GuideForce<T>, m: &JournalMotion<T>) -> [Wrench<T>; 2] {
-        let force = f.force();
-        let on_journal = Wrench { force, moment: f.moment };
-        let on_bush = Wrench { force: opposite(force), moment: -(f.moment + carried(f, m)) };
-        match self {
-            GuideSide::CageInside => [on_journal, on_bush],
-            GuideSide::CageOutside => [on_bush, on_journal],
-        }
-    }
-}
 
 /// Every number of a motion as a variable.
 #[inline]
@@ -111,23 +46,6 @@ fn lift(m: &JournalMotion<f64>) -> JournalMotion<JournalDual> {
         profile_angle: variable(m.profile_angle, 6),
         profile_speed: variable(m.profile_speed, 7),
     }
-}
-
-#[inline]
-fn difference<T: Real>(a: [T; 2], b: [T; 2]) -> [T; 2] {
-    [a[0] - b[0], a[1] - b[1]]
-}
-
-#[inline]
-fn opposite<T: Real>([y, z]: [T; 2]) -> [T; 2] {
-    [-y, -z]
-}
-
-/// Moment of the force on the journal about the centre of the bush.
-#[inline]
-fn carried<T: Real>(f: &GuideForce<T>, m: &JournalMotion<T>) -> T {
-    let [y, z] = f.force();
-    m.position[0] * z - m.position[1] * y
 }
 
 /// The guide of a cage: the laws of its film and its solid contact, and the bodies it is between.
@@ -144,9 +62,6 @@ pub(super) struct Guide {
 const SHORT_BEARING: Cost = Cost { value: 160.0, slopes: 1550.0, per_element: false };
 /// A layer, which is dry for most of the time in some scenes and never in others.
 const LAYER: Cost = Cost { value: 200.0, slopes: 400.0, per_element: false };
-
-/// A number with derivatives over what the law sees, in the order of [`JournalMotion`].
-type JournalDual = Dual<8>;
 
 impl Guide {
     /// The guide of a scene, if its cage has one.
@@ -182,6 +97,7 @@ impl Guide {
             })),
             Some(scene::GuideFilm::LubricantLayer(film)) => Some(GuideFilm::LubricantLayer(LubricantLayer {
                 viscosity: laws.viscosity("lubricant_layer")?,
+                thickener: laws.thickener("lubricant_layer")?,
                 pressure_viscosity: laws.pressure_viscosity("lubricant_layer")?,
                 cap: film.pressure_cap,
                 radius,
@@ -215,6 +131,21 @@ impl Guide {
     #[inline]
     fn journal_motion(&self, shared: &[Motion<f64>; SHARED]) -> JournalMotion<f64> {
         self.side.journal_motion(&shared[CAGE], &shared[self.ring])
+    }
+}
+
+impl Guide {
+    /// Adds what a grease does that changes its viscosity: a central difference over its logarithm.
+    fn add_warming(&self, fluid: Fluid, m: &JournalMotion<f64>, sums: &mut SlopeSums<'_>) {
+        const STEP: f64 = SlopeSums::VISCOSITY_STEP;
+        let at = |step: f64| self.law.force(m, fluid.moved(step, sums.ln_structure_ratio));
+        let (Ok(high), Ok(low)) = (at(STEP), at(-STEP)) else { return };
+        let [high, low] = [high, low].map(|force| self.side.wrenches(&force, m));
+        let scale = sums.ln_viscosity_rate / (2.0 * STEP);
+        for (place, body) in [CAGE, self.ring].into_iter().enumerate() {
+            let (high, low) = (high[place].components(), low[place].components());
+            sums.add_mate_over_time(body, &[0, 1, 2].map(|i| scale * (high[i] - low[i])));
+        }
     }
 }
 
@@ -348,6 +279,9 @@ impl SharedPair for Guide {
         if ln_viscosity_rate == 0.0 {
             return;
         }
+        if self.law.film.as_ref().is_some_and(GuideFilm::thickens) {
+            return self.add_warming(fluid, &m, sums);
+        }
         // Films know the viscosity only in its products with velocities, so their derivative over its logarithm is the
         // sum of those over each velocity times that velocity.
         let by_motion = |row: JournalDual| {
@@ -408,71 +342,6 @@ fn highest_place(roundness: &[Harmonic]) -> f64 {
             roundness.iter().map(|a| a.amplitude * math::cos(f64::from(a.order) * angle + a.phase)).sum()
         })
         .fold(0.0, f64::max)
-}
-
-/// Place (m) and velocity (m/s) of the cage seen from the centre of the guiding ring.
-struct CagePlace {
-    position: [f64; 2],
-    velocity: [f64; 2],
-}
-
-/// The longest step of a guide whose cage has `mass` kg and is at this place.
-///
-/// From outside an onset, a step ends no further behind it than a share of what the law needs to become itself; within a gap
-/// it uses up at most a share of what is left; from surfaces that overlap it ends within the film that they part into. So no
-/// law is passed between two states that both are outside of it.
-fn longest_step(guide: &GuideLaw, mass: f64, place: &CagePlace, tuning: &Tuning) -> f64 {
-    let CagePlace { position, velocity } = *place;
-    let share = tuning.onset_share;
-    let e = math::hypot(position[0], position[1]);
-    let speed = math::hypot(velocity[0], velocity[1]);
-    let along = position[0] * velocity[0] + position[1] * velocity[1];
-    // Time until the distance from the centre is `radius`, which is larger than e.
-    let until = |radius: f64| {
-        let rest = (radius - e) * (radius + e);
-        let root = (along * along + speed * speed * rest).sqrt();
-        if along > 0.0 { rest / (along + root) } else { (root - along) / (speed * speed) }
-    };
-    let gap = guide.free_clearance - e;
-    // Where surfaces touch before the film is gone, the gap may close.
-    let fading = tuning.fading * guide.roughness;
-    let least = if guide.solid.is_some() { fading } else { tuning.thinnest_film * guide.free_clearance };
-    let mut longest = f64::INFINITY;
-    if gap > 0.0 && guide.film.is_some() {
-        longest = until(e + share * gap.max(least));
-    }
-    if let Some(film) = guide.film.as_ref().filter(|_| gap <= 0.0) {
-        let thickness = match film {
-            GuideFilm::LubricantLayer(layer) => layer.thickness.min(guide.free_clearance),
-            GuideFilm::ShortBearing(_) => guide.free_clearance,
-        };
-        // Time until the distance from the centre has fallen to that of a place in the film, if it does.
-        let radius = guide.free_clearance - share * thickness;
-        let rest = (e - radius) * (e + radius);
-        let square = along * along - speed * speed * rest;
-        if along < 0.0 && square >= 0.0 {
-            longest = rest / (square.sqrt() - along);
-        }
-    }
-    let mut onset = |rest: f64, depth: f64| {
-        if rest > 0.0 {
-            longest = longest.min(until(e + rest + share * depth));
-        }
-    };
-    if let Some(GuideFilm::LubricantLayer(layer)) = &guide.film {
-        onset(gap - layer.thickness, layer.thickness);
-    }
-    if let Some(solid) = &guide.solid {
-        let rest = gap - solid.asperity_height;
-        if rest > 0.0 {
-            let depth = speed * Passage::of(&solid.contact, mass, tuning).time(speed);
-            onset(rest, depth / share);
-        }
-        if guide.film.is_some() {
-            onset(gap - fading, fading);
-        }
-    }
-    if longest.is_nan() { f64::INFINITY } else { longest }
 }
 
 #[cfg(test)]
