@@ -6,7 +6,7 @@
 //! | cage | `cage` | centre (y, z), angle, modes of an elastic ring |
 //! | rollers | `elements/rollers` | radial offset and orbit angle, spin speed |
 //! | elements of prescribed motion | `elements/kinematic` | none |
-//! | nodes | `nodes` | states that are no motion |
+//! | nodes | `nodes`; `heat/lumps` | states that are no motion; temperatures |
 //!
 //! Rings and cage are shared: every element can touch them. Pairs see [`Motions`] and act on bodies by wrenches. A new body is a
 //! file with one of the traits `SharedBody`, `Elements` and `Node` and a line in `shared_bodies`, `elements` or
@@ -15,6 +15,7 @@
 mod cage;
 mod elements;
 mod fault;
+mod heat;
 mod inputs;
 mod layout;
 mod motions;
@@ -29,11 +30,10 @@ pub use layout::Layout;
 
 pub(crate) use cage::{OF_MOTION as CAGE_MOTION, along_factor};
 pub(crate) use elements::{Damping, ElementSlopes, Elements, UPPER};
+pub(crate) use heat::HeatBudget;
 pub(crate) use layout::{OF_ELEMENT, Owner};
 pub(crate) use motions::{Element, ElementBlock, ElementMotion, ElementSet, Motions, WrenchLanes};
-#[cfg(test)]
-pub(crate) use nodes::NodeState;
-pub(crate) use nodes::{Node, nodes};
+pub(crate) use nodes::{Node, NodeState, nodes};
 pub(crate) use states::{State, layout_of, states_of};
 
 use crate::registry::registry;

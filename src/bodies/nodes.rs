@@ -7,22 +7,28 @@
 //! Their states are velocities without position behind all others. Powers are positive where they drive the bearing, so heat is
 //! the negative of what forces inside take; they are those of evaluations, also in a semi-implicit step, whose booked works are
 //! those of the step. The derivatives that a node tells are those over its own values: how powers change with the motion is left
-//! out of the linear systems of integrators and hosts, as it changes a node slowly.
+//! out of the linear systems of integrators and hosts, as it changes a node slowly, and so is how forces change with it.
 
+use super::heat::Lumps;
 use crate::scene::Scene;
 use nalgebra::DMatrixViewMut;
 use std::fmt::Debug;
 
 /// The nodes of a checked scene.
-pub(crate) fn nodes(_scene: &Scene) -> Vec<Box<dyn Node>> {
-    Vec::new()
+pub(crate) fn nodes(scene: &Scene) -> Vec<Box<dyn Node>> {
+    let lumps = Lumps::of(scene).map(|lumps| Box::new(lumps) as Box<dyn Node>);
+    [lumps].into_iter().flatten().collect()
 }
 
 /// What is said of a value of a node.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct NodeState {
-    /// Name, SI unit and meaning.
-    pub(crate) name: [&'static str; 3],
+    /// Its name within the node.
+    pub(crate) name: String,
+    /// SI unit.
+    pub(crate) unit: &'static str,
+    /// Meaning.
+    pub(crate) description: &'static str,
     /// What counts as one unit of error, in that unit.
     pub(crate) error_unit: f64,
     /// Value at the start of a run.
@@ -42,4 +48,9 @@ pub(crate) trait Node: Debug + Send + Sync {
 
     /// Adds the derivatives of these rates over its own values.
     fn add_slopes(&self, x: &[f64], out: DMatrixViewMut<'_, f64>);
+
+    /// Place among its values of the temperature that the lubricant has.
+    fn lubricant(&self) -> Option<usize> {
+        None
+    }
 }

@@ -1,13 +1,15 @@
 //! A burst of motion at constant temperatures, and its mean powers.
 
 use crate::error::Result;
-use crate::model::{Input, POWERS};
-use crate::scene::Heat;
+use crate::model::{Input, Model, Power};
 use crate::sim::Sim;
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
-/// Length of a burst, s, and the share of it after which powers count.
+/// Length of a burst among elements of prescribed motion and among free ones, whose powers scatter, s; the share of it after which
+/// powers count.
 const LENGTH: f64 = 30e-3;
+const LENGTH_OF_FREE: f64 = 0.1;
 const COUNTED_FROM: f64 = 0.4;
 /// Places of a burst at which the cage is looked at.
 const LOOKS: u32 = 600;
@@ -15,10 +17,6 @@ const LOOKS: u32 = 600;
 /// The simulation that goes from burst to burst.
 pub(super) struct Burst {
     sim: Sim,
-    /// Power, lump and share of every source.
-    sources: Vec<(usize, usize, f64)>,
-    temperature: Option<usize>,
-    ring: Option<usize>,
     /// Channels of the place of the cage beside its guide.
     place: Option<[usize; 2]>,
     /// Channel of the viscosity.
@@ -34,42 +32,51 @@ pub(super) struct Heating {
     pub(super) whirl_speed: f64,
     /// Viscosity of the lubricant, Pa s.
     pub(super) viscosity: f64,
+    /// Radial clearance of a roller bearing, m.
+    pub(super) clearance: Option<f64>,
 }
 
 impl Burst {
-    pub(super) fn new(sim: Sim, heat: &Heat) -> Self {
-        let power = |name: &str| POWERS.iter().position(|power| *power == name);
-        let sources = heat
-            .sources
-            .iter()
-            .filter_map(|source| Some((power(&source.power)?, heat.node(&source.node)?, source.share)));
-        let list: Vec<Input> = sim.model().input_list().collect();
-        let input = |wanted: Input| list.iter().position(|input| *input == wanted);
+    pub(super) fn new(sim: Sim) -> Self {
         let channel = |name: &str| sim.channels().iter().position(|channel| channel.name == name);
         let place = channel("cage.y_ratio").zip(channel("cage.z_ratio")).map(|(y, z)| [y, z]);
-        Self {
-            sources: sources.collect(),
-            temperature: input(Input::Temperature),
-            ring: input(Input::RingSpeed),
-            place,
-            viscosity: channel("lubricant.viscosity"),
-            sim,
-        }
+        Self { place, viscosity: channel("lubricant.viscosity"), sim }
+    }
+
+    /// The bearing at the temperatures of the last burst.
+    pub(super) fn model(&self) -> &Arc<Model> {
+        self.sim.model()
     }
 
     /// Speed of the inner ring, rad/s.
     pub(super) fn ring_speed(&self) -> f64 {
-        self.ring.and_then(|place| self.sim.input(place).ok()).unwrap_or(0.0)
+        let place = self.sim.model().input_list().position(|input| input == Input::RingSpeed);
+        place.and_then(|place| self.sim.input(place).ok()).unwrap_or(0.0)
     }
 
-    /// Goes on for a burst with the lubricant at this temperature (K): the mean heat of its last part, over whole turns of the
-    /// whirl where there is one, for so many lumps.
-    pub(super) fn run(&mut self, temperature: f64, nodes: usize) -> Result<Heating> {
-        if let Some(place) = self.temperature {
-            self.sim.set_input(place, temperature)?;
+    /// The bearing at these temperatures (K), which moves on from where it was.
+    fn warm(&mut self, temperatures: &[f64]) -> Result<()> {
+        let mut scene = self.sim.model().scene().clone();
+        if let Some(heat) = &mut scene.heat {
+            heat.nodes.iter_mut().zip(temperatures).for_each(|(node, t)| node.start = Some(*t));
         }
+        let mut sim = Sim::new(Arc::new(Model::new(scene)?))?;
+        // Lumps in motion begin with what the network has found.
+        let mut state = self.sim.state().to_vec();
+        let lumps = state.len() - sim.model().layout().of_nodes();
+        state[lumps..].copy_from_slice(&sim.state()[lumps..]);
+        sim.set_state(self.sim.time(), &state)?;
+        self.sim = sim;
+        Ok(())
+    }
+
+    /// Goes on for a burst with the lumps at these temperatures (K): the mean heat of its last part from these sources (power, lump,
+    /// share), over whole turns of the whirl where there is one.
+    pub(super) fn run(&mut self, temperatures: &[f64], sources: &[(Power, usize, f64)]) -> Result<Heating> {
+        self.warm(temperatures)?;
         let start = self.sim.time();
-        let at = |i: u32| start + LENGTH * f64::from(i) / f64::from(LOOKS);
+        let length = if self.sim.model().has_rollers() { LENGTH_OF_FREE } else { LENGTH };
+        let at = |i: u32| start + length * f64::from(i) / f64::from(LOOKS);
         let first = (COUNTED_FROM * f64::from(LOOKS)) as u32;
         self.sim.advance_to(at(first))?;
         let begin = self.works()?;
@@ -90,11 +97,17 @@ impl Burst {
         }
         let time = end.0 - begin.0;
         let heat: Vec<f64> = end.1.iter().zip(&begin.1).map(|(end, begin)| (begin - end) / time).collect();
-        let mut heating = Heating { into_nodes: vec![0.0; nodes], ..Heating::default() };
-        for (power, node, share) in &self.sources {
-            heating.into_nodes[*node] += share * heat[*power];
-            heating.of_motion.push((POWERS[*power].to_owned(), share * heat[*power]));
+        let mut heating = Heating { into_nodes: vec![0.0; temperatures.len()], ..Heating::default() };
+        for (power, node, share) in sources {
+            let heat = share * heat[*power as usize];
+            heating.into_nodes[*node] += heat;
+            match heating.of_motion.iter_mut().find(|(name, _)| name == power.name()) {
+                Some((_, sum)) => *sum += heat,
+                None => heating.of_motion.push((power.name().to_owned(), heat)),
+            }
         }
+        let scene = self.sim.model().scene();
+        heating.clearance = scene.rollers.as_ref().map(|_| scene.radial_clearance());
         heating.viscosity = self.viscosity.map_or(Ok(f64::NAN), |channel| self.sim.output(channel))?;
         heating.whirl_speed = if turns > 0.0 { turned / (at(LOOKS) - at(first)) } else { 0.0 };
         Ok(heating)

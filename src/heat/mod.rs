@@ -17,16 +17,13 @@
 //! ```
 
 mod burst;
-mod network;
 
+use crate::bodies::HeatBudget;
 use crate::error::{Error, Result, Status};
-use crate::laws::bearing_torque::Palmgren;
-use crate::laws::fluid::walther::Walther;
 use crate::model::Model;
-use crate::scene::{Heat, Viscosity};
+use crate::scene::Heat;
 use crate::sim::Sim;
-use burst::Burst;
-use network::Network;
+use burst::{Burst, Heating};
 use std::sync::Arc;
 
 /// Share of the way that temperatures go towards where the network has them: falling viscosity lowers the heat, so a whole step
@@ -36,8 +33,14 @@ const RELAXATION: f64 = 0.6;
 const LARGEST_STEP: f64 = 20.0;
 /// Temperatures that change by less than this from one burst to the next have settled, K.
 const SETTLED: f64 = 2e-3;
+/// Bursts after which changes tell whether they still fall: by less than this factor from one burst to the next they do not.
+const FEWEST_BURSTS: usize = 6;
+const STILL_FALLING: f64 = 0.8;
+/// Means over bursts have settled with a standard error below this, K, after so many of them.
+const MEAN_SETTLED: f64 = 0.1;
+const FEWEST_OF_MEAN: usize = 8;
 /// Bursts until they must have.
-const MOST_BURSTS: usize = 60;
+const MOST_BURSTS: usize = 80;
 /// First step of warming up, s, how much longer each is than the one before, and their number.
 const FIRST_STEP: f64 = 5.0;
 const GROWTH: f64 = 1.8;
@@ -47,16 +50,11 @@ const OIL_HOLDS: [f64; 2] = [250.0, 450.0];
 
 /// A bearing whose temperatures follow from its motion.
 pub struct HeatBalance {
-    model: Arc<Model>,
     heat: Heat,
-    network: Network,
+    budget: HeatBudget,
     burst: Burst,
     /// Temperatures now, K.
     temperatures: Vec<f64>,
-    /// Place of the lubricant's lump.
-    lubricant: usize,
-    /// Friction of the whole bearing: its law, lumps of both rings, share of the first, and the kinematic viscosity of the oil.
-    torque: Option<(Palmgren, [usize; 2], f64, Walther)>,
 }
 
 /// What a heat balance has come to.
@@ -72,12 +70,52 @@ pub struct HeatState {
     pub of_bearing: f64,
     /// Heat that flows through each link, from the first of its names to the second, W.
     pub flows: Vec<f64>,
+    /// Heat that oil carries away which flows through lumps, W.
+    pub carried: f64,
     /// Viscosity of the lubricant, Pa s.
     pub viscosity: f64,
+    /// Radial clearance of a roller bearing, m.
+    pub clearance: Option<f64>,
     /// Mean whirl speed of the cage in the last burst, rad/s; zero where it does not go round.
     pub whirl_speed: f64,
+    /// Largest standard error of a temperature, K; zero where powers do not scatter.
+    pub scatter: f64,
     /// Bursts that were run.
     pub bursts: usize,
+}
+
+/// Means of the temperatures that bursts lead to.
+#[derive(Default)]
+struct Means {
+    count: usize,
+    mean: Vec<f64>,
+    /// Sums of squared differences from the mean, K^2.
+    squares: Vec<f64>,
+}
+
+impl Means {
+    /// Takes what one burst leads to; the share with which it counts in the mean.
+    fn take(&mut self, wanted: &[f64]) -> f64 {
+        self.mean.resize(wanted.len(), 0.0);
+        self.squares.resize(wanted.len(), 0.0);
+        self.count += 1;
+        let share = 1.0 / self.count as f64;
+        for ((mean, square), wanted) in self.mean.iter_mut().zip(&mut self.squares).zip(wanted) {
+            let off = wanted - *mean;
+            *mean += share * off;
+            *square += off * (wanted - *mean);
+        }
+        share
+    }
+
+    /// Largest standard error, K.
+    fn standard_error(&self) -> f64 {
+        if self.count < FEWEST_OF_MEAN {
+            return f64::INFINITY;
+        }
+        let largest = self.squares.iter().fold(0.0f64, |largest, square| largest.max(*square));
+        (largest / (self.count * (self.count - 1)) as f64).sqrt()
+    }
 }
 
 impl HeatBalance {
@@ -86,38 +124,18 @@ impl HeatBalance {
     /// # Errors
     /// [`Status::BadScene`] for a scene without `heat`, and where its bearing cannot start.
     pub fn new(model: Model) -> Result<Self> {
-        let Some(heat) = model.scene().heat.clone() else {
-            return Err(Error::new(
-                Status::BadScene,
-                "heat: missing; the scene has no heat balance".to_owned(),
-            ));
-        };
-        let scene = model.scene();
-        let oil = match scene.lubricant.as_ref().map(|lubricant| &lubricant.viscosity) {
-            Some(Viscosity::Walther(w)) => {
-                let point = |p: crate::scene::ViscosityPoint| (p.temperature, p.kinematic_viscosity);
-                Some(Walther::new(point(w.cold), point(w.hot), 1.0))
-            }
-            _ => None,
-        };
-        let torque = heat.bearing_torque.as_ref().zip(oil).and_then(|(torque, oil)| {
-            let nodes = [heat.node(&torque.nodes[0])?, heat.node(&torque.nodes[1])?];
-            let pitch_diameter = 2.0 * scene.pitch_radius();
-            let law = Palmgren { f0: torque.f0, f1: torque.f1, load: torque.load, pitch_diameter };
-            Some((law, nodes, torque.inner_share, oil))
-        });
-        let model = Arc::new(model);
-        let sim = Sim::new(model.clone())?;
-        let burst = Burst::new(sim, &heat);
-        let network = Network::new(&heat, model.scene(), burst.ring_speed());
-        let temperatures = heat.nodes.iter().map(|node| node.start.unwrap_or(heat.ambient)).collect();
-        let lubricant = heat.node(&heat.lubricant).unwrap_or(0);
-        Ok(Self { burst, model, heat, network, temperatures, lubricant, torque })
+        let missing =
+            || Error::new(Status::BadScene, "heat: missing; the scene has no heat balance".to_owned());
+        let heat = model.scene().heat.clone().ok_or_else(missing)?;
+        let sim = Sim::new(Arc::new(model))?;
+        let burst = Burst::new(sim);
+        let budget = HeatBudget::of(burst.model().scene(), burst.ring_speed()).ok_or_else(missing)?;
+        Ok(Self { temperatures: budget.start.clone(), burst, heat, budget })
     }
 
-    /// The scene.
+    /// The bearing at the temperatures of the last burst.
     pub fn model(&self) -> &Arc<Model> {
-        &self.model
+        self.burst.model()
     }
 
     /// Names of the lumps.
@@ -130,27 +148,40 @@ impl HeatBalance {
         self.heat.links.iter().map(|link| link.between.each_ref().map(String::as_str))
     }
 
-    /// The temperatures at which the bearing stays.
+    /// The temperatures at which the bearing stays. Where powers scatter from burst to burst, as those of rattling rollers do, they are
+    /// means over bursts, with their standard error in [`HeatState::scatter`].
     ///
     /// # Errors
     /// [`Status::BadState`] where temperatures do not settle, or leave the range of the oil; as [`Sim::advance_to`].
     pub fn settle(&mut self) -> Result<HeatState> {
+        let mut before = f64::INFINITY;
+        let mut means: Option<Means> = None;
         for bursts in 1..=MOST_BURSTS {
             let heat = self.run_burst()?;
-            let wanted = self.network.steady(&heat.into_nodes)?;
+            let wanted = self.budget.network.steady(&heat.into_nodes, self.viscosity())?;
+            let relaxation = match &mut means {
+                Some(means) => means.take(&wanted),
+                None => RELAXATION,
+            };
             let steps =
-                || wanted.iter().zip(&self.temperatures).map(|(wanted, now)| RELAXATION * (wanted - now));
+                || wanted.iter().zip(&self.temperatures).map(|(wanted, now)| relaxation * (wanted - now));
             let change = steps().fold(0.0f64, |change, step| change.max(step.abs()));
             let share = (LARGEST_STEP / change).min(1.0);
             let moved: Vec<f64> =
                 self.temperatures.iter().zip(steps()).map(|(now, step)| now + share * step).collect();
             self.temperatures = moved;
             self.check_range()?;
-            if change < SETTLED {
-                return Ok(self.state(heat, bursts));
+            let scatter = means.as_ref().map_or(0.0, Means::standard_error);
+            if change < SETTLED && means.is_none() || means.is_some() && scatter < MEAN_SETTLED {
+                return Ok(HeatState { scatter, ..self.state(heat, bursts) });
             }
+            // Changes that no longer get smaller are scatter.
+            if means.is_none() && bursts >= FEWEST_BURSTS && share == 1.0 && change > STILL_FALLING * before {
+                means = Some(Means::default());
+            }
+            before = change;
         }
-        let text = format!("temperatures have not settled to {SETTLED} K after {MOST_BURSTS} bursts");
+        let text = format!("temperatures have not settled to {MEAN_SETTLED} K after {MOST_BURSTS} bursts");
         Err(Error::new(Status::BadState, text))
     }
 
@@ -163,7 +194,8 @@ impl HeatBalance {
         let mut last = None;
         for bursts in 1..=STEPS {
             let heat = self.run_burst()?;
-            self.network.step(&heat.into_nodes, step, &mut self.temperatures)?;
+            let viscosity = self.viscosity();
+            self.budget.network.step(&heat.into_nodes, viscosity, step, &mut self.temperatures)?;
             self.check_range()?;
             time += step;
             step *= GROWTH;
@@ -174,36 +206,42 @@ impl HeatBalance {
         last.ok_or_else(|| Error::new(Status::BadState, "no step was made".to_owned()))
     }
 
-    fn run_burst(&mut self) -> Result<burst::Heating> {
-        let nodes = self.temperatures.len();
-        let mut heating = self.burst.run(self.temperatures[self.lubricant], nodes)?;
-        if let Some((law, places, inner_share, oil)) = &self.torque {
-            let mean = 0.5 * places.iter().map(|place| self.temperatures[*place]).sum::<f64>();
-            let speed = self.burst.ring_speed();
-            heating.of_bearing = law.torque(speed, oil.viscosity(mean)) * speed.abs();
-            let shares = [*inner_share, 1.0 - inner_share];
-            for (place, share) in places.iter().zip(shares) {
-                heating.into_nodes[*place] += share * heating.of_bearing;
-            }
+    /// Kinematic viscosity of the lubricant, m^2/s.
+    fn viscosity(&self) -> f64 {
+        self.budget.viscosity(|i| self.temperatures[i])
+    }
+
+    fn run_burst(&mut self) -> Result<Heating> {
+        let mut heating = self.burst.run(&self.temperatures, &self.budget.sources)?;
+        if let Some(friction) = &self.budget.friction {
+            let into = &mut heating.into_nodes;
+            heating.of_bearing = friction.heat(
+                self.burst.ring_speed(),
+                |i| self.temperatures[i],
+                |node, heat| into[node] += heat,
+            );
         }
         Ok(heating)
     }
 
-    fn state(&self, heating: burst::Heating, bursts: usize) -> HeatState {
+    fn state(&self, heating: Heating, bursts: usize) -> HeatState {
         HeatState {
             temperatures: self.temperatures.clone(),
-            flows: self.network.flows(&self.temperatures),
+            flows: self.budget.network.flows(&self.temperatures, self.viscosity()),
+            carried: self.budget.network.carried(&self.temperatures),
             heat: heating.into_nodes,
             of_motion: heating.of_motion,
             of_bearing: heating.of_bearing,
             viscosity: heating.viscosity,
+            clearance: heating.clearance,
             whirl_speed: heating.whirl_speed,
+            scatter: 0.0,
             bursts,
         }
     }
 
     fn check_range(&self) -> Result<()> {
-        let temperature = self.temperatures[self.lubricant];
+        let temperature = self.temperatures[self.budget.lubricant];
         let [coldest, hottest] = OIL_HOLDS;
         if (coldest..=hottest).contains(&temperature) {
             return Ok(());

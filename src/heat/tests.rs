@@ -53,3 +53,96 @@ fn the_whirl_is_flat_where_viscosity_falls_as_speed_grows() {
     assert!(most / least < 1.12, "{whirls:?}");
     assert!((whirls[3] / -1372.7 - 1.0).abs() < 0.005, "{whirls:?}");
 }
+
+fn rollers(changes: &[(&str, &str)]) -> HeatBalance {
+    let text = include_str!("../../scenes/nu2310_heat.json");
+    let scene = Scene::from_json_with(text, changes.iter().copied()).unwrap();
+    HeatBalance::new(Model::new(scene).unwrap()).unwrap()
+}
+
+#[test]
+fn a_roller_bearing_by_catalogue_values_is_that_of_an_independent_prototype() {
+    let torque = r#"{"f0": 2.2, "f1": 3e-4, "load": 4900, "nodes": ["inner_ring", "outer_ring"], "inner_share": 0.5,
+        "elements": {"node": "rollers", "share": 0.5}, "without_load": "oil"}"#;
+    let steady = rollers(&[("heat.sources", "[]"), ("heat.bearing_torque", torque)]).settle().unwrap();
+    assert!((steady.temperatures[0] - 328.6).abs() < 0.1, "{steady:?}");
+    assert!((steady.viscosity - 0.0252).abs() < 1e-4, "{steady:?}");
+    assert!((steady.clearance.unwrap() - 38.3e-6).abs() < 0.05e-6, "{steady:?}");
+    // Oil that flows through takes its share of the heat away.
+    let flow = r#"{"rate": 1e-5, "inlet": 308.0, "heat_capacity": 1.67e6}"#;
+    let changes = [("heat.sources", "[]"), ("heat.bearing_torque", torque), ("heat.nodes.0.flow", flow)];
+    let cooled = rollers(&changes).settle().unwrap();
+    let to_ambient: f64 = cooled.flows[7..].iter().sum();
+    let all: f64 = cooled.heat.iter().sum();
+    assert!(cooled.temperatures[0] < steady.temperatures[0] - 3.0, "{cooled:?}");
+    assert!((to_ambient + cooled.carried) / all - 1.0 < 1e-3, "{cooled:?}");
+}
+
+#[test]
+fn rattling_rollers_settle_in_their_mean() {
+    let mut heat = rollers(&[]);
+    let steady = heat.settle().unwrap();
+    assert!(steady.scatter > 0.0 && steady.scatter < MEAN_SETTLED, "{steady:?}");
+    let all: f64 = steady.heat.iter().sum();
+    assert!((steady.flows[7] + steady.flows[8]) / all - 1.0 < 0.02, "{steady:?}");
+    // A uniform rise leaves the play, the warmer inner ring takes from it.
+    let above = |k: usize| steady.temperatures[k] - 293.15;
+    let [inner, rollers, outer] = [1, 2, 3].map(above);
+    let expected = 40e-6 + 11.7e-6 * (0.095 * outer - (0.065 - 40e-6) * inner - 0.03 * rollers);
+    let play = heat.model().scene().radial_clearance();
+    assert!((play - expected).abs() < 0.3e-6, "{play} {expected}");
+    assert_eq!(Some(play), steady.clearance);
+}
+
+#[test]
+fn a_bearing_whose_lumps_are_hurried_comes_to_the_same_temperatures_within_a_run() {
+    let mut heat = balance(&[]);
+    let steady = heat.settle().unwrap();
+    let all = r#"["film", "cage", "outer_ring", "balls", "inner_ring", "housing"]"#;
+    let text = include_str!("../../scenes/grease_guide_heat.json");
+    let mut changes = vec![("heat.in_motion", all), ("heat.own_time", "2e-3")];
+    // From near the end, as the slowest of all takes a hundred times the own time of each.
+    let starts: Vec<_> = steady.temperatures.iter().map(|t| (t - 1.0).to_string()).collect();
+    let paths: Vec<_> = (0..starts.len()).map(|i| format!("heat.nodes.{i}.start")).collect();
+    changes.extend(paths.iter().zip(&starts).map(|(path, start)| (path.as_str(), start.as_str())));
+    let scene = Scene::from_json_with(text, changes.iter().copied()).unwrap();
+    let mut sim = Sim::new(Arc::new(Model::new(scene).unwrap())).unwrap();
+    sim.advance_to(0.5).unwrap();
+    let n = sim.state().len();
+    for (found, steady) in sim.state()[n - 6..].iter().zip(&steady.temperatures) {
+        assert!((found - steady).abs() < 0.1, "{found} {steady}");
+    }
+}
+
+#[test]
+fn the_temperature_of_the_film_is_a_state_in_every_method() {
+    let text = include_str!("../../scenes/grease_guide_heat.json");
+    let end = |method: &str| {
+        let solver = format!(r#"{{"method": {method}}}"#);
+        let changes = [
+            ("heat.in_motion", r#"["film"]"#),
+            ("solver", solver.as_str()),
+            ("heat.nodes.0.capacity", "0.002"),
+        ];
+        let scene = Scene::from_json_with(text, changes).unwrap();
+        let mut sim = Sim::new(Arc::new(Model::new(scene).unwrap())).unwrap();
+        sim.advance_to(12e-3).unwrap();
+        let channel = sim.channels().iter().position(|channel| channel.name == "temperature.film").unwrap();
+        let viscosity =
+            sim.channels().iter().position(|channel| channel.name == "lubricant.viscosity").unwrap();
+        [sim.output(channel).unwrap(), sim.output(viscosity).unwrap()]
+    };
+    let [expected, viscosity] = end(r#"{"dormand_prince": {"tolerance": 1e-8}}"#);
+    assert!(expected > 295.05, "{expected}");
+    for method in [
+        r#"{"adams": {"tolerance": 1e-8}}"#,
+        r#"{"rosenbrock": {"tolerance": 1e-8}}"#,
+        r#"{"radau": {"tolerance": 1e-8}}"#,
+        r#"{"leapfrog": {"step": 2e-6}}"#,
+        r#"{"auto": {}}"#,
+    ] {
+        let [found, thinner] = end(method);
+        assert!((found - expected).abs() < 2e-3 * (expected - 295.0), "{method}: {found} {expected}");
+        assert!((thinner / viscosity - 1.0).abs() < 1e-3, "{method}");
+    }
+}

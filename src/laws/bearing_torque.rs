@@ -34,12 +34,21 @@ pub struct Palmgren {
 impl Palmgren {
     /// Torque in N m at a speed of the inner ring in rad/s with a kinematic viscosity in m^2/s.
     pub fn torque(&self, speed: f64, viscosity: f64) -> f64 {
+        self.without_load(speed, viscosity) + self.by_load()
+    }
+
+    /// M0 in N m, likewise.
+    pub fn without_load(&self, speed: f64, viscosity: f64) -> f64 {
         let d = self.pitch_diameter * MM;
         let turns = speed.abs() / TAU * 60.0;
         let product = viscosity * MM2_PER_S * turns;
         let grows = if product >= SLOW { math::exp(math::ln(product) * (2.0 / 3.0)) } else { 160.0 };
-        let without_load = 1e-7 * self.f0 * grows * d * d * d;
-        (without_load + self.f1 * self.load * d) / MM
+        1e-7 * self.f0 * grows * d * d * d / MM
+    }
+
+    /// M1 in N m.
+    pub fn by_load(&self) -> f64 {
+        self.f1 * self.load * self.pitch_diameter
     }
 }
 

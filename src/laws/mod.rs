@@ -23,6 +23,7 @@ mod extremes;
 pub mod film;
 pub mod fluid;
 pub mod guide;
+pub mod heat_network;
 pub mod line_contact;
 pub mod rolling;
 pub mod traction;

@@ -28,6 +28,7 @@ pub(super) fn compile(scene: Scene) -> Result<Model> {
         shared,
         mobility: elements.mobility(),
         elements,
+        lubricant: None,
         nodes,
         infos: pairs.iter().map(|pair| pair.info()).collect(),
         parts: pairs.iter().map(|pair| pair.law().parts()).collect(),
@@ -40,6 +41,8 @@ pub(super) fn compile(scene: Scene) -> Result<Model> {
         selection: Selection::default(),
         scene,
     };
+    let lubricant = model.nodes_in().find_map(|(node, at)| Some(at.start + node.lubricant()?));
+    model.lubricant = lubricant;
     model.channels = model.list_channels();
     model.selection =
         Selection::new(&model.scene.record, &model.channels, &model.infos, model.element_count())?;
@@ -131,7 +134,9 @@ fn inputs(scene: &Scene) -> Result<InputSignals> {
                     return Err(bad_scene("lubricant.viscosity.walther.temperature", text));
                 }
             }
-            list.push((Input::Temperature, source));
+            if !scene.heat.as_ref().is_some_and(|heat| heat.in_motion.contains(&heat.lubricant)) {
+                list.push((Input::Temperature, source));
+            }
             let viscosity = law.viscosity(at_start);
             let grease = scene.lubricant.as_ref().and_then(|lubricant| lubricant.grease.as_ref());
             let thickener = grease.map(|grease| pairs::line_laws::thickener(grease, viscosity));

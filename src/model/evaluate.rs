@@ -31,7 +31,7 @@ impl Model {
         ws: &mut Workspace,
         a: &mut [f64],
     ) -> Result<(), Fault> {
-        ws.inputs = *inputs;
+        ws.inputs = self.with_lumps(inputs, v);
         self.heat(ws)?;
         self.locate(q, v, ws)?;
         self.apply_laws(ws)?;

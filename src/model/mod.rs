@@ -65,6 +65,8 @@ pub struct Model {
     shared: SharedBodies,
     elements: Box<dyn Elements>,
     nodes: Vec<Box<dyn Node>>,
+    /// Place among the velocities of the temperature of the lubricant, where it is a state.
+    lubricant: Option<usize>,
     /// Masses of the shared bodies, kg; infinite where one is not free.
     masses: [f64; SHARED],
     /// Whether the law of a pair of elements sets in abruptly.

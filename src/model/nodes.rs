@@ -1,14 +1,24 @@
 //! States that are no motion: their rates from the powers of the last evaluated state, and what methods ask of them.
 
-use super::{Model, Workspace};
+use super::{Input, InputValues, Model, Workspace};
 use crate::bodies::{Damping, Node, OF_ELEMENT};
 use crate::integrate::Linearization;
 use std::ops::Range;
 
 impl Model {
     /// The nodes, with their states in `v`.
-    fn nodes_in(&self) -> impl Iterator<Item = (&dyn Node, Range<usize>)> {
+    pub(super) fn nodes_in(&self) -> impl Iterator<Item = (&dyn Node, Range<usize>)> {
         self.nodes.iter().map(|node| &**node).zip(self.layout.nodes())
+    }
+
+    /// The inputs at velocities `v`: the temperature of the lubricant is that of its lump, where that is a state.
+    #[inline]
+    pub(super) fn with_lumps(&self, inputs: &InputValues, v: &[f64]) -> InputValues {
+        let mut inputs = *inputs;
+        if let Some(place) = self.lubricant {
+            inputs.values[Input::Temperature as usize] = v[place];
+        }
+        inputs
     }
 
     /// Sets their values at the start of a run.
@@ -69,7 +79,7 @@ mod tests {
     /// The layer of a greased guide as two lumps: it is heated by what its film takes and cooled by a ring of constant
     /// temperature, and warms a second one.
     #[derive(Debug)]
-    struct Layer;
+    struct Layer([NodeState; 2]);
 
     const CAPACITIES: [f64; 2] = [1e-4, 3e-4];
     const CONDUCTANCE: f64 = 0.02;
@@ -77,11 +87,10 @@ mod tests {
     /// End of the runs, s: before impacts drive the motions of the methods apart.
     const END: f64 = 12e-3;
 
-    const fn temperature(name: &'static str) -> NodeState {
-        NodeState { name: [name, "K", "temperature"], error_unit: 1.0, start: AROUND }
+    fn temperature(name: &str) -> NodeState {
+        let (unit, description) = ("K", "temperature");
+        NodeState { name: name.to_owned(), unit, description, error_unit: 1.0, start: AROUND }
     }
-
-    const STATES: [NodeState; 2] = [temperature("film"), temperature("wall")];
 
     impl Node for Layer {
         fn name(&self) -> &'static str {
@@ -89,7 +98,7 @@ mod tests {
         }
 
         fn states(&self) -> &[NodeState] {
-            &STATES
+            &self.0
         }
 
         fn rates(&self, x: &[f64], powers: &[f64], out: &mut [f64]) {
@@ -114,7 +123,7 @@ mod tests {
         let solver = format!(r#"{{"method": {method}}}"#);
         let mut model =
             Model::new(Scene::from_json_with(text, [("solver", solver.as_str())]).unwrap()).unwrap();
-        model.nodes.push(Box::new(Layer));
+        model.nodes.push(Box::new(Layer(["film", "wall"].map(temperature))));
         model.layout = layout_of(&model.shared, &*model.elements, &model.nodes);
         Sim::new(Arc::new(model)).unwrap()
     }

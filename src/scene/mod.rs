@@ -32,7 +32,10 @@ pub(crate) use elastic_ring::MOST_RING_ORDERS;
 pub use elastic_ring::{ElasticRing, FiniteElementModes, RingSection, RingStiffness};
 pub use elements::{ElementMotion, KinematicElements, Rollers};
 pub use grease::{Grease, PolymerGrease, SoapGrease};
-pub use heat::{BearingTorque, Conductance, Heat, HeatLink, HeatNode, HeatSource};
+pub use heat::{
+    BearingTorque, Conductance, ElementsShare, Heat, HeatLink, HeatNode, HeatSource, OilFlow,
+    SplashedSurface, ThermalPlay,
+};
 pub use json::{parse_override, set_path};
 pub use lubricant::{Lubricant, Temperature, Viscosity, ViscosityPoint, WaltherViscosity};
 pub use rings::{FreeRing, InnerRing, Load, OuterRing, RingMotion};

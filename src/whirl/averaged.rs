@@ -150,13 +150,12 @@ impl Averaged {
 
     /// Unknowns of a whirl.
     pub(super) fn pack(&self, whirl: &Unknowns) -> Vec<f64> {
-        let deepest = whirl.eccentricity + self.bulge(&whirl.waves);
-        let first = match self.layer {
-            Some(layer) => {
-                let cos = ((self.free() - layer) / deepest).clamp(-1.0, 1.0);
+        let first = match self.inside() {
+            Some(inside) => {
+                let cos = (inside / whirl.eccentricity).clamp(-1.0, 1.0);
                 math::atan2((1.0 - cos * cos).sqrt(), cos)
             }
-            None => deepest / self.free(),
+            None => whirl.eccentricity / self.free(),
         };
         [first, whirl.speed, whirl.lead].into_iter().chain(whirl.waves.iter().copied()).collect()
     }
@@ -166,20 +165,19 @@ impl Averaged {
         self.clearance - self.growth * self.orbit * self.orbit
     }
 
-    /// How far waves reach out where the cage is nearest, m.
-    fn bulge(&self, waves: &[f64]) -> f64 {
-        waves.chunks(2).map(|pair| pair[0]).sum()
+    /// What is left of it inside of a layer, where the angle of the wet arc of a round cage stands for its place, m.
+    fn inside(&self) -> Option<f64> {
+        self.layer.filter(|_| self.orders.is_empty()).map(|layer| self.free() - layer)
     }
 
     /// Whirl of these unknowns.
     pub(super) fn unknowns(&self, u: &[f64]) -> Unknowns {
-        let waves = u[3..].to_vec();
         // The half angle of the wet arc of a round cage takes out the square root at its edge.
-        let deepest = match self.layer {
-            Some(layer) => (self.free() - layer) / math::cos(u[0]),
+        let eccentricity = match self.inside() {
+            Some(inside) => inside / math::cos(u[0]),
             None => self.free() * u[0],
         };
-        Unknowns { eccentricity: deepest - self.bulge(&waves), speed: u[1], lead: u[2], waves }
+        Unknowns { eccentricity, speed: u[1], lead: u[2], waves: u[3..].to_vec() }
     }
 
     pub(super) fn speed(&self, u: &[f64]) -> f64 {

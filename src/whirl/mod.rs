@@ -32,6 +32,10 @@ use nalgebra::{DMatrix, DVector};
 const MOST_STEPS: usize = 40;
 const LARGEST_STEP: f64 = 3.0;
 const CONVERGED: f64 = 1e-9;
+/// A step is halved, so many times at most, unless the residual falls by this share of what it should, or the step is shorter than this.
+const MOST_HALVINGS: usize = 6;
+const FALL: f64 = 1e-2;
+const CLOSE: f64 = 1e-6;
 /// Step of differences in units of the scales.
 const DIFFERENCE: f64 = 1e-4;
 
@@ -74,7 +78,13 @@ pub fn steady(scene: &Scene, guess: Option<&Whirl>) -> Result<Whirl> {
         Some(whirl) => whirl.unknowns.clone(),
         None => start::guess(scene, &averaged)?,
     };
-    solve(&mut averaged, first)
+    let found = solve(&mut averaged, first);
+    let (Err(error), None) = (&found, guess) else { return found };
+    // An elastic cage whose motion is irregular may whirl near where one of fewer waves does.
+    let Some(stiffer) = start::with_fewer_waves(scene) else { return found };
+    let Ok(mut near) = steady(&stiffer, None) else { return Err(error.clone()) };
+    near.unknowns.extend([0.0; 2]);
+    solve(&mut averaged, near.unknowns).map_err(|_| error.clone())
 }
 
 /// The exact whirl next to the averaged one of a scene without its gravity: periodic over the passing of one element.
@@ -98,9 +108,19 @@ fn solve(averaged: &mut Averaged, first: Vec<f64>) -> Result<Whirl> {
         if !largest.is_finite() {
             break;
         }
-        let share = (LARGEST_STEP / largest).min(1.0);
-        for ((u, step), scale) in u.iter_mut().zip(&step).zip(&scales) {
-            *u -= share * step * scale;
+        let mut share = (LARGEST_STEP / largest).min(1.0);
+        let from = u.clone();
+        for halvings in 0..=MOST_HALVINGS {
+            for (((u, from), step), scale) in u.iter_mut().zip(&from).zip(&step).zip(&scales) {
+                *u = from - share * step * scale;
+            }
+            let falls = averaged
+                .residual(u.as_slice())
+                .is_ok_and(|there| DVector::from_vec(there).norm() < residual.norm() * (1.0 - FALL * share));
+            if falls || largest < CLOSE || halvings == MOST_HALVINGS {
+                break;
+            }
+            share *= 0.5;
         }
         if largest < CONVERGED {
             return whirl(averaged, &u, steps);

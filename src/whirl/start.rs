@@ -5,7 +5,7 @@ use crate::bodies::CAGE_MOTION;
 use crate::error::{Error, Result, Status};
 use crate::model::{HostInputs, Model};
 use crate::scalar::math;
-use crate::scene::{GuideFilm, Pocket, Scene};
+use crate::scene::{GuideFilm, Pocket, RingStiffness, Scene};
 use crate::sim::Sim;
 use std::sync::Arc;
 
@@ -27,6 +27,18 @@ pub(super) fn guess(scene: &Scene, averaged: &Averaged) -> Result<Vec<f64>> {
         Some(unknowns) => Ok(averaged.pack(&unknowns)),
         None => Ok(averaged.pack(&run(scene, averaged)?)),
     }
+}
+
+/// The scene with a cage of one wave less, if it has more than one.
+pub(super) fn with_fewer_waves(scene: &Scene) -> Option<Scene> {
+    let mut scene = scene.clone();
+    let ring = scene.cage.as_mut()?.elastic_ring.as_mut().filter(|ring| ring.modes > 2)?;
+    ring.modes -= 1;
+    if let RingStiffness::FiniteElements(modes) = &mut ring.stiffness {
+        modes.frequencies.pop();
+        modes.modal_masses.pop();
+    }
+    Some(scene)
 }
 
 /// Balance of shear, pressure and centrifugal force at the edge of a layer.

@@ -32,6 +32,7 @@ fn law(random: &mut Random, layered: bool, shear: PressureShear, side: GuideSide
     let film = if layered {
         GuideFilm::LubricantLayer(LubricantLayer {
             viscosity,
+            thickener: None,
             pressure_viscosity: if random.chance(0.2) { 0.0 } else { log(random, 5e-9, 3e-8) },
             cap: 0.9,
             radius,

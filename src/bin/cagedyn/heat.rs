@@ -63,6 +63,18 @@ pub fn command(args: &HeatArgs) -> Result<ExitCode> {
     if !history.is_empty() {
         section(&mut text, "temperatures over time, K", over_time(&names, &history));
     }
+    if state.carried != 0.0 {
+        text.push_str(&format!("  oil that flows through carries {} W away\n", number(state.carried)));
+    }
+    if let Some(clearance) = state.clearance {
+        text.push_str(&format!("\n  radial clearance  {:.2} um\n", 1e6 * clearance));
+    }
+    if state.scatter > 0.0 {
+        text.push_str(&format!(
+            "\n  temperatures are means over bursts, with a standard error of {} K at most\n",
+            number(state.scatter)
+        ));
+    }
     text.push_str(&format!(
         "\n  lubricant  {} Pa s\n  whirl      {} rad/s\n  time       {} bursts of motion in {:.2} s wall time\n",
         number(state.viscosity),
@@ -150,7 +162,10 @@ fn as_json(names: &[String], links: &[[String; 2]], state: &HeatState) -> serde_
         "links": flows,
         "sources": sources,
         "bearing_torque_heat_w": state.of_bearing,
+        "carried_w": state.carried,
         "viscosity_pa_s": state.viscosity,
+        "radial_clearance_m": state.clearance,
+        "standard_error_k": state.scatter,
         "whirl_speed_rad_s": state.whirl_speed,
         "bursts": state.bursts,
     })

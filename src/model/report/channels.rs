@@ -35,6 +35,8 @@ pub(super) enum Source {
     PocketSum(usize),
     PocketMoment,
     Viscosity,
+    /// Value of a node by its place among the velocities.
+    Node(usize),
     RingY,
     RingZ,
     DragTorque,
@@ -103,6 +105,12 @@ impl Model {
         if self.inputs.oil.is_some() {
             let text = "dynamic viscosity of the lubricant at its temperature";
             list.add("lubricant.viscosity", "Pa s", text, Source::Viscosity);
+        }
+        for (node, at) in self.nodes_in() {
+            for (state, place) in node.states().iter().zip(at) {
+                let name = format!("{}.{}", node.name(), state.name);
+                list.add(&name, state.unit, state.description, Source::Node(place));
+            }
         }
         for j in 0..self.element_count() {
             self.add_element_channels(j, &mut list);
@@ -285,7 +293,8 @@ impl Model {
                 forces.guide.along([y, z])[k]
             }
             Source::PocketMoment => on(CAGE, ForceSource::Pocket)[2],
-            Source::Viscosity => self.viscosity(inputs).unwrap_or(f64::NAN),
+            Source::Viscosity => self.viscosity(&self.with_lumps(inputs, v)).unwrap_or(f64::NAN),
+            Source::Node(place) => v[place],
             Source::RingY => self.motion_of(INNER_RING, q, v, inputs).position[0],
             Source::RingZ => self.motion_of(INNER_RING, q, v, inputs).position[1],
             // Weight and load have no moment about the centre of a ring.

@@ -59,8 +59,8 @@ impl Model {
         });
         let of_nodes = self.nodes.iter().flat_map(|node| {
             node.states().iter().map(|state| {
-                let [name, unit, description] = state.name;
-                StateInfo { name: format!("{}.{name}", node.name()), unit, description }
+                let name = format!("{}.{}", node.name(), state.name);
+                StateInfo { name, unit: state.unit, description: state.description }
             })
         });
         named.chain(of_nodes).collect()

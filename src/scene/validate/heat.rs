@@ -29,6 +29,11 @@ impl Scene {
             }
             number(&at("capacity"), node.capacity, CAPACITY)?;
             optional(&at("start"), node.start, TEMPERATURE)?;
+            if let Some(flow) = &node.flow {
+                number(&at("flow.rate"), flow.rate, range(0.0, 1.0, "m^3/s"))?;
+                number(&at("flow.inlet"), flow.inlet, TEMPERATURE)?;
+                number(&at("flow.heat_capacity"), flow.heat_capacity, range(1e5, 1e7, "J/(m^3 K)"))?;
+            }
         }
         let known = |path: String, name: &str| match heat.node(name) {
             Some(place) => Ok(place),
@@ -49,9 +54,20 @@ impl Scene {
                 return Err(bad(&format!("heat.links.{i}.between"), text));
             }
             let at = |field: &str| format!("heat.links.{i}.conductance.{field}");
-            match link.conductance {
-                Conductance::Constant(value) => number(&at("constant"), value, CONDUCTANCE)?,
-                Conductance::Balls(factor) => number(&at("balls"), factor, range(0.0, 1e3, ""))?,
+            match &link.conductance {
+                Conductance::Constant(value) => number(&at("constant"), *value, CONDUCTANCE)?,
+                Conductance::Balls(factor) => number(&at("balls"), *factor, range(0.0, 1e3, ""))?,
+                Conductance::Splashed(surface) => {
+                    number(&at("splashed.area"), surface.area, range(0.0, 100.0, "m^2"))?;
+                    let allowed = range(100.0, 1e4, "J/(kg K)");
+                    number(&at("splashed.specific_heat"), surface.specific_heat, allowed)?;
+                    if self.lubricant.as_ref().is_none_or(|lubricant| lubricant.conductivity.is_none()) {
+                        return Err(bad(
+                            "lubricant.conductivity",
+                            format!("missing; {} needs it", at("splashed")),
+                        ));
+                    }
+                }
             }
         }
         for (i, source) in heat.sources.iter().enumerate() {
@@ -77,6 +93,41 @@ impl Scene {
             number(&at("inner_share"), torque.inner_share, SHARE)?;
             for (k, name) in torque.nodes.iter().enumerate() {
                 known(at(&format!("nodes.{k}")), name)?;
+            }
+            if let Some(elements) = &torque.elements {
+                known(at("elements.node"), &elements.node)?;
+                number(&at("elements.share"), elements.share, SHARE)?;
+            }
+            if let Some(name) = &torque.without_load {
+                known(at("without_load"), name)?;
+            }
+        }
+        for (i, name) in heat.in_motion.iter().enumerate() {
+            let path = format!("heat.in_motion.{i}");
+            known(path.clone(), name)?;
+            if heat.in_motion[..i].contains(name) {
+                return Err(bad(&path, format!("'{name}' is there twice")));
+            }
+        }
+        optional("heat.own_time", heat.own_time, range(1e-3, 1e6, "s"))?;
+        if heat.own_time.is_some() && heat.in_motion.is_empty() {
+            return Err(bad("heat.own_time", "no lump is in heat.in_motion, whose time it would be"));
+        }
+        if let Some(play) = &heat.play {
+            for (k, name) in play.nodes.iter().enumerate() {
+                known(format!("heat.play.nodes.{k}"), name)?;
+            }
+            number("heat.play.expansion", play.expansion, range(0.0, 1e-4, "1/K"))?;
+            number("heat.play.reference", play.reference, TEMPERATURE)?;
+            if self.rollers.is_none() {
+                return Err(bad("heat.play", "has no radial clearance to change; it needs 'rollers'"));
+            }
+            let warm = self.radial_clearance();
+            if !(-2e-4..=2e-3).contains(&warm) {
+                let text = format!(
+                    "the radial clearance is {warm:?} m at the temperatures of the start, allowed are -0.0002 to 0.002 m"
+                );
+                return Err(bad("heat.play", text));
             }
         }
         if self.inner_ring.is_none() {
@@ -105,14 +156,32 @@ const HEATING_POWERS: &[&str] = &[
     "cage_bending",
 ];
 
+impl Scene {
+    /// Radial clearance in m at the temperatures of the start where it follows them, of one that is `given` (m) at its reference.
+    pub(in crate::scene) fn warmed_clearance(&self, given: f64) -> Option<f64> {
+        let heat = self.heat.as_ref()?;
+        let play = heat.play.as_ref()?;
+        let diameter = 2.0 * self.rollers.as_ref()?.radius;
+        let outer = 2.0 * self.outer_ring.as_ref()?.raceway_radius;
+        let inner = outer - 2.0 * diameter - given;
+        let above = |k: usize| {
+            let start = heat.nodes.iter().find(|node| node.name == play.nodes[k]).and_then(|node| node.start);
+            start.unwrap_or(heat.ambient) - play.reference
+        };
+        Some(given + play.expansion * (outer * above(1) - inner * above(0) - 2.0 * diameter * above(2)))
+    }
+}
+
 impl Heat {
     /// Whether every lump can give its heat to the surroundings.
     fn reaches_ambient(&self) -> Result<()> {
-        let mut reached = vec![false; self.nodes.len()];
+        let flows = |node: &HeatNode| node.flow.as_ref().is_some_and(|flow| flow.rate > 0.0);
+        let mut reached: Vec<bool> = self.nodes.iter().map(flows).collect();
         for _ in &self.nodes {
             for link in &self.links {
-                let conducts = match link.conductance {
-                    Conductance::Constant(value) | Conductance::Balls(value) => value > 0.0,
+                let conducts = match &link.conductance {
+                    Conductance::Constant(value) | Conductance::Balls(value) => *value > 0.0,
+                    Conductance::Splashed(surface) => surface.area > 0.0,
                 };
                 let is_reached =
                     |name: &str| name == AMBIENT || self.node(name).is_some_and(|place| reached[place]);

@@ -262,7 +262,8 @@ impl Scene {
 
     /// Diametral play of the inner ring on the rollers, m; zero without rollers.
     pub fn radial_clearance(&self) -> f64 {
-        self.inner_ring.as_ref().and_then(|r| r.radial_clearance).unwrap_or(0.0)
+        let given = self.inner_ring.as_ref().and_then(|r| r.radial_clearance).unwrap_or(0.0);
+        self.warmed_clearance(given).unwrap_or(given)
     }
 
     fn validate_run(&self) -> Result<()> {

@@ -82,6 +82,7 @@ fn random_layer(random: &mut Random) -> (LubricantLayer, f64) {
         }
     };
     let layer = LubricantLayer {
+        thickener: None,
         viscosity: logarithmic(random, 0.005, 0.5),
         pressure_viscosity: if random.chance(0.2) { 0.0 } else { logarithmic(random, 1e-10, 3e-8) },
         cap: random.within(0.5, 0.99),
@@ -248,6 +249,7 @@ fn hard_states_agree() {
         let roundness = rough.iter().map(harmonic).collect();
         let layer = LubricantLayer {
             viscosity,
+            thickener: None,
             pressure_viscosity,
             cap,
             radius,
