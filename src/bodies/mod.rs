@@ -145,6 +145,13 @@ registry! {
     }
 }
 
+impl Power {
+    /// Whether it turns energy of the bearing into heat within it.
+    pub(crate) fn is_lost(self) -> bool {
+        !matches!(self, Self::Loads | Self::RingDrive | Self::ElementDrive | Self::RingSupport)
+    }
+}
+
 /// Energy of a body's motion, of its deformation and of its weight, J.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct BodyEnergy {

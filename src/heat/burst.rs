@@ -28,6 +28,8 @@ pub(super) struct Burst {
 pub(super) struct Heating {
     pub(super) into_nodes: Vec<f64>,
     pub(super) of_motion: Vec<(String, f64)>,
+    /// What no source names.
+    pub(super) in_no_lump: Vec<(String, f64)>,
     pub(super) of_bearing: f64,
     pub(super) whirl_speed: f64,
     /// Viscosity of the lubricant, Pa s.
@@ -104,6 +106,13 @@ impl Burst {
             match heating.of_motion.iter_mut().find(|(name, _)| name == power.name()) {
                 Some((_, sum)) => *sum += heat,
                 None => heating.of_motion.push((power.name().to_owned(), heat)),
+            }
+        }
+        for power in Power::ALL.into_iter().filter(|power| power.is_lost()) {
+            let named: f64 = sources.iter().filter(|source| source.0 == power).map(|source| source.2).sum();
+            let rest = (1.0 - named) * heat[power as usize];
+            if rest.abs() > 1e-12 * heat.iter().fold(0.0, |sum: f64, heat| sum + heat.abs()) {
+                heating.in_no_lump.push((power.name().to_owned(), rest));
             }
         }
         let scene = self.sim.model().scene();

@@ -66,6 +66,8 @@ pub struct HeatState {
     pub heat: Vec<f64>,
     /// Heat of the motion by the name of its power, W.
     pub of_motion: Vec<(String, f64)>,
+    /// Heat of the motion that warms no lump, as no source names it or only a share of it, W.
+    pub in_no_lump: Vec<(String, f64)>,
     /// Heat of the bearing by catalogue values, W.
     pub of_bearing: f64,
     /// Heat that flows through each link, from the first of its names to the second, W.
@@ -231,6 +233,7 @@ impl HeatBalance {
             carried: self.budget.network.carried(&self.temperatures),
             heat: heating.into_nodes,
             of_motion: heating.of_motion,
+            in_no_lump: heating.in_no_lump,
             of_bearing: heating.of_bearing,
             viscosity: heating.viscosity,
             clearance: heating.clearance,
@@ -247,7 +250,8 @@ impl HeatBalance {
             return Ok(());
         }
         let text = format!(
-            "heat: the lubricant came to {temperature:?} K, where Walther's line is none; allowed are {coldest} to {hottest} K"
+            "heat: the lubricant came to {temperature:.1} K; Walther's equation holds from {coldest} to {hottest} K. Does enough conduct to \
+             heat.ambient?"
         );
         Err(Error::new(Status::BadState, text))
     }

@@ -59,6 +59,9 @@ pub fn command(args: &HeatArgs) -> Result<ExitCode> {
     });
     section(&mut text, "", temperatures(&names, &state));
     section(&mut text, "heat", sources(&state));
+    for (name, power) in &state.in_no_lump {
+        text.push_str(&format!("  in no lump: {name} {} W\n", number(*power)));
+    }
     section(&mut text, "flows", flows(&links, &state));
     if !history.is_empty() {
         section(&mut text, "temperatures over time, K", over_time(&names, &history));
@@ -82,6 +85,12 @@ pub fn command(args: &HeatArgs) -> Result<ExitCode> {
         state.bursts,
         started.elapsed().as_secs_f64()
     ));
+    let starts =
+        state.temperatures.iter().enumerate().map(|(i, t)| format!("--set heat.nodes.{i}.start={t:.2}"));
+    text.push_str(&format!(
+        "\n  other commands run the scene at these temperatures with\n  {}\n",
+        starts.collect::<Vec<_>>().join(" ")
+    ));
     terminal::print(&text)?;
     Ok(ExitCode::SUCCESS)
 }
@@ -99,16 +108,17 @@ fn section(text: &mut String, name: &str, rows: Vec<Vec<String>>) {
 }
 
 fn temperatures(names: &[String], state: &HeatState) -> Vec<Vec<String>> {
+    let head = ["lump", "temperature", "", "heat made in it"].map(str::to_owned).to_vec();
     let rows = names.iter().zip(state.temperatures.iter().zip(&state.heat));
-    rows.map(|(name, (temperature, heat))| {
+    let rows = rows.map(|(name, (temperature, heat))| {
         vec![
             name.clone(),
             format!("{temperature:.2} K"),
             format!("{:.2} C", temperature - 273.15),
             format!("{} W", number(*heat)),
         ]
-    })
-    .collect()
+    });
+    std::iter::once(head).chain(rows).collect()
 }
 
 fn sources(state: &HeatState) -> Vec<Vec<String>> {
@@ -162,6 +172,7 @@ fn as_json(names: &[String], links: &[[String; 2]], state: &HeatState) -> serde_
         "links": flows,
         "sources": sources,
         "bearing_torque_heat_w": state.of_bearing,
+        "in_no_lump": state.in_no_lump.iter().map(|(name, power)| json!({"power": name, "heat_w": power})).collect::<Vec<_>>(),
         "carried_w": state.carried,
         "viscosity_pa_s": state.viscosity,
         "radial_clearance_m": state.clearance,

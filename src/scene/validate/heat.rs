@@ -79,6 +79,13 @@ impl Scene {
             known(at("node"), &source.node)?;
             number(&at("share"), source.share, SHARE)?;
         }
+        let warms = heat.bearing_torque.is_some() || !heat.sources.is_empty();
+        if !warms {
+            return Err(bad(
+                "heat.sources",
+                "nothing warms the bearing; give a source or 'heat.bearing_torque'",
+            ));
+        }
         for power in HEATING_POWERS {
             let total: f64 = heat.sources.iter().filter(|s| s.power == *power).map(|s| s.share).sum();
             if total > 1.0 + 1e-12 {
@@ -93,6 +100,14 @@ impl Scene {
             number(&at("inner_share"), torque.inner_share, SHARE)?;
             for (k, name) in torque.nodes.iter().enumerate() {
                 known(at(&format!("nodes.{k}")), name)?;
+            }
+            if torque.nodes[0] == torque.nodes[1] {
+                return Err(bad(&at("nodes"), format!("both rings are '{}'", torque.nodes[0])));
+            }
+            if self.rollers.is_some() && !heat.sources.is_empty() {
+                let text =
+                    "stands for the losses of contacts, which 'heat.sources' has already; give one of them";
+                return Err(bad("heat.bearing_torque", text));
             }
             if let Some(elements) = &torque.elements {
                 known(at("elements.node"), &elements.node)?;
@@ -130,8 +145,13 @@ impl Scene {
                 return Err(bad("heat.play", text));
             }
         }
-        if self.inner_ring.is_none() {
-            return Err(bad("inner_ring", "missing; 'heat' needs its speed"));
+        match self.inner_ring.as_ref().map(|ring| &ring.speed) {
+            None => return Err(bad("inner_ring", "missing; 'heat' needs its speed")),
+            Some(Signal::Constant(_)) => {}
+            Some(_) => {
+                let text = "changes over time; what conducts and what the bearing loses by 'heat' are those of one speed";
+                return Err(bad("inner_ring.speed", text));
+            }
         }
         match self.lubricant.as_ref().map(|lubricant| &lubricant.viscosity) {
             Some(Viscosity::Walther(_)) => {}
