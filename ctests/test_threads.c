@@ -29,9 +29,38 @@ static void *run(void *data)
     return NULL;
 }
 
+/* What is used by one thread is refused to another, and is none the worse for it. */
+static void *run_batch(void *data) { return cagedyn_batch_advance_to((cagedyn_batch *)data, 0.02, 1) == CAGEDYN_OK ? NULL : data; }
+
+static void use_of_a_running_batch(const cagedyn_model *model)
+{
+    cagedyn_batch *batch = cagedyn_batch_new();
+    cagedyn_sim *sim = cagedyn_sim_new(model);
+    CHECK(cagedyn_batch_add(batch, sim) == 0);
+    cagedyn_monitor *monitor = cagedyn_monitor_new(batch);
+    pthread_t thread;
+    CHECK(pthread_create(&thread, NULL, run_batch, batch) == 0);
+    double progress[6], time = -1.0;
+    int64_t n = cagedyn_progress_count();
+    do {
+        CHECK(n <= 6 && cagedyn_monitor_progress(monitor, progress, n) == CAGEDYN_OK);
+    } while (progress[2] == 0.0 && progress[3] == 0.0);
+    int busy = cagedyn_sim_time(sim, &time);
+    if (busy != CAGEDYN_OK) {
+        CHECK(busy == CAGEDYN_ERR_BUSY && time == -1.0 && cagedyn_sim_step(sim, 1e-6) == CAGEDYN_ERR_BUSY);
+        CHECK_FAILS(cagedyn_batch_advance_to(batch, 0.03, 1), CAGEDYN_ERR_BUSY, "batch: is used by another thread");
+    }
+    void *failed = batch;
+    CHECK(pthread_join(thread, &failed) == 0 && failed == NULL);
+    CHECK(cagedyn_sim_time(sim, &time) == CAGEDYN_OK && time == 0.02);
+    cagedyn_batch_free(batch);
+    cagedyn_monitor_free(monitor);
+}
+
 int main(int argc, char **argv)
 {
     cagedyn_model *model = load_model(argc, argv);
+    use_of_a_running_batch(model);
     int64_t n = cagedyn_model_state_count(model);
     job alone[THREADS], together[THREADS];
     pthread_t thread[THREADS];

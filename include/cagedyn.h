@@ -112,10 +112,13 @@
 /* A run did not keep what its preset promises, see cagedyn_sim_trust(). */
 #define CAGEDYN_ERR_UNTRUSTED -16
 
+/* An object is used by another thread, or by a batch that runs; nothing happened. */
+#define CAGEDYN_ERR_BUSY -17
+
 /* A defect in the library; free the object. */
 #define CAGEDYN_ERR_INTERNAL -99
 
-/* Simulations that run at once. May be used by one thread at a time. */
+/* Simulations that run at once. May be used by one thread at a time; a second one gets CAGEDYN_ERR_BUSY. */
 typedef struct cagedyn_batch cagedyn_batch;
 
 /* Asks one simulation to stop. May be used by any number of threads at a time. */
@@ -127,8 +130,12 @@ typedef struct cagedyn_model cagedyn_model;
 /* Watches and stops a batch. May be used by any number of threads at a time. */
 typedef struct cagedyn_monitor cagedyn_monitor;
 
-/* A running simulation. May be used by one thread at a time. */
+/* A running simulation. May be used by one thread at a time; a second one gets CAGEDYN_ERR_BUSY. */
 typedef struct cagedyn_sim cagedyn_sim;
+
+/* Steady whirls of a cage among elements of prescribed motion, without gravity: one, or a branch of them. Any number of threads may
+ * read it. */
+typedef struct cagedyn_whirl cagedyn_whirl;
 
 #ifdef __cplusplus
 extern "C" {
@@ -658,6 +665,65 @@ const char *cagedyn_balance_name(int64_t index);
 int32_t cagedyn_sim_power_balance(cagedyn_sim *sim,
                                   double *out,
                                   int64_t length);
+
+/* Finds the steady whirl of the model's scene without its gravity: a branch of one point, whose parameter is 0. Returns NULL on
+ * failure, with the reason in cagedyn_error_message(). Free it with cagedyn_whirl_free(). */
+cagedyn_whirl *cagedyn_whirl_steady(const cagedyn_model *model);
+
+/* Follows the steady whirl over a number of the scene from one value to another, around folds. `path` is that of an override, as in
+ * inner_ring.speed.constant. Returns NULL where there is no whirl at the start, with the reason in cagedyn_error_message(); where
+ * the branch ends later, and why, tell cagedyn_whirl_end() and cagedyn_whirl_why(). Takes up to minutes for an elastic cage. Free it with
+ * cagedyn_whirl_free(). */
+cagedyn_whirl *cagedyn_whirl_follow(const cagedyn_model *model,
+                                    const char *path,
+                                    double from,
+                                    double to);
+
+/* Frees a branch. NULL is ignored, and the stored error stays. */
+void cagedyn_whirl_free(cagedyn_whirl *whirl);
+
+/* Number of points of a branch. Negative status code on failure. */
+int64_t cagedyn_whirl_point_count(const cagedyn_whirl *whirl);
+
+/* Number of numbers that cagedyn_whirl_point() writes. */
+int64_t cagedyn_whirl_quantity_count(void);
+
+/* Name of one of these numbers; "" for others. Static text.
+ *
+ * - parameter: the number that is varied.
+ * - whirl_speed: rad/s, negative clockwise; eccentricity: m; lead: of the elements in their pockets, rad.
+ * - leading_rate, leading_frequency: of the eigenvalue that decides the stability, 1/s and rad/s.
+ * - arcs: wet arcs of the film. stable: 1 where every small disturbance decays, else 0.
+ * - fold, hopf, grazed: 1 where, since the point before, the branch has turned back, a pair of eigenvalues has crossed, or the
+ *   number of wet arcs has changed, so that another branch begins; else 0. */
+const char *cagedyn_whirl_quantity_name(int64_t index);
+
+/* Writes what is known of a point (length: quantity count). */
+int32_t cagedyn_whirl_point(const cagedyn_whirl *whirl, int64_t point, double *out, int64_t length);
+
+/* Number of waves of an elastic cage, which cagedyn_whirl_amplitudes() writes; 0 for a rigid one. Negative status code on failure. */
+int64_t cagedyn_whirl_wave_count(const cagedyn_whirl *whirl);
+
+/* Writes the amplitudes of the waves of a point from order 2 on, m (length: wave count). */
+int32_t cagedyn_whirl_amplitudes(const cagedyn_whirl *whirl, int64_t point, double *out, int64_t length);
+
+/* Number of eigenvalues of a point without that of its phase. Negative status code on failure. */
+int64_t cagedyn_whirl_eigenvalue_count(const cagedyn_whirl *whirl);
+
+/* Writes rates (1/s) and frequencies (rad/s) of the eigenvalues of a point, the largest rate first (length of both: eigenvalue
+ * count). On failure neither is touched. */
+int32_t cagedyn_whirl_eigenvalues(const cagedyn_whirl *whirl,
+                                  int64_t point,
+                                  double *rates,
+                                  double *frequencies,
+                                  int64_t length);
+
+/* How a branch ends: "range" at the end of the range, "length" after as many points as a branch may have, "grazing" where a wet arc
+ * appears or vanishes, "lost" where no whirl was found further on; "" on failure. Static text. */
+const char *cagedyn_whirl_end(const cagedyn_whirl *whirl);
+
+/* Why a branch ends before the end of its range, one line; "" where it does not, and on failure. Lives as long as the branch. */
+const char *cagedyn_whirl_why(const cagedyn_whirl *whirl);
 
 #ifdef __cplusplus
 }  /* extern "C" */

@@ -40,13 +40,15 @@ pub enum Status {
     OutOfTime = -15,
     /// A run did not keep what its preset promises.
     Untrusted = -16,
+    /// An object is used by another thread, or by a batch that runs.
+    Busy = -17,
     /// A defect in the library; the object should be freed.
     Internal = -99,
 }
 
 impl Status {
     /// All kinds, in the order of their codes.
-    pub const ALL: [Status; 18] = [
+    pub const ALL: [Status; 19] = [
         Status::Ok,
         Status::NullArgument,
         Status::WrongSize,
@@ -64,6 +66,7 @@ impl Status {
         Status::Cancelled,
         Status::OutOfTime,
         Status::Untrusted,
+        Status::Busy,
         Status::Internal,
     ];
 
@@ -87,6 +90,7 @@ impl Status {
             Status::Cancelled => "ERR_CANCELLED\0",
             Status::OutOfTime => "ERR_OUT_OF_TIME\0",
             Status::Untrusted => "ERR_UNTRUSTED\0",
+            Status::Busy => "ERR_BUSY\0",
             Status::Internal => "ERR_INTERNAL\0",
         }
     }

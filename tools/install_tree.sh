@@ -16,6 +16,13 @@ list=$DESTDIR$share/installed
 
 if [ "${1:-}" = --remove ]; then
     [ -e "$list" ] || { echo "nothing of cagedyn is installed below $DESTDIR$PREFIX" >&2; exit 1; }
+    # A copied tree lists the files of the one that it was copied from.
+    while read -r file; do
+        case $file in
+        "$PREFIX"/* | "$LIBDIR"/*) ;;
+        *) echo "$list names $file, which is not below $PREFIX or $LIBDIR; nothing is removed" >&2; exit 1 ;;
+        esac
+    done < "$list"
     while read -r file; do rm -f "$DESTDIR$file"; done < "$list"
     rm -f "$list"
     for folder in "$share" "$PREFIX/share/doc/cagedyn" "$LIBDIR/cmake/cagedyn"; do

@@ -1,18 +1,33 @@
 //! Many simulations at once in C.
 
 use super::guard::{
-    EMPTY, count, exclusive, free, guard, index, shared, static_name, status, to_c_string, write_array,
+    EMPTY, Exclusive, Handle, InUse, count, exclusive, free, guard, index, shared, static_name, status,
+    to_c_string, write_array,
 };
-use super::sim::cagedyn_sim;
+use super::sim::{Running, cagedyn_sim};
 use crate::batch::{Monitor, PROGRESS, ProgressItem, advance_all};
 use crate::error::{Error, Result, Status};
-use crate::sim::Sim;
+use crate::sim::{Sim, check_time};
 use std::ffi::{CString, c_char};
 use std::ptr::NonNull;
+use std::sync::atomic::Ordering;
 
-/// Simulations that run at once. May be used by one thread at a time.
+/// Simulations that run at once. May be used by one thread at a time; a second one gets CAGEDYN_ERR_BUSY.
 #[allow(non_camel_case_types)]
 pub struct cagedyn_batch {
+    content: Exclusive<Batch>,
+}
+
+impl Handle for cagedyn_batch {
+    type Content = Batch;
+
+    fn exclusive(&self) -> &Exclusive<Batch> {
+        &self.content
+    }
+}
+
+/// The simulations with what became of them.
+pub struct Batch {
     sims: Vec<Owned>,
     /// What became of each.
     results: Vec<(i32, CString)>,
@@ -25,10 +40,15 @@ struct Owned(NonNull<cagedyn_sim>);
 // SAFETY: it is what a Box would be, and what is in it may be sent.
 unsafe impl Send for Owned where cagedyn_sim: Send {}
 
-impl AsMut<Sim> for Owned {
+/// A simulation of the batch that runs.
+struct Runs<'a>(InUse<'a, Running>);
+
+// SAFETY: the content may be sent, and nobody else has it.
+unsafe impl Send for Runs<'_> where Running: Send {}
+
+impl AsMut<Sim> for Runs<'_> {
     fn as_mut(&mut self) -> &mut Sim {
-        // SAFETY: the batch owns it, and by the contract of the ABI nobody else uses it now.
-        unsafe { &mut self.0.as_mut().sim }
+        &mut self.0.sim
     }
 }
 
@@ -52,7 +72,8 @@ pub extern "C" fn cagedyn_batch_new() -> *mut cagedyn_batch {
         |_| std::ptr::null_mut(),
         || {
             let (sims, results, monitor) = (Vec::new(), Vec::new(), Monitor::default());
-            Ok(Box::into_raw(Box::new(cagedyn_batch { sims, results, monitor })))
+            let content = Exclusive::new(Batch { sims, results, monitor });
+            Ok(Box::into_raw(Box::new(cagedyn_batch { content })))
         },
     )
 }
@@ -77,11 +98,10 @@ pub unsafe extern "C" fn cagedyn_batch_free(batch: *mut cagedyn_batch) {
 pub unsafe extern "C" fn cagedyn_batch_add(batch: *mut cagedyn_batch, sim: *mut cagedyn_sim) -> i64 {
     count(|| {
         // SAFETY: see above.
-        let (batch, added) = unsafe { (exclusive("batch", batch)?, exclusive("sim", sim)?) };
-        if added.in_batch {
+        let (mut batch, added) = unsafe { (exclusive("batch", batch)?, shared("sim", sim)?) };
+        if added.in_batch.swap(true, Ordering::AcqRel) {
             return Err(Error::new(Status::BadValue, "sim: a batch has it already".to_owned()));
         }
-        added.in_batch = true;
         // The host's own pointer, so that both may be used in turn.
         batch.sims.extend(NonNull::new(sim).map(Owned));
         batch.results.push((0, CString::default()));
@@ -96,7 +116,7 @@ pub unsafe extern "C" fn cagedyn_batch_add(batch: *mut cagedyn_batch, sim: *mut 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_batch_count(batch: *const cagedyn_batch) -> i64 {
     // SAFETY: see above.
-    count(|| Ok(unsafe { shared("batch", batch) }?.sims.len()))
+    count(|| Ok(unsafe { exclusive("batch", batch) }?.sims.len()))
 }
 
 /// The simulation at a place, which belongs to the batch and lives as long. NULL on failure.
@@ -109,7 +129,8 @@ pub unsafe extern "C" fn cagedyn_batch_sim(batch: *mut cagedyn_batch, index: i64
         |_| std::ptr::null_mut(),
         || {
             // SAFETY: see above.
-            let sims = &unsafe { exclusive("batch", batch) }?.sims;
+            let content = unsafe { exclusive("batch", batch) }?;
+            let sims = &content.sims;
             Ok(sims[self::index("index", index, sims.len())?].0.as_ptr())
         },
     )
@@ -127,10 +148,18 @@ pub unsafe extern "C" fn cagedyn_batch_sim(batch: *mut cagedyn_batch, index: i64
 pub unsafe extern "C" fn cagedyn_batch_advance_to(batch: *mut cagedyn_batch, t: f64, threads: i64) -> i32 {
     status(|| {
         // SAFETY: see above.
-        let batch = unsafe { exclusive("batch", batch) }?;
+        let mut batch = unsafe { exclusive("batch", batch) }?;
         let threads = usize::try_from(threads)
             .map_err(|_| Error::new(Status::BadValue, format!("threads: {threads} is not 0 or more")))?;
-        let results = advance_all(&mut batch.sims, t, threads, &batch.monitor);
+        check_time("t", t)?;
+        let sims = batch.sims.iter().enumerate().map(|(place, sim)| {
+            // SAFETY: the batch owns it.
+            let sim = unsafe { sim.0.as_ref() };
+            sim.exclusive().enter(&format!("simulation {place}")).map(Runs)
+        });
+        let mut sims = sims.collect::<Result<Vec<_>>>()?;
+        let results = advance_all(&mut sims, t, threads, &batch.monitor);
+        drop(sims);
         let first = results.iter().position(Result::is_err);
         let failed = results.iter().filter(|result| result.is_err()).count();
         let told = first.map(|place| (place, results[place].clone()));
@@ -163,7 +192,8 @@ pub unsafe extern "C" fn cagedyn_batch_status(batch: *const cagedyn_batch, index
         |status| status as i32,
         || {
             // SAFETY: see above.
-            let results = &unsafe { shared("batch", batch) }?.results;
+            let content = unsafe { exclusive("batch", batch) }?;
+            let results = &content.results;
             Ok(results[self::index("index", index, results.len())?].0)
         },
     )
@@ -179,7 +209,8 @@ pub unsafe extern "C" fn cagedyn_batch_message(batch: *const cagedyn_batch, inde
         |_| EMPTY.as_ptr(),
         || {
             // SAFETY: see above.
-            let results = &unsafe { shared("batch", batch) }?.results;
+            let content = unsafe { exclusive("batch", batch) }?;
+            let results = &content.results;
             Ok(results[self::index("index", index, results.len())?].1.as_ptr())
         },
     )
@@ -196,7 +227,7 @@ pub unsafe extern "C" fn cagedyn_monitor_new(batch: *const cagedyn_batch) -> *mu
         |_| std::ptr::null_mut(),
         || {
             // SAFETY: see above.
-            let monitor = unsafe { shared("batch", batch) }?.monitor.clone();
+            let monitor = unsafe { exclusive("batch", batch) }?.monitor.clone();
             Ok(Box::into_raw(Box::new(cagedyn_monitor { monitor })))
         },
     )

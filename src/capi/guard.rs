@@ -1,9 +1,11 @@
 //! What every entry of the C ABI passes through: error memory, panic guard, argument checks.
 
 use crate::error::{Error, Result, Status};
-use std::cell::RefCell;
+use std::cell::{RefCell, UnsafeCell};
 use std::ffi::{CStr, CString, c_char};
+use std::ops::{Deref, DerefMut};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 thread_local! {
     static LAST_ERROR: RefCell<(i32, CString)> = RefCell::new((0, CString::default()));
@@ -111,13 +113,72 @@ pub unsafe fn shared<'a, T>(name: &str, handle: *const T) -> Result<&'a T> {
     unsafe { handle.as_ref() }.ok_or_else(|| null(name))
 }
 
-/// The object behind a handle, for changing it.
+/// What is behind a handle that one thread uses at a time. A second user gets [`Status::Busy`] and touches nothing.
+pub struct Exclusive<C> {
+    busy: AtomicBool,
+    content: UnsafeCell<C>,
+}
+
+// SAFETY: the content is given to one user at a time.
+unsafe impl<C: Send> Sync for Exclusive<C> {}
+
+/// The content, until it is dropped.
+pub struct InUse<'a, C>(&'a Exclusive<C>);
+
+/// A handle to such an object.
+pub trait Handle {
+    /// What is behind it.
+    type Content;
+
+    /// The object.
+    fn exclusive(&self) -> &Exclusive<Self::Content>;
+}
+
+impl<C> Exclusive<C> {
+    /// An object that nobody uses.
+    pub fn new(content: C) -> Self {
+        Self { busy: AtomicBool::new(false), content: UnsafeCell::new(content) }
+    }
+
+    /// Its content, if nobody else uses it.
+    pub fn enter(&self, name: &str) -> Result<InUse<'_, C>> {
+        if self.busy.swap(true, Ordering::Acquire) {
+            let text = format!("{name}: is used by another thread, or by a batch that runs");
+            return Err(Error::new(Status::Busy, text));
+        }
+        Ok(InUse(self))
+    }
+}
+
+impl<C> Deref for InUse<'_, C> {
+    type Target = C;
+
+    fn deref(&self) -> &C {
+        // SAFETY: `busy` was false, so this is the only user.
+        unsafe { &*self.0.content.get() }
+    }
+}
+
+impl<C> DerefMut for InUse<'_, C> {
+    fn deref_mut(&mut self) -> &mut C {
+        // SAFETY: as above.
+        unsafe { &mut *self.0.content.get() }
+    }
+}
+
+impl<C> Drop for InUse<'_, C> {
+    fn drop(&mut self) {
+        self.0.busy.store(false, Ordering::Release);
+    }
+}
+
+/// The content behind a handle that one thread uses at a time.
 ///
 /// # Safety
-/// As [`shared`], and no other thread uses the handle during the call.
-pub unsafe fn exclusive<'a, T>(name: &str, handle: *mut T) -> Result<&'a mut T> {
-    // SAFETY: NULL is checked by as_mut; validity and exclusiveness are the contract of the ABI.
-    unsafe { handle.as_mut() }.ok_or_else(|| null(name))
+/// As [`shared`].
+pub unsafe fn exclusive<'a, H: Handle + 'a>(name: &str, handle: *const H) -> Result<InUse<'a, H::Content>> {
+    // SAFETY: as the caller's.
+    unsafe { shared(name, handle) }?.exclusive().enter(name)
 }
 
 /// Copies a caller's array into `to`.
@@ -158,7 +219,19 @@ pub fn index(name: &str, index: i64, count: usize) -> Result<usize> {
     usize::try_from(index)
         .ok()
         .filter(|&i| i < count)
-        .ok_or_else(|| Error::new(Status::BadIndex, format!("{name}: index {index}, there are {count}")))
+        .ok_or_else(|| Error::new(Status::BadIndex, no_place(name, index, count)))
+}
+
+/// What is said of an index that is none. A negative one is most likely the failure of a search by name.
+fn no_place(name: &str, index: i64, count: usize) -> String {
+    let code = Status::ALL.into_iter().find(|status| *status as i64 == index && *status != Status::Ok);
+    match code {
+        Some(code) => format!(
+            "{name}: index {index} is CAGEDYN_{} of the call that gave it; there are {count}",
+            code.name()
+        ),
+        None => format!("{name}: index {index}, there are {count}, from 0 on"),
+    }
 }
 
 fn null(name: &str) -> Error {

@@ -78,7 +78,8 @@ pub unsafe extern "C" fn cagedyn_sim_get_interval(
     status(|| {
         check_array("out", out.is_null(), length, INTERVAL_NAMES.len())?;
         // SAFETY: see above.
-        let sim = &mut unsafe { exclusive("sim", sim) }?.sim;
+        let mut content = unsafe { exclusive("sim", sim) }?;
+        let sim = &mut content.sim;
         let interval = sim.interval(index("output", output, sim.channels().len())?)?;
         let crate::Interval { from, to, min, max, mean, integral, positive } = interval;
         // SAFETY: see above.

@@ -21,7 +21,7 @@ pub unsafe extern "C" fn cagedyn_canceller_new(sim: *const cagedyn_sim) -> *mut 
         |_| std::ptr::null_mut(),
         || {
             // SAFETY: see above.
-            let canceller = unsafe { shared("sim", sim) }?.sim.canceller();
+            let canceller = unsafe { exclusive("sim", sim) }?.sim.canceller();
             Ok(Box::into_raw(Box::new(cagedyn_canceller { canceller })))
         },
     )

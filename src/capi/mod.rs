@@ -15,6 +15,7 @@ pub mod limits;
 pub mod model;
 pub mod sim;
 pub mod statistics;
+pub mod whirl;
 
 use crate::error::Status;
 use std::ffi::c_char;
@@ -67,6 +68,8 @@ pub const CAGEDYN_ERR_CANCELLED: i32 = -14;
 pub const CAGEDYN_ERR_OUT_OF_TIME: i32 = -15;
 /// A run did not keep what its preset promises, see cagedyn_sim_trust().
 pub const CAGEDYN_ERR_UNTRUSTED: i32 = -16;
+/// An object is used by another thread, or by a batch that runs; nothing happened.
+pub const CAGEDYN_ERR_BUSY: i32 = -17;
 /// A defect in the library; free the object.
 pub const CAGEDYN_ERR_INTERNAL: i32 = -99;
 
@@ -121,6 +124,7 @@ mod tests {
             CAGEDYN_ERR_CANCELLED,
             CAGEDYN_ERR_OUT_OF_TIME,
             CAGEDYN_ERR_UNTRUSTED,
+            CAGEDYN_ERR_BUSY,
             CAGEDYN_ERR_INTERNAL,
         ];
         assert_eq!(constants.to_vec(), Status::ALL.map(|s| s as i32).to_vec());

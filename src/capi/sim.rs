@@ -1,7 +1,8 @@
 //! Simulations in C.
 
 use super::guard::{
-    count, exclusive, free, guard, index, last_status, read_array, shared, status, write_array,
+    Exclusive, Handle, count, exclusive, free, guard, index, last_status, read_array, shared, status,
+    write_array,
 };
 use super::model::cagedyn_model;
 use crate::error::{Error, Result, Status};
@@ -10,10 +11,26 @@ use crate::scene::Preset;
 use crate::sim::{Sim, SparsePattern};
 use std::ffi::CString;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A running simulation. May be used by one thread at a time.
+/// A running simulation. May be used by one thread at a time; a second one gets CAGEDYN_ERR_BUSY.
 #[allow(non_camel_case_types)]
 pub struct cagedyn_sim {
+    content: Exclusive<Running>,
+    /// Whether a batch owns it.
+    pub(super) in_batch: AtomicBool,
+}
+
+impl Handle for cagedyn_sim {
+    type Content = Running;
+
+    fn exclusive(&self) -> &Exclusive<Running> {
+        &self.content
+    }
+}
+
+/// A simulation with memory for what is written to a host.
+pub struct Running {
     pub(super) sim: Sim,
     /// Copies of the caller's arrays, so that overlapping arrays are harmless.
     pub(super) state: Vec<f64>,
@@ -23,17 +40,15 @@ pub struct cagedyn_sim {
     pub(super) jacobian: Vec<f64>,
     /// None until a sparse Jacobian is first asked for.
     pub(super) pattern: Option<SparsePattern>,
-    /// Whether a batch owns it.
-    pub(super) in_batch: bool,
 }
 
 /// Runs `entry` on a simulation that it may change.
 ///
 /// # Safety
 /// `sim` is NULL or a live handle that no other thread uses.
-pub(super) unsafe fn with(sim: *mut cagedyn_sim, entry: impl FnOnce(&mut cagedyn_sim) -> Result<()>) -> i32 {
+pub(super) unsafe fn with(sim: *mut cagedyn_sim, entry: impl FnOnce(&mut Running) -> Result<()>) -> i32 {
     // SAFETY: see above.
-    status(|| entry(unsafe { exclusive("sim", sim) }?))
+    status(|| entry(&mut *unsafe { exclusive("sim", sim) }?))
 }
 
 /// A handle to what `make` makes of a model, or NULL.
@@ -52,15 +67,16 @@ unsafe fn new(model: *const cagedyn_model, make: impl FnOnce(Arc<Model>) -> Resu
             let sim = make(unsafe { shared("model", model) }?.model.clone())?;
             let (states, outputs) = (sim.state().len(), sim.channels().len());
             let (state, result) = (vec![0.0; states], vec![0.0; states.max(outputs)]);
-            Ok(Box::into_raw(Box::new(cagedyn_sim {
+            let running = Running {
                 sim,
                 state,
                 result,
                 report: CString::default(),
                 jacobian: Vec::new(),
                 pattern: None,
-                in_batch: false,
-            })))
+            };
+            let (content, in_batch) = (Exclusive::new(running), AtomicBool::new(false));
+            Ok(Box::into_raw(Box::new(cagedyn_sim { content, in_batch })))
         },
     )
 }
@@ -107,7 +123,7 @@ pub unsafe extern "C" fn cagedyn_sim_new_with_preset(
 pub unsafe extern "C" fn cagedyn_sim_free(sim: *mut cagedyn_sim) {
     // SAFETY: see above.
     unsafe {
-        if !sim.as_ref().is_some_and(|sim| sim.in_batch) {
+        if !sim.as_ref().is_some_and(|sim| sim.in_batch.load(Ordering::Acquire)) {
             free(sim);
         }
     }
@@ -130,7 +146,7 @@ pub unsafe extern "C" fn cagedyn_sim_reset(sim: *mut cagedyn_sim) -> i32 {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_sim_time(sim: *const cagedyn_sim, time: *mut f64) -> i32 {
     // SAFETY: see above.
-    status(|| unsafe { write_array("time", &[shared("sim", sim)?.sim.time()], time, 1) })
+    status(|| unsafe { write_array("time", &[exclusive("sim", sim)?.sim.time()], time, 1) })
 }
 
 /// Writes the state to `state` (length: state count).
@@ -140,7 +156,7 @@ pub unsafe extern "C" fn cagedyn_sim_time(sim: *const cagedyn_sim, time: *mut f6
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_sim_get_state(sim: *const cagedyn_sim, state: *mut f64, length: i64) -> i32 {
     // SAFETY: see above.
-    status(|| unsafe { write_array("state", shared("sim", sim)?.sim.state(), state, length) })
+    status(|| unsafe { write_array("state", exclusive("sim", sim)?.sim.state(), state, length) })
 }
 
 /// Sets time (s) and state (length: state count) and restarts the integrator. On failure nothing changes.
@@ -234,7 +250,8 @@ pub unsafe extern "C" fn cagedyn_sim_body_forces(sim: *mut cagedyn_sim, out: *mu
 pub unsafe extern "C" fn cagedyn_sim_get_input(sim: *const cagedyn_sim, input: i64, value: *mut f64) -> i32 {
     status(|| {
         // SAFETY: see above.
-        let sim = &unsafe { shared("sim", sim) }?.sim;
+        let content = unsafe { exclusive("sim", sim) }?;
+        let sim = &content.sim;
         let input = index("input", input, sim.model().input_count())?;
         // SAFETY: see above.
         unsafe { write_array("value", &[sim.input(input)?], value, 1) }
@@ -311,7 +328,7 @@ pub unsafe extern "C" fn cagedyn_sim_get_output(sim: *mut cagedyn_sim, output: i
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_sim_save_length(sim: *const cagedyn_sim) -> i64 {
     // SAFETY: see above.
-    count(|| Ok(unsafe { shared("sim", sim) }?.sim.save_len()))
+    count(|| Ok(unsafe { exclusive("sim", sim) }?.sim.save_len()))
 }
 
 /// Writes everything the future of the simulation depends on (length: save length). After cagedyn_sim_restore() into
@@ -323,7 +340,7 @@ pub unsafe extern "C" fn cagedyn_sim_save_length(sim: *const cagedyn_sim) -> i64
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_sim_save(sim: *const cagedyn_sim, out: *mut f64, length: i64) -> i32 {
     // SAFETY: see above.
-    status(|| unsafe { write_array("out", &shared("sim", sim)?.sim.save(), out, length) })
+    status(|| unsafe { write_array("out", &exclusive("sim", sim)?.sim.save(), out, length) })
 }
 
 /// Continues from what cagedyn_sim_save() wrote. On failure nothing changes.

@@ -1,8 +1,6 @@
 //! Counts, numbers of health and reports of simulations in C.
 
-use super::guard::{
-    EMPTY, check_array, exclusive, guard, shared, static_name, status, to_c_string, write_array,
-};
+use super::guard::{EMPTY, check_array, exclusive, guard, static_name, status, to_c_string, write_array};
 use super::sim::cagedyn_sim;
 use crate::model::{LAWS, Law, POWERS, Power};
 use crate::sim::{BALANCE_ITEMS, BalanceItem, STATISTICS, Statistic};
@@ -38,7 +36,7 @@ pub extern "C" fn cagedyn_statistic_name(index: i64) -> *const c_char {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_sim_statistics(sim: *const cagedyn_sim, out: *mut f64, length: i64) -> i32 {
     // SAFETY: see above.
-    status(|| unsafe { write_array("out", &shared("sim", sim)?.sim.statistics().values(), out, length) })
+    status(|| unsafe { write_array("out", &exclusive("sim", sim)?.sim.statistics().values(), out, length) })
 }
 
 /// Whether the run since the start of the scene or the last set state kept what its preset promises: CAGEDYN_OK, or
@@ -66,7 +64,7 @@ pub unsafe extern "C" fn cagedyn_sim_report(sim: *mut cagedyn_sim) -> *const c_c
         |_| EMPTY.as_ptr(),
         || {
             // SAFETY: see above.
-            let s = unsafe { exclusive("sim", sim) }?;
+            let mut s = unsafe { exclusive("sim", sim) }?;
             s.report = to_c_string(&s.sim.report());
             Ok(s.report.as_ptr())
         },
@@ -98,7 +96,7 @@ pub unsafe extern "C" fn cagedyn_sim_law_evaluations(
 ) -> i32 {
     status(|| {
         // SAFETY: see above.
-        let counts = unsafe { shared("sim", sim) }?.sim.statistics().laws.map(|n| n as f64);
+        let counts = unsafe { exclusive("sim", sim) }?.sim.statistics().laws.map(|n| n as f64);
         // SAFETY: see above.
         unsafe { write_array("out", &counts, out, length) }
     })
@@ -138,7 +136,8 @@ pub unsafe extern "C" fn cagedyn_sim_power_balance(sim: *mut cagedyn_sim, out: *
     status(|| {
         check_array("out", out.is_null(), length, POWERS.len() + BALANCE_ITEMS.len())?;
         // SAFETY: see above.
-        let balance = unsafe { exclusive("sim", sim) }?.sim.power_balance()?;
+        let mut content = unsafe { exclusive("sim", sim) }?;
+        let balance = content.sim.power_balance()?;
         let items = BalanceItem::ALL.map(|item| balance.value(item));
         let values: Vec<f64> = balance.work.into_iter().chain(items).collect();
         // SAFETY: see above.

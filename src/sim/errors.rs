@@ -40,7 +40,7 @@ impl Sim {
     }
 }
 
-pub(in crate::sim) fn check_time(what: &str, t: f64) -> Result<()> {
+pub(crate) fn check_time(what: &str, t: f64) -> Result<()> {
     if (0.0..=MAX_TIME).contains(&t) {
         return Ok(());
     }

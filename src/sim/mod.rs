@@ -29,7 +29,8 @@ use crate::integrate::{Driver, Failure, Tuning};
 use crate::model::{Channel, FAULTS, Forces, Input, Model, PartTimes};
 use crate::scene::{Preset, Solver};
 use bearing::Bearing;
-use errors::{bad_index, check_time, wrong_size};
+pub(crate) use errors::check_time;
+use errors::{bad_index, wrong_size};
 use linear::jacobian::Slopes;
 use linear::newton::Newton;
 use std::sync::Arc;
@@ -237,6 +238,11 @@ impl Sim {
         }
         self.bearing.limits_mut().set_wall_time(seconds);
         Ok(())
+    }
+
+    /// Present value of an input, or of what follows from inputs, such as the orbit speed of elements that roll.
+    pub(crate) fn input_at_present(&self, input: Input) -> f64 {
+        self.model().inputs_at(self.time, self.bearing.host()).of(input)
     }
 
     /// Back to the start of the scene. Inputs set by the host follow the scene again; counts start at zero.

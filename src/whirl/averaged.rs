@@ -13,14 +13,14 @@ use crate::bodies::CAGE_MOTION;
 use crate::error::{Error, Result, Status};
 use crate::model::{Fault, HostInputs, Input, InputValues, Model, Workspace};
 use crate::scalar::math;
-use crate::scene::{GuideFilm, Scene};
+use crate::scene::{GuideFilm, Scene, Signal};
 use crate::space::rotate;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
 
 /// Places of the train in a pitch at which contacts are counted, and halvings of a step in which one begins or ends.
 const SCAN: usize = 48;
-const HALVINGS: u32 = 36;
+const HALVINGS: u32 = 18;
 /// Scales of the unknowns: angle of the wet arc, or share of the clearance; speed, rad/s; lead, rad; waves, m.
 const ARC: f64 = 1e-2;
 const SPEED: f64 = 100.0;
@@ -107,6 +107,21 @@ impl Averaged {
                 "a cage with a profile has no steady whirl in its own axes",
             );
         }
+        for (field, force) in
+            cage.load.iter().flat_map(|load| [("force_y", &load.force_y), ("force_z", &load.force_z)])
+        {
+            if *force != Signal::Constant(0.0) {
+                let path = format!("cage.load.{field}");
+                return refused(
+                    &path,
+                    "a force with a direction leaves no steady whirl; a torque is allowed",
+                );
+            }
+        }
+        let constant = |signal: &Signal| matches!(signal, Signal::Constant(_));
+        if !scene.inner_ring.as_ref().is_none_or(|ring| constant(&ring.speed)) {
+            return refused("inner_ring.speed", "changes over time; a steady whirl needs a constant speed");
+        }
         let clearance = guide.diametral_clearance / 2.0;
         let layer = match &guide.film {
             Some(GuideFilm::LubricantLayer(layer)) if layer.thickness < clearance => Some(layer.thickness),
@@ -116,6 +131,9 @@ impl Averaged {
         let growth = cage.elastic_ring.as_ref().map_or(0.0, |ring| ring.growth);
         let model = Model::new(scene)?;
         let inputs = model.inputs_at(0.0, &HostInputs::default());
+        if inputs.of(Input::OrbitSpeed) == 0.0 {
+            return refused("inner_ring.speed", "the elements do not go round, so nothing drives a whirl");
+        }
         let count = model.element_count();
         Ok(Self {
             ws: Workspace::new(&model),
@@ -407,6 +425,25 @@ impl Averaged {
         turned(&state.waves, &mut rate, &|k| state.rates[k]);
         turned(&state.rates, &mut rate, &|k| a[CAGE_MOTION + k]);
         Ok(rate)
+    }
+
+    /// Numbers of the state in axes at rest: place, velocity, lead, speed, waves and their rates.
+    pub(super) fn averaged_at_rest(&self, u: &[f64]) -> Vec<f64> {
+        self.state(u).0.flat()
+    }
+
+    /// Rate of that state under gravity (m/s^2), with the waves in axes at rest.
+    pub(super) fn rate_at_rest(&mut self, x: &DVector<f64>, gravity: [f64; 2]) -> Result<DVector<f64>> {
+        let state = State::of(x.as_slice(), 2 * self.orders.len());
+        let mut rate = self.rate(&state, -state.speed)?;
+        rate[2] += gravity[0];
+        rate[3] += gravity[1];
+        Ok(DVector::from_vec(rate))
+    }
+
+    /// Whether a round cage is in its layer at this state, if it has one.
+    pub(super) fn is_wet(&self, x: &DVector<f64>) -> bool {
+        self.layer.is_none_or(|layer| math::hypot(x[0], x[1]) > self.clearance - layer)
     }
 
     /// Number of wet arcs.

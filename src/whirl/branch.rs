@@ -1,7 +1,7 @@
 //! A branch of steady whirls over a number of the scene, followed around folds by its arc length.
 
 use super::averaged::Averaged;
-use super::{Whirl, linearized, solve, start, whirl};
+use super::{Whirl, linearized, start, whirl};
 use crate::error::{Error, Result, Status};
 use crate::scene::Scene;
 use nalgebra::{DMatrix, DVector};
@@ -18,6 +18,8 @@ const GROWTH: f64 = 1.5;
 const CONVERGED: f64 = 1e-8;
 /// How long unknowns count against the range of the parameter: changes by so many scales are a range.
 const RANGE: f64 = 30.0;
+/// How far beyond a lost whirl the search begins anew, as a share of the range.
+const BEYOND: f64 = 0.02;
 /// Step of differences over the parameter, as a share of the range.
 const DIFFERENCE: f64 = 1e-5;
 
@@ -28,8 +30,8 @@ pub enum End {
     Range,
     /// After as many points as a branch may have.
     Length,
-    /// Where a wet arc appears or vanishes: the force has an infinite slope there.
-    Grazing,
+    /// Where a wet arc appears or vanishes, and no whirl is found beyond: the force has an infinite slope there.
+    Grazing(String),
     /// No whirl was found further on; the text says why.
     Lost(String),
 }
@@ -40,8 +42,16 @@ impl End {
         match self {
             Self::Range => "range",
             Self::Length => "length",
-            Self::Grazing => "grazing",
+            Self::Grazing(_) => "grazing",
             Self::Lost(_) => "lost",
+        }
+    }
+
+    /// Why it ends there, where something failed.
+    pub fn why(&self) -> Option<&str> {
+        match self {
+            Self::Range | Self::Length => None,
+            Self::Grazing(why) | Self::Lost(why) => Some(why),
         }
     }
 }
@@ -57,6 +67,9 @@ pub struct Point {
     pub fold: bool,
     /// Whether a pair of eigenvalues has crossed since the point before.
     pub hopf: bool,
+    /// Whether a wet arc has appeared or vanished since the point before: the whirl is another one, and the branch between them is
+    /// not known.
+    pub grazed: bool,
 }
 
 /// A branch.
@@ -86,8 +99,13 @@ pub fn follow(
     let first_scene = with(scene, from)?;
     let mut averaged = Averaged::new(&first_scene)?;
     let begin = start::guess(&first_scene, &averaged)?;
-    let mut points =
-        vec![Point { parameter: from, whirl: solve(&mut averaged, begin)?, fold: false, hopf: false }];
+    let mut points = vec![Point {
+        parameter: from,
+        whirl: super::steady_from(&first_scene, &mut averaged, begin)?,
+        fold: false,
+        hopf: false,
+        grazed: false,
+    }];
     tell(&points[0]);
     let scales = averaged.scales();
     let n = scales.len();
@@ -105,7 +123,9 @@ pub fn follow(
         if points.len() >= MOST_POINTS {
             break End::Length;
         }
-        match advance(&at, &x, &tangent, step, &scales, &plain) {
+        // The last point is the end of the range.
+        let last_step = tangent[n] > 0.0 && x[n] + tangent[n] * step > 1.0 - SMALLEST_STEP;
+        match advance(&at, &x, &tangent, step, last_step, &scales, &plain) {
             Ok((next, direction, corrections)) => {
                 let s = next[n];
                 let last = &points[points.len() - 1];
@@ -116,38 +136,58 @@ pub fn follow(
                     Ok(found) => found,
                     Err(e) => break End::Lost(e.message),
                 };
-                let (grazes, crossed) =
+                let (grazed, crossed) =
                     (found.arcs != last.whirl.arcs, found.stable() != last.whirl.stable());
                 let fold = direction[n] * tangent[n] < 0.0;
                 let oscillates = found.eigenvalues.first().is_some_and(|[_, frequency]| *frequency != 0.0);
-                let point =
-                    Point { parameter: from + range * s, whirl: found, fold, hopf: crossed && oscillates };
+                let parameter = if (s - 1.0).abs() < CONVERGED { to } else { from + range * s };
+                let hopf = crossed && oscillates && !grazed;
+                let point = Point { parameter, whirl: found, fold: fold && !grazed, hopf, grazed };
                 tell(&point);
                 points.push(point);
-                if grazes {
-                    break End::Grazing;
-                }
-                if !(0.0..1.0 - SMALLEST_STEP).contains(&s) {
+                if !(0.0..1.0 - CONVERGED).contains(&s) {
                     break End::Range;
                 }
                 (x, tangent) = (next, direction);
+                if grazed {
+                    // On the other side another branch begins, in the direction of the range.
+                    tangent.fill(0.0);
+                    tangent[n] = 1.0;
+                    step = FIRST_STEP;
+                    continue;
+                }
                 if corrections <= FEW {
                     step = (step * GROWTH).min(LARGEST_STEP);
-                }
-                // The last point is the end of the range.
-                if tangent[n] > 0.0 {
-                    step = step.min(((1.0 - x[n]) / tangent[n]).max(SMALLEST_STEP));
                 }
             }
             Err(e) => {
                 step *= 0.5;
                 if step < SMALLEST_STEP {
-                    break End::Lost(e.message);
+                    // Where an arc is about to appear or vanish, the search begins anew beyond it.
+                    let beyond = x[n] + BEYOND;
+                    let begun = (beyond < 1.0).then(|| begin_at(scene, from + range * beyond, &with));
+                    let Some(Ok((parameter, whirl))) = begun else { break End::Lost(e.message) };
+                    let last = &points[points.len() - 1].whirl;
+                    if last.arcs == whirl.arcs {
+                        break End::Lost(e.message);
+                    }
+                    x = scaled(&whirl.unknowns, beyond);
+                    tangent.fill(0.0);
+                    tangent[n] = 1.0;
+                    step = FIRST_STEP;
+                    let point = Point { parameter, whirl, fold: false, hopf: false, grazed: true };
+                    tell(&point);
+                    points.push(point);
                 }
             }
         }
     };
     Ok(Branch { points, end })
+}
+
+/// The whirl at a value of the number, from where a search begins by itself.
+fn begin_at(scene: &Scene, value: f64, with: &impl Fn(&Scene, f64) -> Result<Scene>) -> Result<(f64, Whirl)> {
+    Ok((value, super::steady(&with(scene, value)?, None)?))
 }
 
 /// One step along the branch: predictor and corrector with the bordered system. Returns point, tangent and corrections.
@@ -156,16 +196,23 @@ fn advance(
     x: &DVector<f64>,
     tangent: &DVector<f64>,
     step: f64,
+    to_end: bool,
     scales: &[f64],
     plain: &impl Fn(&DVector<f64>) -> Vec<f64>,
 ) -> Result<(DVector<f64>, DVector<f64>, usize)> {
     let n = scales.len();
+    let step = if to_end { (1.0 - x[n]) / tangent[n] } else { step };
     let mut y = x + tangent * step;
+    // The last point is where the number ends, not where the arc length does.
+    let along =
+        if to_end { DVector::from_fn(n + 1, |k, _| if k == n { 1.0 } else { 0.0 }) } else { tangent.clone() };
+    let wanted = if to_end { 1.0 - x[n] } else { step };
+    let tangent = &along;
     for corrections in 1..=MOST_CORRECTIONS {
         let (bordered, residual) = bordered(at, &y, tangent, scales, plain)?;
         let mut right = DVector::zeros(n + 1);
         right.rows_mut(0, n).copy_from(&residual);
-        right[n] = tangent.dot(&(&y - x)) - step;
+        right[n] = tangent.dot(&(&y - x)) - wanted;
         let lu = bordered.lu();
         let Some(change) = lu.solve(&right).filter(|change| change.amax().is_finite()) else { break };
         y -= &change;
@@ -176,7 +223,11 @@ fn advance(
             return Ok((y, direction.normalize(), corrections));
         }
     }
-    Err(Error::new(Status::BadState, "no steady whirl found further on".to_owned()))
+    let text = format!(
+        "no steady whirl found further on: Newton's method failed with a step of {:.1e} of the range",
+        step.abs()
+    );
+    Err(Error::new(Status::BadState, text))
 }
 
 /// Derivatives of the residual over the scaled unknowns and the parameter, with the tangent as last row; the residual.

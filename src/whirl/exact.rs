@@ -54,10 +54,7 @@ pub(super) fn exact(averaged: &mut Averaged, near: &Whirl) -> Result<Exact> {
             let h = averaged::DIFFERENCE_OF_MOTION * scales[k];
             let mut moved = u.clone();
             moved[k] += h;
-            let high = residual(averaged, &moved)?;
-            moved[k] -= 2.0 * h;
-            let low = residual(averaged, &moved)?;
-            matrix.set_column(k, &((high - low) / (2.0 * h)));
+            matrix.set_column(k, &((residual(averaged, &moved)? - &here) / h));
         }
         let Some(step) = matrix.lu().solve(&here) else { break };
         u -= &step;

@@ -17,10 +17,14 @@
 mod averaged;
 mod branch;
 mod exact;
+mod onset;
+mod orbit;
 mod start;
 
 pub use branch::{Branch, End, Point, follow};
 pub use exact::Exact;
+pub use onset::{Onset, onset};
+pub use orbit::{Orbit, orbit};
 
 use crate::error::{Error, Result, Status};
 use crate::scalar::math;
@@ -62,6 +66,11 @@ pub struct Whirl {
 }
 
 impl Whirl {
+    /// Cosine and sine coefficients of the waves from order 2 on, seen from the direction of the place, m.
+    pub fn waves(&self) -> &[f64] {
+        self.unknowns.get(3..).unwrap_or_default()
+    }
+
     /// Whether every small disturbance decays.
     pub fn stable(&self) -> bool {
         self.eigenvalues.first().is_none_or(|[rate, _]| *rate < 0.0)
@@ -74,17 +83,23 @@ impl Whirl {
 /// [`Status::BadScene`] for a scene of free rollers, with unbalance or without a guide, [`Status::BadState`] where there is no such whirl near.
 pub fn steady(scene: &Scene, guess: Option<&Whirl>) -> Result<Whirl> {
     let mut averaged = Averaged::new(scene)?;
-    let first = match guess {
-        Some(whirl) => whirl.unknowns.clone(),
-        None => start::guess(scene, &averaged)?,
-    };
-    let found = solve(&mut averaged, first);
-    let (Err(error), None) = (&found, guess) else { return found };
-    // An elastic cage whose motion is irregular may whirl near where one of fewer waves does.
-    let Some(stiffer) = start::with_fewer_waves(scene) else { return found };
-    let Ok(mut near) = steady(&stiffer, None) else { return Err(error.clone()) };
-    near.unknowns.extend([0.0; 2]);
-    solve(&mut averaged, near.unknowns).map_err(|_| error.clone())
+    match guess {
+        Some(whirl) => solve(&mut averaged, whirl.unknowns.clone()),
+        None => {
+            let first = start::guess(scene, &averaged)?;
+            steady_from(scene, &mut averaged, first)
+        }
+    }
+}
+
+/// The steady whirl near these unknowns. An elastic cage whose motion is irregular may whirl near where one of fewer waves does.
+fn steady_from(scene: &Scene, averaged: &mut Averaged, first: Vec<f64>) -> Result<Whirl> {
+    solve(averaged, first).or_else(|error| {
+        let Some(stiffer) = start::with_fewer_waves(scene) else { return Err(error) };
+        let Ok(mut near) = steady(&stiffer, None) else { return Err(error) };
+        near.unknowns.extend([0.0; 2]);
+        solve(averaged, near.unknowns).map_err(|_| error)
+    })
 }
 
 /// The exact whirl next to the averaged one of a scene without its gravity: periodic over the passing of one element.

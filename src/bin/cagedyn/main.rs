@@ -153,6 +153,12 @@ pub struct WhirlArgs {
     /// Follow the whirl over a number of the scene, as in inner_ring.speed.constant=52.4:837.8.
     #[arg(long, value_name = "PATH=FROM:TO", value_parser = whirl::parse_vary)]
     vary: Option<whirl::Vary>,
+    /// The whirl of a rigid cage under the gravity of the scene instead, as an orbit that closes after a turn.
+    #[arg(long, conflicts_with = "vary")]
+    gravity: bool,
+    /// At which speeds of the inner ring, rad/s, the cage whirls under gravity instead: survival, dropped start, loss of rest.
+    #[arg(long, value_name = "FROM:TO", value_parser = whirl::parse_speeds, conflicts_with_all = ["vary", "gravity"])]
+    onset: Option<[f64; 2]>,
     /// Folder for whirl.json and, with --vary, whirl.csv and whirl.svg; made if it does not exist.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,

@@ -6,7 +6,7 @@ use crate::results::files::{self, write_csv, write_json, write_text};
 use crate::results::table::{self, Align, number};
 use crate::run::{in_file, read, stem};
 use crate::{WhirlArgs, terminal};
-use cagedyn::whirl::{self, Branch, End, Exact, Point, Whirl};
+use cagedyn::whirl::{self, Branch, Exact, Onset, Orbit, Point, Whirl};
 use cagedyn::{Result, Scene};
 use serde_json::{Value, json};
 use std::process::ExitCode;
@@ -23,6 +23,12 @@ pub fn command(args: &WhirlArgs) -> Result<ExitCode> {
     let set: Vec<String> = args.sets.pairs().map(|(path, value)| format!("{path}={value}")).collect();
     let title = facts::title(scene.title.as_deref(), &stem(&args.scene), &set);
     let started = Instant::now();
+    if let Some(range) = args.onset {
+        return tell_onset(args, &title, &whirl::onset(&scene, range).map_err(in_scene)?, started);
+    }
+    if args.gravity {
+        return tell_orbit(args, &title, &whirl::orbit(&scene).map_err(in_scene)?, started);
+    }
     let Some(vary) = &args.vary else {
         let whirl = whirl::steady(&scene, None).map_err(in_scene)?;
         // Averaging may find what single elements have not.
@@ -51,8 +57,8 @@ pub fn command(args: &WhirlArgs) -> Result<ExitCode> {
         .map(str::to_owned)
         .to_vec();
     let rows = branch.points.iter().map(|point| {
-        let Point { parameter, whirl, fold, hopf } = point;
-        let marks = [(*fold, "fold"), (*hopf, "Hopf point")];
+        let Point { parameter, whirl, fold, hopf, grazed } = point;
+        let marks = [(*fold, "fold"), (*hopf, "Hopf point"), (*grazed, "other number of wet arcs")];
         let marks: Vec<_> = marks.into_iter().filter_map(|(is, name)| is.then_some(name)).collect();
         vec![
             number(*parameter),
@@ -71,15 +77,96 @@ pub fn command(args: &WhirlArgs) -> Result<ExitCode> {
     text.push_str(&format!(
         "\n  ends at {}{}\n  {} points in {:.2} s wall time\n",
         branch.end.name(),
-        match &branch.end {
-            End::Lost(why) => format!(": {why}"),
-            _ => String::new(),
-        },
+        branch.end.why().map_or(String::new(), |why| format!(": {why}")),
         branch.points.len(),
         started.elapsed().as_secs_f64()
     ));
     terminal::print(&text)?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// Writes and prints a result that is no branch.
+fn tell_rows(
+    args: &WhirlArgs,
+    head: &str,
+    found: &Value,
+    rows: &[Vec<String>],
+    last: &str,
+) -> Result<ExitCode> {
+    if let Some(folder) = &args.out {
+        std::fs::create_dir_all(folder).map_err(|e| files::file_error(folder, e))?;
+        write_json(&folder.join("whirl.json"), found)?;
+    }
+    if args.json {
+        terminal::print(&format!("{found:#}\n"))?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    let mut text = format!("{head}\n\n");
+    for line in table::lines(rows, &[Align::Left]) {
+        text.push_str(&format!("  {line}\n"));
+    }
+    text.push_str(last);
+    terminal::print(&text)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The orbit under gravity.
+fn tell_orbit(args: &WhirlArgs, title: &str, orbit: &Orbit, started: Instant) -> Result<ExitCode> {
+    let found = json!({
+        "whirl_speed": orbit.speed,
+        "whirl_speed_range": orbit.range,
+        "eccentricity": orbit.eccentricity,
+        "multiplier": orbit.multiplier,
+        "stable": orbit.multiplier < 1.0,
+    });
+    let [slow, fast] = orbit.range;
+    let [near, far] = orbit.eccentricity.map(|e| 1e6 * e);
+    let rows = [
+        ["mean whirl speed".to_owned(), format!("{:.2} rad/s", orbit.speed)],
+        ["slowest and fastest in a turn".to_owned(), format!("{slow:.1} and {fast:.1} rad/s")],
+        ["eccentricity".to_owned(), format!("{near:.2} to {far:.2} um")],
+        ["multiplier of a turn".to_owned(), format!("{:.3}", orbit.multiplier)],
+        ["stable".to_owned(), if orbit.multiplier < 1.0 { "yes" } else { "no" }.to_owned()],
+    ];
+    let seconds = started.elapsed().as_secs_f64();
+    let last = format!("\n  {} Newton steps in {seconds:.1} s wall time\n", orbit.steps);
+    tell_rows(args, &format!("{title}\nwhirl under gravity, averaged"), &found, &rows.map(Vec::from), &last)
+}
+
+/// The speeds at which a cage whirls.
+fn tell_onset(args: &WhirlArgs, title: &str, onset: &Onset, started: Instant) -> Result<ExitCode> {
+    let Onset { survival, dropped_start, loss_of_rest } = *onset;
+    let found = json!({"survival": survival, "dropped_start": dropped_start, "loss_of_rest": loss_of_rest, "range": args.onset});
+    let shown = |speed: Option<f64>, none: &str| {
+        speed.map_or(none.to_owned(), |speed| {
+            format!("{speed:.2} rad/s ({:.0} 1/min)", speed * 30.0 / std::f64::consts::PI)
+        })
+    };
+    let rows = [
+        ["a whirl goes on down to".to_owned(), shown(survival, "the slowest of these speeds")],
+        ["a dropped cage comes to whirl from".to_owned(), shown(dropped_start, "none of these speeds on")],
+        ["a cage at rest is lost at".to_owned(), shown(loss_of_rest, "none of these speeds")],
+    ];
+    let last = format!("\n  {:.1} s wall time\n", started.elapsed().as_secs_f64());
+    tell_rows(
+        args,
+        &format!("{title}\nonset of whirl under gravity, speeds of the inner ring"),
+        &found,
+        &rows.map(Vec::from),
+        &last,
+    )
+}
+
+/// Reads `from:to` as speeds.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn parse_speeds(text: &str) -> std::result::Result<[f64; 2], String> {
+    let form = || "must have the form FROM:TO in rad/s, as in 10:210".to_owned();
+    let (from, to) = text.split_once(':').ok_or_else(form)?;
+    let read =
+        |text: &str| text.trim().parse::<f64>().ok().filter(|x| x.is_finite() && *x > 0.0).ok_or_else(form);
+    Ok([read(from)?, read(to)?])
 }
 
 /// One whirl.
@@ -162,14 +249,11 @@ fn as_json(path: &str, branch: &Branch) -> Value {
             value["parameter"] = json!(point.parameter);
             value["fold"] = json!(point.fold);
             value["hopf"] = json!(point.hopf);
+            value["grazed"] = json!(point.grazed);
             value
         })
         .collect();
-    let why = match &branch.end {
-        End::Lost(why) => Some(why),
-        _ => None,
-    };
-    json!({"vary": path, "points": points, "end": branch.end.name(), "why": why})
+    json!({"vary": path, "points": points, "end": branch.end.name(), "why": branch.end.why()})
 }
 
 fn csv(path: &str, branch: &Branch) -> Vec<Vec<String>> {
@@ -183,12 +267,13 @@ fn csv(path: &str, branch: &Branch) -> Vec<Vec<String>> {
         "stable",
         "fold",
         "hopf",
+        "grazed",
     ];
     let rows = branch.points.iter().map(|point| {
         let whirl = &point.whirl;
         let [rate, frequency] = whirl.eigenvalues.first().copied().unwrap_or([f64::NAN; 2]);
         let numbers = [point.parameter, whirl.speed, whirl.eccentricity, rate, frequency].map(files::plain);
-        let flags = [whirl.stable(), point.fold, point.hopf].map(|flag| flag.to_string());
+        let flags = [whirl.stable(), point.fold, point.hopf, point.grazed].map(|flag| flag.to_string());
         numbers.into_iter().chain([whirl.arcs.to_string()]).chain(flags).collect()
     });
     std::iter::once(head.map(str::to_owned).to_vec()).chain(rows).collect()
@@ -206,7 +291,7 @@ pub struct Vary {
 /// # Errors
 /// What is wrong with it.
 pub fn parse_vary(text: &str) -> std::result::Result<Vary, String> {
-    let form = || "must have the form PATH=FROM:TO".to_owned();
+    let form = || "must have the form PATH=FROM:TO, as in inner_ring.speed.constant=52.4:837.8".to_owned();
     let (path, range) = text.split_once('=').ok_or_else(form)?;
     let (from, to) = range.split_once(':').ok_or_else(form)?;
     let read = |text: &str| text.trim().parse::<f64>().ok().filter(|x| x.is_finite()).ok_or_else(form);
