@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::Command;
 
 /// Whether a program runs; where it must and does not, a failure.
-fn present(program: &Path, arguments: &[&str], switches: &[&str]) -> bool {
+pub fn present(program: &Path, arguments: &[&str], switches: &[&str]) -> bool {
     let runs = Command::new(program).args(arguments).output().is_ok_and(|output| output.status.success());
     let needed = switches.iter().any(|switch| std::env::var_os(switch).is_some());
     assert!(runs || !needed, "{} {arguments:?} does not run", program.display());

@@ -1,22 +1,23 @@
 //! The command `cases`.
 
-mod rollers;
+pub mod rollers;
 mod series;
-mod whirl;
+pub mod whirl;
 
 use crate::CasesArgs;
 use crate::results::files::UNFINISHED;
 use crate::results::finished::Run;
+use crate::results::formats::TableFormat;
 use crate::results::summary::Summary;
 use crate::results::table::{self, Align, rounded};
 use crate::results::{files, output};
 use crate::run::{self, Request, in_file};
 use crate::starts::Starts;
-use crate::terminal::{self, INTERRUPTED};
+use crate::terminal::{self, INTERRUPTED, Part, Together};
 use crate::workers;
 use cagedyn::model::{HostInputs, Input};
 use cagedyn::scene::{Case, CaseSet};
-use cagedyn::{CageMotion, Model, Result, Scene};
+use cagedyn::{CageMotion, Result, Scene};
 use rollers::ROLLERS;
 use serde_json::Value;
 use std::f64::consts::TAU;
@@ -85,14 +86,22 @@ pub fn command(args: &CasesArgs) -> Result<ExitCode> {
     let widths = widths(comparison.columns, &set);
     let headings = comparison.columns.iter().map(|(name, _)| (*name).to_owned());
     print_row("case", headings.chain([WALL_TIME.0.to_owned(), String::new()]), &widths)?;
-    let order = longest_first(&scenes);
+    let order = workers::longest_first(&scenes);
+    let together = Together::new(scenes.len(), 0, 0);
     // Starts of one case share the threads, cases only without them.
     let threads = if args.instead.starts > 1 { 1 } else { workers::threads(args.instead.jobs) };
     let run = |i: usize| {
         let (case, scene) = (&set.cases[i], scenes[i].clone());
-        (!terminal::stop_requested()).then(|| run_case(args, &base, i, case, scene))
+        (!terminal::stop_requested()).then(|| {
+            let part = together.begin();
+            let done = run_case(args, &base, i, case, scene, &part);
+            part.end(done.error.is_some());
+            done
+        })
     };
     let (mut tally, mut written) = (Tally::default(), Ok(()));
+    // A set that is ended before its first case has a table, too.
+    write_comparison(args, &set, &comparison, &[])?;
     workers::share(&order, threads, run, |_, done| {
         written = tally.add(args, &set, &comparison, done).and_then(|()| {
             // In the order of the set: what is behind a case that runs waits for it.
@@ -112,7 +121,7 @@ pub fn command(args: &CasesArgs) -> Result<ExitCode> {
         tally.print_next(args, &comparison, &widths)?;
     }
     let Tally { failed, untrusted, files, .. } = tally;
-    drop(taken);
+    drop((taken, together));
     std::fs::remove_file(args.out.join(UNFINISHED)).ok();
     terminal::print(&format!("\nfiles: {}: {}\n", args.out.display(), files.join(", ")))?;
     Ok(match (terminal::stop_requested(), failed) {
@@ -121,18 +130,6 @@ pub fn command(args: &CasesArgs) -> Result<ExitCode> {
         _ if untrusted => ExitCode::from(run::UNTRUSTED),
         _ => ExitCode::SUCCESS,
     })
-}
-
-/// The places of these scenes, those that take longest first: by simulated time, fastest vibration and number of elements.
-fn longest_first(scenes: &[Scene]) -> Vec<usize> {
-    let cost = |scene: &Scene| {
-        let steps = Model::new(scene.clone()).map_or(0.0, |model| model.highest_frequency());
-        scene.record.duration * steps * f64::from(scene.element_count())
-    };
-    let costs: Vec<f64> = scenes.iter().map(cost).collect();
-    let mut order: Vec<usize> = (0..scenes.len()).collect();
-    order.sort_by(|a, b| costs[*b].total_cmp(&costs[*a]));
-    order
 }
 
 /// Cases that are done, in the order of the set, and what is to be said of all.
@@ -183,7 +180,14 @@ impl<'a> Tally<'a> {
 }
 
 /// Runs one case and writes its files.
-fn run_case<'a>(args: &CasesArgs, base: &Path, place: usize, case: &'a Case, mut scene: Scene) -> Done<'a> {
+fn run_case<'a>(
+    args: &CasesArgs,
+    base: &Path,
+    place: usize,
+    case: &'a Case,
+    mut scene: Scene,
+    part: &Part<'_>,
+) -> Done<'a> {
     let folder: PathBuf = args.out.join(&case.name);
     if !case.set.keys().any(|path| path == "title") {
         // The title of the base scene tells of other values.
@@ -191,8 +195,10 @@ fn run_case<'a>(args: &CasesArgs, base: &Path, place: usize, case: &'a Case, mut
     }
     let set = case.set.iter().map(|(path, value)| format!("{path}={value}")).collect();
     let performed = args.instead.apply(&mut scene).and_then(|()| {
-        let request = Request { scene, file: base, case: Some(&case.name), set, folder: &folder };
-        run::perform(request, &args.instead)
+        let duration = scene.record.duration;
+        let formats = &[TableFormat::Csv];
+        let request = Request { scene, file: base, case: Some(&case.name), set, folder: &folder, formats };
+        run::perform(request, &args.instead, &|t| part.at(t / duration))
     });
     match performed {
         Ok((run, summary)) => {

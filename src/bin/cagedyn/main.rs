@@ -10,6 +10,7 @@ mod run;
 mod schema;
 mod spectrum;
 mod starts;
+mod sweep;
 mod terminal;
 mod whirl;
 mod workers;
@@ -17,6 +18,7 @@ mod workers;
 use cagedyn::scene::Preset;
 use cagedyn::{Result, Scene};
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use results::formats::TableFormat;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -35,6 +37,8 @@ enum Command {
     Run(RunArgs),
     /// Run every case of a case set; write each like `run`, and a comparison.
     Cases(CasesArgs),
+    /// Run a scene over a grid or a Latin hypercube of its values; write one table, and a picture. What is done is kept.
+    Sweep(SweepArgs),
     /// Temperatures of a scene with a heat balance: steady, or warming up; powers, flows, a picture of the network.
     Heat(HeatArgs),
     /// Steady whirl of the cage without time stepping: speed, place, stability; a branch over a number of the scene.
@@ -53,6 +57,9 @@ pub struct RunArgs {
     /// Folder for the results; made if it does not exist.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
+    /// Formats of the time series, for example csv,mat.
+    #[arg(long, value_enum, value_delimiter = ',', default_value = "csv")]
+    format: Vec<TableFormat>,
     #[command(flatten)]
     instead: Instead,
     #[command(flatten)]
@@ -69,6 +76,36 @@ pub struct CasesArgs {
     out: PathBuf,
     #[command(flatten)]
     instead: Instead,
+}
+
+/// Arguments of `sweep`.
+#[derive(Args)]
+pub struct SweepArgs {
+    /// Scene file.
+    scene: PathBuf,
+    /// Folder for the results. Points that are done in it are not run again.
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Vary a value of the scene: N values from a number to another, `:log` behind them for equal ratios, or a list as in
+    /// solver.method=auto,adams. Several are combined.
+    #[arg(long, value_name = "PATH=FROM:TO:N", value_parser = sweep::parse_vary, required = true)]
+    vary: Vec<sweep::Vary>,
+    /// So many points of a Latin hypercube over the ranges PATH=FROM:TO instead of all combinations.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=sweep::MOST_POINTS as i64))]
+    latin: Option<u32>,
+    /// Another hypercube for every number.
+    #[arg(long, value_name = "S", default_value_t = 0, requires = "latin")]
+    seed: u64,
+    /// Simulated time in s, instead of the scene's.
+    #[arg(long, value_name = "T", allow_negative_numbers = true, value_parser = parse_time)]
+    until: Option<f64>,
+    #[arg(long, value_parser = parse_preset, value_name = "PRESET", help = preset_help())]
+    preset: Option<Preset>,
+    /// Simulate so many points at the same time; as many as there are cores unless given. Results do not depend on it.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    jobs: Option<u16>,
+    #[command(flatten)]
+    sets: Sets,
 }
 
 /// What stands in for what a scene says.
@@ -215,6 +252,7 @@ fn dispatch(command: &Command) -> Result<ExitCode> {
     match command {
         Command::Run(args) => run::command(args),
         Command::Cases(args) => cases::command(args),
+        Command::Sweep(args) => sweep::command(args),
         Command::Heat(args) => heat::command(args),
         Command::Whirl(args) => whirl::command(args),
         Command::Info(args) => info::command(args),

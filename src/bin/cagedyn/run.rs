@@ -2,6 +2,7 @@
 
 use crate::results::facts;
 use crate::results::finished::Run;
+use crate::results::formats::{self, TableFormat};
 use crate::results::stream::{self, Stream};
 use crate::results::summary::Summary;
 use crate::results::table::number;
@@ -10,6 +11,8 @@ use crate::starts::{self, Apart};
 use crate::terminal::{self, INTERRUPTED, Progress};
 use crate::workers;
 use crate::{Instead, RunArgs};
+use cagedyn::model::PartTimes;
+use cagedyn::scene::Record;
 use cagedyn::{Error, Model, Recording, Result, Scene, Sim, Status};
 use std::fs;
 use std::path::Path;
@@ -22,7 +25,7 @@ const SAMPLES: f64 = 16.0;
 const REPEATS: u32 = 50;
 
 /// Tables above this size are made only when it is asked for, bytes.
-const LARGEST_TABLE: f64 = 2e9;
+pub const LARGEST_TABLE: f64 = 2e9;
 
 /// Exit code of runs that ended but are not to be trusted.
 pub const UNTRUSTED: u8 = 3;
@@ -39,6 +42,8 @@ pub struct Request<'a> {
     pub set: Vec<String>,
     /// Folder for the results.
     pub folder: &'a Path,
+    /// Formats of the time series.
+    pub formats: &'a [TableFormat],
 }
 
 /// Runs a scene, writes the results and prints the summary.
@@ -54,8 +59,11 @@ pub fn command(args: &RunArgs) -> Result<ExitCode> {
     args.instead.apply(&mut scene)?;
     terminal::listen_for_interrupt()?;
     let set = args.sets.pairs().map(|(path, value)| format!("{path}={value}")).collect();
-    let request = Request { scene, file: &args.scene, case: None, set, folder: &args.out };
-    let performed = perform(request, &args.instead);
+    let progress = Progress::new("run", scene.record.duration);
+    let formats = &args.format[..];
+    let request = Request { scene, file: &args.scene, case: None, set, folder: &args.out, formats };
+    let performed = perform(request, &args.instead, &|t| progress.at(t));
+    drop(progress);
     let (run, summary) =
         performed.map_err(|e| if e.status == Status::File { e } else { in_file(&args.scene, e) })?;
     terminal::print(&report::text(&run, &summary, &args.out))?;
@@ -71,13 +79,13 @@ pub fn command(args: &RunArgs) -> Result<ExitCode> {
 }
 
 /// Simulates a scene until its end and writes the results into its folder: records as they come, the rest behind them. Only
-/// what prevents the start, and files that cannot be written, are errors.
+/// what prevents the start, and files that cannot be written, are errors. `progress` is told the simulated time, s.
 ///
 /// # Errors
 /// As [`Model::new`], [`Sim::new`] and [`Sim::set_wall_time_limit`]; [`Status::File`]; [`Status::BadScene`] for a table that is
 /// too large.
-pub fn perform(request: Request<'_>, instead: &Instead) -> Result<(Run, Summary)> {
-    let Request { scene, file, case, set, folder } = request;
+pub fn perform(request: Request<'_>, instead: &Instead, progress: &dyn Fn(f64)) -> Result<(Run, Summary)> {
+    let Request { scene, file, case, set, folder, formats } = request;
     let (duration, interval) = (scene.record.duration, scene.record.interval);
     let own = scene.title.clone();
     let title = match case {
@@ -100,13 +108,12 @@ pub fn perform(request: Request<'_>, instead: &Instead) -> Result<(Run, Summary)
     output::begin(folder, &title, file, case, &set)?;
     let mut stream = Stream::new(folder, taken, sim.channels(), model.recorded(), model.watched())?;
     terminal::stop_with(sim.canceller());
-    let progress = Progress::new(case.unwrap_or("run"), duration);
     let mut recording = Recording::default();
     let started = Instant::now();
     let mut samples: Vec<(f64, Vec<f64>)> = Vec::new();
     let mut unwritten = None;
     let ended = recording.run(&mut sim, duration, interval, |sim, recording| {
-        progress.at(sim.time());
+        progress(sim.time());
         if sim.time() >= duration * samples.len() as f64 / SAMPLES {
             samples.push((sim.time(), sim.state().to_vec()));
         }
@@ -115,15 +122,50 @@ pub fn perform(request: Request<'_>, instead: &Instead) -> Result<(Run, Summary)
     });
     // What was computed is not lost with the table.
     let written = unwritten.map_or_else(|| stream.finish(), Err);
-    let cancelled = matches!(&ended, Err(e) if e.status == Status::Cancelled);
     let wall = started.elapsed().as_secs_f64();
     let parts = sim.time_parts(&samples, REPEATS).unwrap_or_default();
+    let mut run = finished(&mut sim, title, recording, (ended, written), (wall, parts));
+    let mut summary = Summary::new(&run, file, case, set);
+    if instead.starts > 1 && summary.complete {
+        let count = usize::from(instead.starts);
+        let threads = workers::threads(instead.jobs);
+        let starts = starts::try_starts(&run.model, count, apart, run.window_start(), limit, threads)?;
+        if starts.count < starts.asked {
+            (run.interrupted, summary.interrupted, summary.complete) = (true, true, false);
+        }
+        summary.starts = Some(starts);
+    }
+    match if run.written { formats::write(&run, folder, formats) } else { Ok(Vec::new()) } {
+        Ok(tables) if run.written => summary.files = tables.into_iter().map(str::to_owned).collect(),
+        Ok(_) => {}
+        Err(e) => run.failure = run.failure.or(Some(e)),
+    }
+    // The limit on the wall time is one on everything.
+    let draw = started.elapsed().as_secs_f64() < limit;
+    if let Err(e) = output::write(&run, &mut summary, folder, draw) {
+        run.failure = run.failure.or(Some(e));
+    }
+    Ok((run, summary))
+}
+
+/// A run that has ended where `sim` is now. It is told how the run and its table ended, the wall time in s, and that of the parts of
+/// an evaluation.
+pub fn finished(
+    sim: &mut Sim,
+    title: String,
+    recording: Recording,
+    (ended, written): (Result<()>, Result<()>),
+    (wall, parts): (f64, PartTimes),
+) -> Run {
+    let model = sim.model().clone();
+    let Record { duration, interval, .. } = model.scene().record;
+    let cancelled = matches!(&ended, Err(e) if e.status == Status::Cancelled);
     let all = sim.channels();
     let interrupted = cancelled || terminal::stop_requested() && sim.time() < duration - interval;
     let whole = !interrupted && ended.is_ok();
     let ending =
         if whole { String::new() } else { format!("; incomplete, ended at {} s", number(sim.time())) };
-    let mut run = Run {
+    Run {
         title,
         facts: facts::facts(&model) + &ending,
         channels: model.recorded().iter().map(|i| all[*i].clone()).collect(),
@@ -139,23 +181,7 @@ pub fn perform(request: Request<'_>, instead: &Instead) -> Result<(Run, Summary)
         failure: ended.err().filter(|e| e.status != Status::Cancelled).or(written.err()),
         model,
         recording,
-    };
-    let mut summary = Summary::new(&run, file, case, set);
-    if instead.starts > 1 && summary.complete {
-        let count = usize::from(instead.starts);
-        let threads = workers::threads(instead.jobs);
-        let starts = starts::try_starts(&run.model, count, apart, run.window_start(), limit, threads)?;
-        if starts.count < starts.asked {
-            (run.interrupted, summary.interrupted, summary.complete) = (true, true, false);
-        }
-        summary.starts = Some(starts);
     }
-    // The limit on the wall time is one on everything.
-    let draw = started.elapsed().as_secs_f64() < limit;
-    if let Err(e) = output::write(&run, &mut summary, folder, draw) {
-        run.failure = run.failure.or(Some(e));
-    }
-    Ok((run, summary))
 }
 
 /// Size of the table of a run in bytes, a little more than it takes, and in words.

@@ -2,11 +2,12 @@
 
 use cagedyn::sim::Canceller;
 use cagedyn::{Error, Result, Status};
-use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
+use indicatif::{HumanDuration, MultiProgress, ProgressBar, ProgressStyle};
+use std::cell::Cell;
 use std::io::{self, ErrorKind, IsTerminal, Write};
 #[cfg(unix)]
 use std::sync::{Arc, atomic::AtomicBool};
-use std::sync::{LazyLock, Mutex, OnceLock};
+use std::sync::{LazyLock, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Exit code of a run that Ctrl-C or another request to end it ended, as shells use it for an interrupt signal.
@@ -122,5 +123,137 @@ impl Progress {
 impl Drop for Progress {
     fn drop(&mut self) {
         self.bar.finish_and_clear();
+    }
+}
+
+/// Progress of many runs in one line: done, running, failed, time left; visible only if standard error is a terminal.
+pub struct Together {
+    bar: ProgressBar,
+    counts: Mutex<Counts>,
+    started: Instant,
+}
+
+struct Counts {
+    all: usize,
+    /// Done before this program was started.
+    earlier: usize,
+    done: usize,
+    failed: usize,
+    running: usize,
+    /// Runs that are done by now, with the parts of those that run.
+    work: f64,
+}
+
+/// Ticks of the bar per run.
+const TICKS_PER_RUN: f64 = 1e3;
+
+impl Together {
+    /// A line for `all` runs, of which so many are `done` already, and so many of these `failed`.
+    pub fn new(all: usize, done: usize, failed: usize) -> Self {
+        let bar = if io::stderr().is_terminal() {
+            BARS.add(ProgressBar::new((all as f64 * TICKS_PER_RUN) as u64))
+        } else {
+            ProgressBar::hidden()
+        };
+        if let Ok(style) = ProgressStyle::with_template("[{bar:40}] {msg}") {
+            bar.set_style(style.progress_chars("=> "));
+        }
+        let counts = Counts { all, earlier: done, done, failed, running: 0, work: 0.0 };
+        Self { bar, counts: Mutex::new(counts), started: Instant::now() }
+    }
+
+    /// One of them begins.
+    pub fn begin(&self) -> Part<'_> {
+        let mut counts = self.lock();
+        counts.running += 1;
+        self.show(&counts);
+        Part { of: self, share: Cell::new(0.0) }
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Counts> {
+        self.counts.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn show(&self, counts: &Counts) {
+        if !self.bar.is_hidden() {
+            self.bar.set_position(((counts.earlier as f64 + counts.work) * TICKS_PER_RUN) as u64);
+            self.bar.set_message(counts.in_words(self.started.elapsed()));
+        }
+    }
+}
+
+impl Drop for Together {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+impl Counts {
+    /// "12 of 40 done, 2 running, 1 failed, 3 minutes left".
+    fn in_words(&self, spent: Duration) -> String {
+        let mut text = format!("{} of {} done, {} running", self.done, self.all, self.running);
+        if self.failed > 0 {
+            text += &format!(", {} failed", self.failed);
+        }
+        let left = (self.all - self.earlier) as f64 - self.work;
+        if self.work > 0.0 && left > 0.0 {
+            // At most a century.
+            let seconds = (spent.as_secs_f64() * left / self.work).min(3e9);
+            text += &format!(", {} left", HumanDuration(Duration::from_secs_f64(seconds)));
+        }
+        text
+    }
+}
+
+/// One run of [`Together`]; one that is dropped was left before its end.
+pub struct Part<'a> {
+    of: &'a Together,
+    share: Cell<f64>,
+}
+
+impl Part<'_> {
+    /// So much of the run is done, from 0 to 1.
+    pub fn at(&self, share: f64) {
+        let share = share.clamp(0.0, 1.0);
+        let mut counts = self.of.lock();
+        counts.work += share - self.share.replace(share);
+        self.of.show(&counts);
+    }
+
+    /// The run is done, or has failed.
+    pub fn end(self, failed: bool) {
+        self.at(1.0);
+        let mut counts = self.of.lock();
+        counts.done += 1;
+        counts.failed += usize::from(failed);
+        // What is done stays done.
+        self.share.set(0.0);
+    }
+}
+
+impl Drop for Part<'_> {
+    fn drop(&mut self) {
+        let mut counts = self.of.lock();
+        counts.running -= 1;
+        counts.work -= self.share.get();
+        self.of.show(&counts);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn many_runs_are_told_in_one_line() {
+        let together = Together::new(40, 10, 1);
+        let (first, second, third) = (together.begin(), together.begin(), together.begin());
+        first.end(false);
+        second.at(0.5);
+        let told = || together.lock().in_words(Duration::from_secs(60));
+        assert_eq!(told(), "11 of 40 done, 2 running, 1 failed, 19 minutes left");
+        third.end(true);
+        drop(second);
+        assert_eq!(told(), "12 of 40 done, 0 running, 2 failed, 14 minutes left");
     }
 }

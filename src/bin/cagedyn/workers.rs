@@ -1,5 +1,6 @@
 //! Work that is shared among threads.
 
+use cagedyn::{Model, Scene};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc;
 
@@ -7,6 +8,18 @@ use std::sync::mpsc;
 pub fn threads(asked: Option<u16>) -> usize {
     let cores = || std::thread::available_parallelism().map_or(1, usize::from);
     asked.map_or_else(cores, usize::from)
+}
+
+/// The places of these scenes, those that take longest first: by simulated time, fastest vibration and number of elements.
+pub fn longest_first(scenes: &[Scene]) -> Vec<usize> {
+    let cost = |scene: &Scene| {
+        let steps = Model::new(scene.clone()).map_or(0.0, |model| model.highest_frequency());
+        scene.record.duration * steps * f64::from(scene.element_count())
+    };
+    let costs: Vec<f64> = scenes.iter().map(cost).collect();
+    let mut order: Vec<usize> = (0..scenes.len()).collect();
+    order.sort_by(|a, b| costs[*b].total_cmp(&costs[*a]));
+    order
 }
 
 /// Does `work` for each of these items on so many threads, in this order, and hands the results to `take` on this one as they

@@ -7,7 +7,7 @@ use crate::results::summary::Summary;
 use cagedyn::Result;
 
 /// The comparison.
-pub const ROLLERS: Comparison = Comparison {
+pub(super) const ROLLERS: Comparison = Comparison {
     columns: &[
         ("y/c", 8),
         ("+-", 7),
@@ -56,15 +56,7 @@ fn csv_columns(known: &[Known]) -> Vec<String> {
     let parts = ["mean", "deviation", "standard error"];
     let of = |(name, unit): &Known| parts.map(|part| format!("{name} {part} [{unit}]"));
     let mut columns: Vec<String> = known.iter().flat_map(of).collect();
-    columns.extend(
-        [
-            "max roller slip [1]",
-            "driving pocket force [N]",
-            "braking pocket force [N]",
-            "max pocket force [N]",
-        ]
-        .map(str::to_owned),
-    );
+    columns.extend(OF_ROLLERS.map(str::to_owned));
     columns
 }
 
@@ -77,14 +69,23 @@ fn csv_cells(s: &Summary, known: &[Known]) -> Vec<String> {
         // Of a mean that has settled.
         row.push(cell(spread.filter(|s| s.stationary).map(|s| s.standard_error)));
     }
-    row.push(cell(s.max_roller_slip.as_ref().map(|slip| slip.value)));
+    row.extend(of_rollers(s));
+    row
+}
+
+/// Columns of tables on slip and pocket forces.
+pub const OF_ROLLERS: [&str; 4] =
+    ["max roller slip [1]", "driving pocket force [N]", "braking pocket force [N]", "max pocket force [N]"];
+
+/// Their cells, empty where there is nothing.
+pub fn of_rollers(s: &Summary) -> [String; OF_ROLLERS.len()] {
     let forces = s.pocket_forces.as_ref();
-    row.extend([
+    [
+        cell(s.max_roller_slip.as_ref().map(|slip| slip.value)),
         cell(forces.map(|f| f.driving_n)),
         cell(forces.map(|f| f.braking_n)),
         cell(forces.map(|f| f.largest_n)),
-    ]);
-    row
+    ]
 }
 
 /// Mean cage centres, if any cage is guided.

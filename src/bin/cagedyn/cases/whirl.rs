@@ -8,7 +8,7 @@ use crate::results::table::rounded;
 use cagedyn::Result;
 
 /// The comparison.
-pub const WHIRL: Comparison = Comparison {
+pub(super) const WHIRL: Comparison = Comparison {
     columns: &[
         ("whirl [rad/s]", 13),
         ("5 %", 9),
@@ -56,26 +56,21 @@ fn settled(whirl: &Whirl) -> Option<f64> {
     whirl.settling_time_s.filter(|_| whirl.motion.is_whirl()).map(rounded)
 }
 
-fn csv_columns(known: &[Known]) -> Vec<String> {
-    let mut columns: Vec<String> = [
-        "whirl speed mean [rad/s]",
-        "whirl speed 5 % [rad/s]",
-        "whirl speed 95 % [rad/s]",
-        "whirl radius mean [m]",
-        "turns [1]",
-        "motion",
-        "settling time [s]",
-        "max pocket force [N]",
-    ]
-    .map(str::to_owned)
-    .to_vec();
-    columns.extend(known.iter().map(|(name, unit)| format!("{name} mean [{unit}]")));
-    columns
-}
+/// Columns of tables on the motion of the cage centre.
+pub const OF_WHIRL: [&str; 7] = [
+    "whirl speed mean [rad/s]",
+    "whirl speed 5 % [rad/s]",
+    "whirl speed 95 % [rad/s]",
+    "whirl radius mean [m]",
+    "turns [1]",
+    "motion",
+    "settling time [s]",
+];
 
-fn csv_cells(s: &Summary, known: &[Known]) -> Vec<String> {
+/// Their cells, empty where there is nothing.
+pub fn of_whirl(s: &Summary) -> [String; OF_WHIRL.len()] {
     let whirl = s.whirl.as_ref();
-    let mut row = vec![
+    [
         cell(whirl.and_then(|w| w.mean_speed_rad_per_s)),
         cell(whirl.and_then(|w| w.p05_speed_rad_per_s)),
         cell(whirl.and_then(|w| w.p95_speed_rad_per_s)),
@@ -83,8 +78,19 @@ fn csv_cells(s: &Summary, known: &[Known]) -> Vec<String> {
         cell(whirl.map(|w| w.turns)),
         whirl.map_or(String::new(), |w| w.motion.name().to_owned()),
         cell(whirl.and_then(settled)),
-        cell(s.pocket_forces.as_ref().map(|forces| forces.largest_n)),
-    ];
+    ]
+}
+
+fn csv_columns(known: &[Known]) -> Vec<String> {
+    let mut columns: Vec<String> =
+        OF_WHIRL.into_iter().chain(["max pocket force [N]"]).map(str::to_owned).collect();
+    columns.extend(known.iter().map(|(name, unit)| format!("{name} mean [{unit}]")));
+    columns
+}
+
+fn csv_cells(s: &Summary, known: &[Known]) -> Vec<String> {
+    let mut row = of_whirl(s).to_vec();
+    row.push(cell(s.pocket_forces.as_ref().map(|forces| forces.largest_n)));
     row.extend(known.iter().map(|(name, _)| cell(s.of(name).map(|s| s.spread.mean))));
     row
 }

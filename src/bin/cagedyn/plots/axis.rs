@@ -16,6 +16,8 @@ enum Notation {
     Exponent,
     /// As power of ten; the axis shows logarithms.
     PowerOfTen,
+    /// The number itself; the axis shows logarithms.
+    Antilogarithm,
 }
 
 /// Range, ticks and name of an axis.
@@ -63,8 +65,26 @@ impl Axis {
         Self { name: name.to_owned(), min, max, step: 1.0, notation: Notation::PowerOfTen }
     }
 
+    /// An axis of logarithms to the base 10, with a tick at 1, 2 and 5 times every power of ten.
+    pub fn logarithms(name: &str, min: f64, max: f64) -> Self {
+        Self { name: name.to_owned(), min, max, step: 1.0, notation: Notation::Antilogarithm }
+    }
+
+    /// Writes numbers of more than four decimals with an exponent, beside which the name has room.
+    pub fn narrow(mut self) -> Self {
+        if matches!(self.notation, Notation::Decimals(decimals) if decimals > 4) {
+            self.notation = Notation::Exponent;
+        }
+        self
+    }
+
     /// Places of the ticks.
     pub fn ticks(&self) -> Vec<f64> {
+        if self.notation == Notation::Antilogarithm {
+            let (first, last) = (self.min.floor() as i64, self.max.ceil() as i64);
+            let all = (first..=last).flat_map(|power| [1.0f64, 2.0, 5.0].map(|m| power as f64 + m.log10()));
+            return all.filter(|tick| (self.min..=self.max).contains(tick)).collect();
+        }
         let slack = 1e-9 * (self.max - self.min);
         let first = ((self.min - slack) / self.step).ceil() as i64;
         let last = ((self.max + slack) / self.step).floor() as i64;
@@ -76,6 +96,7 @@ impl Axis {
         match self.notation {
             Notation::Decimals(decimals) => minus(&format!("{value:.decimals$}")),
             Notation::Exponent => minus(&format!("{value:.1e}")),
+            Notation::Antilogarithm => short(10f64.powf(value)),
             Notation::PowerOfTen => format!("10{}", superscript(value.round() as i64)),
         }
     }
@@ -108,6 +129,11 @@ fn round_step(x: f64) -> f64 {
     let power = 10f64.powf(x.log10().floor());
     let step = [1.0, 2.0, 5.0].into_iter().find(|m| m * power >= x * (1.0 - 1e-9));
     step.unwrap_or(10.0) * power
+}
+
+/// A round number.
+fn short(x: f64) -> String {
+    if (1e-3..1e5).contains(&x) { format!("{}", (x * 1e6).round() / 1e6) } else { minus(&format!("{x:.0e}")) }
 }
 
 /// A number with a typographic minus sign, and none in front of zero.
@@ -145,6 +171,10 @@ mod tests {
         let log = Axis::powers_of_ten("x", -3.2, 0.5);
         assert_eq!(log.ticks(), [-3.0, -2.0, -1.0, 0.0]);
         assert_eq!(log.label(-13.0), "10\u{207b}\u{b9}\u{b3}");
+        let log = Axis::logarithms("x", -5.4, -4.0);
+        let labels: Vec<_> = log.ticks().iter().map(|&t| log.label(t)).collect();
+        assert_eq!(labels, ["5e-6", "1e-5", "2e-5", "5e-5", "1e-4"]);
+        assert_eq!(Axis::new("x", 0.0, 3e-5, 3).narrow().label(1e-5), "1.0e-5");
     }
 
     #[test]

@@ -10,6 +10,7 @@ mod roller;
 mod spectrum;
 mod strips;
 mod style;
+pub mod sweep;
 pub mod whirl_branch;
 mod whirl_history;
 mod whirl_speed;

@@ -95,6 +95,13 @@ impl<'b> Panel<'_, '_, 'b> {
         Ok(())
     }
 
+    /// Fills the area within a closed line.
+    pub fn area(&mut self, edge: impl IntoIterator<Item = (f64, f64)>, color: Paint) -> Drawn {
+        let edge: Vec<_> = edge.into_iter().collect();
+        self.chart.draw_series([Polygon::new(edge, color.filled())])?;
+        Ok(())
+    }
+
     /// Draws a dashed curve.
     pub fn dashed(&mut self, points: impl IntoIterator<Item = (f64, f64)>, style: ShapeStyle) -> Drawn {
         let points: Vec<_> = points.into_iter().collect();

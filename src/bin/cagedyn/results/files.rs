@@ -2,7 +2,8 @@
 
 use cagedyn::{Error, Result, Status};
 use serde::Serialize;
-use std::fs;
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 /// Name of the table, and until it is complete.
@@ -14,9 +15,22 @@ pub const UNFINISHED: &str = "timeseries.unfinished.csv";
 /// # Errors
 /// [`Status::File`].
 pub fn write_text(path: &Path, text: &str) -> Result<()> {
+    write_with(path, |file| file.write_all(text.as_bytes()))
+}
+
+/// The same for what `write` makes.
+///
+/// # Errors
+/// [`Status::File`].
+pub fn write_with(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
     let unfinished = path.with_extension("unfinished");
-    let written = fs::write(&unfinished, text).and_then(|()| fs::rename(&unfinished, path));
-    written.map_err(|e| {
+    let whole = || {
+        let mut file = BufWriter::new(File::create(&unfinished)?);
+        write(&mut file)?;
+        file.flush()?;
+        fs::rename(&unfinished, path)
+    };
+    whole().map_err(|e| {
         fs::remove_file(&unfinished).ok();
         file_error(path, e)
     })

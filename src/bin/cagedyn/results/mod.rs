@@ -3,6 +3,7 @@
 pub mod facts;
 pub mod files;
 pub mod finished;
+pub mod formats;
 pub mod intervals;
 pub mod motion;
 pub mod output;

@@ -4,6 +4,7 @@
 use crate::plots;
 use crate::results::files::{SERIES, UNFINISHED, file_error, write_json, write_text};
 use crate::results::finished::Run;
+use crate::results::formats::SERIES_FILES;
 use crate::results::summary::Summary;
 use cagedyn::Result;
 use serde::Serialize;
@@ -94,7 +95,8 @@ fn clear(folder: &Path) -> Result<()> {
 }
 
 fn remove_files(folder: &Path) -> Result<()> {
-    let names = [SUMMARY, SERIES, CASES].into_iter().chain(plots::PICTURES).chain(COMPARISONS);
+    let tables = [SUMMARY, SERIES, CASES].into_iter().chain(SERIES_FILES);
+    let names = tables.chain(plots::PICTURES).chain(COMPARISONS);
     for path in names.map(|name| folder.join(name)) {
         if path.is_file() {
             fs::remove_file(&path).map_err(|e| file_error(&path, e))?;

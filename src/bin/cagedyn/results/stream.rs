@@ -19,8 +19,9 @@ const PATIENCE: Duration = Duration::from_secs(1);
 pub const NUMBER_LENGTH: f64 = 20.0;
 
 /// What a record has of a watched channel: name, its unit in terms of that of the channel, value.
-type Part = (&'static str, fn(&str) -> String, fn(&Interval) -> f64);
-const PARTS: [Part; 4] = [
+pub type Part = (&'static str, fn(&str) -> String, fn(&Interval) -> f64);
+/// All of it, in the order of the columns.
+pub const PARTS: [Part; 4] = [
     ("min", str::to_owned, |x| x.min),
     ("max", str::to_owned, |x| x.max),
     ("mean", str::to_owned, |x| x.mean),
@@ -30,6 +31,11 @@ const PARTS: [Part; 4] = [
 /// Columns of the table beside the time, of a run with so many channels, so many of them watched.
 pub fn columns(recorded: usize, watched: usize) -> usize {
     recorded + PARTS.len() * watched
+}
+
+/// The time of a record as tables have it, s.
+pub fn time_of_table(time: f64) -> f64 {
+    rounded(time)
 }
 
 /// Unit of an integral over time.
@@ -82,7 +88,7 @@ impl Stream {
     /// [`cagedyn::Status::File`]; what the file has then ends with a whole row.
     pub fn add(&mut self, recording: &Recording) -> Result<()> {
         let Some(time) = recording.times.last() else { return Ok(()) };
-        add_plain(&mut self.rows, rounded(*time));
+        add_plain(&mut self.rows, time_of_table(*time));
         for value in recording.columns.iter().filter_map(|column| column.last()) {
             self.rows.push(b',');
             add_plain(&mut self.rows, *value);
