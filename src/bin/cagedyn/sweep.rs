@@ -243,7 +243,7 @@ impl<'a> Sweep<'a> {
         let mut files = vec![store::TABLE, store::PARQUET];
         let scene = self.scene(&self.points[0]).ok();
         let own = scene.and_then(|scene| scene.title);
-        let varied = self.args.vary.iter().map(|one| format!("{}={}", one.path, one.given));
+        let varied = self.args.vary.iter().map(|one| one.given.clone());
         let set: Vec<String> = self.sets().into_iter().chain(varied).collect();
         let title = facts::title(own.as_deref(), &run::stem(&self.args.scene), &set);
         if let Some(picture) = pictures::picture(&title, self.args, rows) {

@@ -20,7 +20,7 @@ pub struct Vary {
     pub path: String,
     /// What it takes.
     pub values: Values,
-    /// The same as it was given.
+    /// Both as they were given.
     pub given: String,
 }
 
