@@ -35,11 +35,12 @@ python() {
     "$out/venv/bin/python" "$out/page.py"
 }
 
-# Octave by way of the gateway for MATLAB.
+# Octave by way of the gateway for MATLAB, and what reads the tables of the tool.
 octave() {
     have mkoctfile octave-dev
     have octave-cli octave
-    CAGEDYN_REQUIRE_ALL_HOSTS=1 CAGEDYN_PYTHON=$PYTHON $CARGO test --release --locked --test interfaces -- hosts::
+    "$PYTHON" -m pip install -q --disable-pip-version-check -r python/requirements-formats.txt
+    CAGEDYN_REQUIRE_ALL_HOSTS=1 CAGEDYN_PYTHON=$PYTHON $CARGO test --release --locked --test interfaces -- hosts:: formats::
 }
 
 # The Debian package installs, a program builds against it, and it goes without a trace.

@@ -14,6 +14,8 @@ enum Notation {
     Decimals(usize),
     /// With an exponent, where plain numbers would be too long for their strip.
     Exponent,
+    /// The same with a short zero.
+    Narrow,
     /// As power of ten; the axis shows logarithms.
     PowerOfTen,
     /// The number itself; the axis shows logarithms.
@@ -72,8 +74,10 @@ impl Axis {
 
     /// Writes numbers of more than four decimals with an exponent, beside which the name has room.
     pub fn narrow(mut self) -> Self {
-        if matches!(self.notation, Notation::Decimals(decimals) if decimals > 4) {
-            self.notation = Notation::Exponent;
+        if matches!(self.notation, Notation::Decimals(decimals) if decimals > 4)
+            || self.notation == Notation::Exponent
+        {
+            self.notation = Notation::Narrow;
         }
         self
     }
@@ -95,7 +99,8 @@ impl Axis {
     pub fn label(&self, value: f64) -> String {
         match self.notation {
             Notation::Decimals(decimals) => minus(&format!("{value:.decimals$}")),
-            Notation::Exponent => minus(&format!("{value:.1e}")),
+            Notation::Narrow if value == 0.0 => "0".to_owned(),
+            Notation::Exponent | Notation::Narrow => minus(&format!("{value:.1e}")),
             Notation::Antilogarithm => short(10f64.powf(value)),
             Notation::PowerOfTen => format!("10{}", superscript(value.round() as i64)),
         }
