@@ -68,7 +68,7 @@ names = [name for name in mat if not name.startswith("__") and name != "units"]
 assert len(names) == len(table.columns)
 for name, column in zip(names, table.columns):
     assert (mat[name] == table[column].values).all(), column
-    assert str(mat["units"][name]) == column[column.index("[") + 1:-1], column
+    assert str(mat["units"][name]) == column[column.rindex("[") + 1:-1], column
 assert (mat["cage_y_ratio"] == table["cage.y_ratio [1]"]).all() and "roller_11_slip" in names
 table, parquet = read("sweep/sweep.csv"), pandas.read_parquet("sweep/sweep.parquet")
 assert list(table.columns) == list(parquet.columns) and len(table) == 2
