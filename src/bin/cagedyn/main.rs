@@ -87,7 +87,7 @@ pub struct SweepArgs {
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     /// Vary a value of the scene: N values from a number to another, `:log` behind them for equal ratios, or a list as in
-    /// solver.method=auto,adams. Several are combined.
+    /// solver.preset=draft,engineering. Several are combined.
     #[arg(long, value_name = "PATH=FROM:TO:N", value_parser = sweep::parse_vary, required = true)]
     vary: Vec<sweep::Vary>,
     /// So many points of a Latin hypercube over the ranges PATH=FROM:TO instead of all combinations.
