@@ -11,6 +11,7 @@
 
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
 use crate::laws::elastic::line::{ElasticLine, NormalDamping};
+use crate::laws::elastic::profile::Profile;
 use crate::laws::film::regime::LubricationRegime;
 use crate::laws::film::thickness::{Entrainment, FilmThickness};
 use crate::laws::rolling::RollingResistance;
@@ -24,6 +25,8 @@ use crate::scalar::{Base, Of, math};
 pub struct LineContact<B = f64> {
     /// Elastic constants.
     pub elastic: ElasticLine<B>,
+    /// Profile of the surfaces; without it both are straight.
+    pub profile: Option<Profile<B>>,
     /// Normal damping.
     pub damping: Option<NormalDamping<B>>,
     /// Film thickness; without it there is neither regime nor traction.
@@ -75,6 +78,10 @@ impl<B> LineContact<B> {
     pub fn map<U>(&self, f: &mut impl FnMut(&B) -> U) -> LineContact<U> {
         LineContact {
             elastic: self.elastic.map(f),
+            profile: match &self.profile {
+                None => None,
+                Some(profile) => Some(profile.map(f)),
+            },
             damping: match &self.damping {
                 None => None,
                 Some(law) => Some(law.map(f)),
@@ -107,7 +114,8 @@ impl<B> LineContact<B> {
     }
 }
 
-/// What is known of a loaded contact beside its forces. Zero where there is no such law, or no contact.
+/// What is known of a loaded contact beside its forces, with a profile of its middle. Zero where there is no such law, or no
+/// contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Loading {
     /// Hertz half width b, m.
@@ -129,7 +137,7 @@ impl LineContact {
         ln_viscosity: f64,
         force: &ContactForce<f64>,
     ) -> Loading {
-        let load = force.normal;
+        let load = self.load_of_middle(motion, force);
         if load <= 0.0 {
             return Loading::default();
         }
@@ -148,6 +156,17 @@ impl LineContact {
         }
     }
 
+    /// Load in N of a contact that is everywhere pressed like the middle of this one, whose line load is the largest.
+    fn load_of_middle(&self, motion: &ContactMotion<f64>, force: &ContactForce<f64>) -> f64 {
+        match &self.profile {
+            None => force.normal,
+            Some(_) => {
+                let damping = self.damping.as_ref();
+                self.elastic.normal_force(damping, motion.delta, motion.delta_dot).force
+            }
+        }
+    }
+
     /// Whether the thermal factor of its rolling resistance, or without it that of its film, is at its floor in a contact that
     /// moves like this under this force, with the viscosity e^`ln_viscosity` times that of the laws.
     pub fn is_at_floor(
@@ -156,7 +175,7 @@ impl LineContact {
         ln_viscosity: f64,
         force: &ContactForce<f64>,
     ) -> bool {
-        let (q, u) = (force.normal, 0.5 * (motion.u1 + motion.u2));
+        let (q, u) = (self.load_of_middle(motion, force), 0.5 * (motion.u1 + motion.u2));
         match (&self.rolling_resistance, &self.film) {
             _ if q <= 0.0 => false,
             (Some(law), _) => law.is_at_floor(force.rolling_resistance, q, u),
@@ -172,11 +191,58 @@ impl LineContact {
 impl<B: Base> LineContact<B> {
     /// Forces, with the viscosity e^`ln_viscosity` times that of the laws. Of an edge, its share w of the friction follows
     /// the law of edges, mu (1 - w) + mu_edge w; from w = 1 on there is no film.
+    ///
+    /// With a profile it is the sum over slices, each a share of what the whole contact would do at the approach of the slice;
+    /// film thickness, film ratio and temperature rise are those of the slice next to the middle. Surface speeds are the same
+    /// along the length: the radii differ by less than the approach, and one lever serves all slices.
     #[inline(always)]
     pub fn force<T: Of<B>>(
         &self,
         motion: &ContactMotion<T>,
         ln_viscosity: T,
+        edge_share: T,
+    ) -> ContactForce<T> {
+        let rolling = Entrainment::new(motion.u1, motion.u2, ln_viscosity);
+        let loaded = match &self.profile {
+            None => None,
+            Some(profile) => Some(profile.loaded(motion.delta)),
+        };
+        let mut sum = ContactForce::none(motion.delta.like(0.0));
+        let mut k = 0;
+        // One loop for both, so that the law is compiled once.
+        loop {
+            let (delta, share) = match (&self.profile, &loaded) {
+                (Some(profile), Some(part)) => profile.slice(part, k, motion.delta),
+                _ => (motion.delta, motion.delta.like(1.0)),
+            };
+            let of = self.uniform(&ContactMotion { delta, ..*motion }, &rolling, edge_share);
+            let Some(profile) = &self.profile else { return of };
+            if k == 0 {
+                sum.film = of.film;
+                sum.film_ratio = of.film_ratio;
+                sum.temperature_rise = of.temperature_rise;
+            }
+            sum.normal += of.normal * share;
+            sum.stiffness += of.stiffness * share;
+            sum.damping += of.damping * share;
+            sum.friction += of.friction * share;
+            sum.friction_secant += of.friction_secant * share;
+            sum.rolling_resistance += of.rolling_resistance * share;
+            k += 1;
+            if k == profile.count() {
+                let mu = sum.friction_secant * rolling.slip / sum.normal;
+                sum.friction_coefficient = T::select(sum.normal.at_most(0.0), mu.like(0.0), mu);
+                return sum;
+            }
+        }
+    }
+
+    /// Forces of a contact with the same approach along its length.
+    #[inline(always)]
+    fn uniform<T: Of<B>>(
+        &self,
+        motion: &ContactMotion<T>,
+        rolling: &Entrainment<T>,
         edge_share: T,
     ) -> ContactForce<T> {
         let zero = motion.delta.like(0.0);
@@ -188,7 +254,6 @@ impl<B: Base> LineContact<B> {
         // A NaN counts as contact and is passed on.
         let apart = normal.force.at_most(0.0);
 
-        let rolling = Entrainment::new(motion.u1, motion.u2, ln_viscosity);
         let mut mu = zero;
         if self.film.is_some() || self.rolling_resistance.is_some() {
             let load = T::select(apart, zero.like(1.0), normal.force);
@@ -196,10 +261,10 @@ impl<B: Base> LineContact<B> {
             let mean_pressure = self.elastic.mean_pressure(load, half_width);
             let pressed = Pressed { ln_load: load.ln(), half_width, mean_pressure };
             if let Some(film) = &self.film {
-                mu = self.traction_coefficient(film, motion, &rolling, &pressed, &mut out);
+                mu = self.traction_coefficient(film, motion, rolling, &pressed, &mut out);
             }
             if let Some(law) = &self.rolling_resistance {
-                let force = law.force(load, pressed.ln_load, mean_pressure, &rolling);
+                let force = law.force(load, pressed.ln_load, mean_pressure, rolling);
                 out.rolling_resistance = T::select(apart, zero, zero - force * rolling.direction);
             }
         }
@@ -284,6 +349,7 @@ pub(crate) mod tests {
         let steel = 46.0 * 7830.0 * 460.0;
         LineContact {
             elastic,
+            profile: None,
             damping: Some(NormalDamping { relaxation_time: 5e-7, softening_depth: 1e-8 }),
             film: Some(FilmThickness::new(
                 &elastic,

@@ -2,14 +2,15 @@
 //!
 //! | folder | laws |
 //! |---|---|
-//! | `elastic` | normal force of a line contact, of a spring with damper |
+//! | `elastic` | normal force of a line contact, profile of its surfaces, of a spring with damper |
 //! | `film` | film thickness, lubrication regimes |
 //! | `traction` | full-film traction, its self-heating, solid friction |
 //! | `rolling` | rolling resistance |
 //! | `guide` | films between cage and ring, shared with solid contact |
 //! | `fluid` | viscosity |
 //!
-//! `bearing_torque` is the friction of a whole bearing from catalogue values. `line_contact` puts those of a lubricated line contact together.
+//! `bearing_torque` is the friction of a whole bearing from catalogue values. `line_contact` puts those of a lubricated line contact together,
+//! `resting_line` gives its spring alone.
 //!
 //! A law knows its own constants and nothing else: no bodies, no JSON, no planar or spatial geometry. All
 //! quantities are in SI units. Laws are generic over [`crate::scalar::Real`], so the code that gives a force
@@ -25,5 +26,6 @@ pub mod fluid;
 pub mod guide;
 pub mod heat_network;
 pub mod line_contact;
+mod resting_line;
 pub mod rolling;
 pub mod traction;

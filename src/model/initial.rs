@@ -129,7 +129,7 @@ impl StillBearing<'_> {
         if size == 0.0 {
             return Ok([0.0; 2]);
         }
-        let reach = (2.0 * self.geometry.gap).max(0.0) + 2.0 * self.laws[1].elastic.approach(size);
+        let reach = (2.0 * self.geometry.gap).max(0.0) + 2.0 * self.laws[1].approach(size);
         let mut x = [0.0; 2];
         let mut here = self.ring_balance(x, load);
         let mut parameter = size / reach;
@@ -186,7 +186,7 @@ impl StillBearing<'_> {
 
     /// Radial equilibrium of a roller, with the ring centre at `ring` (m) in the roller's local frame.
     fn roller_balance(&self, ring: [f64; 2]) -> RollerBalance {
-        let [outer, inner] = self.laws.map(|law| &law.elastic);
+        let [outer, inner] = self.laws;
         let (g, centrifugal) = (self.geometry, self.centrifugal);
         // The outward force of the roller falls with its offset: bisection between resting outside and squeezed in.
         let state = |offset: f64| {
@@ -194,26 +194,26 @@ impl StillBearing<'_> {
                 ElementMotion { radial_offset: offset, radial_speed: 0.0, orbit_speed: 0.0, spin_speed: 0.0 };
             let still_ring = RingMotion { position: ring, velocity: [0.0; 2], speed: 0.0 };
             let (motion, grip) = g.inner(&still, &still_ring);
-            (inner.load(motion.delta), outer.load(offset - g.gap), motion.delta, grip.normal)
+            (inner.rest_at(motion.delta), outer.rest_at(offset - g.gap), motion.delta, grip.normal)
         };
         let resting = g.gap + outer.approach(centrifugal);
         let squeezed = ring[0].abs() + ring[1].abs() + 2.0 * g.gap.abs();
         let (mut low, mut high) = (resting, resting + squeezed);
         for _ in 0..100 {
             let middle = 0.5 * (low + high);
-            let (on_inner, on_outer, _, normal) = state(middle);
+            let ([on_inner, _], [on_outer, _], _, normal) = state(middle);
             if centrifugal - on_inner * normal[0] > on_outer {
                 low = middle;
             } else {
                 high = middle;
             }
         }
-        let (load, on_outer, delta, normal) = state(high);
+        let ([load, work], [on_outer, work_outer], delta, normal) = state(high);
         // Palmgren's law: the energy at the approach delta is 9/19 Q delta.
-        let energy = 9.0 / 19.0 * (load * delta.max(0.0) + on_outer * (high - g.gap).max(0.0))
-            - centrifugal * (high - g.gap);
+        let energy = 9.0 / 19.0 * (work + work_outer) - centrifugal * (high - g.gap);
         let stiffness = if load > 0.0 {
-            1.0 / (1.0 / inner.stiffness_at_load(load) + 1.0 / outer.stiffness_at_load(on_outer))
+            1.0 / (1.0 / inner.stiffness_at_rest(load, delta)
+                + 1.0 / outer.stiffness_at_rest(on_outer, high - g.gap))
         } else {
             0.0
         };

@@ -2,6 +2,7 @@
 
 use crate::error::Result;
 use crate::laws::elastic::line::{ElasticLine, NormalDamping, effective_modulus};
+use crate::laws::elastic::profile::{Logarithm, Profile, USUAL_SLICES};
 use crate::laws::elastic::solid::SolidContact;
 use crate::laws::film::regime::LubricationRegime;
 use crate::laws::film::thickness::{FilmThickness, ThermalCorrection, ThermalLoad};
@@ -11,7 +12,7 @@ use crate::laws::rolling::{Extent, Isothermal, RigidLimit, RollingFilm, RollingR
 use crate::laws::traction::muraki_kimura::Traction;
 use crate::laws::traction::self_heating::SelfHeating;
 use crate::laws::traction::solid_friction::SolidFriction;
-use crate::scene::{self, ContactLaws, Grease, Lubricant, Material, Scene, bad_scene, needed};
+use crate::scene::{self, ContactLaws, Grease, Lubricant, Material, RollerProfile, Scene, bad_scene, needed};
 
 /// The parts of the scene that several laws need, with the path of the law being built.
 pub(crate) struct LawBuilder<'a> {
@@ -201,6 +202,7 @@ impl<'a> LawBuilder<'a> {
         });
         Ok(LineContact {
             elastic,
+            profile: None,
             damping,
             film,
             traction,
@@ -211,14 +213,35 @@ impl<'a> LawBuilder<'a> {
         })
     }
 
-    /// A contact with a raceway of the given material.
+    /// Profile of the contact of a roller with a raceway whose crown has this radius, m.
+    fn profile(&self, laws: &scene::Raceways, raceway_crown: Option<f64>) -> Result<Option<Profile>> {
+        let Some(rollers) = &self.scene.rollers else { return Ok(None) };
+        let length = rollers.effective_length;
+        let (logarithm, roller_crown) = match &rollers.profile {
+            None => (None, None),
+            Some(RollerProfile::CircularCrown { radius }) => (None, Some(*radius)),
+            Some(RollerProfile::Logarithmic(profile)) => {
+                let steel = self.material("rollers.material", &rollers.material)?;
+                let [young, poisson] = [steel.young_modulus, steel.poisson_ratio];
+                let modulus = effective_modulus(young, poisson, young, poisson);
+                let scale = Logarithm::scale_of(profile.design_load, profile.load_factor, length, modulus);
+                (Some(Logarithm::new(scale, length, profile.crowned_share, profile.end_drop)), None)
+            }
+        };
+        let slices = laws.slices.map_or(USUAL_SLICES, |n| n as usize);
+        Ok(Profile::new(length, logarithm, [roller_crown, raceway_crown], slices))
+    }
+
+    /// A contact with a raceway of the given material, whose crown has this radius, m.
     pub(crate) fn raceway(
         &self,
         laws: &scene::Raceways,
         mate: &str,
         equivalent_radius: f64,
+        crown: Option<f64>,
     ) -> Result<LineContact> {
         let mut law = self.line_contact(&laws.contact, mate, equivalent_radius)?;
+        law.profile = self.profile(laws, crown)?;
         if let Some(rolling) = &laws.rolling_resistance {
             let extent = match rolling.extent {
                 scene::Extent::All => Extent::All,

@@ -140,8 +140,8 @@ impl ContactLaw {
     pub(crate) fn spring(&self, delta: f64) -> [f64; 2] {
         match self {
             Self::Line(law) => {
-                let force = law.elastic.load(delta);
-                [force, 9.0 / 19.0 * force * delta]
+                let [force, work] = law.rest_at(delta);
+                [force, if law.profile.is_some() { 9.0 / 19.0 * work } else { 9.0 / 19.0 * force * delta }]
             }
             Self::Solid(law) => {
                 let force = law.stiffness * delta;
@@ -150,10 +150,20 @@ impl ContactLaw {
         }
     }
 
+    /// Elastic force in N of slices whose own damping has cut off theirs while others of the contact push.
+    pub(crate) fn cut_off(&self, motion: &ContactMotion<f64>) -> f64 {
+        self.line().map_or(0.0, |law| law.cut_off(motion))
+    }
+
+    /// Whether slices may lose their force one by one.
+    pub(crate) fn sliced(&self) -> bool {
+        self.line().is_some_and(|law| law.profile.is_some())
+    }
+
     /// Stiffness under a load in N, N/m.
     pub(crate) fn stiffness_at_load(&self, load: f64) -> f64 {
         match self {
-            Self::Line(law) => law.elastic.stiffness_at_load(load),
+            Self::Line(law) => law.stiffness_at_rest(load, law.approach(load)),
             Self::Solid(law) => law.stiffness,
         }
     }

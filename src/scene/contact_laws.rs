@@ -13,6 +13,10 @@ pub struct Raceways {
     /// Rolling resistance of the film. Absent: off.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rolling_resistance: Option<RollingResistance>,
+    /// Slices of the loaded part of one half of a contact with a profile. Absent: 8.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 2, max = 32)))]
+    pub slices: Option<u32>,
 }
 
 /// Optional laws of a line contact.

@@ -25,6 +25,54 @@ pub struct Rollers {
     pub inertia: f64,
     /// Name of the material.
     pub material: String,
+    /// Profile of the rollers along their length in the contacts with the raceways. Absent: straight.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub profile: Option<RollerProfile>,
+}
+
+/// Profile of a roller: how far its surface falls back from a cylinder.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum RollerProfile {
+    /// Logarithm of Fujiwara and Kawase, with that of Johns and Gohar and that of Lundberg as limits.
+    Logarithmic(LogarithmicProfile),
+    /// Circular crown over the whole length.
+    CircularCrown {
+        /// Radius R_c of the crown along the axis, m.
+        #[cfg_attr(feature = "schema", schemars(range(min = 1e-05, max = 1000000.0)))]
+        radius: f64,
+    },
+}
+
+/// Logarithmic profile.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct LogarithmicProfile {
+    /// Load Q of one contact that the profile is made for, N.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-3, max = 1e9)))]
+    pub design_load: f64,
+    /// K1, factor of this load.
+    #[serde(default = "one", skip_serializing_if = "is_one")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-3, max = 1e3)))]
+    pub load_factor: f64,
+    /// K2, share of the length with the profile; the middle is straight.
+    #[serde(default = "one", skip_serializing_if = "is_one")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.01, max = 1.0)))]
+    pub crowned_share: f64,
+    /// z_m, drop at the ends of the contact length, m. Absent: without limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-9, max = 1e-3)))]
+    pub end_drop: Option<f64>,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+fn is_one(x: &f64) -> bool {
+    *x == 1.0
 }
 
 /// A set of equal, equally spaced rolling elements on a circle, with prescribed orbit and spin. They add no states.

@@ -30,7 +30,7 @@ pub use contact_laws::{
 };
 pub(crate) use elastic_ring::MOST_RING_ORDERS;
 pub use elastic_ring::{ElasticRing, FiniteElementModes, RingSection, RingStiffness};
-pub use elements::{ElementMotion, KinematicElements, Rollers};
+pub use elements::{ElementMotion, KinematicElements, LogarithmicProfile, RollerProfile, Rollers};
 pub use grease::{Grease, PolymerGrease, SoapGrease};
 pub use heat::{
     BearingTorque, Conductance, ElementsShare, Heat, HeatLink, HeatNode, HeatSource, OilFlow,

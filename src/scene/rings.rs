@@ -11,6 +11,10 @@ pub struct OuterRing {
     /// Raceway radius R_o, m.
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0001, max = 5.0)))]
     pub raceway_radius: f64,
+    /// Radius of the crown of the raceway along the axis, m. Absent: straight.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-05, max = 1000000.0)))]
+    pub raceway_crown_radius: Option<f64>,
     /// Name of the material.
     pub material: String,
 }
@@ -30,6 +34,10 @@ pub struct InnerRing {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = -0.0002, max = 0.002)))]
     pub radial_clearance: Option<f64>,
+    /// Radius of the crown of the raceway along the axis, m. Absent: straight. Needs rollers.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-05, max = 1000000.0)))]
+    pub raceway_crown_radius: Option<f64>,
     /// Name of the material. Needed by rollers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,

@@ -1,4 +1,5 @@
 //! Normal force of two surfaces that are pressed together.
 
 pub mod line;
+pub mod profile;
 pub mod solid;

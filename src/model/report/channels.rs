@@ -1,12 +1,14 @@
 //! Output channels: the named quantities that a run records.
 
-use super::forces::{FILM_THICKNESS, FRICTION, Forces, GuideReport, NORMAL_FORCE, SLIP_SPEED};
+use super::forces::{
+    ContactForces, FILM_THICKNESS, FRICTION, Forces, GuideReport, MEAN_PRESSURE, NORMAL_FORCE, SLIP_SPEED,
+};
 use crate::bodies::{CAGE, CAGE_MOTION, ForceSource, INNER_RING, Input, InputValues, OUTER_RING, displaced};
 use crate::model::Model;
 use crate::model::Workspace;
 use crate::pairs::{ContactLaw, ElementPlace};
 use crate::scalar::math;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// A ring slower than this stands still for the slip channels, rad/s.
 const STANDSTILL: f64 = 1e-9;
@@ -321,21 +323,22 @@ impl Model {
             Source::WetArcs => f64::from(self.wet_arcs(ws).0),
             Source::WetAngle => self.wet_arcs(ws).1,
             Source::Traction(ring, j) => contact(j, ring)[FRICTION],
-            Source::HertzPressure(ring, j) => {
-                self.hertz_pressure(ring, contact(j, ring)[NORMAL_FORCE]).unwrap_or(0.0)
-            }
+            Source::HertzPressure(ring, j) => self.hertz_pressure(ring, contact(j, ring)).unwrap_or(0.0),
             Source::SlidingPower(ring, j) => {
                 (contact(j, ring)[FRICTION] * contact(j, ring)[SLIP_SPEED]).abs()
             }
         }
     }
 
-    /// Largest pressure of Hertz's line contact of an element under a load in N, by the place of the contact among those of
-    /// the element, Pa: sqrt(Q E'/(2 pi R l)). E' = 2/((1 - nu1^2)/E1 + (1 - nu2^2)/E2), 1/R curvature, l length.
-    fn hertz_pressure(&self, place: usize, load: f64) -> Option<f64> {
+    /// Largest pressure of Hertz's line contact of an element, by the place of the contact among those of the element, Pa; with a
+    /// profile that of the middle. Of a straight one under the load Q: sqrt(Q E'/(2 pi R l)). E' = 2/((1 - nu1^2)/E1 + (1 - nu2^2)/E2), 1/R curvature, l length.
+    fn hertz_pressure(&self, place: usize, contact: &ContactForces) -> Option<f64> {
         let (pair, _) = self.contact_kinds().nth(place)?;
         let ContactLaw::Line(law) = &self.laws[pair] else { return None };
-        let line = &law.elastic;
+        if law.profile.is_some() {
+            return Some(4.0 / PI * contact[MEAN_PRESSURE]);
+        }
+        let (line, load) = (&law.elastic, contact[NORMAL_FORCE]);
         Some((load.max(0.0) * line.effective_modulus / (TAU * line.equivalent_radius * line.length)).sqrt())
     }
 

@@ -76,6 +76,8 @@ pub type ContactForces = [f64; CONTACT_QUANTITIES.len()];
 
 /// Index of the normal force in [`ContactForces`].
 pub(super) const NORMAL_FORCE: usize = 0;
+/// Index of the mean pressure in [`ContactForces`].
+pub(super) const MEAN_PRESSURE: usize = 16;
 /// Indices of friction and slip speed in [`ContactForces`].
 pub(super) const FRICTION: usize = 6;
 pub(super) const SLIP_SPEED: usize = 10;

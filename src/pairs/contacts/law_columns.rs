@@ -102,6 +102,7 @@ mod tests {
     use super::*;
     use crate::laws::contact_pair::ContactMotion;
     use crate::laws::elastic::line::ElasticLine;
+    use crate::laws::elastic::profile::tests::profiles;
     use crate::laws::film::thickness::FilmThickness;
     use crate::laws::line_contact::tests::raceway;
     use crate::laws::traction::solid_friction::SolidFriction;
@@ -117,7 +118,19 @@ mod tests {
 
     #[test]
     fn every_contact_gets_the_force_of_its_law() {
-        let laws = laws();
+        check_forces(laws());
+        for (_, profile, _) in profiles(3) {
+            // The crowns of the three differ.
+            let profiled = |law: LineContact, x: f64| LineContact {
+                profile: Some(profile.map(&mut |curvature| x * curvature)),
+                ..law
+            };
+            let [a, b, c] = laws();
+            check_forces([profiled(a, 1.0), profiled(b, 0.7), profiled(c, 1.3)]);
+        }
+    }
+
+    fn check_forces(laws: [LineContact; 3]) {
         let n = 32;
         let mut columns = LawColumns::new(laws[0], &laws[1..], n);
         let mut contacts = vec![ContactBlock::APART; blocks_for(n)];
@@ -136,7 +149,8 @@ mod tests {
                 contacts[block].edge_share[lane] = edge_share;
                 columns.set(i, kind);
             }
-            columns.apply(n, &mut contacts, 0.2, Arch::new());
+            let instructions = if turn == 0 { Arch::new() } else { Arch::Scalar };
+            columns.apply(n, &mut contacts, 0.2, instructions);
             for i in 0..n {
                 let (contact, edge_share, kind) = at(i);
                 let alone = laws[kind].force(&contact, 0.2, edge_share);

@@ -92,6 +92,8 @@ pub(crate) struct Batch {
     differentiated: bool,
     /// Whether blocks have changes of speeds of a step.
     changed: bool,
+    /// Whether slices of its contacts may lose their force one by one.
+    sliced: bool,
 }
 
 /// Laws of a batch.
@@ -105,6 +107,7 @@ enum BatchLaws {
 impl Batch {
     fn new(n: usize, laws: &[ContactLaw]) -> Self {
         let room = blocks_for(n) * WIDEST;
+        let sliced = laws.iter().any(ContactLaw::sliced);
         let lines: Vec<LineContact> = laws.iter().filter_map(ContactLaw::line).copied().collect();
         let laws = match (lines.split_first(), laws.first()) {
             (None, Some(ContactLaw::Solid(law))) => BatchLaws::Solid(*law),
@@ -118,6 +121,7 @@ impl Batch {
             slopes: LawSlopes::new(room),
             differentiated: false,
             changed: false,
+            sliced,
         }
     }
 

@@ -70,7 +70,7 @@ impl Batch {
         let (rows, rate) = (self.len(), step.map_or(0.0, |(_, h)| h * mobility));
         let mut cut = false;
         dispatch(instructions, Step { rows, blocks: &mut self.blocks, rate, cut: &mut cut });
-        if cut {
+        if cut || self.sliced {
             self.correct_cut(laws);
         }
     }
@@ -108,6 +108,11 @@ impl Batch {
                     let [approach, _] = grip.of(at).speeds([mean[0][at], mean[1][at], mean[2][at]]);
                     let [held, _] = laws[site.pair].spring(delta);
                     step.powers[0][at] = held * (motion.delta_dot[at] + approach);
+                } else if laws[site.pair].sliced() {
+                    let [mean, _] = &step.changes;
+                    let [approach, _] = grip.of(at).speeds([mean[0][at], mean[1][at], mean[2][at]]);
+                    let held = laws[site.pair].cut_off(&motion.of(at));
+                    step.powers[0][at] += held * (motion.delta_dot[at] + approach);
                 }
             }
         }

@@ -57,9 +57,10 @@ fn laws_of(builder: &LawBuilder<'_>) -> Result<Option<(RacewayGeometry, [LineCon
     let inner = geometry.inner_radius(outer);
     let inner_material = rings.1.and_then(|ring| ring.material.as_deref());
     let inner_material = needed("inner_ring.material", inner_material, "raceways")?;
+    let crowns = [outer_ring.raceway_crown_radius, rings.1.and_then(|ring| ring.raceway_crown_radius)];
     let laws = [
-        this.raceway(laws, &outer_ring.material, 1.0 / (1.0 / radius - 1.0 / outer))?,
-        this.raceway(laws, inner_material, 1.0 / (1.0 / radius + 1.0 / inner))?,
+        this.raceway(laws, &outer_ring.material, 1.0 / (1.0 / radius - 1.0 / outer), crowns[0])?,
+        this.raceway(laws, inner_material, 1.0 / (1.0 / radius + 1.0 / inner), crowns[1])?,
     ];
     Ok(Some((geometry, laws)))
 }

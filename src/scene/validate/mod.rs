@@ -8,6 +8,7 @@ mod elastic_ring;
 mod grease;
 mod heat;
 mod plausible;
+mod profile;
 
 pub(crate) use cage::TORQUE;
 
@@ -106,6 +107,12 @@ impl Scene {
         if let Some(clearance) = inner.radial_clearance {
             number("inner_ring.radial_clearance", clearance, ROLLER_CLEARANCE)?;
         }
+        if inner.raceway_crown_radius.is_some() && self.rollers.is_none() {
+            return Err(bad(
+                "inner_ring.raceway_crown_radius",
+                "needs 'rollers', which run on it; remove it",
+            ));
+        }
         if let Some(material) = &inner.material {
             self.material_exists("inner_ring.material", material)?;
         }
@@ -171,6 +178,7 @@ impl Scene {
             let path = "raceways.rolling_resistance.extent.loaded.threshold";
             number(path, threshold, range(1e-6, 1e9, "N"))?;
         }
+        self.validate_profile(r, outer, inner, raceways)?;
         self.neighbours_apart("rollers.count", r.radius, "rollers")
     }
 

@@ -9,6 +9,7 @@ mod guide;
 mod laws;
 mod oil;
 mod pocket;
+mod profile;
 mod ranges;
 mod signals;
 mod start;
@@ -33,6 +34,7 @@ fn rows() -> Vec<Row> {
         beyond::rows(),
         cage::rows(),
         pocket::rows(),
+        profile::rows(),
         guide::rows(),
         start::rows(),
     ];
