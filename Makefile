@@ -2,7 +2,7 @@
 # make test      everything that CI runs: formatting, lints, all tests, with C, C++ and Python as hosts
 # make release-check  what a release needs beside: sanitizers, fuzzing, packages, Octave, other platforms; an hour
 # make run       the NU2310 example, results in out/
-# make cases     the twelve NU2310 cases, the grease guide over speed, its variants and without grease, results in out/cases/
+# make cases     the twelve NU2310 cases, its roller profiles, the grease guide over speed, its variants and without grease, results in out/cases/
 # make example   the C example, compiled and run, table in out/
 # make pictures  the pictures of the README
 # make effects   cost of every effect and what it changes: docs/results/effects.md
@@ -93,6 +93,7 @@ run:
 
 cases:
 	$(CARGO) run --release --locked -- cases scenes/nu2310_fig9.cases.json --out out/cases/nu2310
+	$(CARGO) run --release --locked -- cases scenes/nu2310_profile.cases.json --out out/cases/nu2310_profile
 	$(CARGO) run --release --locked -- cases scenes/grease_guide_speed.cases.json --starts 24 --out out/cases/grease_speed
 	$(CARGO) run --release --locked -- cases scenes/grease_guide_effects.cases.json --starts 24 --out out/cases/grease_effects
 	$(CARGO) run --release --locked -- cases scenes/grease_guide_dry.cases.json --starts 24 --out out/cases/grease_dry

@@ -160,6 +160,8 @@ impl LineContact {
     fn load_of_middle(&self, motion: &ContactMotion<f64>, force: &ContactForce<f64>) -> f64 {
         match &self.profile {
             None => force.normal,
+            // The middle is cut off last, and may be left when all slices are.
+            Some(_) if force.normal <= 0.0 => 0.0,
             Some(_) => {
                 let damping = self.damping.as_ref();
                 self.elastic.normal_force(damping, motion.delta, motion.delta_dot).force

@@ -5,7 +5,7 @@ use crate::common::{Random, example_text, example_with};
 use cagedyn::integrate::Linearization;
 use cagedyn::model::{HostInputs, Workspace};
 use cagedyn::{Model, Sim, Status};
-use serde_json::json;
+use serde_json::{Value, json};
 use std::sync::Arc;
 
 /// Steps of the differences as shares of the state scales; all must agree where the forces are smooth.
@@ -148,12 +148,36 @@ fn compare(model: &Model, t: f64, state: &[f64]) -> (usize, usize, f64, String) 
     (compared, skipped, worst, place)
 }
 
+/// Gives rollers and raceways of a scene with rollers one profile after the other, and now and then none.
+fn add_profile(scene: &mut Value, i: usize) {
+    if scene["rollers"].is_null() {
+        return;
+    }
+    let logarithm = |share: f64| json!({"logarithmic": {"design_load": 10880.0, "crowned_share": share, "end_drop": 12e-6}});
+    let kind = i % 5;
+    match kind {
+        0 => scene["rollers"]["profile"] = logarithm(0.6),
+        1 => scene["rollers"]["profile"] = json!({"circular_crown": {"radius": 5.2}}),
+        2 => scene["rollers"]["profile"] = json!({"logarithmic": {"design_load": 9000.0}}),
+        3 => scene["rollers"]["profile"] = logarithm(0.8),
+        _ => return,
+    }
+    if kind == 1 || kind == 3 {
+        scene["outer_ring"]["raceway_crown_radius"] = json!(12.0);
+        scene["raceways"]["slices"] = json!(4);
+    }
+    if kind == 3 {
+        scene["inner_ring"]["raceway_crown_radius"] = json!(7.0);
+    }
+}
+
 #[test]
 fn derivatives_match_differences_in_every_combination() {
     let (mut compared, mut skipped, mut largest, mut thickened) = (0, 0, 0.0f64, 0);
     for (i, parts) in all().into_iter().enumerate() {
         // Everything that can change with time does.
         let mut scene = scene(parts);
+        add_profile(&mut scene, i);
         let swing =
             |mean: f64| json!({"sine": {"mean": mean, "amplitude": 50.0, "frequency": 80.0, "phase": 0.3}});
         scene["inner_ring"]["speed"] = swing(-314.0);
@@ -199,8 +223,11 @@ fn derivatives_match_differences_in_every_combination() {
 #[test]
 fn all_instructions_give_the_same_derivatives() {
     let mut compared = 0;
-    for parts in all() {
-        let sim = moving(parts);
+    for (i, parts) in all().into_iter().enumerate() {
+        let mut scene = scene(parts);
+        add_profile(&mut scene, i);
+        let mut sim = Sim::new(Arc::new(Model::from_json(&scene.to_string()).unwrap())).unwrap();
+        sim.advance_to(1.1e-3).unwrap();
         let (model, host) = (sim.model(), HostInputs::default());
         let (inputs, rates) = (model.inputs_at(sim.time(), &host), model.input_rates_at(sim.time(), &host));
         let (q, v) = sim.state().split_at(model.layout().positions());

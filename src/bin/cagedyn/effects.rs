@@ -2,8 +2,8 @@
 
 use cagedyn::Scene;
 use cagedyn::scene::{
-    ContactLaws, Extent, Guide, GuideFilm, GuideRing, Pocket, PressureShear, RingMotion, SolidContact,
-    Viscosity,
+    ContactLaws, Extent, Guide, GuideFilm, GuideRing, Pocket, PressureShear, RingMotion, RollerProfile,
+    SolidContact, Viscosity,
 };
 
 /// An optional block of a scene.
@@ -22,6 +22,7 @@ pub fn effects(scene: &Scene) -> Vec<Effect> {
         scene.gravity.as_ref().map(|g| format!("weight of all bodies, ({}, {}) m/s^2", g.y, g.z)),
     );
     ring(scene, &mut list);
+    profiles(scene, &mut list);
     if let Some(raceways) = &scene.raceways {
         contact(&raceways.contact, "raceways.contact", &mut list);
         let resistance = raceways.rolling_resistance.as_ref().map(|r| match r.extent {
@@ -64,6 +65,29 @@ fn ring(scene: &Scene, list: &mut List) {
     let damping = ring.support_damping.map(|d| format!("force: damper of {d} N s/m on the ring"));
     list.add("inner_ring.motion.free.support_damping", damping);
     list.flag("inner_ring.motion.free.load", ring.load.is_some(), "force: external load on the ring");
+}
+
+fn profiles(scene: &Scene, list: &mut List) {
+    let Some(rollers) = &scene.rollers else { return };
+    let of_rollers = rollers.profile.as_ref().map(|profile| match profile {
+        RollerProfile::Logarithmic(log) => {
+            format!(
+                "law: raceway contacts in slices, logarithmic rollers for {} N",
+                log.load_factor * log.design_load
+            )
+        }
+        RollerProfile::CircularCrown { radius } => {
+            format!("law: raceway contacts in slices, rollers with a crown of radius {radius} m")
+        }
+    });
+    list.add("rollers.profile", of_rollers);
+    for (ring, radius) in [
+        ("outer_ring", scene.outer_ring.as_ref().and_then(|ring| ring.raceway_crown_radius)),
+        ("inner_ring", scene.inner_ring.as_ref().and_then(|ring| ring.raceway_crown_radius)),
+    ] {
+        let text = |radius| format!("law: contacts in slices, raceway with a crown of radius {radius} m");
+        list.add(format!("{ring}.raceway_crown_radius"), radius.map(text));
+    }
 }
 
 fn contact(laws: &ContactLaws, path: &str, list: &mut List) {

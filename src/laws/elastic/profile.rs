@@ -101,7 +101,9 @@ impl Logarithm {
     #[inline(always)]
     fn drop<T: Numeric>(&self, s: T) -> T {
         let x = self.along(s);
-        -((-(x * x * self.share) + 1.0).floored(LEAST_ARGUMENT).ln() * self.scale)
+        let square = x * x * self.share;
+        // -ln(1 - y) = ln(1 + y/(1 - y)) keeps the digits of small drops.
+        (square / (-square + 1.0).floored(LEAST_ARGUMENT)).ln_1p() * self.scale
     }
 
     /// Slope of the drop at `s`.

@@ -116,7 +116,9 @@ impl ElementPair for Raceway {
     }
 
     fn cost(&self) -> Cost {
-        Cost { value: 110.0, slopes: 150.0, per_element: true }
+        // Of one slice, as often as there are any; finding the contact is the smaller part.
+        let slices = self.law.profile.map_or(1.0, |profile| profile.count() as f64);
+        Cost { value: 110.0 * slices, slopes: 150.0 * slices, per_element: true }
     }
 }
 

@@ -74,18 +74,32 @@ fn csv_cells(s: &Summary, known: &[Known]) -> Vec<String> {
 }
 
 /// Columns of tables on slip and pocket forces.
-pub const OF_ROLLERS: [&str; 4] =
-    ["max roller slip [1]", "driving pocket force [N]", "braking pocket force [N]", "max pocket force [N]"];
+pub const OF_ROLLERS: [&str; 5] = [
+    "max roller slip [1]",
+    "mean roller slip [1]",
+    "driving pocket force [N]",
+    "braking pocket force [N]",
+    "max pocket force [N]",
+];
 
 /// Their cells, empty where there is nothing.
 pub fn of_rollers(s: &Summary) -> [String; OF_ROLLERS.len()] {
     let forces = s.pocket_forces.as_ref();
     [
         cell(s.max_roller_slip.as_ref().map(|slip| slip.value)),
+        cell(mean_slip(s)),
         cell(forces.map(|f| f.driving_n)),
         cell(forces.map(|f| f.braking_n)),
         cell(forces.map(|f| f.largest_n)),
     ]
+}
+
+/// Mean slip of all rollers.
+fn mean_slip(s: &Summary) -> Option<f64> {
+    let is_slip = |name: &str| name.starts_with("roller[") && name.ends_with("].slip");
+    let slips = || s.statistics.iter().filter(|(name, _)| is_slip(name)).map(|(_, of)| of.spread.mean);
+    let count = slips().count();
+    (count > 0).then(|| slips().sum::<f64>() / count as f64)
 }
 
 /// Mean cage centres, if any cage is guided.
