@@ -82,9 +82,10 @@ fn edges_are_where_the_drop_is_the_approach() {
             assert!((edge / expected - 1.0).abs() < 2e-6, "{name} {depth:e}: {edge:e} {expected:e}");
             if edge < HALF {
                 // Steep ends magnify the round-off of the edge.
-                assert!((profile.drop(edge, false) / depth - 1.0).abs() < 1e-7, "{name} {depth:e}");
+                let exact = 1e-9 + 1e-15 * (depth / 0.5e-6).exp();
+                assert!((profile.drop(edge, false) / depth - 1.0).abs() < exact, "{name} {depth:e}");
                 let slope = profile.edge(Dual::<1>::variable(depth, 0)).eps[0];
-                assert!((slope * profile.slope(edge) - 1.0).abs() < 1e-6, "{name} {depth:e}");
+                assert!((slope * profile.slope(edge) - 1.0).abs() < 1e3 * exact, "{name} {depth:e}");
             }
         }
     }
@@ -193,7 +194,7 @@ fn exact_derivatives_match_differences() {
                     let kink = (wide - difference).abs() > 1e-6 * scale;
                     let error = (exact[k].eps[i] - difference).abs() / scale;
                     assert!(error < 1e-6 || kink, "{name} {motion:?} {i} {k}: {error:e}");
-                    assert_eq!(exact[k].re, value[k]);
+                    assert!((exact[k].re - value[k]).abs() <= 1e-14 * value[k].abs());
                 }
             }
         }
