@@ -58,10 +58,10 @@ pub fn rows() -> Vec<Row> {
             &["parabolic", "logarithmic"],
         ),
         rollers().value(
-            "crown of the outer raceway in mm",
+            "flat crown of the outer raceway",
             "outer_ring.raceway_crown_radius",
             json!(2e7),
-            &["2e7 m", "1e6 m", "milli"],
+            &["20000000.0 m", "1e6 m"],
         ),
         rollers().value(
             "deep crown of the inner raceway",
