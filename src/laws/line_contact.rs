@@ -205,10 +205,10 @@ impl<B: Base> LineContact<B> {
         edge_share: T,
     ) -> ContactForce<T> {
         let rolling = Entrainment::new(motion.u1, motion.u2, ln_viscosity);
-        let loaded = match &self.profile {
-            None => None,
-            Some(profile) => Some(profile.loaded(motion.delta)),
-        };
+        let mut loaded = None;
+        if let Some(profile) = &self.profile {
+            loaded = Some(profile.loaded(motion.delta));
+        }
         let mut sum = ContactForce::none(motion.delta.like(0.0));
         let mut k = 0;
         // One loop for both, so that the law is compiled once.

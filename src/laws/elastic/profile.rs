@@ -179,10 +179,10 @@ impl<B> Profile<B> {
     #[inline(always)]
     pub fn map<U>(&self, f: &mut impl FnMut(&B) -> U) -> Profile<U> {
         let Self { half_length, logarithm, before, rest, .. } = *self;
-        let crowns = match &self.crowns {
-            None => None,
-            Some([roller, raceway]) => Some([f(roller), f(raceway)]),
-        };
+        let mut crowns = None;
+        if let Some([roller, raceway]) = &self.crowns {
+            crowns = Some([f(roller), f(raceway)]);
+        }
         Profile { half_length, logarithm, crowns, before, rest }
     }
 
