@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What a release needs beside `make test`. A tool that is missing is installed, or is an error. Steps may be named:
-# calls package python octave deb c-sanitizers sanitizers c-threads fuzz platforms; without names all are made.
+# calls package python octave browser deb c-sanitizers sanitizers c-threads fuzz platforms; without names all are made.
 set -euo pipefail
 
 NIGHTLY=nightly-2026-10-30
@@ -41,6 +41,12 @@ octave() {
     have octave-cli octave
     "$PYTHON" -m pip install -q --disable-pip-version-check -r python/requirements-formats.txt
     CAGEDYN_REQUIRE_ALL_HOSTS=1 CAGEDYN_PYTHON=$PYTHON $CARGO test --release --locked --test interfaces -- hosts:: formats::
+}
+
+# Reports in a browser.
+browser() {
+    have chromium chromium
+    CAGEDYN_REQUIRE_ALL_HOSTS=1 $CARGO test --release --locked --test interfaces -- report::
 }
 
 # The Debian package installs, a program builds against it, and it goes without a trace.
@@ -161,7 +167,7 @@ platforms() {
     done
 }
 
-for step in ${*:-calls package python octave deb c-sanitizers sanitizers c-threads fuzz platforms}; do
+for step in ${*:-calls package python octave browser deb c-sanitizers sanitizers c-threads fuzz platforms}; do
     echo "== $step"
     $step
 done

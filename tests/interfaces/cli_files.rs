@@ -71,6 +71,7 @@ fn a_folder_has_the_files_of_one_run() {
         "cage_position.svg",
         "cage_spectrum.svg",
         "notes.txt",
+        "scene_as_run.json",
         "summary.json",
         "timeseries.csv",
         "whirl_history.svg",

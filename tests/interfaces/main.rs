@@ -18,4 +18,5 @@ mod fuzzed;
 mod header;
 mod hosts;
 mod install;
+mod report;
 mod sweep;

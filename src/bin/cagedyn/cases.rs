@@ -26,7 +26,7 @@ use std::process::ExitCode;
 use whirl::WHIRL;
 
 /// Name and unit of a channel.
-type Known = (&'static str, &'static str);
+type Known<'a> = (&'static str, &'a str);
 
 /// What is compared: a printed table, a file and a picture.
 struct Comparison {
@@ -37,9 +37,9 @@ struct Comparison {
     /// Channels whose means are in the file, where a case has them.
     channels: &'static [&'static str],
     /// Columns of the file, given these channels with their units.
-    csv_columns: fn(&[Known]) -> Vec<String>,
+    csv_columns: fn(&[Known<'_>]) -> Vec<String>,
     /// Their cells.
-    csv_cells: fn(&Summary, &[Known]) -> Vec<String>,
+    csv_cells: fn(&Summary, &[Known<'_>]) -> Vec<String>,
     /// File name of the picture.
     picture_name: &'static str,
     /// The picture with a title, if there is something to show.
@@ -77,7 +77,9 @@ impl Done<'_> {
 pub fn command(args: &CasesArgs) -> Result<ExitCode> {
     let set = CaseSet::from_json(&run::read(&args.file)?).map_err(|e| in_file(&args.file, e))?;
     let base = args.file.parent().unwrap_or(Path::new("")).join(&set.scene);
-    let scenes = set.scenes(&run::read(&base)?).map_err(|e| in_file(&args.file, e))?;
+    let text = run::read(&base)?;
+    let comment = run::comment(&text);
+    let scenes = set.scenes(&text).map_err(|e| in_file(&args.file, e))?;
     terminal::listen_for_interrupt()?;
     let taken = output::take(&args.out)?;
     // Without rollers that move freely, what matters is the whirl of the cage.
@@ -94,7 +96,7 @@ pub fn command(args: &CasesArgs) -> Result<ExitCode> {
         let (case, scene) = (&set.cases[i], scenes[i].clone());
         (!terminal::stop_requested()).then(|| {
             let part = together.begin();
-            let done = run_case(args, &base, i, case, scene, &part);
+            let done = run_case(args, (&base, comment.clone()), i, case, scene, &part);
             part.end(done.error.is_some());
             done
         })
@@ -179,10 +181,10 @@ impl<'a> Tally<'a> {
     }
 }
 
-/// Runs one case and writes its files.
+/// Runs one case and writes its files; `base` is the file of the base scene, with its comment.
 fn run_case<'a>(
     args: &CasesArgs,
-    base: &Path,
+    (base, comment): (&Path, Option<Value>),
     place: usize,
     case: &'a Case,
     mut scene: Scene,
@@ -197,7 +199,16 @@ fn run_case<'a>(
     let performed = args.instead.apply(&mut scene).and_then(|()| {
         let duration = scene.record.duration;
         let formats = &[TableFormat::Csv];
-        let request = Request { scene, file: base, case: Some(&case.name), set, folder: &folder, formats };
+        let request = Request {
+            scene,
+            file: base,
+            case: Some(&case.name),
+            comment,
+            set,
+            folder: &folder,
+            aloud: false,
+            formats,
+        };
         run::perform(request, &args.instead, &|t| part.at(t / duration))
     });
     match performed {
@@ -264,8 +275,8 @@ fn csv_rows(set: &CaseSet, comparison: &Comparison, done: &[Done<'_>]) -> Vec<Ve
             varied.push(path);
         }
     }
-    let unit = |name: &str| done.iter().find_map(|d| Some(d.summary.as_ref()?.of(name)?.unit));
-    let known: Vec<Known> =
+    let unit = |name: &str| done.iter().find_map(|d| Some(&*d.summary.as_ref()?.of(name)?.unit));
+    let known: Vec<Known<'_>> =
         comparison.channels.iter().filter_map(|name| Some((*name, unit(name)?))).collect();
     let columns = (comparison.csv_columns)(&known);
     let mut head = vec!["case".to_owned(), "inner ring speed [1/min]".to_owned()];

@@ -5,6 +5,7 @@ mod effects;
 mod heat;
 mod info;
 mod plots;
+mod report;
 mod results;
 mod run;
 mod schema;
@@ -39,6 +40,8 @@ enum Command {
     Cases(CasesArgs),
     /// Run a scene over a grid or a Latin hypercube of its values; write one table, and a picture. What is done is kept.
     Sweep(SweepArgs),
+    /// Write a run as one HTML file to hand on: results, pictures, an animation, the scene.
+    Report(ReportArgs),
     /// Temperatures of a scene with a heat balance: steady, or warming up; powers, flows, a picture of the network.
     Heat(HeatArgs),
     /// Steady whirl of the cage without time stepping: speed, place, stability; a branch over a number of the scene.
@@ -108,6 +111,21 @@ pub struct SweepArgs {
     sets: Sets,
 }
 
+/// Arguments of `report`.
+#[derive(Args)]
+pub struct ReportArgs {
+    /// Scene file, which is run, or a folder of results of `run`.
+    #[arg(value_name = "SCENE|DIR")]
+    source: PathBuf,
+    /// The report. NAME.html in this folder, of the scene or folder of this name, unless given.
+    #[arg(long, value_name = "FILE.html")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    instead: Instead,
+    #[command(flatten)]
+    sets: Sets,
+}
+
 /// What stands in for what a scene says.
 #[derive(Args)]
 pub struct Instead {
@@ -142,6 +160,12 @@ impl Instead {
     /// Simulated time in s that stands in for that of a scene.
     pub fn until(&self) -> Option<f64> {
         self.until
+    }
+
+    /// Whether everything is as the scene says, from its one start.
+    pub fn leaves_all(&self) -> bool {
+        let Self { until, preset, max_wall_time, starts, jobs, large_table, .. } = self;
+        (until, preset, max_wall_time, starts, jobs, large_table) == (&None, &None, &None, &1, &None, &false)
     }
 
     /// Changes a scene.
@@ -253,6 +277,7 @@ fn dispatch(command: &Command) -> Result<ExitCode> {
         Command::Run(args) => run::command(args),
         Command::Cases(args) => cases::command(args),
         Command::Sweep(args) => sweep::command(args),
+        Command::Report(args) => report::command(args),
         Command::Heat(args) => heat::command(args),
         Command::Whirl(args) => whirl::command(args),
         Command::Info(args) => info::command(args),

@@ -10,10 +10,11 @@ use crate::results::{output, report};
 use crate::starts::{self, Apart};
 use crate::terminal::{self, INTERRUPTED, Progress};
 use crate::workers;
-use crate::{Instead, RunArgs};
+use crate::{Instead, RunArgs, Sets};
 use cagedyn::model::PartTimes;
 use cagedyn::scene::Record;
 use cagedyn::{Error, Model, Recording, Result, Scene, Sim, Status};
+use serde_json::Value;
 use std::fs;
 use std::path::Path;
 use std::process::ExitCode;
@@ -38,12 +39,16 @@ pub struct Request<'a> {
     pub file: &'a Path,
     /// Name of the case, in a case set.
     pub case: Option<&'a str>,
+    /// Comment of the whole scene.
+    pub comment: Option<Value>,
     /// Values that replaced those of the file, as `path=value`.
     pub set: Vec<String>,
     /// Folder for the results.
     pub folder: &'a Path,
     /// Formats of the time series.
     pub formats: &'a [TableFormat],
+    /// Whether to say how large the table will be.
+    pub aloud: bool,
 }
 
 /// Runs a scene, writes the results and prints the summary.
@@ -51,31 +56,45 @@ pub struct Request<'a> {
 /// # Errors
 /// A scene or folder that cannot be used. A failure during the run is printed here, after the results so far.
 pub fn command(args: &RunArgs) -> Result<ExitCode> {
-    let text = read(&args.scene)?;
-    // The time belongs to the values that are replaced: it must fit with all of them, not before them.
-    let until = args.instead.until().map(|until| format!("{until:?}"));
-    let sets = args.sets.pairs().chain(until.as_deref().map(|until| ("record.duration", until)));
-    let mut scene = Scene::from_json_with(&text, sets).map_err(|e| in_file(&args.scene, e))?;
-    args.instead.apply(&mut scene)?;
-    terminal::listen_for_interrupt()?;
-    let set = args.sets.pairs().map(|(path, value)| format!("{path}={value}")).collect();
-    let progress = Progress::new("run", scene.record.duration);
-    let formats = &args.format[..];
-    let request = Request { scene, file: &args.scene, case: None, set, folder: &args.out, formats };
+    let request = request(&args.scene, &args.sets, &args.instead, &args.out)?;
+    let progress = Progress::new("run", request.scene.record.duration);
+    let request = Request { aloud: true, formats: &args.format, ..request };
     let performed = perform(request, &args.instead, &|t| progress.at(t));
     drop(progress);
     let (run, summary) =
         performed.map_err(|e| if e.status == Status::File { e } else { in_file(&args.scene, e) })?;
     terminal::print(&report::text(&run, &summary, &args.out))?;
+    Ok(exit_code(&run))
+}
+
+/// What to run of a scene file, with results in `folder`. From here on Ctrl-C ends runs.
+///
+/// # Errors
+/// A scene that cannot be used.
+pub fn request<'a>(file: &'a Path, sets: &Sets, instead: &Instead, folder: &'a Path) -> Result<Request<'a>> {
+    let text = read(file)?;
+    // The time belongs to the values that are replaced: it must fit with all of them, not before them.
+    let until = instead.until().map(|until| format!("{until:?}"));
+    let replaced = sets.pairs().chain(until.as_deref().map(|until| ("record.duration", until)));
+    let mut scene = Scene::from_json_with(&text, replaced).map_err(|e| in_file(file, e))?;
+    instead.apply(&mut scene)?;
+    terminal::listen_for_interrupt()?;
+    let set = sets.pairs().map(|(path, value)| format!("{path}={value}")).collect();
+    let formats = &[TableFormat::Csv];
+    Ok(Request { scene, file, case: None, comment: comment(&text), set, folder, formats, aloud: false })
+}
+
+/// How a program ends after a run; what is wrong with it is printed.
+pub fn exit_code(run: &Run) -> ExitCode {
     if let Some(failure) = &run.failure {
         terminal::complain(failure);
-        return Ok(ExitCode::FAILURE);
+        return ExitCode::FAILURE;
     }
     if let Err(untrusted) = run.trust() {
         terminal::complain(&untrusted);
-        return Ok(ExitCode::from(UNTRUSTED));
+        return ExitCode::from(UNTRUSTED);
     }
-    Ok(if run.interrupted { ExitCode::from(INTERRUPTED) } else { ExitCode::SUCCESS })
+    if run.interrupted { ExitCode::from(INTERRUPTED) } else { ExitCode::SUCCESS }
 }
 
 /// Simulates a scene until its end and writes the results into its folder: records as they come, the rest behind them. Only
@@ -85,7 +104,7 @@ pub fn command(args: &RunArgs) -> Result<ExitCode> {
 /// As [`Model::new`], [`Sim::new`] and [`Sim::set_wall_time_limit`]; [`Status::File`]; [`Status::BadScene`] for a table that is
 /// too large.
 pub fn perform(request: Request<'_>, instead: &Instead, progress: &dyn Fn(f64)) -> Result<(Run, Summary)> {
-    let Request { scene, file, case, set, folder, formats } = request;
+    let Request { scene, file, case, comment, set, folder, formats, aloud } = request;
     let (duration, interval) = (scene.record.duration, scene.record.interval);
     let own = scene.title.clone();
     let title = match case {
@@ -94,7 +113,7 @@ pub fn perform(request: Request<'_>, instead: &Instead, progress: &dyn Fn(f64)) 
     };
     let model = Arc::new(Model::new(scene)?);
     let mut sim = Sim::new(model.clone())?;
-    announce(&model, case.is_none(), instead)?;
+    announce(&model, aloud, instead)?;
     for warning in model.scene().warnings() {
         terminal::warn(&case.map_or(warning.clone(), |case| format!("case {case}: {warning}")));
     }
@@ -106,6 +125,7 @@ pub fn perform(request: Request<'_>, instead: &Instead, progress: &dyn Fn(f64)) 
     sim.set_wall_time_limit(limit)?;
     let taken = output::take(folder)?;
     output::begin(folder, &title, file, case, &set)?;
+    output::write_scene(folder, model.scene(), &title, comment.as_ref())?;
     let mut stream = Stream::new(folder, taken, sim.channels(), model.recorded(), model.watched())?;
     terminal::stop_with(sim.canceller());
     let mut recording = Recording::default();
@@ -207,6 +227,11 @@ fn announce(model: &Model, aloud: bool, instead: &Instead) -> Result<()> {
         terminal::print(&format!("writing {text}\n"))?;
     }
     Ok(())
+}
+
+/// Comment of the whole scene, which the scene itself does not keep.
+pub fn comment(text: &str) -> Option<Value> {
+    serde_json::from_str::<Value>(text).ok()?.get("comment").cloned()
 }
 
 /// The text of a file.

@@ -6,7 +6,7 @@ use crate::terminal;
 use crate::workers;
 use cagedyn::scene::Record;
 use cagedyn::{CageMotion, Error, Model, Recording, Result, Scene, Sim, Status, WhirlSummary};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::{SQRT_2, TAU};
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use std::sync::Arc;
 const GOLDEN_SECTION: f64 = 0.618_033_988_749_895;
 
 /// Motions from all starts.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Starts {
     /// Number of starts that were asked for: the scene's own, and others around it.
     pub asked: usize,
@@ -32,7 +32,7 @@ pub struct Starts {
 }
 
 /// How far the other starts are from that of the scene.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Apart {
     /// Distance of the cage centre, m, in directions that spread evenly.
     pub shift_m: f64,
@@ -41,7 +41,7 @@ pub struct Apart {
 }
 
 /// One kind of motion.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Kind {
     /// Class of the motion.
     pub motion: CageMotion,

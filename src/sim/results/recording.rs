@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result, Status};
 use crate::sim::{Interval, Sample, Sim};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Largest number of records of one run.
 const MAX_RECORDS: f64 = 1e8;
@@ -20,7 +20,7 @@ pub struct Recording {
 }
 
 /// Mean and spread of a channel over a window of time.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Spread {
     /// Mean.
     pub mean: f64,

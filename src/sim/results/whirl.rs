@@ -16,7 +16,7 @@
 
 use crate::scalar::math;
 use crate::sim::Spread;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 
 /// Fewer records than this are no motion.
@@ -52,7 +52,7 @@ pub struct WhirlRecord<'a> {
 }
 
 /// Motion of the cage centre over a window of time; the rules are those of the module's introduction.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum CageMotion {
     /// Stays where it is.

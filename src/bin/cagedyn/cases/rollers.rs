@@ -52,15 +52,15 @@ fn cells(s: &Summary) -> Vec<String> {
     ]
 }
 
-fn csv_columns(known: &[Known]) -> Vec<String> {
+fn csv_columns(known: &[Known<'_>]) -> Vec<String> {
     let parts = ["mean", "deviation", "standard error"];
-    let of = |(name, unit): &Known| parts.map(|part| format!("{name} {part} [{unit}]"));
+    let of = |(name, unit): &Known<'_>| parts.map(|part| format!("{name} {part} [{unit}]"));
     let mut columns: Vec<String> = known.iter().flat_map(of).collect();
     columns.extend(OF_ROLLERS.map(str::to_owned));
     columns
 }
 
-fn csv_cells(s: &Summary, known: &[Known]) -> Vec<String> {
+fn csv_cells(s: &Summary, known: &[Known<'_>]) -> Vec<String> {
     let mut row = Vec::new();
     for (name, _) in known {
         let spread = s.of(name).map(|s| &s.spread);

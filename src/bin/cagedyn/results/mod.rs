@@ -5,6 +5,7 @@ pub mod files;
 pub mod finished;
 pub mod formats;
 pub mod intervals;
+pub mod map;
 pub mod motion;
 pub mod output;
 pub mod report;

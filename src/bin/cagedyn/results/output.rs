@@ -6,7 +6,7 @@ use crate::results::files::{SERIES, UNFINISHED, file_error, write_json, write_te
 use crate::results::finished::Run;
 use crate::results::formats::SERIES_FILES;
 use crate::results::summary::Summary;
-use cagedyn::Result;
+use cagedyn::{Result, Scene};
 use serde::Serialize;
 use serde_json::Value;
 use std::fs::{self, File, TryLockError};
@@ -14,6 +14,8 @@ use std::path::Path;
 
 /// Name of the summary.
 pub const SUMMARY: &str = "summary.json";
+/// Name of the scene with all values as they were run.
+pub const SCENE: &str = "scene_as_run.json";
 /// Name of the table of a case set.
 pub const CASES: &str = "cases.csv";
 /// Pictures of case sets.
@@ -30,7 +32,26 @@ struct Beginning<'a> {
     set: &'a [String],
     version: &'static str,
     complete: bool,
-    files: [&'static str; 2],
+    files: [&'static str; 3],
+}
+
+/// A scene as it is run.
+#[derive(Serialize)]
+struct AsRun<'a> {
+    #[serde(flatten)]
+    scene: &'a Scene,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    comment: Option<&'a Value>,
+}
+
+/// Writes the scene of a run with the values that were replaced and those that stand where the file has none, under the title
+/// of the run and with the comment of the file.
+///
+/// # Errors
+/// [`Status::File`].
+pub fn write_scene(folder: &Path, scene: &Scene, title: &str, comment: Option<&Value>) -> Result<()> {
+    let scene = &Scene { title: Some(title.to_owned()), ..scene.clone() };
+    write_json(&folder.join(SCENE), &AsRun { scene, comment })
 }
 
 /// Notes in a folder that a run has begun.
@@ -45,7 +66,7 @@ pub fn begin(folder: &Path, title: &str, scene: &Path, case: Option<&str>, set: 
         set,
         version: env!("CARGO_PKG_VERSION"),
         complete: false,
-        files: [UNFINISHED, SUMMARY],
+        files: [UNFINISHED, SUMMARY, SCENE],
     };
     write_json(&folder.join(SUMMARY), &beginning)
 }
@@ -71,9 +92,12 @@ pub fn take(folder: &Path) -> Result<File> {
 
 /// Removes what earlier runs and case sets have left in a folder: files of their names, and folders of cases.
 fn clear(folder: &Path) -> Result<()> {
-    for (name, begins) in
-        [(SUMMARY, "{\n  \"title\":"), (SERIES, "time [s]"), (CASES, "case,inner ring speed [1/min]")]
-    {
+    for (name, begins) in [
+        (SUMMARY, "{\n  \"title\":"),
+        (SERIES, "time [s]"),
+        (SCENE, "{\n  \"schema\": \"cagedyn.scene/"),
+        (CASES, "case,inner ring speed [1/min]"),
+    ] {
         let path = folder.join(name);
         if fs::read(&path).is_ok_and(|bytes| !bytes.starts_with(begins.as_bytes())) {
             return Err(file_error(&path, "is not of this program; choose another folder or remove it"));
@@ -95,7 +119,7 @@ fn clear(folder: &Path) -> Result<()> {
 }
 
 fn remove_files(folder: &Path) -> Result<()> {
-    let tables = [SUMMARY, SERIES, CASES].into_iter().chain(SERIES_FILES);
+    let tables = [SUMMARY, SERIES, SCENE, CASES].into_iter().chain(SERIES_FILES);
     let names = tables.chain(plots::PICTURES).chain(COMPARISONS);
     for path in names.map(|name| folder.join(name)) {
         if path.is_file() {
@@ -111,7 +135,7 @@ fn remove_files(folder: &Path) -> Result<()> {
 /// # Errors
 /// [`Status::File`] for a file that cannot be written.
 pub fn write(run: &Run, summary: &mut Summary, folder: &Path, draw: bool) -> Result<()> {
-    summary.files.push(SUMMARY.to_owned());
+    summary.files.extend([SUMMARY, SCENE].map(str::to_owned));
     write_json(&folder.join(SUMMARY), summary)?;
     if !draw {
         return Ok(());

@@ -3,27 +3,57 @@
 use crate::results::finished::Run;
 use crate::results::summary::{Balance, Statistics, Summary, Whirl};
 use crate::results::table::{self, Align, grouped, number, rounded};
+use std::borrow::Cow;
 use std::path::Path;
 
-/// Rows of the table: name, value, deviation, unit, remark.
-struct Rows(Vec<Vec<String>>);
+/// One result.
+pub struct Row {
+    /// Name.
+    pub name: &'static str,
+    /// Mean, or the value itself.
+    pub value: String,
+    /// Standard deviation and standard error of the mean, of which "?" is not known.
+    pub spread: Option<[String; 2]>,
+    /// Unit.
+    pub unit: &'static str,
+    /// Remark.
+    pub remark: String,
+}
+
+impl Row {
+    fn cells(self) -> Vec<String> {
+        let spread =
+            self.spread.map_or(String::new(), |[deviation, error]| format!("± {deviation} ({error})"));
+        vec![self.name.to_owned(), self.value, spread, self.unit.to_owned(), self.remark]
+    }
+}
+
+struct Rows(Vec<Row>);
 
 impl Rows {
     /// A mean with its deviation and its error in another unit, `scale` of it per SI unit. What is zero all the time is left
     /// out.
-    fn spread(&mut self, name: &str, s: Option<&Statistics>, scale: f64, unit: &str, remark: &str) {
+    fn spread(
+        &mut self,
+        name: &'static str,
+        s: Option<&Statistics>,
+        scale: f64,
+        unit: &'static str,
+        remark: &str,
+    ) {
         if let Some(s) = s.filter(|s| (s.spread.min, s.spread.max) != (0.0, 0.0)) {
             let error = match s.spread.stationary {
                 true => number(s.spread.standard_error * scale),
                 false => "?".to_owned(),
             };
-            let deviation = format!("± {} ({error})", number(s.spread.deviation * scale));
-            self.add(name, number(s.spread.mean * scale), &deviation, unit, remark);
+            let spread = Some([number(s.spread.deviation * scale), error]);
+            let (value, remark) = (number(s.spread.mean * scale), remark.to_owned());
+            self.0.push(Row { name, value, spread, unit, remark });
         }
     }
 
-    fn add(&mut self, name: &str, value: String, deviation: &str, unit: &str, remark: &str) {
-        self.0.push([name, &value, deviation, unit, remark].map(str::to_owned).to_vec());
+    fn add(&mut self, name: &'static str, value: String, unit: &'static str, remark: &str) {
+        self.0.push(Row { name, value, spread: None, unit, remark: remark.to_owned() });
     }
 }
 
@@ -46,7 +76,8 @@ pub fn text(run: &Run, summary: &Summary, folder: &Path) -> String {
         text.push_str(&format!("from {} starts {apart}: {}\n", starts.count, starts.in_words()));
     }
     text.push('\n');
-    for line in table::lines(&results(summary).0, &[Align::Left, Align::Right]) {
+    let rows: Vec<_> = results(summary).into_iter().map(Row::cells).collect();
+    for line in table::lines(&rows, &[Align::Left, Align::Right]) {
         text.push_str(&format!("  {line}\n"));
     }
     text.push('\n');
@@ -57,7 +88,7 @@ pub fn text(run: &Run, summary: &Summary, folder: &Path) -> String {
 }
 
 /// "backward whirl, 10.4 turns, settled at 0.024 s".
-fn motion(whirl: &Whirl) -> String {
+pub fn motion(whirl: &Whirl) -> String {
     if !whirl.motion.is_whirl() {
         return whirl.motion.name().to_owned();
     }
@@ -68,7 +99,8 @@ fn motion(whirl: &Whirl) -> String {
     format!("{}, {:.1} turns, {settled}", whirl.motion.name(), whirl.turns.abs())
 }
 
-fn results(summary: &Summary) -> Rows {
+/// Results in the averaging window.
+pub fn results(summary: &Summary) -> Vec<Row> {
     let mut rows = Rows(Vec::new());
     let of = |name: &str| summary.of(name);
     if summary.of("cage.y_ratio").is_some() {
@@ -97,27 +129,22 @@ fn results(summary: &Summary) -> Rows {
     rows.spread("elements touching", of("pocket.touching_elements"), 1.0, "", "the cage");
     if let Some(slip) = &summary.max_roller_slip {
         let place = format!("roller {} at {} s", slip.roller, rounded(slip.time_s));
-        rows.add("largest roller slip", number(100.0 * slip.value), "", "%", &place);
+        rows.add("largest roller slip", number(100.0 * slip.value), "%", &place);
     }
     if let Some(forces) = &summary.pocket_forces {
         let remark = "mean over time, all elements together";
-        rows.add("pocket force, driving", number(forces.driving_n), "", "N", remark);
-        rows.add("pocket force, braking", number(forces.braking_n), "", "N", remark);
-        rows.add(
-            "pocket force, largest",
-            number(forces.largest_n),
-            "",
-            "N",
-            "of one element, from every step",
-        );
+        rows.add("pocket force, driving", number(forces.driving_n), "N", remark);
+        rows.add("pocket force, braking", number(forces.braking_n), "N", remark);
+        rows.add("pocket force, largest", number(forces.largest_n), "N", "of one element, from every step");
     }
     rows.spread("drag torque", of("inner_ring.drag_torque"), 1.0, "N m", "on the inner ring");
     rows.spread("inner ring y", of("inner_ring.y"), 1e6, "um", "");
     rows.spread("inner ring z", of("inner_ring.z"), 1e6, "um", "");
-    rows
+    rows.0
 }
 
-fn effort(run: &Run, summary: &Summary, folder: &Path) -> Vec<Vec<String>> {
+/// What the integration did and what it took, but for the time: name and text.
+pub fn cost(summary: &Summary) -> Vec<(&'static str, String)> {
     let i = &summary.integration;
     let steps = if i.smallest_step_s == i.largest_step_s {
         format!("{} of {} s", grouped(i.steps), number(i.largest_step_s))
@@ -131,22 +158,25 @@ fn effort(run: &Run, summary: &Summary, folder: &Path) -> Vec<Vec<String>> {
             grouped(i.undone)
         )
     };
+    vec![
+        ("method", format!("{}, preset {}", i.method.replace('_', "-"), i.preset)),
+        ("why", i.report.clone()),
+        ("steps", steps),
+        ("force evaluations", format!("{}, {} Jacobians", grouped(i.evaluations), grouped(i.jacobians))),
+        ("law evaluations", law_evaluations(&i.law_evaluations)),
+        ("energy", energy(summary.power_balance.as_ref())),
+    ]
+}
+
+fn effort(run: &Run, summary: &Summary, folder: &Path) -> Vec<Vec<String>> {
     let time = format!(
         "{} s simulated in {} s wall time (ratio {})",
         rounded(summary.simulated_time_s),
         number(summary.wall_time_s),
         number(summary.simulated_over_wall)
     );
-    let mut rows = vec![
-        ("method", format!("{}, preset {}", i.method.replace('_', "-"), i.preset)),
-        ("why", run.report.clone()),
-        ("steps", steps),
-        ("force evaluations", format!("{}, {} Jacobians", grouped(i.evaluations), grouped(i.jacobians))),
-        ("law evaluations", law_evaluations(&i.law_evaluations)),
-        ("energy", energy(summary.power_balance.as_ref())),
-        ("time", time),
-        ("where it goes", time_shares(&i.time_shares)),
-    ];
+    let mut rows = cost(summary);
+    rows.extend([("time", time), ("where it goes", time_shares(&summary.integration.time_shares))]);
     if !run.doubts.is_empty() {
         rows.push(("trusted", format!("NO: {}", run.doubts.join("; "))));
     }
@@ -179,7 +209,7 @@ fn time_shares(shares: &[(String, f64)]) -> String {
 }
 
 /// "guide film 6 423, pocket plane 5 640".
-fn law_evaluations(counts: &[(&str, u64)]) -> String {
+fn law_evaluations(counts: &[(Cow<'static, str>, u64)]) -> String {
     let each = counts.iter().map(|(law, n)| format!("{} {}", law.replace('_', " "), grouped(*n)));
     if counts.is_empty() { "none".to_owned() } else { each.collect::<Vec<_>>().join(", ") }
 }

@@ -2,17 +2,22 @@
 
 use crate::results::files::{SERIES, UNFINISHED};
 use crate::results::finished::Run;
+use crate::results::map::{as_map, from_map};
 use crate::results::motion::whirl;
 use crate::starts::Starts;
 use cagedyn::model::{Channel, FAULTS, LAWS, PARTS, POWERS};
 use cagedyn::sim::PowerBalance;
 use cagedyn::{CageMotion, Interval, Recording, Spread, WhirlSummary};
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use std::f64::consts::TAU;
 use std::path::Path;
 
+/// A name or unit: one of the program, or one that was read.
+type Name = Cow<'static, str>;
+
 /// All results. The names of the fields are those in the file.
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
 pub struct Summary {
     /// Title.
     pub title: String,
@@ -22,12 +27,12 @@ pub struct Summary {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub case: Option<String>,
     /// Values that replaced those of the scene, as `path=value`.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub set: Vec<String>,
     /// Version of the library.
-    pub version: &'static str,
+    pub version: Name,
     /// Values of the scene that are legal and unlikely.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<String>,
     /// Whether the run came to its end.
     pub complete: bool,
@@ -39,7 +44,7 @@ pub struct Summary {
     /// Whether the run kept what its preset promises.
     pub trusted: bool,
     /// What speaks against that.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub doubts: Vec<String>,
     /// Simulated time, s.
     pub simulated_time_s: f64,
@@ -72,17 +77,22 @@ pub struct Summary {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pocket_forces: Option<PocketForces>,
     /// Extremes, means and integrals of the watched channels over the window, from every step.
-    #[serde(serialize_with = "as_map", skip_serializing_if = "Vec::is_empty")]
+    #[serde(
+        default,
+        serialize_with = "as_map",
+        deserialize_with = "from_map",
+        skip_serializing_if = "Vec::is_empty"
+    )]
     pub extremes: Vec<(String, Extremes)>,
     /// Statistics over the window by channel.
-    #[serde(serialize_with = "as_map")]
+    #[serde(serialize_with = "as_map", deserialize_with = "from_map")]
     pub statistics: Vec<(String, Statistics)>,
     /// Files written, relative to the folder of this one.
     pub files: Vec<String>,
 }
 
 /// Number of states.
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
 pub struct States {
     /// Positions.
     pub positions: usize,
@@ -91,12 +101,12 @@ pub struct States {
 }
 
 /// Counts of the integration.
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
 pub struct Integration {
     /// How accurate, where the method leaves it open.
-    pub preset: &'static str,
+    pub preset: Name,
     /// Method, as in the scene.
-    pub method: &'static str,
+    pub method: Name,
     /// What the integration did and why.
     pub report: String,
     /// Accepted steps.
@@ -108,8 +118,8 @@ pub struct Integration {
     /// Steps abandoned because forces were undefined.
     pub faults: u64,
     /// The same by cause; those that never occurred are left out.
-    #[serde(serialize_with = "as_map")]
-    pub faults_by_cause: Vec<(&'static str, u64)>,
+    #[serde(serialize_with = "as_map", deserialize_with = "from_map")]
+    pub faults_by_cause: Vec<(Name, u64)>,
     /// Root mean square approach speed of the loaded raceway contacts, m/s.
     pub raceway_vibration_rms: f64,
     /// Jumps and kinks of inputs.
@@ -123,23 +133,23 @@ pub struct Integration {
     /// Derivatives of the forces, each with one of the evaluations.
     pub jacobians: u64,
     /// Share of the wall time by part of the force evaluation; the rest is derivatives, integration and records.
-    #[serde(serialize_with = "as_map")]
+    #[serde(serialize_with = "as_map", deserialize_with = "from_map")]
     pub time_shares: Vec<(String, f64)>,
     /// Evaluations of each law in them; those that never acted are left out.
-    #[serde(serialize_with = "as_map")]
-    pub law_evaluations: Vec<(&'static str, u64)>,
+    #[serde(serialize_with = "as_map", deserialize_with = "from_map")]
+    pub law_evaluations: Vec<(Name, u64)>,
 }
 
 /// Work and energy of the run, J.
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
 pub struct Balance {
     /// From this time, s.
     pub from_s: f64,
     /// To this time, s.
     pub to_s: f64,
     /// Work, J; positive where it goes into the bearing. What is zero is left out.
-    #[serde(serialize_with = "as_map")]
-    pub work_j: Vec<(&'static str, f64)>,
+    #[serde(serialize_with = "as_map", deserialize_with = "from_map")]
+    pub work_j: Vec<(Name, f64)>,
     /// Gain of kinetic energy, J.
     pub kinetic_energy_gain_j: f64,
     /// Gain of elastic energy, J.
@@ -153,7 +163,7 @@ pub struct Balance {
 }
 
 /// Averaging window.
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
 pub struct Window {
     /// First record, s.
     pub from_s: f64,
@@ -164,7 +174,7 @@ pub struct Window {
 }
 
 /// Motion of the cage centre about the guide centre.
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
 pub struct Whirl {
     /// Class of the motion.
     pub motion: CageMotion,
@@ -184,7 +194,7 @@ pub struct Whirl {
 }
 
 /// The largest slip of any roller.
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
 pub struct RollerSlip {
     /// Slip: 1 - spin speed over the spin without slip.
     pub value: f64,
@@ -195,7 +205,7 @@ pub struct RollerSlip {
 }
 
 /// Circumferential forces of all elements on the cage, from every step and not from records.
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
 pub struct PocketForces {
     /// Sum of those that drive the cage, mean over time, N.
     pub driving_n: f64,
@@ -206,10 +216,10 @@ pub struct PocketForces {
 }
 
 /// Extremes, mean and integral of one watched channel.
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
 pub struct Extremes {
     /// Unit; "1" for ratios.
-    pub unit: &'static str,
+    pub unit: Name,
     /// Smallest value in any step.
     pub min: f64,
     /// Largest value in any step.
@@ -221,10 +231,10 @@ pub struct Extremes {
 }
 
 /// Statistics of one channel.
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
 pub struct Statistics {
     /// Unit; "1" for ratios.
-    pub unit: &'static str,
+    pub unit: Name,
     /// Mean, deviation and percentiles.
     #[serde(flatten)]
     pub spread: Spread,
@@ -244,7 +254,7 @@ impl Summary {
             scene: scene.display().to_string(),
             case: case.map(str::to_owned),
             set,
-            version: env!("CARGO_PKG_VERSION"),
+            version: env!("CARGO_PKG_VERSION").into(),
             warnings: run.model.scene().warnings(),
             complete: !run.interrupted && run.failure.is_none(),
             interrupted: run.interrupted,
@@ -295,7 +305,7 @@ fn key_statistics(
                 WHIRL_SPEED => whirl_speed?,
                 _ => recording.spread(i, from)?,
             };
-            Some((c.name.clone(), Statistics { unit: c.unit, spread }))
+            Some((c.name.clone(), Statistics { unit: c.unit.into(), spread }))
         })
         .collect()
 }
@@ -312,7 +322,7 @@ fn balance(b: &PowerBalance) -> Balance {
     Balance {
         from_s: b.from,
         to_s: b.to,
-        work_j: POWERS.into_iter().zip(b.work).filter(|(_, work)| *work != 0.0).collect(),
+        work_j: named(POWERS.into_iter().zip(b.work).filter(|(_, work)| *work != 0.0)),
         kinetic_energy_gain_j,
         elastic_energy_gain_j,
         potential_energy_gain_j,
@@ -321,17 +331,22 @@ fn balance(b: &PowerBalance) -> Balance {
     }
 }
 
+/// The pairs with their names as those that were read are.
+fn named<T>(pairs: impl Iterator<Item = (&'static str, T)>) -> Vec<(Name, T)> {
+    pairs.map(|(name, value)| (name.into(), value)).collect()
+}
+
 fn integration(run: &Run) -> Integration {
     let driver = &run.statistics.driver;
     Integration {
-        preset: run.model.scene().solver.preset.name(),
-        method: run.model.scene().solver.method.name(),
+        preset: run.model.scene().solver.preset.name().into(),
+        method: run.model.scene().solver.method.name().into(),
         report: run.report.clone(),
         steps: driver.steps,
         rejected: driver.rejected,
         undone: driver.undone,
         faults: driver.faults,
-        faults_by_cause: FAULTS.into_iter().zip(run.statistics.faults).filter(|(_, n)| *n > 0).collect(),
+        faults_by_cause: named(FAULTS.into_iter().zip(run.statistics.faults).filter(|(_, n)| *n > 0)),
         raceway_vibration_rms: driver.vibration.rms(),
         events: driver.events,
         smallest_step_s: driver.smallest_step,
@@ -339,7 +354,7 @@ fn integration(run: &Run) -> Integration {
         evaluations: run.statistics.evaluations,
         jacobians: run.statistics.jacobians,
         time_shares: time_shares(run),
-        law_evaluations: LAWS.into_iter().zip(run.statistics.laws).filter(|(_, n)| *n > 0).collect(),
+        law_evaluations: named(LAWS.into_iter().zip(run.statistics.laws).filter(|(_, n)| *n > 0)),
     }
 }
 
@@ -399,15 +414,7 @@ fn extremes(run: &Run, from: f64) -> Vec<(String, Extremes)> {
     let watched = run.model.watched().iter().map(|i| &all[*i]);
     let found = watched.enumerate().filter_map(|(place, channel)| {
         let Interval { min, max, mean, integral, .. } = run.recording.interval(place, from)?;
-        Some((channel.name.clone(), Extremes { unit: channel.unit, min, max, mean, integral }))
+        Some((channel.name.clone(), Extremes { unit: channel.unit.into(), min, max, mean, integral }))
     });
     found.collect()
-}
-
-/// Writes the pairs as a map that keeps their order.
-fn as_map<S: Serializer>(
-    pairs: &[(impl Serialize, impl Serialize)],
-    serializer: S,
-) -> Result<S::Ok, S::Error> {
-    serializer.collect_map(pairs.iter().map(|(name, value)| (name, value)))
 }
