@@ -6,6 +6,7 @@
 # make example   the C example, compiled and run, table in out/
 # make pictures  the pictures of the README
 # make effects   cost of every effect and what it changes: docs/results/effects.md
+# make second-paper  whirl of the second paper with elastic cage and heat balance: docs/results/second-paper.md
 # make verify    errors of the integration methods against CVODE: docs/results/verification.md
 # make hard     hard cases with every method and preset: docs/results/hard-cases.md
 # make judge     the presets on random scenes that nothing was tuned to, from SEED on, N of them
@@ -32,7 +33,7 @@ CARGO ?= cargo
 # Python with what tests of its package need.
 PYTHON := $(abspath out/venv/bin/python)
 
-.PHONY: check test release-check tools python-env fmt lint doc shipped quick unit abi deb run cases pictures example effects verify hard judge tuning random statistics \
+.PHONY: check test release-check tools python-env fmt lint doc shipped quick unit abi deb run cases pictures example effects second-paper verify hard judge tuning random statistics \
 	accuracy bench build-times header build install uninstall clean
 
 # The same flags everywhere, so that nothing is built twice.
@@ -113,6 +114,9 @@ example:
 	$(CC) -std=c99 -Wall -Wextra -Wpedantic -Iinclude examples/nu2310.c -o out/nu2310 \
 		-L$(BUILT) -lcagedyn -Wl,-rpath,$(abspath $(BUILT))
 	./out/nu2310 scenes/nu2310.json out/nu2310.csv
+
+second-paper: tools
+	$(CARGO) run --release --locked --package cagedyn-studies --bin second_paper -- --docs
 
 effects: tools
 	$(CARGO) run --release --locked --package cagedyn-studies --bin effects -- --docs
