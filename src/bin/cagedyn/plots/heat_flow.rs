@@ -8,12 +8,16 @@ use plotters::style::text_anchor::{HPos, VPos};
 use std::f64::consts::TAU;
 
 /// Size of the picture, centre and radii of the ring of lumps, px.
-const SIZE: (f64, f64) = (820.0, 560.0);
-const CENTRE: (f64, f64) = (410.0, 310.0);
-const RADII: (f64, f64) = (290.0, 180.0);
-/// Radius of a lump and widest flow, px.
+const SIZE: (f64, f64) = (860.0, 620.0);
+const CENTRE: (f64, f64) = (430.0, 345.0);
+const RADII: (f64, f64) = (310.0, 210.0);
+/// Largest radius of a lump, its share of the way to the next one, and widest flow, px.
 const LUMP: f64 = 38.0;
+const LUMP_SHARE: f64 = 0.4;
 const WIDEST: f64 = 14.0;
+/// Place of the label of a flow on its way, and width of a digit of it, px.
+const LABEL: f64 = 0.42;
+const WIDTH_OF_DIGIT: f64 = 8.0;
 /// Flows below this share of the largest are lines of the least width.
 const LEAST: f64 = 0.8;
 
@@ -39,21 +43,30 @@ pub fn draw(
         };
         let of = |name: &str| place(names.iter().position(|other| other == name).unwrap_or(names.len()));
         let at = |(x, y): (f64, f64)| (px(x), px(y));
+        let way = TAU * RADII.1 / count as f64;
+        let lump = LUMP.min(LUMP_SHARE * way);
+        let mut labels = Vec::new();
         let largest = state.flows.iter().fold(1e-12, |most: f64, flow| most.max(flow.abs()));
         for ([from, to], flow) in links.iter().zip(&state.flows) {
             let (from, to) = if *flow >= 0.0 { (of(from), of(to)) } else { (of(to), of(from)) };
             let width = (WIDEST * flow.abs() / largest).max(LEAST);
-            arrow(canvas, from, to, width, FAINT)?;
-            let middle = (0.5 * (from.0 + to.0), 0.5 * (from.1 + to.1) - 0.5 * width - 3.0);
-            let label = format!("{:.2} W", flow.abs());
-            canvas.draw(&Text::new(label, at(middle), text(TEXT, BLUE, HPos::Center, VPos::Bottom)))?;
+            arrow(canvas, from, to, lump, width, FAINT)?;
+            // Off the middle, where arrows cross.
+            let place = |share: f64| (from.0 + share * (to.0 - from.0), from.1 + share * (to.1 - from.1));
+            labels.push((place(LABEL), format!("{:.2} W", flow.abs())));
+        }
+        for ((x, y), label) in labels {
+            let half = (0.5 * WIDTH_OF_DIGIT * label.len() as f64, 9.0);
+            let corners = [at((x - half.0, y - half.1)), at((x + half.0, y + half.1))];
+            canvas.draw(&Rectangle::new(corners, WHITE.mix(0.85).filled()))?;
+            canvas.draw(&Text::new(label, at((x, y)), text(TEXT, BLUE, HPos::Center, VPos::Center)))?;
         }
         let lumps = names.iter().zip(state.temperatures.iter().zip(&state.heat));
         let lumps = lumps.map(|(name, (temperature, heat))| (name.as_str(), *temperature, *heat));
         for (i, (name, temperature, heat)) in lumps.chain([("ambient", ambient, 0.0)]).enumerate() {
             let (x, y) = place(i);
-            canvas.draw(&Circle::new(at((x, y)), px(LUMP), WHITE.filled()))?;
-            canvas.draw(&Circle::new(at((x, y)), px(LUMP), line(INK, 1.4)))?;
+            canvas.draw(&Circle::new(at((x, y)), px(lump), WHITE.filled()))?;
+            canvas.draw(&Circle::new(at((x, y)), px(lump), line(INK, 1.4)))?;
             let name = name.replace('_', " ");
             canvas.draw(&Text::new(name, at((x, y - 2.0)), text(TEXT, MUTED, HPos::Center, VPos::Bottom)))?;
             let degrees = format!("{temperature:.1} K");
@@ -63,7 +76,7 @@ pub fn draw(
                 let (side, anchor) = if y < CENTRE.1 { (-1.0, VPos::Bottom) } else { (1.0, VPos::Top) };
                 let label = text(TEXT, RED, HPos::Center, anchor);
                 let made = format!("+{heat:.2} W");
-                canvas.draw(&Text::new(made, at((x, y + side * (LUMP + 4.0))), label))?;
+                canvas.draw(&Text::new(made, at((x, y + side * (lump + 4.0))), label))?;
             }
         }
         Ok(())
@@ -75,6 +88,7 @@ fn arrow(
     canvas: &super::style::Canvas<'_>,
     from: (f64, f64),
     to: (f64, f64),
+    lump: f64,
     width: f64,
     color: Paint,
 ) -> Drawn {
@@ -82,7 +96,7 @@ fn arrow(
     let length = dx.hypot(dy);
     let (ux, uy) = (dx / length, dy / length);
     let head = 6.0 + width;
-    let tip = (to.0 - ux * (LUMP + 1.0), to.1 - uy * (LUMP + 1.0));
+    let tip = (to.0 - ux * (lump + 1.0), to.1 - uy * (lump + 1.0));
     let neck = (tip.0 - ux * head, tip.1 - uy * head);
     let point = |(x, y): (f64, f64)| (px(x), px(y));
     canvas.draw(&PathElement::new(vec![point(from), point(neck)], line(color, width)))?;

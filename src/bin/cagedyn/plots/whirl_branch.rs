@@ -6,11 +6,11 @@ use super::style::{
     self, BLUE, CURVE, Canvas, Drawn, INK, MUTED, Marker, ORANGE, Paint, RED, Symbol, THIN, line,
 };
 use cagedyn::Result;
-use cagedyn::whirl::{Branch, Point};
+use cagedyn::whirl::{Branch, End, Point};
 
 /// Size of each diagram and its place, px.
 const WIDTH: f64 = 720.0;
-const HEIGHT: f64 = 240.0;
+const HEIGHT: f64 = 190.0;
 const LEFT: f64 = 100.0;
 const TOP: f64 = 80.0;
 const GAP: f64 = 50.0;
@@ -27,35 +27,50 @@ type Value = fn(&Point) -> f64;
 /// [`cagedyn::Status::File`] when it cannot be drawn.
 pub fn draw(title: &str, path: &str, branch: &Branch) -> Result<String> {
     let points = &branch.points;
-    let x_axis = Axis::covering(path, points.iter().map(|point| point.parameter), 10);
+    let name = match path {
+        "inner_ring.speed.constant" => "speed of the inner ring [rad/s]",
+        path => path,
+    };
+    let x_axis = Axis::covering(name, points.iter().map(|point| point.parameter), 10);
     let subtitle = format!(
-        "Steady whirl without gravity, averaged over the passing elements; it ends at: {}",
-        branch.end.name()
+        "Steady whirl over {path}, without gravity; the branch ends {}",
+        match branch.end {
+            End::Range => "with the range",
+            End::Length => "after as many points as it may have",
+            End::Grazing(_) => "where the number of wet arcs changes",
+            End::Lost(_) => "where no whirl is found further on",
+        }
     );
-    let rows: [(&str, Value); 2] = [
+    let rows: [(&str, Value); 3] = [
         ("whirl speed [rad/s]", |point| point.whirl.speed),
         ("eccentricity [um]", |point| 1e6 * point.whirl.eccentricity),
+        ("largest growth rate [1/s]", |point| {
+            point.whirl.eigenvalues.first().map_or(f64::NAN, |value| value[0])
+        }),
     ];
-    let height = TOP + 2.0 * HEIGHT + GAP + 70.0;
+    let height = TOP + 3.0 * HEIGHT + 2.0 * GAP + 70.0;
     style::picture((LEFT + WIDTH + 200.0, height), title, &subtitle, |canvas| {
-        legend(canvas)?;
+        legend(canvas, points)?;
         for (k, (name, value)) in rows.into_iter().enumerate() {
             let y_axis = Axis::covering(name, points.iter().map(value), 6);
             let place = Place { x: LEFT, y: TOP + k as f64 * (HEIGHT + GAP), w: WIDTH, h: HEIGHT };
-            panel(canvas, place, (&x_axis, &y_axis), k == 1, &[], |panel| contents(panel, points, value))?;
+            panel(canvas, place, (&x_axis, &y_axis), k == 2, &[], |panel| contents(panel, points, value))?;
         }
         Ok(())
     })
 }
 
-fn legend(canvas: &Canvas<'_>) -> Drawn {
-    let entries = [
-        (Marker::Disc, BLUE, "stable"),
-        (Marker::Ring, ORANGE, "unstable"),
-        (Marker::Diamond, RED, "fold"),
-        (Marker::Triangle, INK, "Hopf point"),
+fn legend(canvas: &Canvas<'_>, points: &[Point]) -> Drawn {
+    type Is = fn(&Point) -> bool;
+    let entries: [(Marker, Paint, &str, Is); 5] = [
+        (Marker::Disc, BLUE, "stable", |point| point.whirl.stable()),
+        (Marker::Ring, ORANGE, "unstable", |point| !point.whirl.stable()),
+        (Marker::Diamond, RED, "fold", |point| point.fold),
+        (Marker::Triangle, INK, "Hopf point", |point| point.hopf),
+        (Marker::Square, INK, "wet arcs change", |point| point.grazed),
     ];
-    for (k, (shape, color, name)) in entries.into_iter().enumerate() {
+    let there = entries.into_iter().filter(|(.., is)| points.iter().any(is));
+    for (k, (shape, color, name, _)) in there.enumerate() {
         let at = (LEFT + WIDTH + 28.0, TOP + 16.0 + 26.0 * k as f64);
         style::legend_entry(canvas, at, Symbol::Marker(shape, color), name)?;
     }
@@ -63,9 +78,11 @@ fn legend(canvas: &Canvas<'_>) -> Drawn {
 }
 
 fn contents(panel: &mut Panel<'_, '_, '_>, points: &[Point], value: Value) -> Drawn {
-    panel.curve(points.iter().map(|point| (point.parameter, value(point))), line(MUTED, THIN))?;
-    for pair in points.windows(2).filter(|pair| pair.iter().all(|point| point.whirl.stable())) {
-        panel.curve(pair.iter().map(|point| (point.parameter, value(point))), line(BLUE, CURVE))?;
+    // Between branches there is no line.
+    for pair in points.windows(2).filter(|pair| !pair[1].grazed) {
+        let stable = pair.iter().all(|point| point.whirl.stable());
+        let style = if stable { line(BLUE, CURVE) } else { line(MUTED, THIN) };
+        panel.curve(pair.iter().map(|point| (point.parameter, value(point))), style)?;
     }
     let mark = |point: &Point, shape: Marker, size: f64, color: Paint| {
         style::marker(panel.canvas(), shape, panel.place((point.parameter, value(point))), size, color)
@@ -78,6 +95,9 @@ fn contents(panel: &mut Panel<'_, '_, '_>, points: &[Point], value: Value) -> Dr
         }
         if point.hopf {
             mark(point, Marker::Triangle, MARK, INK)?;
+        }
+        if point.grazed {
+            mark(point, Marker::Square, MARK, INK)?;
         }
     }
     Ok(())
