@@ -100,6 +100,7 @@ static void check_batch(const Model &model)
     batch[1].set_wall_time_limit(0.0);
     CHECK(!batch.advance_to(2e-3, 2));
     CHECK(batch.status(1) == CAGEDYN_ERR_OUT_OF_TIME && !batch.message(1).empty() && batch.message(0).empty());
+    for (std::string_view name : model.inputs().names()) CHECK(model.inputs().has(name));
     Batch taken = std::move(batch);
     CHECK(taken.size() == 3 && taken[0].time() == 2e-3);
 }
@@ -143,6 +144,11 @@ static void check_errors(const Model &model)
     CHECK(status_of([&] { model.states().name(70); }) == CAGEDYN_ERR_BAD_INDEX);
     CHECK(status_of([&] { model.geometry("wheel"); }) == CAGEDYN_ERR_UNKNOWN_NAME);
     CHECK(status_of([&] { sim.step(1e-5); }) == CAGEDYN_OK);
+    Batch batch;
+    batch.add(Sim(model));
+    CHECK(status_of([&] { batch.advance_to(2e-3, -1); }) == CAGEDYN_ERR_BAD_VALUE);
+    CHECK(status_of([&] { batch.advance_to(-1.0); }) == CAGEDYN_ERR_BAD_VALUE);
+    CHECK(status_of([&] { batch.status(9); }) == CAGEDYN_ERR_BAD_INDEX && batch.status(0) == CAGEDYN_OK);
 }
 #endif
 

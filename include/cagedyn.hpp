@@ -70,10 +70,14 @@ class Text {
 public:
     Text(const char *text) noexcept : text_(text) {}
     Text(const std::string &text) noexcept : text_(text.c_str()) {}
-    const char *c_str() const noexcept { return text_; }
+    // A copy, as a view may end without NUL.
+    Text(std::string_view text) : copy_(text), copied_(true) {}
+    const char *c_str() const noexcept { return copied_ ? copy_.c_str() : text_; }
 
 private:
-    const char *text_;
+    const char *text_ = nullptr;
+    std::string copy_;
+    bool copied_ = false;
 };
 
 // Numbers somewhere: `const double` to be read, `double` to be written.
@@ -104,6 +108,13 @@ inline void check([[maybe_unused]] std::int32_t status)
 #endif
 }
 
+inline void fail([[maybe_unused]] std::int32_t status, [[maybe_unused]] const char *message)
+{
+#ifndef CAGEDYN_NO_EXCEPTIONS
+    throw Error(status, message);
+#endif
+}
+
 inline std::int64_t counted(std::int64_t count)
 {
     if (count < 0) check(static_cast<std::int32_t>(count));
@@ -125,6 +136,9 @@ inline const char *told(const char *text)
 template <auto Free> struct Deleter {
     template <class T> void operator()(T *handle) const noexcept { Free(handle); }
 };
+
+// Numbers of short lists, which may grow behind those that are there, but not beyond this.
+constexpr std::size_t room = 64;
 
 inline std::vector<double> zeros(std::int64_t count)
 {
@@ -347,8 +361,8 @@ public:
     // Of a watched output since begin_interval().
     Interval interval(std::int64_t output)
     {
-        double x[7] = {};
-        detail::check(cagedyn_sim_get_interval(sim_, output, x, 7));
+        double x[detail::room] = {};
+        detail::check(cagedyn_sim_get_interval(sim_, output, x, cagedyn_interval_count()));
         return {x[0], x[1], x[2], x[3], x[4], x[5], x[6]};
     }
 
@@ -434,8 +448,8 @@ public:
     }
     Energies energies_at(double t, Input state)
     {
-        double x[3] = {};
-        detail::check(cagedyn_sim_energies_at(sim_, t, state.data(), state.size(), x, 3));
+        double x[detail::room] = {};
+        detail::check(cagedyn_sim_energies_at(sim_, t, state.data(), state.size(), x, cagedyn_energy_count()));
         return {x[0], x[1], x[2]};
     }
 
@@ -506,8 +520,8 @@ public:
     void cancel() const { detail::check(cagedyn_monitor_cancel(handle_.get())); }
     Progress progress() const
     {
-        double x[6] = {};
-        detail::check(cagedyn_monitor_progress(handle_.get(), x, 6));
+        double x[detail::room] = {};
+        detail::check(cagedyn_monitor_progress(handle_.get(), x, cagedyn_progress_count()));
         auto whole = [&x](int i) { return static_cast<std::int64_t>(x[i]); };
         return {whole(0), whole(1), whole(2), whole(3), whole(4), x[5]};
     }
@@ -537,14 +551,28 @@ public:
     // The simulation at this place, which the batch owns. Not to be used while the batch runs.
     SimRef &operator[](std::size_t place) { return sims_[place]; }
 
-    // Advances all to time t (s); false if some did not arrive, see status() and message(). Threads: 0 for all cores.
+    // Advances all to time t (s); false if some did not arrive, see status() and message(). Threads: 0 for all cores. A refused
+    // argument throws.
     bool advance_to(double t, std::int64_t threads = 0)
     {
-        return cagedyn_batch_advance_to(get(), t, threads) == CAGEDYN_OK;
+        const std::int32_t status = cagedyn_batch_advance_to(get(), t, threads);
+        if (status == CAGEDYN_OK) return true;
+        // Nothing ran unless a simulation has failed.
+        const std::string message = cagedyn_error_message();
+        if (status != CAGEDYN_ERR_BUSY) {
+            for (std::size_t i = 0; i < sims_.size(); i++) {
+                if (cagedyn_batch_status(get(), static_cast<std::int64_t>(i)) != CAGEDYN_OK) return false;
+            }
+        }
+        detail::fail(status, message.c_str());
+        return false;
     }
+    // CAGEDYN_OK, or the code with which a simulation failed.
     std::int32_t status(std::size_t place) const
     {
-        return cagedyn_batch_status(get(), static_cast<std::int64_t>(place));
+        const std::int32_t status = cagedyn_batch_status(get(), static_cast<std::int64_t>(place));
+        if (place >= sims_.size()) detail::check(status);
+        return status;
     }
     std::string_view message(std::size_t place) const
     {

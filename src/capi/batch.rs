@@ -149,6 +149,8 @@ pub unsafe extern "C" fn cagedyn_batch_advance_to(batch: *mut cagedyn_batch, t: 
     status(|| {
         // SAFETY: see above.
         let mut batch = unsafe { exclusive("batch", batch) }?;
+        // Nothing has become of them in a call that is refused.
+        batch.results.iter_mut().for_each(|result| *result = (0, CString::default()));
         let threads = usize::try_from(threads)
             .map_err(|_| Error::new(Status::BadValue, format!("threads: {threads} is not 0 or more")))?;
         check_time("t", t)?;

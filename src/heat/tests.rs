@@ -146,3 +146,23 @@ fn the_temperature_of_the_film_is_a_state_in_every_method() {
         assert!((thinner / viscosity - 1.0).abs() < 1e-3, "{method}");
     }
 }
+
+#[test]
+fn the_ends_of_the_viscosity_law_and_what_warms_nothing_are_told() {
+    let settled = |changes: &[(&str, &str)]| balance(changes).settle();
+    // Just within the cold end it settles, at the hot end it says where the law ends.
+    let cold = settled(&[("heat.ambient", "251.0")]).unwrap();
+    assert!(cold.temperatures[0] > 251.0, "{cold:?}");
+    let hot = settled(&[("heat.ambient", "449.0"), ("inner_ring.speed.constant", "800.0")]).unwrap_err();
+    assert!(hot.message.contains("Walther") && hot.message.contains("250 to 450 K"), "{hot}");
+    let refused = |changes: &[(&str, &str)]| {
+        let text = include_str!("../../scenes/grease_guide_heat.json");
+        Scene::from_json_with(text, changes.iter().copied()).unwrap_err().message
+    };
+    let isolated = [("heat.links.6.conductance.constant", "0"), ("heat.links.7.conductance.constant", "0")];
+    assert!(refused(&isolated).contains("ambient"), "{}", refused(&isolated));
+    let cool = [("heat.sources", "[]"), ("heat.bearing_torque", "null")];
+    assert!(refused(&cool).starts_with("heat.sources"), "{}", refused(&cool));
+    let ramp = [("inner_ring.speed", r#"{"ramp": {"from": 0, "to": 300, "start": 0, "end": 1}}"#)];
+    assert!(refused(&ramp).starts_with("inner_ring.speed"), "{}", refused(&ramp));
+}

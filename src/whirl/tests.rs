@@ -74,3 +74,100 @@ fn what_has_no_steady_whirl_is_refused() {
         assert!(error.message.starts_with(says) || error.message.contains(says), "{error}");
     }
 }
+
+/// Mean whirl speed of a run without gravity from the start of the scene, rad/s, over the second half of 0.1 s.
+fn simulated(scene: &Scene) -> f64 {
+    let scene = Scene { gravity: None, ..scene.clone() };
+    let mut sim = crate::Sim::new(std::sync::Arc::new(crate::Model::new(scene).unwrap())).unwrap();
+    let cage = sim.model().layout().cage().unwrap();
+    let (from, to, looks) = (0.05, 0.1, 1000);
+    sim.advance_to(from).unwrap();
+    let direction = |sim: &crate::Sim| math::atan2(sim.state()[cage + 1], sim.state()[cage]);
+    let (mut before, mut turned) = (direction(&sim), 0.0);
+    for i in 1..=looks {
+        sim.advance_to(from + (to - from) * f64::from(i) / f64::from(looks)).unwrap();
+        let now = direction(&sim);
+        let pi = std::f64::consts::PI;
+        turned += (now - before + pi).rem_euclid(2.0 * pi) - pi;
+        before = now;
+    }
+    turned / (to - from)
+}
+
+#[test]
+fn long_runs_without_gravity_whirl_as_the_averaged_cage() {
+    for (name, allowed) in [("grease_guide", 1.5e-3), ("grease_guide_elastic", 7e-3)] {
+        let scene = scene(name, &[]);
+        let (averaged, run) = (steady(&scene, None).unwrap().speed, simulated(&scene));
+        assert!((run / averaged - 1.0).abs() < allowed, "{name}: {run} {averaged}");
+    }
+}
+
+#[test]
+fn softer_waves_have_a_whirl_beyond_the_clearance_that_loses_its_stability() {
+    let whirl =
+        |waves: &str| steady(&scene("grease_guide_elastic", &[("cage.elastic_ring.modes", waves)]), None);
+    let six = whirl("6").unwrap();
+    assert!(six.stable() && (six.eccentricity / 217e-6 - 1.0).abs() < 0.01, "{six:?}");
+    let eight = whirl("8").unwrap();
+    assert!(!eight.stable() && eight.eccentricity > 220e-6, "{eight:?}");
+}
+
+#[test]
+fn the_whirl_under_gravity_is_that_of_an_independent_prototype() {
+    let found = orbit(&scene("grease_guide", &[("inner_ring.speed.constant", "157.0796")])).unwrap();
+    assert!((found.speed / -1324.53 - 1.0).abs() < 2e-4, "{found:?}");
+    assert!(
+        (found.range[0] / -1271.0 - 1.0).abs() < 1e-3 && (found.range[1] / -1379.0 - 1.0).abs() < 1e-3,
+        "{found:?}"
+    );
+    assert!((found.multiplier - 0.44).abs() < 0.02, "{found:?}");
+    let elastic = orbit(&scene("grease_guide_elastic", &[])).unwrap_err();
+    assert!(elastic.message.starts_with("cage.elastic_ring"), "{elastic}");
+}
+
+#[test]
+fn the_three_speeds_of_onset_are_in_their_order() {
+    let found = onset(&scene("grease_guide", &[]), [15.0, 230.0]).unwrap();
+    let [survival, dropped] = [found.survival.unwrap(), found.dropped_start.unwrap()];
+    // 330 to 340 and up to 1075 1/min by an independent prototype, which drops from the centre only.
+    assert!((33.0..40.0).contains(&survival) && (80.0..115.0).contains(&dropped), "{found:?}");
+    assert!(found.loss_of_rest.is_none_or(|lost| lost > dropped), "{found:?}");
+    for range in [[0.0, 10.0], [20.0, 10.0], [1.0, f64::NAN]] {
+        assert_eq!(onset(&scene("grease_guide", &[]), range).unwrap_err().status, Status::BadValue);
+    }
+}
+
+#[test]
+fn a_branch_goes_on_where_the_number_of_wet_arcs_changes() {
+    let base = scene("grease_guide_elastic", &[]);
+    let with = |scene: &Scene, stiffness: f64| {
+        let mut scene = scene.clone();
+        if let Some(ring) = scene.cage.as_mut().and_then(|cage| cage.elastic_ring.as_mut()) {
+            ring.stiffness = crate::scene::RingStiffness::Bending(stiffness);
+        }
+        Ok(scene)
+    };
+    let branch = follow(&base, [0.5, 0.75], with, |_| ()).unwrap();
+    assert_eq!(branch.end.name(), "range");
+    assert!(
+        branch.points.iter().any(|point| point.hopf) && branch.points.iter().any(|point| point.grazed),
+        "{branch:?}"
+    );
+    assert_eq!(branch.points.last().unwrap().parameter, 0.75);
+}
+
+#[test]
+fn what_has_a_direction_or_changes_is_refused() {
+    for (changes, says) in [
+        ([("cage.load", r#"{"force_y": {"constant": 5}}"#)], "cage.load.force_y"),
+        (
+            [("inner_ring.speed", r#"{"ramp": {"from": 0, "to": 300, "start": 0, "end": 1}}"#)],
+            "inner_ring.speed",
+        ),
+        ([("inner_ring.speed.constant", "0")], "inner_ring.speed"),
+    ] {
+        let error = steady(&scene("grease_guide", &changes), None).unwrap_err();
+        assert!(error.message.starts_with(says), "{error}");
+    }
+}

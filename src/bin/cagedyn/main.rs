@@ -4,6 +4,7 @@ mod cases;
 mod effects;
 mod heat;
 mod info;
+mod init;
 mod plots;
 mod report;
 mod results;
@@ -36,6 +37,8 @@ struct Cli {
 enum Command {
     /// Run a scene; write its time series, summary and pictures.
     Run(RunArgs),
+    /// Write a starter scene with comments for a kind of bearing.
+    Init(InitArgs),
     /// Run every case of a case set; write each like `run`, and a comparison.
     Cases(CasesArgs),
     /// Run a scene over a grid or a Latin hypercube of its values; write one table, and a picture. What is done is kept.
@@ -179,6 +182,17 @@ impl Instead {
     }
 }
 
+/// Arguments of `init`.
+#[derive(Args)]
+pub struct InitArgs {
+    /// Kind of bearing.
+    #[arg(value_enum)]
+    kind: init::Kind,
+    /// File to write; printed unless given.
+    #[arg(long, value_name = "FILE.json")]
+    out: Option<PathBuf>,
+}
+
 /// Arguments of `info`.
 #[derive(Args)]
 pub struct InfoArgs {
@@ -280,6 +294,7 @@ fn dispatch(command: &Command) -> Result<ExitCode> {
         Command::Report(args) => report::command(args),
         Command::Heat(args) => heat::command(args),
         Command::Whirl(args) => whirl::command(args),
+        Command::Init(args) => init::command(args),
         Command::Info(args) => info::command(args),
         Command::Schema(args) => schema::command(args),
     }

@@ -28,6 +28,9 @@ const REPEATS: u32 = 50;
 /// Tables above this size are made only when it is asked for, bytes.
 pub const LARGEST_TABLE: f64 = 2e9;
 
+/// What stands for standard input in place of a file.
+const STANDARD_INPUT: &str = "-";
+
 /// Exit code of runs that ended but are not to be trusted.
 pub const UNTRUSTED: u8 = 3;
 
@@ -239,6 +242,10 @@ pub fn comment(text: &str) -> Option<Value> {
 /// # Errors
 /// [`Status::File`].
 pub fn read(path: &Path) -> Result<String> {
+    if path == Path::new(STANDARD_INPUT) {
+        return std::io::read_to_string(std::io::stdin())
+            .map_err(|e| Error::new(Status::File, format!("standard input: {e}")));
+    }
     fs::read_to_string(path).map_err(|e| Error::new(Status::File, format!("{}: {e}", path.display())))
 }
 

@@ -5,8 +5,8 @@
 
 mod cage;
 mod elastic_ring;
-mod grease;
 mod heat;
+mod lubricant;
 mod plausible;
 mod profile;
 
@@ -357,58 +357,6 @@ impl Material {
             number(&format!("{path}.thermal.specific_heat"), t.specific_heat, range(10.0, 1e4, "J/(kg K)"))?;
         }
         Ok(())
-    }
-}
-
-impl Lubricant {
-    fn validate(&self) -> Result<()> {
-        match &self.viscosity {
-            Viscosity::Constant(value) => number("lubricant.viscosity.constant", *value, VISCOSITY)?,
-            Viscosity::Walther(walther) => walther.validate()?,
-        }
-        for (name, value, allowed) in [
-            ("pressure_viscosity", self.pressure_viscosity, range(1e-10, 1e-6, "1/Pa")),
-            ("temperature_viscosity", self.temperature_viscosity, range(1e-4, 1.0, "1/K")),
-            ("conductivity", self.conductivity, range(1e-3, 10.0, "W/(m K)")),
-            ("eyring_stress", self.eyring_stress, range(1e4, 1e9, "Pa")),
-            ("shear_modulus", self.shear_modulus, range(1e6, 1e12, "Pa")),
-        ] {
-            optional(&format!("lubricant.{name}"), value, allowed)?;
-        }
-        self.grease.as_ref().map_or(Ok(()), Grease::validate)
-    }
-}
-
-impl WaltherViscosity {
-    fn validate(&self) -> Result<()> {
-        let at = |field: &str| format!("lubricant.viscosity.walther.{field}");
-        for (name, point) in [("cold", &self.cold), ("hot", &self.hot)] {
-            number(&at(&format!("{name}.temperature")), point.temperature, TEMPERATURE)?;
-            // Walther's equation has log10(nu + 0.7), which must be positive.
-            let allowed = range(0.4e-6, 1.0, "m^2/s");
-            number(&at(&format!("{name}.kinematic_viscosity")), point.kinematic_viscosity, allowed)?;
-        }
-        let (cold, hot) = (&self.cold, &self.hot);
-        if hot.temperature <= cold.temperature || hot.kinematic_viscosity >= cold.kinematic_viscosity {
-            let text = format!(
-                "({:?} K, {:?} m^2/s) must be hotter and thinner than the cold point ({:?} K, {:?} m^2/s)",
-                hot.temperature, hot.kinematic_viscosity, cold.temperature, cold.kinematic_viscosity
-            );
-            return Err(bad(&at("hot"), text));
-        }
-        number(&at("density"), self.density, range(100.0, 2e4, "kg/m^3"))?;
-        match &self.temperature {
-            None => Ok(()),
-            Some(Temperature::OverTime(time)) => signal(&at("temperature.over_time"), time, TEMPERATURE),
-            Some(Temperature::OverSpeed { speed, temperature }) => {
-                let path = at("temperature.over_speed");
-                table(
-                    &path,
-                    ("speed", speed, range(0.0, 1e5, "rad/s")),
-                    ("temperature", temperature, TEMPERATURE),
-                )
-            }
-        }
     }
 }
 
