@@ -718,8 +718,8 @@ int32_t cagedyn_whirl_eigenvalues(const cagedyn_whirl *whirl,
                                   double *frequencies,
                                   int64_t length);
 
-/* How a branch ends: "range" at the end of the range, "length" after as many points as a branch may have, "grazing" where a wet arc
- * appears or vanishes, "lost" where no whirl was found further on; "" on failure. Static text. */
+/* How a branch ends: "range" at the end of the range, "length" after as many points as a branch may have, "lost" where no
+ * whirl was found further on; "" on failure. Static text. */
 const char *cagedyn_whirl_end(const cagedyn_whirl *whirl);
 
 /* Why a branch ends before the end of its range, one line; "" where it does not, and on failure. Lives as long as the branch. */

@@ -16,9 +16,8 @@ use std::sync::Arc;
 const DEVELOPED: f64 = 10e-3;
 /// States at which instructions are counted.
 const STATES: usize = 20;
-/// Most instructions of an evaluation of a cage with nothing but its weight: the call, and twelve elements on their orbits. The profile
-/// of tests does not optimise over units, so calls cost more there.
-const WEIGHT_ALONE: f64 = if cfg!(debug_assertions) { 2150.0 } else { 1250.0 };
+/// Most instructions of an evaluation of a cage with nothing but its weight: the call, and twelve elements on their orbits.
+const WEIGHT_ALONE: f64 = 1250.0;
 /// Instructions that a row may cost more than the unchanged scene, relative to that.
 const MORE: f64 = 0.01;
 

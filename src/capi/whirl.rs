@@ -223,8 +223,8 @@ pub unsafe extern "C" fn cagedyn_whirl_eigenvalues(
     })
 }
 
-/// How a branch ends: "range" at the end of the range, "length" after as many points as a branch may have, "grazing" where a wet arc
-/// appears or vanishes, "lost" where no whirl was found further on; "" on failure. Static text.
+/// How a branch ends: "range" at the end of the range, "length" after as many points as a branch may have, "lost" where no
+/// whirl was found further on; "" on failure. Static text.
 ///
 /// # Safety
 /// `whirl` is NULL or a live handle.
@@ -238,7 +238,6 @@ pub unsafe extern "C" fn cagedyn_whirl_end(whirl: *const cagedyn_whirl) -> *cons
             Ok(match end {
                 End::Range => c"range",
                 End::Length => c"length",
-                End::Grazing(_) => c"grazing",
                 End::Lost(_) => c"lost",
             }
             .as_ptr())

@@ -30,8 +30,6 @@ pub enum End {
     Range,
     /// After as many points as a branch may have.
     Length,
-    /// Where a wet arc appears or vanishes, and no whirl is found beyond: the force has an infinite slope there.
-    Grazing(String),
     /// No whirl was found further on; the text says why.
     Lost(String),
 }
@@ -42,7 +40,6 @@ impl End {
         match self {
             Self::Range => "range",
             Self::Length => "length",
-            Self::Grazing(_) => "grazing",
             Self::Lost(_) => "lost",
         }
     }
@@ -51,7 +48,7 @@ impl End {
     pub fn why(&self) -> Option<&str> {
         match self {
             Self::Range | Self::Length => None,
-            Self::Grazing(why) | Self::Lost(why) => Some(why),
+            Self::Lost(why) => Some(why),
         }
     }
 }

@@ -68,30 +68,66 @@ impl Soap {
     }
 }
 
-impl Thickener {
-    /// eta/eta_b of this fluid where the surfaces slide at the rate `shear` = u/h, 1/s.
+/// Factor of the viscosity of one fluid: a constant, a power of the shear rate g = u/h, and a yield stress,
+/// `constant + power (square + (time g)^2)^exponent + stress (1 - e^{-t_p G})/G`, `G = sqrt(square + g^2)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Thickening {
+    constant: f64,
+    power: f64,
+    square: f64,
+    time: f64,
+    exponent: f64,
+    /// Over the viscosity of the base oil, 1/s; zero for a polymer.
+    stress: f64,
+    yield_time: f64,
+}
+
+impl Thickening {
+    /// eta/eta_b where the surfaces slide at the rate `shear` = u/h, 1/s.
     #[inline(always)]
-    pub(crate) fn factor<T: Numeric>(&self, shear: T, fluid: &Fluid) -> T {
-        match self {
-            Self::Soap(soap) => {
-                let lowest = soap.lowest_shear_rate;
-                let g = (shear * shear + lowest * lowest).sqrt();
-                let scale = fluid.structure / (soap.base_viscosity * fluid.relative_viscosity);
-                let yields = (-(g * -soap.yield_time).exp() + 1.0) * soap.yield_stress;
-                let flows = (g.ln() * soap.exponent).exp() * soap.consistency;
-                (yields + flows) / g * scale + 1.0
-            }
-            Self::Polymer(polymer) => {
-                let of = shear * polymer.relaxation_time;
-                let thinned = ((of * of).ln_1p() * (0.5 * (polymer.exponent - 1.0))).exp();
-                thinned * (1.0 - polymer.plateau) + polymer.plateau
-            }
+    pub(crate) fn factor<T: Numeric>(&self, shear: T) -> T {
+        let of = shear * self.time;
+        let flows = ((of * of + self.square).ln() * self.exponent).exp() * self.power;
+        if self.stress == 0.0 {
+            return flows + self.constant;
         }
+        let g = (shear * shear + self.square).sqrt();
+        let yields = (-(g * -self.yield_time).exp() + 1.0) / g * self.stress;
+        flows + yields + self.constant
     }
 
-    /// The largest factor of this fluid.
-    pub(crate) fn largest(&self, fluid: &Fluid) -> f64 {
-        self.factor(0.0, fluid)
+    /// The largest factor.
+    pub(crate) fn largest(&self) -> f64 {
+        self.factor(0.0)
+    }
+}
+
+impl Thickener {
+    /// What it does to this fluid.
+    pub(crate) fn of(&self, fluid: &Fluid) -> Thickening {
+        match self {
+            Self::Soap(soap) => {
+                let scale = fluid.structure / (soap.base_viscosity * fluid.relative_viscosity);
+                Thickening {
+                    constant: 1.0,
+                    power: soap.consistency * scale,
+                    square: soap.lowest_shear_rate * soap.lowest_shear_rate,
+                    time: 1.0,
+                    exponent: 0.5 * (soap.exponent - 1.0),
+                    stress: soap.yield_stress * scale,
+                    yield_time: soap.yield_time,
+                }
+            }
+            Self::Polymer(polymer) => Thickening {
+                constant: polymer.plateau,
+                power: 1.0 - polymer.plateau,
+                square: 1.0,
+                time: polymer.relaxation_time,
+                exponent: 0.5 * (polymer.exponent - 1.0),
+                stress: 0.0,
+                yield_time: 0.0,
+            },
+        }
     }
 
     /// s at a temperature in K; 1 where there is no soap.
@@ -135,13 +171,13 @@ mod tests {
     #[test]
     fn stress_of_a_soap_is_yield_power_law_and_base_oil() {
         for g in [5e3, 5e4, 3e5] {
-            let stress = laws()[0].factor(g, &Fluid::SAME) * SOAP.base_viscosity * g;
+            let stress = laws()[0].of(&Fluid::SAME).factor(g) * SOAP.base_viscosity * g;
             let expected = 300.0 + 20.0 * f64::powf(g, 0.4) + 0.1 * g;
             assert!((stress / expected - 1.0).abs() < 1e-3, "{g}: {stress} {expected}");
         }
         // Half as strong 30 K above, and as much thinner against an oil that is twice as thick.
         assert!((SOAP.structure(328.0) - 0.5).abs() < 1e-15 && SOAP.structure(298.0) == 1.0);
-        let excess = |fluid: &Fluid| laws()[0].factor(1e4, fluid) - 1.0;
+        let excess = |fluid: &Fluid| laws()[0].of(fluid).factor(1e4) - 1.0;
         let thick = Fluid::new(2.0);
         assert!((excess(&thick) / excess(&Fluid::SAME) - 0.5).abs() < 1e-14);
         let warm = Fluid { structure: 0.5, ..Fluid::SAME };
@@ -151,18 +187,18 @@ mod tests {
     #[test]
     fn viscosity_falls_with_shear_and_is_bounded_at_rest() {
         for law in laws() {
-            let mut before = law.largest(&Fluid::SAME);
+            let mut before = law.of(&Fluid::SAME).largest();
             assert!(before.is_finite());
             for k in 0..60 {
                 let g = 10f64.powf(0.1 * f64::from(k));
-                let (here, back) = (law.factor(g, &Fluid::SAME), law.factor(-g, &Fluid::SAME));
+                let (here, back) = (law.of(&Fluid::SAME).factor(g), law.of(&Fluid::SAME).factor(-g));
                 assert_eq!(here, back);
                 assert!(here <= before, "{law:?} {g}");
                 before = here;
             }
         }
-        assert!((laws()[1].factor(0.0, &Fluid::SAME) - 1.0).abs() < 1e-15);
-        assert!((laws()[1].factor(1e12, &Fluid::SAME) - 0.3).abs() < 2e-3);
+        assert!((laws()[1].of(&Fluid::SAME).factor(0.0) - 1.0).abs() < 1e-15);
+        assert!((laws()[1].of(&Fluid::SAME).factor(1e12) - 0.3).abs() < 2e-3);
     }
 
     #[test]
@@ -170,9 +206,9 @@ mod tests {
         for law in laws() {
             for g in [-3e5, -40.0, 1e-3, 90.0, 2e4] {
                 let h = 1e-5 * g.abs().max(1.0);
-                let exact = law.factor(Dual::<1>::variable(g, 0), &Fluid::SAME).eps[0];
+                let exact = law.of(&Fluid::SAME).factor(Dual::<1>::variable(g, 0)).eps[0];
                 let difference =
-                    (law.factor(g + h, &Fluid::SAME) - law.factor(g - h, &Fluid::SAME)) / (2.0 * h);
+                    (law.of(&Fluid::SAME).factor(g + h) - law.of(&Fluid::SAME).factor(g - h)) / (2.0 * h);
                 let allowed = 1e-6 * exact.abs() + 1e-9;
                 assert!((exact - difference).abs() < allowed, "{law:?} {g}: {exact} {difference}");
             }

@@ -4,6 +4,7 @@
 //! integral over the motion in axes of the eccentricity, and these turn with the journal: what the angle of the lobes does
 //! is what turning everything else the other way does, and the force with it.
 
+use crate::laws::fluid::grease::Thickening;
 use crate::laws::guide::breaks::{Aims, BREAKS, DRY, EXCESS, FUNCTIONS, OPENING, Search, Stretch};
 use crate::laws::guide::gap::{Gap, Lobe};
 use crate::laws::guide::journal::{FilmForce, Harmonic, JournalMotion, NoFilm};
@@ -175,7 +176,7 @@ impl Film<'_> {
     pub fn excess(&self, thinnest: f64, largest_opening: f64) -> Option<f64> {
         let land = &self.land;
         let scale = land.peak_scale * land.barus.pressure_viscosity;
-        let thickest = land.thickener.as_ref().map_or(1.0, |(law, fluid)| law.largest(fluid));
+        let thickest = land.thickening.as_ref().map_or(1.0, Thickening::largest);
         let below = scale * thickest * largest_opening < land.barus.cap * thinnest.max(0.0).powi(3);
         (!below).then(|| land.barus.cap / scale)
     }

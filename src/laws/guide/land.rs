@@ -8,8 +8,7 @@
 //! by parts, leaves h'/2R and h/2R. All of it depends on h, h', G and u; these are linear in the motion, so derivatives are
 //! those over these four, and the rows below.
 
-use crate::laws::fluid::Fluid;
-use crate::laws::fluid::grease::Thickener;
+use crate::laws::fluid::grease::Thickening;
 use crate::laws::guide::barus_film::{BarusFilm, WidthMean};
 use crate::laws::guide::gap::{Gap, Place};
 use crate::scalar::{Base, Duals, Numeric, Of, Pack};
@@ -40,8 +39,8 @@ pub(super) struct Land {
     pub gradient_moment: f64,
     /// Share of the pressure on lobes in the moment of the journal.
     pub lobe_moment: f64,
-    /// What thickens the oil where it is sheared, with the oil as it is.
-    pub thickener: Option<(Thickener, Fluid)>,
+    /// What thickens the oil where it is sheared.
+    pub thickening: Option<Thickening>,
 }
 
 /// What a film does per angle at one place.
@@ -111,14 +110,12 @@ impl Land {
     pub fn at<B: Of<B> + Base>(&self, p: &Place<B>) -> (Stress<B>, WidthMean<B>, B) {
         let inverse = p.cos.splat(1.0) / p.film[0];
         let local = Local { film: p.film[0], slope: p.film[1], opening: p.opening[0], sliding: p.sliding };
-        let mean = match &self.thickener {
-            None => self.barus.mean(self.peak(&local, inverse)),
-            Some((thickener, fluid)) => {
-                let factor = thickener.factor(local.sliding * inverse, fluid);
-                let mean = self.barus.mean(self.peak(&local, inverse) * factor);
-                WidthMean { viscosity: mean.viscosity * factor, ..mean }
-            }
+        let factor = match &self.thickening {
+            None => p.cos.splat(1.0),
+            Some(law) => law.factor(local.sliding * inverse),
         };
+        let mean = self.barus.mean(self.peak(&local, inverse) * factor);
+        let mean = WidthMean { viscosity: mean.viscosity * factor, ..mean };
         (self.stress(&local, inverse, &mean, p.lobe_slope), mean, inverse)
     }
 
@@ -137,8 +134,12 @@ impl Land {
         };
         let inverse = local.film.like(1.0) / local.film;
         let mut peak = self.peak(&local, inverse);
-        let factor = self.thickener.as_ref().map(|(law, fluid)| law.factor(local.sliding * inverse, fluid));
-        if let Some(factor) = factor {
+        let mut factor = peak.like(1.0);
+        if let Some(law) = &self.thickening {
+            // It depends on the shear alone.
+            let shear = local.sliding * inverse;
+            let of_shear = law.factor(Duals::<1, Pack<S, K>>::variable(shear.re, 0));
+            factor = shear.chain(of_shear.re, of_shear.eps[0]);
             peak = peak * factor;
         }
         let mean = self.barus.mean(Duals::<1, Pack<S, K>>::variable(peak.re, 0));
@@ -146,9 +147,10 @@ impl Land {
             pressure: peak.chain(mean.pressure.re, mean.pressure.eps[0]),
             viscosity: peak.chain(mean.viscosity.re, mean.viscosity.eps[0]),
         };
-        let mean = match factor {
-            None => mean,
-            Some(factor) => WidthMean { viscosity: mean.viscosity * factor, ..mean },
+        let mean = if self.thickening.is_some() {
+            WidthMean { viscosity: mean.viscosity * factor, ..mean }
+        } else {
+            mean
         };
         self.stress(&local, inverse, &mean, p.lobe_slope)
     }

@@ -105,7 +105,7 @@ impl LubricantLayer {
             gradient_force: of_gradient,
             gradient_moment: of_gradient,
             lobe_moment: if self.profile_on_journal { 1.0 } else { 0.0 },
-            thickener: self.thickener.map(|law| (law, fluid)),
+            thickening: self.thickener.map(|law| law.of(&fluid)),
         };
         Film {
             land,

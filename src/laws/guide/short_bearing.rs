@@ -102,7 +102,7 @@ impl ShortBearing {
             gradient_force: 0.0,
             gradient_moment: share(self.pressure_moment),
             lobe_moment: share(self.pressure_moment && self.profile_on_journal),
-            thickener: None,
+            thickening: None,
         };
         Film {
             land,

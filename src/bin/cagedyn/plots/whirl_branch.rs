@@ -37,7 +37,6 @@ pub fn draw(title: &str, path: &str, branch: &Branch) -> Result<String> {
         match branch.end {
             End::Range => "with the range",
             End::Length => "after as many points as it may have",
-            End::Grazing(_) => "where the number of wet arcs changes",
             End::Lost(_) => "where no whirl is found further on",
         }
     );

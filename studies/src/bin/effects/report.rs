@@ -2,8 +2,8 @@
 
 use crate::measure::Cost;
 use crate::study::{Change, Outcome, Readings};
+use cagedyn::Result;
 use cagedyn::model::LAWS;
-use cagedyn::{Error, Result, Status};
 use cagedyn_studies::effects::rows::{Kind, Study};
 use std::path::Path;
 
@@ -210,18 +210,13 @@ impl Table {
 /// # Errors
 /// [`Status::File`], also when the page has no place for a table.
 pub fn write_page(path: &Path, reports: &[Report]) -> Result<()> {
-    const END: &str = "<!-- end -->";
-    let mut page = std::fs::read_to_string(path).map_err(|e| cagedyn_studies::file_error(path, e))?;
     for report in reports {
-        for table in report.tables() {
-            let marker = format!("<!-- {} {} -->\n", report.study.name, table.name);
-            let start = page.find(&marker).map(|at| at + marker.len());
-            let place = start.and_then(|start| Some(start..start + page[start..].find(END)?));
-            let place = place.ok_or_else(|| {
-                Error::new(Status::File, format!("{}: no place for {marker}", path.display()))
-            })?;
-            page.replace_range(place, &format!("\n{}\n", table.text()));
-        }
+        let tables = report.tables();
+        let named: Vec<_> = tables
+            .iter()
+            .map(|table| (format!("{} {}", report.study.name, table.name), table.text()))
+            .collect();
+        cagedyn_studies::write_tables(path, named.iter().map(|(name, text)| (name.as_str(), text.clone())))?;
     }
-    std::fs::write(path, page).map_err(|e| cagedyn_studies::file_error(path, e))
+    Ok(())
 }

@@ -4,16 +4,16 @@
 //! Prints tables; with `--docs` also those of `docs/results/second-paper.md`.
 
 mod motion;
-mod page;
+mod table;
 
 use cagedyn::heat::HeatBalance;
 use cagedyn::whirl::onset;
 use cagedyn::{Model, Result, Scene};
 use clap::Parser;
 use motion::{Whirl, whirl_of};
-use page::Table;
 use std::f64::consts::TAU;
 use std::path::Path;
+use table::Table;
 
 #[derive(Parser)]
 #[command(about)]
@@ -37,7 +37,8 @@ fn main() -> Result<()> {
         println!("{}\n{}", table.name, table.text());
     }
     if arguments.docs {
-        page::write(Path::new("docs/results/second-paper.md"), &tables)?;
+        let texts = tables.iter().map(|table| (table.name, table.text()));
+        cagedyn_studies::write_tables(Path::new("docs/results/second-paper.md"), texts)?;
     }
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! Tables of the study, and their place in the documentation.
 
+use cagedyn::Result;
 use cagedyn::sim::Verdict;
-use cagedyn::{Error, Result, Status};
 use cagedyn_studies::statistics::readings::QUANTITIES;
 use cagedyn_studies::statistics::study::{Outcome, Outcomes};
 use cagedyn_studies::statistics::table::Table;
@@ -199,15 +199,5 @@ fn number(x: f64) -> String {
 /// # Errors
 /// [`Status::File`], also when the page has no place for a table.
 pub fn write_page(path: &Path, tables: &[Table]) -> Result<()> {
-    const END: &str = "<!-- end -->";
-    let mut page = std::fs::read_to_string(path).map_err(|e| cagedyn_studies::file_error(path, e))?;
-    for table in tables {
-        let marker = format!("<!-- {} -->\n", table.name);
-        let start = page.find(&marker).map(|at| at + marker.len());
-        let place = start.and_then(|start| Some(start..start + page[start..].find(END)?));
-        let place = place
-            .ok_or_else(|| Error::new(Status::File, format!("{}: no place for {marker}", path.display())))?;
-        page.replace_range(place, &format!("\n{}\n", table.text()));
-    }
-    std::fs::write(path, page).map_err(|e| cagedyn_studies::file_error(path, e))
+    cagedyn_studies::write_tables(path, tables.iter().map(|table| (table.name.as_str(), table.text())))
 }
