@@ -545,16 +545,21 @@ int32_t cagedyn_sim_time(const cagedyn_sim *sim, double *time);
 /* Writes the state to `state` (length: state count). */
 int32_t cagedyn_sim_get_state(const cagedyn_sim *sim, double *state, int64_t length);
 
-/* Sets time (s) and state (length: state count) and restarts the integrator. On failure nothing changes. */
-int32_t cagedyn_sim_set_state(cagedyn_sim *sim, double time, const double *state, int64_t length);
+/* Sets time (s, from 0 to 1e6) and state (length: state count) and restarts the integrator and the power balance. Inputs that
+ * are held stay held. On failure nothing changes. */
+int32_t cagedyn_sim_set_state(cagedyn_sim *sim,
+                              double time,
+                              const double *state,
+                              int64_t length);
 
 /* Advances by `dt` >= 0 seconds. When a refused argument is the failure, nothing changes; otherwise time and state are then
  * those of the last step that could be made, and the simulation can be asked, changed, reset or advanced again. */
 int32_t cagedyn_sim_step(cagedyn_sim *sim,
                          double dt);
 
-/* Advances to time `t` (s), not before the present time. A failure is as that of cagedyn_sim_step(). */
-int32_t cagedyn_sim_advance_to(cagedyn_sim *sim, double t);
+/* Advances to time `t` (s), not before the present time and not beyond 1e6 s. A failure is as that of cagedyn_sim_step(). */
+int32_t cagedyn_sim_advance_to(cagedyn_sim *sim,
+                               double t);
 
 /* Writes the accelerations at the present state (length: velocity count, that is the states from position count on). */
 int32_t cagedyn_sim_accelerations(cagedyn_sim *sim,
@@ -562,8 +567,14 @@ int32_t cagedyn_sim_accelerations(cagedyn_sim *sim,
                                   int64_t length);
 
 /* Writes the forces of all contacts at the present state: one row per contact, one column per contact quantity,
- * rows one after the other (length: contact count times contact quantity count). */
-int32_t cagedyn_sim_contact_forces(cagedyn_sim *sim, double *out, int64_t length);
+ * rows one after the other (length: contact count times contact quantity count).
+ *
+ * The normal n points from the centre of the rolling element to the contact, t is n turned by +90 degrees. With the names of the
+ * quantities the force on the element is -n normal_force + t (friction + rolling_resistance + film_pressure_roller), that on
+ * its mate n normal_force + t (-friction + rolling_resistance + film_pressure_mate). Surfaces that are apart have zeros. */
+int32_t cagedyn_sim_contact_forces(cagedyn_sim *sim,
+                                   double *out,
+                                   int64_t length);
 
 /* Writes the forces on all bodies by source at the present state: for every body a block with one row per force
  * source and one column per force component (length: body count times force source count times force component
@@ -618,6 +629,9 @@ int64_t cagedyn_statistic_count(void);
  * - jacobians: derivatives of all forces; undone_steps: steps that "auto" took back because they missed energy. */
 const char *cagedyn_statistic_name(int64_t index);
 
+/* Index of the statistic of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure. */
+int64_t cagedyn_find_statistic(const char *name);
+
 /* Writes the statistics since creation or reset; a restored simulation goes on from the saved ones (length: statistic
  * count). */
 int32_t cagedyn_sim_statistics(const cagedyn_sim *sim,
@@ -641,6 +655,9 @@ int64_t cagedyn_law_count(void);
 /* Name of a force law, for example "guide_film"; "" for other numbers. Static text. */
 const char *cagedyn_law_name(int64_t index);
 
+/* Index of the force law of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure. */
+int64_t cagedyn_find_law(const char *name);
+
 /* Writes how often each force law was evaluated, once per contact, by the integration since creation or reset (length:
  * law count). Laws that the scene does not use stay at zero. */
 int32_t cagedyn_sim_law_evaluations(const cagedyn_sim *sim,
@@ -660,6 +677,9 @@ int64_t cagedyn_balance_count(void);
  *   through.
  * - from, to: the time that the balance is over, s. */
 const char *cagedyn_balance_name(int64_t index);
+
+/* Index of the item of a power balance of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure. */
+int64_t cagedyn_find_balance(const char *name);
 
 /* Writes the power balance since the start of the scene or the last cagedyn_sim_set_state() (length: balance count). */
 int32_t cagedyn_sim_power_balance(cagedyn_sim *sim,

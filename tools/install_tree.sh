@@ -51,10 +51,14 @@ for file in cagedyn.h cagedyn.hpp; do put 644 "include/$file" "$PREFIX/include/$
 for file in scenes/*.json schemas/*.json; do put 644 "$file" "$share/$file"; done
 for file in matlab/cagedyn_mex.c matlab/Cagedyn.m; do put 644 "$file" "$share/$file"; done
 doc=$PREFIX/share/doc/cagedyn
-for file in LICENSE-MIT LICENSE-APACHE README.md CHANGELOG.md; do put 644 "$file" "$doc/$file"; done
-for file in docs/*.md docs/model/*.md docs/scene/*.md examples/*.c examples/*.h examples/*.cpp examples/*.py examples/*.m examples/*.jl; do
+for file in LICENSE-MIT LICENSE-APACHE ./*.md docs/*.md docs/*/*.md docs/images/* docs/results/accuracy/* python/README.md \
+    python/examples/*.py examples/*.c examples/*.h examples/*.cpp examples/*.py examples/*.m examples/*.jl; do
     put 644 "$file" "$doc/$file"
 done
+# Pages refer to these as in the source tree.
+for folder in scenes schemas matlab; do ln -s "../../cagedyn/$folder" "$tree$doc/$folder"; done
+mkdir "$tree$doc/include"
+for file in cagedyn.h cagedyn.hpp; do ln -s "../../../../include/$file" "$tree$doc/include/$file"; done
 # Texts with the folders and the version in them.
 fill() {
     mkdir -p "$(dirname "$tree$2")"

@@ -8,13 +8,14 @@ SI units everywhere, angles in rad. y points right, z up, rotation is counter-cl
 >>> sim.outputs()["cage.y_ratio"]
 """
 
-from ._batch import Batch, Progress
+from ._batch import Batch, BatchError, Progress
 from ._model import Model, Names, SparsePattern
 from ._native import Error, version
 from ._sim import Inputs, Interval, Sim
 
 __all__ = [
     "Batch",
+    "BatchError",
     "Error",
     "Inputs",
     "Interval",

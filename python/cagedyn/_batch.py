@@ -22,6 +22,17 @@ class Progress:
     share: float
 
 
+class BatchError(Error):
+    """Some simulations of a batch failed; the others arrived. Code and message are those of the first of them."""
+
+    def __init__(self, failures: list[Error | None]) -> None:
+        failed = [(place, failure) for place, failure in enumerate(failures) if failure is not None]
+        place, first = failed[0]
+        super().__init__(first.status, f"{len(failed)} of {len(failures)} simulations failed; number {place}: {first}")
+        #: The failure of each simulation, or None.
+        self.failures = failures
+
+
 class Batch:
     """Simulations that advance together, each with the results that it has alone.
 
@@ -58,11 +69,16 @@ class Batch:
         check(lib.cagedyn_monitor_cancel(self._monitor))
 
     def advance_to(
-        self, t: float, threads: int = 0, progress: Callable[[Progress], None] | None = None
+        self,
+        t: float,
+        threads: int = 0,
+        progress: Callable[[Progress], None] | None = None,
+        check: bool = True,
     ) -> list[Error | None]:
         """Advances all to time `t` in s, on so many threads, on all cores for 0.
 
-        Returns the failure of each, or None. `progress` is called ten times a second while it runs. Ctrl-C stops all after a step, as
+        Raises BatchError when some of them failed, after all others have arrived; with `check=False` returns the failure of each
+        instead, or None. `progress` is called ten times a second while it runs. Ctrl-C stops all after a step, as
         KeyboardInterrupt; they can then go on.
         """
         if threads < 0:
@@ -94,4 +110,6 @@ class Batch:
             status = lib.cagedyn_batch_status(self._handle, place)
             message = text(lib.cagedyn_batch_message(self._handle, place))
             failures.append(Error(status, message) if status != 0 else None)
+        if check and any(failure is not None for failure in failures):
+            raise BatchError(failures)
         return failures

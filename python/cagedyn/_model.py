@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -49,7 +50,12 @@ class Names(Sequence[str]):
 
         Raises KeyError if there is none.
         """
-        return self._places[value]
+        try:
+            return self._places[value]
+        except KeyError:
+            near = difflib.get_close_matches(str(value), self._names, 1)
+            hint = f"; the nearest is {near[0]!r}" if near else ""
+            raise KeyError(f"there is no {value!r} among the {len(self._names)} names{hint}") from None
 
     def __repr__(self) -> str:
         return f"Names({self._names!r})"

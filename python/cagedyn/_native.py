@@ -87,8 +87,10 @@ def made(handle: Any, free: Any) -> Any:
 
 
 def numbers(array: Any) -> tuple[Any, int, Array]:
-    """Pointer and length of what holds numbers, and what keeps them alive."""
+    """Pointer and length of a row of numbers, and what keeps them alive."""
     array = np.ascontiguousarray(array, dtype=np.float64)
+    if array.ndim != 1:
+        raise ValueError(f"an array of one dimension is needed, not one of shape {array.shape}")
     return ffi.cast("double *", array.ctypes.data), array.size, array
 
 

@@ -38,8 +38,8 @@ def test_names(model):
     assert all(len(names.descriptions) == len(names) for names in (model.states, model.inputs, model.outputs))
     assert model.geometry["element_radius"] == 7.5e-3
     assert model.warnings == [] and model.scene["rollers"]["count"] == 12
-    with pytest.raises(KeyError):
-        model.states.index("wheel")
+    with pytest.raises(KeyError, match="nearest is 'cage.y'"):
+        model.states.index("cage.yy")
 
 
 def test_scenes_and_overrides(model):
@@ -144,6 +144,8 @@ def test_errors(model, sim):
         with pytest.raises(cagedyn.Error) as failure:
             call()
         assert str(failure.value) and failure.value.name.startswith("ERR_")
+    with pytest.raises(ValueError, match="shape"):
+        sim.set_state(0.0, sim.state.reshape(2, -1))
     with pytest.raises(ValueError):
         cagedyn.Sim(model, preset="best")
     sim.set_wall_time_limit(0.25)
@@ -187,9 +189,12 @@ def test_batch(model):
         batch.advance_to(0.1, threads, seen.append)
         assert seen and all(0.0 <= progress.share <= 1.0 for progress in seen)
     batch[1].set_wall_time_limit(0.0)
-    failures = batch.advance_to(0.11)
+    failures = batch.advance_to(0.11, check=False)
     assert [failure is None for failure in failures] == [True, False, True, True]
     assert failures[1].name == "ERR_OUT_OF_TIME" and batch[0].time == 0.11
+    with pytest.raises(cagedyn.BatchError, match="1 of 4 .* number 1: ") as failure:
+        batch.advance_to(0.11)
+    assert failure.value.name == "ERR_OUT_OF_TIME" and failure.value.failures[0] is None
     with pytest.raises(cagedyn.Error):
         cagedyn.Batch([batch[0]])
     with pytest.raises(ValueError):

@@ -75,6 +75,19 @@ pub fn last_status() -> i32 {
 /// The empty string that stands for "no name".
 pub const EMPTY: &CStr = c"";
 
+/// Place of a name among these.
+///
+/// # Safety
+/// `name` is NULL or a NUL-terminated text.
+pub unsafe fn find_static(names: &[&[&'static CStr]], name: *const c_char) -> i64 {
+    count(|| {
+        // SAFETY: see above.
+        let name = unsafe { text("name", name) }?;
+        let place = names.iter().copied().flatten().position(|n| n.to_bytes() == name.as_bytes());
+        place.ok_or_else(|| Error::new(Status::UnknownName, format!("name: there is no '{name}'")))
+    })
+}
+
 /// One of these names, "" for other numbers.
 pub fn static_name(names: &'static [&'static CStr], index: i64) -> *const c_char {
     let name = usize::try_from(index).ok().and_then(|i| names.get(i));

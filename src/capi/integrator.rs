@@ -24,8 +24,8 @@ pub unsafe extern "C" fn cagedyn_sim_derivative(
     // SAFETY: see above.
     unsafe {
         with(sim, |s| {
-            check_array("rate", rate.is_null(), length, s.state.len())?;
             read_array("state", state, length, &mut s.state)?;
+            check_array("rate", rate.is_null(), length, s.state.len())?;
             let n = s.state.len();
             s.sim.derivative(t, &s.state, &mut s.result[..n])?;
             write_array("rate", &s.result[..n], rate, length)
@@ -49,8 +49,8 @@ pub unsafe extern "C" fn cagedyn_sim_time_derivative(
     // SAFETY: see above.
     unsafe {
         with(sim, |s| {
-            check_array("rate", rate.is_null(), length, s.state.len())?;
             read_array("state", state, length, &mut s.state)?;
+            check_array("rate", rate.is_null(), length, s.state.len())?;
             let n = s.state.len();
             s.sim.time_derivative(t, &s.state, &mut s.result[..n])?;
             write_array("rate", &s.result[..n], rate, length)

@@ -159,7 +159,8 @@ pub unsafe extern "C" fn cagedyn_sim_get_state(sim: *const cagedyn_sim, state: *
     status(|| unsafe { write_array("state", exclusive("sim", sim)?.sim.state(), state, length) })
 }
 
-/// Sets time (s) and state (length: state count) and restarts the integrator. On failure nothing changes.
+/// Sets time (s, from 0 to 1e6) and state (length: state count) and restarts the integrator and the power balance. Inputs that
+/// are held stay held. On failure nothing changes.
 ///
 /// # Safety
 /// `sim` is NULL or a live handle, `state` NULL or an array of `length` numbers.
@@ -190,7 +191,7 @@ pub unsafe extern "C" fn cagedyn_sim_step(sim: *mut cagedyn_sim, dt: f64) -> i32
     unsafe { with(sim, |s| s.sim.step(dt)) }
 }
 
-/// Advances to time `t` (s), not before the present time. A failure is as that of cagedyn_sim_step().
+/// Advances to time `t` (s), not before the present time and not beyond 1e6 s. A failure is as that of cagedyn_sim_step().
 ///
 /// # Safety
 /// `sim` is NULL or a live handle.
@@ -212,6 +213,10 @@ pub unsafe extern "C" fn cagedyn_sim_accelerations(sim: *mut cagedyn_sim, out: *
 
 /// Writes the forces of all contacts at the present state: one row per contact, one column per contact quantity,
 /// rows one after the other (length: contact count times contact quantity count).
+///
+/// The normal n points from the centre of the rolling element to the contact, t is n turned by +90 degrees. With the names of the
+/// quantities the force on the element is -n normal_force + t (friction + rolling_resistance + film_pressure_roller), that on
+/// its mate n normal_force + t (-friction + rolling_resistance + film_pressure_mate). Surfaces that are apart have zeros.
 ///
 /// # Safety
 /// `sim` is NULL or a live handle, `out` NULL or an array of `length` numbers.

@@ -1,6 +1,8 @@
 //! Counts, numbers of health and reports of simulations in C.
 
-use super::guard::{EMPTY, check_array, exclusive, guard, static_name, status, to_c_string, write_array};
+use super::guard::{
+    EMPTY, check_array, exclusive, find_static, guard, static_name, status, to_c_string, write_array,
+};
 use super::sim::cagedyn_sim;
 use crate::model::{LAWS, Law, POWERS, Power};
 use crate::sim::{BALANCE_ITEMS, BalanceItem, STATISTICS, Statistic};
@@ -26,6 +28,16 @@ pub extern "C" fn cagedyn_statistic_count() -> i64 {
 #[unsafe(no_mangle)]
 pub extern "C" fn cagedyn_statistic_name(index: i64) -> *const c_char {
     static_name(&Statistic::C_NAMES, index)
+}
+
+/// Index of the statistic of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
+///
+/// # Safety
+/// `name` is NULL or a NUL-terminated text.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_find_statistic(name: *const c_char) -> i64 {
+    // SAFETY: see above.
+    unsafe { find_static(&[&Statistic::C_NAMES], name) }
 }
 
 /// Writes the statistics since creation or reset; a restored simulation goes on from the saved ones (length: statistic
@@ -83,6 +95,16 @@ pub extern "C" fn cagedyn_law_name(index: i64) -> *const c_char {
     static_name(&Law::C_NAMES, index)
 }
 
+/// Index of the force law of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
+///
+/// # Safety
+/// `name` is NULL or a NUL-terminated text.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_find_law(name: *const c_char) -> i64 {
+    // SAFETY: see above.
+    unsafe { find_static(&[&Law::C_NAMES], name) }
+}
+
 /// Writes how often each force law was evaluated, once per contact, by the integration since creation or reset (length:
 /// law count). Laws that the scene does not use stay at zero.
 ///
@@ -125,6 +147,16 @@ pub extern "C" fn cagedyn_balance_name(index: i64) -> *const c_char {
     } else {
         static_name(&BalanceItem::C_NAMES, index - works)
     }
+}
+
+/// Index of the item of a power balance of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure.
+///
+/// # Safety
+/// `name` is NULL or a NUL-terminated text.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_find_balance(name: *const c_char) -> i64 {
+    // SAFETY: see above.
+    unsafe { find_static(&[&Power::C_NAMES, &BalanceItem::C_NAMES], name) }
 }
 
 /// Writes the power balance since the start of the scene or the last cagedyn_sim_set_state() (length: balance count).

@@ -12,6 +12,7 @@ use cagedyn::capi::limits::*;
 use cagedyn::capi::model::*;
 use cagedyn::capi::sim::*;
 use cagedyn::capi::statistics::*;
+use cagedyn::capi::whirl::*;
 use cagedyn::capi::*;
 use fastrand::Rng;
 use std::ffi::{CStr, CString, c_char};
@@ -31,6 +32,7 @@ type Finds = unsafe extern "C" fn(*const cagedyn_model, *const c_char) -> i64;
 type Writes = unsafe extern "C" fn(*mut cagedyn_sim, *mut f64, i64) -> i32;
 type Reads = unsafe extern "C" fn(*const cagedyn_sim, *mut f64, i64) -> i32;
 type Anywhere = unsafe extern "C" fn(*mut cagedyn_sim, f64, *const f64, i64, *mut f64, i64) -> i32;
+type Names = unsafe extern "C" fn(*const c_char) -> i64;
 type Rates = unsafe extern "C" fn(*mut cagedyn_sim, f64, *const f64, *mut f64, i64) -> i32;
 
 const TEXTS: [Texts; 23] = [
@@ -93,6 +95,8 @@ const FINDS: [Finds; 9] = [
     cagedyn_model_find_geometry,
 ];
 
+const NAMES: [Names; 3] = [cagedyn_find_statistic, cagedyn_find_law, cagedyn_find_balance];
+
 const WRITES: [(Writes, usize); 6] = [
     (cagedyn_sim_accelerations, VELOCITIES),
     (cagedyn_sim_contact_forces, CONTACTS),
@@ -146,6 +150,7 @@ struct Host {
     batch: *mut cagedyn_batch,
     in_batch: usize,
     monitor: *mut cagedyn_monitor,
+    whirl: *mut cagedyn_whirl,
     buffer: Vec<f64>,
     failures: u64,
 }
@@ -166,7 +171,8 @@ impl Host {
         assert!(models.iter().all(|model| !model.is_null()));
         let batch = cagedyn_batch_new();
         // SAFETY: a live handle.
-        let monitor = unsafe { cagedyn_monitor_new(batch) };
+        let (monitor, whirl) = unsafe { (cagedyn_monitor_new(batch), cagedyn_whirl_steady(models[1])) };
+        assert!(!whirl.is_null());
         Self {
             rng: Rng::with_seed(seed),
             models: models.to_vec(),
@@ -174,6 +180,7 @@ impl Host {
             batch,
             in_batch: 0,
             monitor,
+            whirl,
             buffer: vec![UNTOUCHED; ROOM],
             failures: 0,
         }
@@ -317,8 +324,11 @@ impl Host {
                     self.check("count", count);
                 }
                 4 => {
-                    let call = FINDS[self.rng.usize(0..FINDS.len())];
-                    let found = call(model, text);
+                    let found = if self.one_of(4) {
+                        NAMES[self.rng.usize(0..NAMES.len())](text)
+                    } else {
+                        FINDS[self.rng.usize(0..FINDS.len())](model, text)
+                    };
                     self.check("find", found);
                 }
                 5 => {
@@ -468,6 +478,52 @@ impl Host {
         }
     }
 
+    fn about_whirl(&mut self) {
+        let whirl = if self.one_of(10) { null_mut() } else { self.whirl };
+        let (point, model, out) = (self.index(1), self.model(), self.out());
+        let text = self.text();
+        let text = text.as_ref().map_or(null(), |text| text.as_ptr());
+        // SAFETY: as above.
+        unsafe {
+            match self.rng.u32(0..7) {
+                0 => {
+                    let n = self.length(cagedyn_whirl_quantity_count());
+                    let status = cagedyn_whirl_point(whirl, point, out, n);
+                    self.check("point", status.into());
+                }
+                1 => {
+                    let n = self.length(0);
+                    let status = cagedyn_whirl_amplitudes(whirl, point, out, n);
+                    self.check("amplitudes", status.into());
+                }
+                2 => {
+                    let n = self.length(cagedyn_whirl_eigenvalue_count(self.whirl));
+                    let mut frequencies = [UNTOUCHED; 32];
+                    let status = cagedyn_whirl_eigenvalues(whirl, point, out, frequencies.as_mut_ptr(), n);
+                    assert_eq!(status == CAGEDYN_OK, frequencies[0].to_bits() != UNTOUCHED.to_bits());
+                    self.check("eigenvalues", status.into());
+                }
+                3 => {
+                    let count = cagedyn_whirl_wave_count(whirl);
+                    self.check("waves", count);
+                }
+                4 => {
+                    let count = cagedyn_whirl_point_count(whirl);
+                    self.check("points", count);
+                }
+                5 => {
+                    assert!(!cagedyn_whirl_end(whirl).is_null() && !cagedyn_whirl_why(whirl).is_null());
+                    assert!(!cagedyn_whirl_quantity_name(point).is_null());
+                }
+                _ => {
+                    // None of these texts is the path of a number.
+                    let made = cagedyn_whirl_follow(model, text, self.number(), self.number());
+                    assert!(made.is_null() && cagedyn_error_status() != CAGEDYN_OK);
+                }
+            }
+        }
+    }
+
     fn about_batches(&mut self) {
         let batch = if self.one_of(10) { null_mut() } else { self.batch };
         let monitor = if self.one_of(10) { null_mut() } else { self.monitor };
@@ -552,6 +608,7 @@ impl Host {
             self.sims.drain(..).for_each(|owned| cagedyn_sim_free(owned.sim));
             cagedyn_batch_free(self.batch);
             cagedyn_monitor_free(self.monitor);
+            cagedyn_whirl_free(self.whirl);
             self.models.drain(..).for_each(|model| cagedyn_model_free(model));
         }
     }
@@ -564,9 +621,10 @@ fn random_calls_crash_nothing_and_leave_everything_usable() {
     for seed in 0..calls.div_ceil(CALLS) {
         let mut host = Host::new(seed);
         for _ in 0..calls.min(CALLS) {
-            match host.rng.u32(0..10) {
-                0..3 => host.about_models(),
-                3..9 => host.about_sims(),
+            match host.rng.u32(0..20) {
+                0..6 => host.about_models(),
+                6..17 => host.about_sims(),
+                17 => host.about_whirl(),
                 _ => host.about_batches(),
             }
         }

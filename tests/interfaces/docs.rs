@@ -290,7 +290,7 @@ fn pages() -> Vec<String> {
 }
 
 /// Targets of the links and pictures of a page: `](target)`, `href="target"` and `src="target"`.
-fn links(page: &str) -> Vec<&str> {
+pub fn links(page: &str) -> Vec<&str> {
     let mut targets = Vec::new();
     for line in prose(page) {
         for (start, end) in [("](", ')'), ("href=\"", '"'), ("src=\"", '"')] {

@@ -2,6 +2,7 @@
 #![cfg(all(target_os = "linux", feature = "cli"))]
 
 use crate::common::repository;
+use crate::docs::links;
 use std::path::Path;
 use std::process::Command;
 
@@ -71,6 +72,21 @@ fn installing_puts_everything_in_place_and_removing_takes_it_away() {
         "share/doc/cagedyn/LICENSE-MIT",
     ] {
         assert!(installed.contains(&format!("opt/bearing/{file}")), "{file} is not in {installed:#?}");
+    }
+    let doc = root.path().join("opt/bearing/share/doc/cagedyn");
+    for page in installed.iter().filter(|file| file.ends_with(".md")) {
+        let page = root.path().join(page);
+        let text = std::fs::read_to_string(&page).expect("readable");
+        for link in links(&text).into_iter().filter(|link| !link.contains("://") && !link.starts_with('#')) {
+            let file = page.parent().expect("a folder").join(link.split('#').next().expect("a path"));
+            // Sources of tests and studies are not installed.
+            let source = ["ctests/", "studies/"].iter().any(|folder| link.contains(folder));
+            assert!(
+                file.exists() || source,
+                "{}: {link}",
+                page.strip_prefix(&doc).expect("a page").display()
+            );
+        }
     }
     let read =
         |file: &str| std::fs::read_to_string(root.path().join("opt/bearing/lib64").join(file)).unwrap();
