@@ -134,10 +134,12 @@ impl Model {
             batch.add_wrenches(ws.motions.instructions, &mut ws.on_elements);
         }
         self.add_on_mates(ws, &mut on, |block| &block.on_mates);
-        let mut on_modes = std::mem::take(&mut ws.on_modes);
-        on_modes.fill(0.0);
-        self.add_on_modes(ws, &mut on_modes, |block| &block.on_mates);
-        ws.on_modes = on_modes;
+        if !ws.on_modes.is_empty() {
+            let mut on_modes = std::mem::take(&mut ws.on_modes);
+            on_modes.fill(0.0);
+            self.add_on_modes(ws, &mut on_modes, |block| &block.on_mates);
+            ws.on_modes = on_modes;
+        }
         let Workspace {
             motions,
             of_shared: [q, v, _],
