@@ -107,6 +107,14 @@ impl Sim {
         Ok(PowerBalance { from: time, to, work, energy: [start, energy] })
     }
 
+    /// Works of all forces since the balance began, up to the present time, J: in the order of [`POWERS`], positive where they go
+    /// into the bearing.
+    pub fn works(&self) -> [f64; POWERS.len()] {
+        let mut works = [0.0; POWERS.len()];
+        works.copy_from_slice(&self.works_at(self.time())[..POWERS.len()]);
+        works
+    }
+
     /// Share of the time since the balance began in which a law was at a floor.
     pub(super) fn share_at_floor(&self) -> f64 {
         let to = self.driver.reached();

@@ -44,7 +44,9 @@ fn run_writes_table_summary_and_pictures() {
     assert_eq!(summary["simulated_time_s"], 0.02);
     assert_eq!(summary["interrupted"], false);
     assert!(summary["statistics"]["cage.y_ratio"]["mean"].is_number(), "{summary}");
-    for picture in ["cage_orbit", "cage_position", "roller_history", "cage_spectrum"] {
+    for picture in
+        ["cage_orbit", "cage_position", "roller_history", "cage_spectrum", "over_orbit", "contact_forces"]
+    {
         let svg = std::fs::read_to_string(out.join(format!("{picture}.svg"))).expect(picture);
         assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"), "{picture}");
         assert!(svg.contains("NU2310") && !svg.contains("NaN"), "{picture}");

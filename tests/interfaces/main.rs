@@ -6,6 +6,7 @@ mod c_programs;
 mod common;
 
 mod abi;
+mod analysis;
 mod c_abi;
 mod c_cvode;
 mod calls;

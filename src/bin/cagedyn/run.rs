@@ -1,7 +1,7 @@
 //! The command `run`, and the simulation of one scene that `cases` shares with it.
 
 use crate::results::facts;
-use crate::results::finished::Run;
+use crate::results::finished::{BeforeWindow, Run};
 use crate::results::formats::{self, TableFormat};
 use crate::results::stream::{self, Stream};
 use crate::results::summary::Summary;
@@ -134,12 +134,13 @@ pub fn perform(request: Request<'_>, instead: &Instead, progress: &dyn Fn(f64)) 
     let mut recording = Recording::default();
     let started = Instant::now();
     let mut samples: Vec<(f64, Vec<f64>)> = Vec::new();
-    let mut unwritten = None;
+    let (mut unwritten, mut before) = (None, BeforeWindow::new(&model.scene().record));
     let ended = recording.run(&mut sim, duration, interval, |sim, recording| {
         progress(sim.time());
         if sim.time() >= duration * samples.len() as f64 / SAMPLES {
             samples.push((sim.time(), sim.state().to_vec()));
         }
+        before.at(sim);
         unwritten = stream.add(recording).err();
         unwritten.is_none() && !terminal::stop_requested()
     });
@@ -147,7 +148,7 @@ pub fn perform(request: Request<'_>, instead: &Instead, progress: &dyn Fn(f64)) 
     let written = unwritten.map_or_else(|| stream.finish(), Err);
     let wall = started.elapsed().as_secs_f64();
     let parts = sim.time_parts(&samples, REPEATS).unwrap_or_default();
-    let mut run = finished(&mut sim, title, recording, (ended, written), (wall, parts));
+    let mut run = finished(&mut sim, title, (recording, before), (ended, written), (wall, parts));
     let mut summary = Summary::new(&run, file, case, set);
     if instead.starts > 1 && summary.complete {
         let count = usize::from(instead.starts);
@@ -176,7 +177,7 @@ pub fn perform(request: Request<'_>, instead: &Instead, progress: &dyn Fn(f64)) 
 pub fn finished(
     sim: &mut Sim,
     title: String,
-    recording: Recording,
+    (recording, before): (Recording, BeforeWindow),
     (ended, written): (Result<()>, Result<()>),
     (wall, parts): (f64, PartTimes),
 ) -> Run {
@@ -201,6 +202,9 @@ pub fn finished(
         written: written.is_ok(),
         interrupted,
         balance: sim.power_balance().ok(),
+        contacts: sim.forces().map_or(Vec::new(), |forces| forces.contacts.clone()),
+        works: sim.works(),
+        before,
         failure: ended.err().filter(|e| e.status != Status::Cancelled).or(written.err()),
         model,
         recording,

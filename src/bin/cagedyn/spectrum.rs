@@ -21,6 +21,34 @@ pub struct Spectrum {
     /// Two sines closer than this are one peak, Hz: half the width of the main lobe of the window. What is slower is no
     /// oscillation in the time that was seen.
     pub resolution: f64,
+    /// Stretches of time that it is the mean of.
+    pub segments: u32,
+}
+
+/// Spectrum of samples taken every `interval` seconds: root of the mean power of segments that overlap by half, as many of them as
+/// there can be while sines `resolution` Hz apart can be told apart; of all samples together where there are too few for that.
+/// `None` for too few samples.
+pub fn averaged_spectrum(samples: &[f64], interval: f64, resolution: f64) -> Option<Spectrum> {
+    let wanted = (2.0 / (resolution * interval)).ceil();
+    let length = if wanted < samples.len() as f64 { wanted as usize } else { samples.len() };
+    let step = (length / 2).max(1);
+    let starts = (0..=samples.len() - length).step_by(step);
+    let mut sum: Option<Spectrum> = None;
+    let mut segments = 0;
+    for start in starts {
+        let one = amplitude_spectrum(&samples[start..start + length], interval)?;
+        segments += 1;
+        match &mut sum {
+            None => {
+                sum = Some(Spectrum { amplitudes: one.amplitudes.iter().map(|a| a * a).collect(), ..one })
+            }
+            Some(sum) => sum.amplitudes.iter_mut().zip(&one.amplitudes).for_each(|(s, a)| *s += a * a),
+        }
+    }
+    let mut mean = sum?;
+    mean.amplitudes.iter_mut().for_each(|power| *power = (*power / f64::from(segments)).sqrt());
+    mean.segments = segments;
+    Some(mean)
 }
 
 /// Spectrum of samples taken every `interval` seconds, with a Hann window and without their mean. `None` for too few
@@ -47,6 +75,7 @@ pub fn amplitude_spectrum(samples: &[f64], interval: f64) -> Option<Spectrum> {
         frequencies: (0..values.len()).map(|k| k as f64 * step).collect(),
         amplitudes: values.iter().map(|x| 2.0 * x.norm() / gain).collect(),
         resolution: 2.0 / (n as f64 * interval),
+        segments: 1,
     })
 }
 
@@ -62,6 +91,15 @@ impl Spectrum {
             let largest = f.iter().zip(a).max_by(|x, y| x.1.total_cmp(y.1))?;
             Some((*largest.0, *largest.1))
         })
+    }
+
+    /// Amplitude at a frequency, Hz: the largest within half of the resolution. `None` beyond the last line.
+    pub fn at(&self, frequency: f64) -> Option<f64> {
+        let near = 0.5 * self.resolution;
+        let from = self.frequencies.partition_point(|f| *f < frequency - near);
+        let to = self.frequencies.partition_point(|f| *f <= frequency + near);
+        let all = self.amplitudes.get(from..to)?;
+        (frequency <= *self.frequencies.last()?).then(|| all.iter().copied().fold(0.0, f64::max))
     }
 
     /// Frequency and amplitude of the highest local maximum above the resolution: what is below is a drift.
@@ -132,6 +170,31 @@ mod tests {
             amplitude_spectrum(&one, INTERVAL).unwrap().lines(1000).map(|(_, a)| a).collect();
         let maxima = shown.windows(3).filter(|a| a[1] > a[0] && a[1] > a[2]).count();
         assert_eq!(maxima, 1);
+    }
+
+    #[test]
+    fn segments_keep_amplitudes_and_lower_the_scatter_of_noise() {
+        let mut rng = fastrand::Rng::with_seed(5);
+        let n = 8 * N;
+        let samples: Vec<f64> =
+            (0..n).map(|i| (TAU * 0.1 * i as f64).sin() + 0.5 * (rng.f64() - 0.5)).collect();
+        let one = amplitude_spectrum(&samples, INTERVAL).unwrap();
+        let wanted = 2.0 / (N as f64 * INTERVAL);
+        let many = averaged_spectrum(&samples, INTERVAL, wanted).unwrap();
+        assert_eq!((one.segments, many.segments, many.resolution), (1, 15, wanted));
+        let (frequency, amplitude) = many.peak().unwrap();
+        assert!((frequency - 200.0).abs() < 1.0 && (amplitude - 1.0).abs() < 0.01, "{frequency} {amplitude}");
+        assert!((many.at(200.0).unwrap() - 1.0).abs() < 0.01 && many.at(1e9).is_none());
+        // The noise above 400 Hz: its scatter over the lines.
+        let scatter = |s: &Spectrum| {
+            let from = s.frequencies.partition_point(|f| *f < 400.0);
+            let spread = cagedyn::Spread::of(&s.amplitudes[from..]).unwrap();
+            spread.deviation / spread.mean
+        };
+        assert!(scatter(&many) < 0.45 * scatter(&one), "{} {}", scatter(&many), scatter(&one));
+        // A resolution that the samples do not have is not there.
+        assert_eq!(averaged_spectrum(&samples[..N], INTERVAL, 1e-3).unwrap().resolution, wanted);
+        assert_eq!(averaged_spectrum(&[1.0; 8], INTERVAL, 1.0), None);
     }
 
     #[test]

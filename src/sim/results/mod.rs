@@ -1,6 +1,7 @@
 //! What a run tells: records, intervals, statistics, and whether to trust it.
 
 pub(in crate::sim) mod interval;
+pub(in crate::sim) mod over_orbit;
 pub(in crate::sim) mod recording;
 pub(in crate::sim) mod sample;
 pub(in crate::sim) mod statistics;

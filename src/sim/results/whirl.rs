@@ -12,6 +12,10 @@
 //! Near the guide centre the whirl speed is noise: records closer to it than 0.1 % of the clearance are left out of its
 //! statistics and of the settling time.
 //!
+//! The *deviation of the velocity*, a measure of how steady a cage runs, is the standard deviation of the speed of its centre over
+//! the mean of that speed: near zero of a regular whirl, about one half of a random walk, and larger of a cage that rests and is
+//! hit now and then. It says nothing of a cage that rests.
+//!
 //! Without a clearance, the largest distance of the centre from the guide centre in the window stands in for it.
 
 use crate::scalar::math;
@@ -101,6 +105,9 @@ pub struct WhirlSummary {
     pub settling_time: Option<f64>,
     /// Net turns of the centre about the guide centre in the window, positive counter-clockwise.
     pub turns: f64,
+    /// Standard deviation of the speed of the centre over its mean, from one record to the next; `None` for a centre that
+    /// stays in its place.
+    pub velocity_deviation: Option<f64>,
     /// Class of the motion.
     pub motion: CageMotion,
 }
@@ -122,7 +129,8 @@ impl WhirlSummary {
         let turns = window.turns(speed.as_ref());
         let motion = window.motion(speed.as_ref(), radius, turns);
         let settling_time = speed.and_then(|speed| settling_time(&record.part(0, count)?, first, speed.mean));
-        Some(Self { speed, radius, settling_time, turns, motion })
+        let velocity_deviation = window.velocity_deviation();
+        Some(Self { speed, radius, settling_time, turns, velocity_deviation, motion })
     }
 }
 
@@ -172,6 +180,14 @@ impl<'a> WhirlRecord<'a> {
         let steps = self.places().zip(self.places().skip(1));
         let angles = steps.map(|((y0, z0), (y1, z1))| math::atan2(y0 * z1 - z0 * y1, y0 * y1 + z0 * z1));
         angles.sum::<f64>() / TAU
+    }
+
+    fn velocity_deviation(&self) -> Option<f64> {
+        let steps = self.places().zip(self.places().skip(1)).zip(self.times.windows(2));
+        let speeds: Vec<f64> =
+            steps.map(|(((y0, z0), (y1, z1)), t)| math::hypot(y1 - y0, z1 - z0) / (t[1] - t[0])).collect();
+        let speed = Spread::of(&speeds).filter(|speed| speed.mean > 0.0)?;
+        Some(speed.deviation / speed.mean)
     }
 
     fn motion(&self, speed: Option<&Spread>, radius: f64, turns: f64) -> CageMotion {
@@ -247,6 +263,18 @@ mod tests {
 
     fn circle(radius: f64, speed: f64) -> impl Fn(f64) -> (f64, f64) {
         move |t| (radius * (speed * t).cos(), radius * (speed * t).sin())
+    }
+
+    #[test]
+    fn velocities_of_a_steady_whirl_do_not_deviate() {
+        let whirl = Orbit::new(140.0, INTERVAL, circle(0.8, -2000.0)).summary();
+        assert!(whirl.velocity_deviation.is_some_and(|x| x < 1e-9), "{whirl:?}");
+        // Along a line the speed is that of a rectified sine: its deviation is sqrt(pi^2 / 8 - 1) of its mean.
+        let swing = Orbit::new(140.0, INTERVAL, |t| (0.1 + 0.3 * (97.0 * t).sin(), 0.0)).summary();
+        let expected = (PI * PI / 8.0 - 1.0).sqrt();
+        assert!(swing.velocity_deviation.is_some_and(|x| (x - expected).abs() < 0.01), "{swing:?}");
+        let rest = Orbit::new(140.0, INTERVAL, |_| (0.5, -0.5)).summary();
+        assert_eq!(rest.velocity_deviation, None);
     }
 
     #[test]

@@ -2,8 +2,10 @@
 
 mod axis;
 mod cage_positions;
+mod forces;
 pub mod heat_flow;
 mod orbit;
+mod over_orbit;
 mod panel;
 mod position;
 mod roller;
@@ -40,8 +42,15 @@ fn look(k: usize) -> (Marker, Paint) {
 }
 
 /// File names of the pictures of a run.
-pub const PICTURES: [&str; 5] =
-    ["cage_orbit.svg", "cage_position.svg", "roller_history.svg", "whirl_history.svg", "cage_spectrum.svg"];
+pub const PICTURES: [&str; 7] = [
+    "cage_orbit.svg",
+    "cage_position.svg",
+    "roller_history.svg",
+    "over_orbit.svg",
+    "whirl_history.svg",
+    "cage_spectrum.svg",
+    "contact_forces.svg",
+];
 
 /// File names and contents of the pictures of a run.
 ///
@@ -56,8 +65,10 @@ pub fn pictures(run: &Run, summary: &Summary) -> Result<Vec<(&'static str, Strin
         orbit::cage_orbit(run, summary),
         position::cage_position(run, summary),
         roller::roller_history(run),
+        over_orbit::over_orbit(run, summary),
         whirl_history::whirl_history(run, summary),
         spectrum::cage_spectrum(run, summary),
+        forces::contact_forces(run),
     ];
     PICTURES.into_iter().zip(drawn).filter_map(|(name, svg)| Some(svg?.map(|svg| (name, svg)))).collect()
 }

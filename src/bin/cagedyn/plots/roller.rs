@@ -44,5 +44,6 @@ pub fn roller_history(run: &Run) -> Option<Result<String>> {
         entries.push((Symbol::Line(ENVELOPE), "extremes in every step".to_owned()));
     }
     let subtitle = &run.subtitle("Roller 0: slip, place in its pocket and forces");
-    Some(strips::history(&Texts { title: &run.title, subtitle, entries }, times, &strips, &loaded))
+    let texts = Texts { title: &run.title, subtitle, axis: strips::TIME, entries };
+    Some(strips::history(&texts, times, &strips, &loaded))
 }

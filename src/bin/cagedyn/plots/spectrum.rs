@@ -4,18 +4,14 @@ use super::axis::Axis;
 use super::panel::{Place, panel};
 use super::style::{self, BLUE, INK, MUTED, Marker, RED, Symbol, TEXT, THIN, line, px, text};
 use crate::results::finished::Run;
-use crate::results::summary::Summary;
+use crate::results::lines;
+use crate::results::summary::{Summary, Whirl};
 use crate::results::table::{number, rounded};
-use crate::spectrum::{Spectrum, amplitude_spectrum};
+use crate::spectrum::Spectrum;
 use cagedyn::Result;
 use plotters::prelude::Text;
 use plotters::style::text_anchor::{HPos, VPos};
-use std::f64::consts::TAU;
 
-/// The start of a run is left out, s ...
-const SETTLED: f64 = 0.08;
-/// ... but at most this share of it.
-const LARGEST_START_SHARE: f64 = 1.0 / 3.0;
 /// Highest frequency shown, Hz, if the cage does not whirl faster ...
 const HIGHEST: f64 = 1000.0;
 /// ... or else in units of the whirl frequency.
@@ -34,23 +30,18 @@ const MIN_LABELS: usize = 3;
 
 /// The picture, if there is a cage and the run is long enough.
 pub fn cage_spectrum(run: &Run, summary: &Summary) -> Option<Result<String>> {
-    let start = SETTLED.min(LARGEST_START_SHARE * run.end()) - 1e-6 * run.interval();
-    let from = run.recording.index_at(start);
-    let samples: Vec<f64> = run.column("cage.z")?.get(from..)?.iter().map(|x| 1e3 * x).collect();
-    let mut spectrum = amplitude_spectrum(&samples, run.interval())?;
-    let highest = whirl_frequency(summary).map_or(HIGHEST, |f| HIGHEST.max(ABOVE_WHIRL * f));
+    let (mut spectrum, first) = lines::spectrum(run, summary.cage_frequency_hz)?;
+    spectrum.amplitudes.iter_mut().for_each(|a| *a *= 1e3);
+    let highest =
+        summary.whirl.as_ref().and_then(Whirl::frequency).map_or(HIGHEST, |f| HIGHEST.max(ABOVE_WHIRL * f));
     let shown = spectrum.frequencies.partition_point(|f| *f <= highest);
     spectrum.frequencies.truncate(shown);
     spectrum.amplitudes.truncate(shown);
-    let first = run.recording.times.get(from).copied()?;
     let what = format!("Amplitude spectrum of cage.z from {} s to {} s", rounded(first), rounded(run.end()));
-    Some(draw(&run.title, &run.subtitle(&what), &spectrum, &orders(run, summary)))
-}
-
-/// Frequency of the whirl, if there is one, Hz.
-fn whirl_frequency(summary: &Summary) -> Option<f64> {
-    let whirl = summary.whirl.as_ref().filter(|w| w.motion.is_whirl())?;
-    Some(whirl.mean_speed_rad_per_s?.abs() / TAU)
+    let count = run.model.element_count() as f64;
+    let sidebands =
+        summary.cage_frequency_hz.map_or(Vec::new(), |f| vec![(count - 1.0) * f, (count + 1.0) * f]);
+    Some(draw(&run.title, &run.subtitle(&what), &spectrum, (&orders(run, summary), &sidebands)))
 }
 
 /// Frequencies to mark, with their names: those of the cage, of the pockets passing by and of the whirl.
@@ -62,12 +53,17 @@ fn orders(run: &Run, summary: &Summary) -> Vec<(f64, String)> {
         list.push((4.0 * cage, "4 f_c".to_owned()));
     }
     list.push((count as f64 * cage, format!("Z f_c = {count} f_c")));
-    list.extend(whirl_frequency(summary).map(|f| (f, WHIRL.to_owned())));
+    list.extend(summary.whirl.as_ref().and_then(Whirl::frequency).map(|f| (f, WHIRL.to_owned())));
     list.sort_by(|a, b| a.0.total_cmp(&b.0));
     list
 }
 
-fn draw(title: &str, subtitle: &str, spectrum: &Spectrum, orders: &[(f64, String)]) -> Result<String> {
+fn draw(
+    title: &str,
+    subtitle: &str,
+    spectrum: &Spectrum,
+    (orders, sidebands): (&[(f64, String)], &[f64]),
+) -> Result<String> {
     let highest = spectrum.frequencies.last().copied().unwrap_or(HIGHEST);
     let peak = spectrum.peak();
     let largest = spectrum.amplitudes.iter().fold(0.0, |m: f64, a| m.max(*a)).max(1e-15).log10();
@@ -76,7 +72,10 @@ fn draw(title: &str, subtitle: &str, spectrum: &Spectrum, orders: &[(f64, String
     let y_axis = Axis::powers_of_ten("amplitude of cage.z [mm]", (largest - DECADES).round(), largest + room);
     let place = Place { x: 100.0, y: 100.0, w: 770.0, h: 370.0 };
     style::picture((900.0, 540.0), title, subtitle, |canvas| {
-        let window = format!("Hann window, resolution {} Hz", number(spectrum.resolution));
+        let window = match spectrum.segments {
+            1 => format!("Hann window, resolution {} Hz", number(spectrum.resolution)),
+            n => format!("Hann window, {n} segments, resolution {} Hz", number(spectrum.resolution)),
+        };
         let mut entries = vec![(Symbol::Line(BLUE), window)];
         if let Some((frequency, amplitude)) = peak {
             let label = format!("peak {} mm at {} Hz", number(amplitude), number(frequency));
@@ -84,9 +83,9 @@ fn draw(title: &str, subtitle: &str, spectrum: &Spectrum, orders: &[(f64, String
         }
         let whirls = orders.iter().any(|(_, name)| name == WHIRL);
         let marks = if whirls {
-            "multiples of the cage frequency f_c, whirl"
+            "f_c and multiples, Z f_c ± f_c, whirl"
         } else {
-            "multiples of the cage frequency f_c"
+            "cage frequency f_c, multiples, Z f_c ± f_c"
         };
         entries.push((Symbol::Dashed(MUTED), marks.to_owned()));
         style::legend_row(canvas, 78.0, &entries)?;
@@ -100,6 +99,9 @@ fn draw(title: &str, subtitle: &str, spectrum: &Spectrum, orders: &[(f64, String
                 let label = format!("{name}, {} Hz", number(*frequency));
                 let style = text(TEXT - 1.0, INK, HPos::Left, VPos::Top);
                 panel.canvas().draw(&Text::new(label, (x + px(5.0), y - px(2.0)), style))?;
+            }
+            for frequency in sidebands.iter().filter(|frequency| **frequency < highest) {
+                panel.vertical(*frequency, y_axis.min + 0.8, line(MUTED, THIN))?;
             }
             let points = spectrum.lines(COLUMNS).map(|(f, a)| (f, a.max(1e-300).log10().max(y_axis.min)));
             panel.curve(points, line(BLUE, THIN + 0.2))?;

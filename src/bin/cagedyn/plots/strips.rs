@@ -1,4 +1,4 @@
-//! Quantities over time, one diagram below the other.
+//! Quantities over time or another axis, one diagram below the other.
 
 use super::axis::Axis;
 use super::panel::{Place, panel};
@@ -39,11 +39,16 @@ pub struct Texts<'a> {
     pub title: &'a str,
     /// Line below it.
     pub subtitle: &'a str,
+    /// Name of the common axis with unit.
+    pub axis: &'a str,
     /// Legend.
     pub entries: Vec<(Symbol, String)>,
 }
 
-/// The picture; intervals of time in `shaded` get another background.
+/// The usual axis.
+pub const TIME: &str = "time [s]";
+
+/// The picture over `times`, or the places on another axis; intervals of them in `shaded` get another background.
 ///
 /// # Errors
 /// [`cagedyn::Status::File`] when it cannot be drawn.
@@ -54,7 +59,7 @@ pub fn history(
     shaded: &[(f64, f64)],
 ) -> Result<String> {
     let (start, end) = (times.first().copied().unwrap_or(0.0), times.last().copied().unwrap_or(1.0));
-    let x_axis = Axis::new("time [s]", start, end, 10);
+    let x_axis = Axis::new(texts.axis, start, end, 10);
     let height = TOP + strips.len() as f64 * (HEIGHT + GAP) + 46.0;
     style::picture((900.0, height), texts.title, texts.subtitle, |canvas| {
         style::legend_row(canvas, 78.0, &texts.entries)?;

@@ -68,7 +68,7 @@ pub fn whirl_history(run: &Run, summary: &Summary) -> Option<Result<String>> {
     let window = [(summary.window.from_s, summary.window.to_s)];
     let what =
         "Whirl of the cage; forces across the line from guide to cage centre, positive counter-clockwise";
-    let texts = Texts { title: &run.title, subtitle: &run.subtitle(what), entries };
+    let texts = Texts { title: &run.title, subtitle: &run.subtitle(what), axis: strips::TIME, entries };
     Some(strips::history(&texts, &run.recording.times, &strips, &window))
 }
 

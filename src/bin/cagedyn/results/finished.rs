@@ -1,8 +1,9 @@
 //! A run that has come to its end, and what is asked of it.
 
-use cagedyn::model::{Channel, PartTimes};
+use cagedyn::model::{Channel, ContactForces, POWERS, PartTimes};
+use cagedyn::scene::Record;
 use cagedyn::sim::{PowerBalance, RunStatistics};
-use cagedyn::{Error, Interval, Model, Recording, Result, Status};
+use cagedyn::{Error, Interval, Model, Recording, Result, Sim, Status};
 use std::sync::Arc;
 
 /// Length of the window over which results are averaged and details are shown, s.
@@ -28,6 +29,12 @@ pub struct Run {
     pub statistics: RunStatistics,
     /// Works and energies, if forces are defined at the end.
     pub balance: Option<PowerBalance>,
+    /// Forces of all contacts at the end, if they are defined there.
+    pub contacts: Vec<ContactForces>,
+    /// Works up to the end, J.
+    pub works: [f64; POWERS.len()],
+    /// Works up to the beginning of the averaging window.
+    pub before: BeforeWindow,
     /// What speaks against trusting the run.
     pub doubts: Vec<String>,
     /// What the integration did and why.
@@ -82,14 +89,12 @@ impl Run {
 
     /// Start of the averaging window, s: that of the scene, the last 0.1 s, or the last third of a shorter run.
     pub fn window_start(&self) -> f64 {
-        // At least two records: what is followed in every step is known from one to the next.
-        let usual = WINDOW.min(LARGEST_WINDOW_SHARE * self.end()).max(self.interval());
-        self.last(self.model.scene().record.window.map_or(usual, |window| window.min(self.end())))
+        window_start(&self.model.scene().record, self.end())
     }
 
     /// Start of the last `length` seconds, at least zero. A little earlier, so that round-off loses no record.
     pub fn last(&self, length: f64) -> f64 {
-        (self.end() - length - 1e-6 * self.interval()).max(0.0)
+        last(length, self.end(), self.interval())
     }
 
     /// Time between records, s.
@@ -106,4 +111,36 @@ impl Run {
     pub fn roller_count(&self) -> usize {
         self.model.layout().count
     }
+}
+
+/// Notes the works of a run where its averaging window begins.
+pub struct BeforeWindow {
+    start: f64,
+    /// Time, s, and works up to it, J.
+    pub works: Option<(f64, [f64; POWERS.len()])>,
+}
+
+impl BeforeWindow {
+    /// For a run that is recorded so.
+    pub fn new(record: &Record) -> Self {
+        Self { start: window_start(record, record.duration), works: None }
+    }
+
+    /// To be called after every record.
+    pub fn at(&mut self, sim: &Sim) {
+        if self.works.is_none() && sim.time() >= self.start {
+            self.works = Some((sim.time(), sim.works()));
+        }
+    }
+}
+
+/// Start of the averaging window of a run that is recorded so and ends at time `end`, s.
+fn window_start(record: &Record, end: f64) -> f64 {
+    // At least two records: what is followed in every step is known from one to the next.
+    let usual = WINDOW.min(LARGEST_WINDOW_SHARE * end).max(record.interval);
+    last(record.window.map_or(usual, |window| window.min(end)), end, record.interval)
+}
+
+fn last(length: f64, end: f64, interval: f64) -> f64 {
+    (end - length - 1e-6 * interval).max(0.0)
 }

@@ -120,6 +120,10 @@ pub fn results(summary: &Summary) -> Vec<Row> {
     let band = summary.whirl.as_ref().and_then(band).unwrap_or_default();
     rows.spread("whirl speed", of("cage.whirl_speed"), 1.0, "rad/s", &band);
     rows.spread("whirl radius", of("cage.whirl_radius"), 1e6, "um", "");
+    if let Some(deviation) = summary.whirl.as_ref().and_then(|whirl| whirl.velocity_deviation) {
+        let remark = "standard deviation of the speed of the cage centre over its mean";
+        rows.add("velocity deviation", number(deviation), "", remark);
+    }
     rows.spread("film share", of("guide.film_share"), 100.0, "%", "of the guide force");
     let across = "across the line from guide to cage centre";
     rows.spread("guide force, pressure", of("guide.pressure_phi"), 1.0, "N", across);
@@ -131,6 +135,10 @@ pub fn results(summary: &Summary) -> Vec<Row> {
         let place = format!("roller {} at {} s", slip.roller, rounded(slip.time_s));
         rows.add("largest roller slip", number(100.0 * slip.value), "%", &place);
     }
+    if let Some(zone) = &summary.load_zone {
+        let [extent, middle] = [zone.extent_rad, zone.middle_rad].map(|x| number(x.to_degrees()));
+        rows.add("load zone", extent, "deg", &format!("around {middle} deg from y"));
+    }
     if let Some(forces) = &summary.pocket_forces {
         let remark = "mean over time, all elements together";
         rows.add("pocket force, driving", number(forces.driving_n), "N", remark);
@@ -138,6 +146,15 @@ pub fn results(summary: &Summary) -> Vec<Row> {
         rows.add("pocket force, largest", number(forces.largest_n), "N", "of one element, from every step");
     }
     rows.spread("drag torque", of("inner_ring.drag_torque"), 1.0, "N m", "on the inner ring");
+    if let Some(loss) = &summary.power_loss {
+        let mut sources: Vec<_> = loss.by_source_w.iter().collect();
+        sources.sort_by(|(_, a), (_, b)| b.total_cmp(a));
+        let share = |(name, power): &(Cow<'static, str>, f64)| {
+            format!("{} {:.0} %", name.replace('_', " "), 100.0 * power / loss.total_w)
+        };
+        let largest: Vec<_> = sources.into_iter().take(4).map(share).collect();
+        rows.add("power loss", number(loss.total_w), "W", &largest.join(", "));
+    }
     rows.spread("inner ring y", of("inner_ring.y"), 1e6, "um", "");
     rows.spread("inner ring z", of("inner_ring.z"), 1e6, "um", "");
     rows.0

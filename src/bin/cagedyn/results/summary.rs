@@ -2,11 +2,13 @@
 
 use crate::results::files::{SERIES, UNFINISHED};
 use crate::results::finished::Run;
+use crate::results::lines::{Lines, lines};
 use crate::results::map::{as_map, from_map};
 use crate::results::motion::whirl;
+use crate::results::sectors::{self, Sectors};
 use crate::starts::Starts;
 use cagedyn::model::{Channel, FAULTS, LAWS, PARTS, POWERS};
-use cagedyn::sim::PowerBalance;
+use cagedyn::sim::{LoadZone, PowerBalance};
 use cagedyn::{CageMotion, Interval, Recording, Spread, WhirlSummary};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -59,6 +61,9 @@ pub struct Summary {
     /// Where the energy went.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub power_balance: Option<Balance>,
+    /// Where the power goes, mean over the window.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub power_loss: Option<PowerLoss>,
     /// Averaging window.
     pub window: Window,
     /// Rotation frequency of the cage in the window, Hz.
@@ -67,6 +72,9 @@ pub struct Summary {
     /// Motion of the cage centre about the guide centre in the window.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub whirl: Option<Whirl>,
+    /// Spectrum of the height of the cage centre at frequencies of the bearing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spectrum: Option<Lines>,
     /// Motions from other starts, where they were asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub starts: Option<Starts>,
@@ -76,6 +84,12 @@ pub struct Summary {
     /// Forces between rollers and pockets in the window.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pocket_forces: Option<PocketForces>,
+    /// Where rollers carry load.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub load_zone: Option<LoadZone>,
+    /// What elements feel over the angle of their orbit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub over_orbit: Option<Sectors>,
     /// Extremes, means and integrals of the watched channels over the window, from every step.
     #[serde(
         default,
@@ -162,6 +176,16 @@ pub struct Balance {
     pub relative_residual: f64,
 }
 
+/// Power that leaves the motion, mean over the window, W.
+#[derive(Serialize, Deserialize)]
+pub struct PowerLoss {
+    /// All of it.
+    pub total_w: f64,
+    /// By source. What is zero, and what gives power, is left out.
+    #[serde(serialize_with = "as_map", deserialize_with = "from_map")]
+    pub by_source_w: Vec<(Name, f64)>,
+}
+
 /// Averaging window.
 #[derive(Serialize, Deserialize)]
 pub struct Window {
@@ -189,6 +213,9 @@ pub struct Whirl {
     pub mean_radius_m: f64,
     /// Net turns about the guide centre, positive counter-clockwise.
     pub turns: f64,
+    /// Standard deviation of the speed of the cage centre over its mean; none where it stays in its place.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub velocity_deviation: Option<f64>,
     /// Time from which on the whirl speed stays within 15 % of its mean, s; none if it never does.
     pub settling_time_s: Option<f64>,
 }
@@ -249,6 +276,10 @@ impl Summary {
         let statistics = key_statistics(&run.channels, &run.recording, from, speed);
         let mean = |name: &str| statistics.iter().find(|(n, _)| n == name).map(|(_, s)| s.spread.mean);
         let layout = run.model.layout();
+        let (over_orbit, load_zone) = sectors::of(run, from);
+        let cage_frequency_hz = mean("cage.speed").map(|speed| speed.abs() / TAU);
+        let whirl = whirl.map(Whirl::new);
+        let spectrum = lines(run, cage_frequency_hz, whirl.as_ref().and_then(Whirl::frequency));
         Self {
             title: run.title.clone(),
             scene: scene.display().to_string(),
@@ -267,12 +298,16 @@ impl Summary {
             states: States { positions: layout.positions(), velocities: layout.velocities() },
             integration: integration(run),
             power_balance: run.balance.as_ref().map(balance),
+            power_loss: power_loss(run),
             window: window(&run.recording, from),
-            cage_frequency_hz: mean("cage.speed").map(|speed| speed.abs() / TAU),
-            whirl: whirl.map(Whirl::new),
+            cage_frequency_hz,
+            whirl,
+            spectrum,
             starts: None,
             max_roller_slip: max_roller_slip(run, from),
             pocket_forces: pocket_forces(run, from),
+            load_zone,
+            over_orbit,
             extremes: extremes(run, from),
             statistics,
             files: vec![if run.written { SERIES } else { UNFINISHED }.to_owned()],
@@ -331,6 +366,24 @@ fn balance(b: &PowerBalance) -> Balance {
     }
 }
 
+/// Sources that are no loss: what drives the bearing, and loads, which give back what they take.
+fn drives(name: &str) -> bool {
+    matches!(name, "loads" | "ring_drive" | "element_drive")
+}
+
+fn power_loss(run: &Run) -> Option<PowerLoss> {
+    let (from, before) = run.before.works?;
+    let time = run.time - from;
+    if !(time > 0.0) {
+        return None;
+    }
+    let powers =
+        POWERS.into_iter().zip(run.works).zip(before).map(|((name, now), then)| (name, (then - now) / time));
+    let losses: Vec<_> = powers.filter(|(name, power)| *power > 0.0 && !drives(name)).collect();
+    let total_w = losses.iter().map(|(_, power)| power).sum();
+    Some(PowerLoss { total_w, by_source_w: named(losses.into_iter()) })
+}
+
 /// The pairs with their names as those that were read are.
 fn named<T>(pairs: impl Iterator<Item = (&'static str, T)>) -> Vec<(Name, T)> {
     pairs.map(|(name, value)| (name.into(), value)).collect()
@@ -359,6 +412,11 @@ fn integration(run: &Run) -> Integration {
 }
 
 impl Whirl {
+    /// Turns of the cage centre per second of a whirl, Hz; none of another motion.
+    pub fn frequency(&self) -> Option<f64> {
+        Some(self.mean_speed_rad_per_s.filter(|_| self.motion.is_whirl())?.abs() / TAU)
+    }
+
     fn new(w: WhirlSummary) -> Self {
         Self {
             motion: w.motion,
@@ -367,6 +425,7 @@ impl Whirl {
             p95_speed_rad_per_s: w.speed.map(|speed| speed.p95),
             mean_radius_m: w.radius,
             turns: w.turns,
+            velocity_deviation: w.velocity_deviation,
             settling_time_s: w.settling_time,
         }
     }

@@ -56,6 +56,12 @@ impl Row {
         }
         let of_rollers = OF_ROLLERS.map(str::to_owned).into_iter().zip(of_rollers(summary));
         results.extend(of_rollers.filter(|(_, text)| !text.is_empty()));
+        let mut add = |name: &str, value: Option<f64>| {
+            results.extend(value.map(|value| (name.to_owned(), plain(value))));
+        };
+        add("velocity deviation [1]", summary.whirl.as_ref().and_then(|whirl| whirl.velocity_deviation));
+        add("load zone [rad]", summary.load_zone.map(|zone| zone.extent_rad));
+        add("power loss [W]", summary.power_loss.as_ref().map(|loss| loss.total_w));
         for (channel, statistics) in summary.statistics.iter().filter(|(name, _)| !name.contains('[')) {
             for (part, value) in PARTS {
                 let text = value(&statistics.spread).map_or(String::new(), plain);

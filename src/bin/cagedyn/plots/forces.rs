@@ -1,0 +1,141 @@
+//! The bearing with the forces of its contacts at the end of a run (compare Fig. 11).
+
+use super::axis::Axis;
+use super::panel::{Panel, Place, panel};
+use super::style::{self, BLUE, CURVE, Drawn, FAINT, GREEN, INK, MUTED, Paint, RED, Symbol, THIN, line};
+use crate::results::finished::Run;
+use crate::results::table::{number, rounded};
+use cagedyn::Result;
+use cagedyn::model::{CONTACT_QUANTITIES, ContactForces};
+
+/// Side of the diagram, px.
+const SIDE: f64 = 600.0;
+/// Length of the longest arrow of a kind in units of the pitch radius.
+const LONGEST: f64 = 0.4;
+/// Arrows shorter than this are not seen, in units of the pitch radius.
+const SHORTEST: f64 = 0.004;
+/// Head of an arrow: length and half width in units of the pitch radius.
+const HEAD: (f64, f64) = (0.035, 0.013);
+
+/// A force at a place, N and m.
+struct Arrow {
+    at: [f64; 2],
+    force: [f64; 2],
+}
+
+/// Forces of one kind, which have a scale of their own.
+struct Kind {
+    name: &'static str,
+    paint: Paint,
+    arrows: Vec<Arrow>,
+}
+
+impl Kind {
+    fn largest(&self) -> f64 {
+        self.arrows.iter().map(|arrow| arrow.force[0].hypot(arrow.force[1])).fold(0.0, f64::max)
+    }
+}
+
+/// The picture, if there are elements whose contacts bear something.
+pub fn contact_forces(run: &Run) -> Option<Result<String>> {
+    let geometry = run.model.geometry();
+    let length = |name: &str| geometry.iter().find(|(q, _)| q.name == name).map(|(_, value)| *value);
+    let (pitch, radius) = (length("pitch_radius")?, length("element_radius")?);
+    let mut kinds = vec![
+        Kind { name: "on elements", paint: BLUE, arrows: Vec::new() },
+        Kind { name: "elements on cage", paint: RED, arrows: Vec::new() },
+        Kind { name: "guide on cage", paint: GREEN, arrows: Vec::new() },
+    ];
+    for (name, contact) in run.model.contact_names().iter().zip(&run.contacts) {
+        let raceway = name.ends_with("_raceway");
+        if let Some(arrow) = arrow(contact, raceway) {
+            kinds[usize::from(!raceway)].arrows.push(arrow);
+        }
+    }
+    let last = |name: &str| run.column(name)?.last().copied();
+    if let (Some(y), Some(z)) = (last("guide.force_y"), last("guide.force_z")) {
+        let at = ["cage.y", "cage.z"].map(|name| last(name).unwrap_or(0.0));
+        kinds[2].arrows.push(Arrow { at, force: [y, z] });
+    }
+    kinds.retain(|kind| kind.largest() > 0.0);
+    if kinds.is_empty() {
+        return None;
+    }
+    let kind = run.model.element_kind();
+    let angles = (0..run.model.element_count()).map(|j| last(&format!("{kind}[{j}].orbit_angle")));
+    let angles: Vec<f64> = angles.collect::<Option<_>>()?;
+    let circles = ["outer_raceway_radius", "inner_raceway_radius"].map(length);
+    let reach = 1.12 * (pitch + radius);
+    let axis = |name| Axis::new(name, -1e3 * reach, 1e3 * reach, 5);
+    let (x_axis, y_axis) = (axis("y [mm]"), axis("z [mm]"));
+    let place = Place { x: 100.0, y: 122.0, w: SIDE, h: SIDE };
+    let subtitle = run.subtitle(&format!("Forces of the contacts at {} s", rounded(run.end())));
+    Some(style::picture((730.0, 790.0), &run.title, &subtitle, |canvas| {
+        let entries: Vec<_> = kinds
+            .iter()
+            .map(|kind| {
+                (Symbol::Line(kind.paint), format!("{}, largest {} N", kind.name, number(kind.largest())))
+            })
+            .collect();
+        style::legend_row(canvas, 76.0, &entries)?;
+        let note =
+            [(Symbol::Line(FAINT), "elements and raceways; each kind of force has its own scale".to_owned())];
+        style::legend_row(canvas, 100.0, &note)?;
+        panel(canvas, place, (&x_axis, &y_axis), true, &[], |panel| {
+            for radius in circles.into_iter().flatten() {
+                panel.circle(1e3 * radius, line(MUTED, THIN))?;
+            }
+            for angle in &angles {
+                panel
+                    .curve(circle([pitch * angle.cos(), pitch * angle.sin()], radius), line(FAINT, CURVE))?;
+            }
+            panel.circle(1e3 * SHORTEST * pitch, line(INK, THIN))?;
+            for kind in &kinds {
+                let scale = LONGEST * pitch / kind.largest();
+                kind.arrows.iter().try_for_each(|arrow| draw(panel, arrow, (scale, pitch), kind.paint))?;
+            }
+            Ok(())
+        })
+    }))
+}
+
+/// Force on the element, or on its mate; none where the surfaces are apart.
+fn arrow(contact: &ContactForces, on_element: bool) -> Option<Arrow> {
+    let of = |name: &str| CONTACT_QUANTITIES.iter().position(|q| q.name == name).map_or(0.0, |i| contact[i]);
+    let (normal, n) = (of("normal_force"), [of("normal_y"), of("normal_z")]);
+    if !(normal > 0.0) {
+        return None;
+    }
+    let t = [-n[1], n[0]];
+    let (q, along) = if on_element {
+        (-normal, of("friction") + of("rolling_resistance") + of("film_pressure_roller"))
+    } else {
+        (normal, of("rolling_resistance") + of("film_pressure_mate") - of("friction"))
+    };
+    let force = [0, 1].map(|k| q * n[k] + along * t[k]);
+    Some(Arrow { at: [of("point_y"), of("point_z")], force })
+}
+
+/// Points of a circle, mm.
+fn circle(centre: [f64; 2], radius: f64) -> impl Iterator<Item = (f64, f64)> {
+    let angles = (0..=60).map(|i| f64::from(i) * std::f64::consts::TAU / 60.0);
+    angles.map(move |a| (1e3 * (centre[0] + radius * a.cos()), 1e3 * (centre[1] + radius * a.sin())))
+}
+
+/// An arrow that begins where the force acts.
+fn draw(panel: &mut Panel<'_, '_, '_>, arrow: &Arrow, (scale, pitch): (f64, f64), paint: Paint) -> Drawn {
+    let size = scale * arrow.force[0].hypot(arrow.force[1]);
+    if size < SHORTEST * pitch {
+        return Ok(());
+    }
+    let along = arrow.force.map(|x| scale * x / size);
+    let (length, half) = (HEAD.0 * pitch, HEAD.1 * pitch);
+    let point = |ahead: f64, aside: f64| {
+        let y = arrow.at[0] + ahead * along[0] - aside * along[1];
+        let z = arrow.at[1] + ahead * along[1] + aside * along[0];
+        (1e3 * y, 1e3 * z)
+    };
+    let neck = (size - length).max(0.0);
+    panel.curve([point(0.0, 0.0), point(neck, 0.0)], line(paint, 1.8))?;
+    panel.area([point(size, 0.0), point(neck, half), point(neck, -half)], paint)
+}

@@ -1,0 +1,72 @@
+//! What elements feel over the angle of their orbit.
+
+use crate::results::finished::Run;
+use cagedyn::sim::{LoadZone, OverOrbit};
+use serde::{Deserialize, Serialize};
+
+/// Sectors of the orbit: 5 degrees each.
+const SECTORS: usize = 72;
+/// Records are few where elements pass quickly: sectors of forces are that many of these together.
+const TOGETHER: usize = 2;
+
+/// Quantities over the angle of the orbit in the averaging window, of all elements together. What no element was seen at is null.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Sectors {
+    /// Middle of each sector, from y counter-clockwise, rad.
+    pub angle_rad: Vec<f64>,
+    /// Force on the inner ring, mean, N.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub inner_force_mean_n: Vec<Option<f64>>,
+    /// Slip of rollers, mean.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub slip_mean: Vec<Option<f64>>,
+    /// Force on the pocket, mean, N; positive drives the cage.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pocket_force_mean_n: Vec<Option<f64>>,
+    /// 95th percentile of its magnitude, N.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pocket_force_p95_n: Vec<Option<f64>>,
+    /// Its largest magnitude in any step, N.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pocket_force_peak_n: Vec<Option<f64>>,
+}
+
+/// Quantity `field` of all elements over the angle from time `from` (s) on, if the scene records both.
+fn over_orbit(run: &Run, field: &str, from: f64, sectors: usize) -> Option<OverOrbit> {
+    let kind = run.model.element_kind();
+    let first = run.recording.index_at(from);
+    let mut samples = Vec::new();
+    for j in 0..run.model.element_count() {
+        let angles = run.column(&format!("{kind}[{j}].orbit_angle"))?.get(first..)?;
+        let name = format!("{kind}[{j}].{field}");
+        let values = run.column(&name)?.get(first..)?;
+        let intervals = run.intervals(&name).and_then(|x| x.get(first..));
+        for (i, (angle, value)) in angles.iter().zip(values).enumerate() {
+            let extreme = intervals.and_then(|x| x.get(i)).map_or(0.0, |x| x.max.max(-x.min));
+            samples.push((*angle, *value, extreme));
+        }
+    }
+    Some(OverOrbit::of(samples, sectors))
+}
+
+fn known(column: &[f64]) -> Vec<Option<f64>> {
+    column.iter().map(|x| x.is_finite().then_some(*x)).collect()
+}
+
+/// The table, and where elements carry load.
+pub fn of(run: &Run, from: f64) -> (Option<Sectors>, Option<LoadZone>) {
+    let find = |field: &str, sectors: usize| over_orbit(run, field, from, sectors);
+    let zone = find("inner_force", SECTORS).and_then(|load| load.positive_zone());
+    let coarse = SECTORS / TOGETHER;
+    let Some(forces) = find("pocket_force", coarse) else { return (None, zone) };
+    let mean = |field: &str| find(field, coarse).map_or(Vec::new(), |found| known(&found.mean));
+    let sectors = Sectors {
+        angle_rad: (0..coarse).map(|place| forces.angle(place)).collect(),
+        inner_force_mean_n: mean("inner_force"),
+        slip_mean: mean("slip"),
+        pocket_force_mean_n: known(&forces.mean),
+        pocket_force_p95_n: known(&forces.p95),
+        pocket_force_peak_n: known(&forces.peak),
+    };
+    (Some(sectors), zone)
+}
