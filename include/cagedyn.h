@@ -523,6 +523,52 @@ const char *cagedyn_model_output_description(const cagedyn_model *model, int64_t
 /* Index of the output of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure. */
 int64_t cagedyn_model_find_output(const cagedyn_model *model, const char *name);
 
+/* Number of numbers that cagedyn_cage_motion() writes. */
+int64_t cagedyn_motion_count(void);
+
+/* Name of one of these numbers; "" for others. Static text. What is not known is NaN.
+ *
+ * - motion: 0 resting, 1 stable, 2 forward whirl (in the sense of the cage's rotation), 3 backward whirl, 4 irregular.
+ * - mean_whirl_speed, p05_whirl_speed, p95_whirl_speed: mean and percentiles, rad/s; not of a centre next to that of the guide.
+ * - mean_radius: distance from the centre of the guide, m; turns: net turns about it, counter-clockwise positive.
+ * - settling_time: from which on the whirl speed stays within 15 % of its mean, s.
+ * - velocity_deviation: standard deviation of the speed of the centre over its mean, from one record to the next. */
+const char *cagedyn_motion_name(int64_t index);
+
+/* Writes class and statistics of the motion of a cage from time `from` (s) on to `out` (length: motion count). Each array has
+ * `records` numbers, at times in growing order: `times` in s, centre of the cage `y`, `z` in m relative to that of its guide, its
+ * angular speed about that centre in rad/s (output cage.whirl_speed), rotation speed of the cage in rad/s. `clearance` is the radial
+ * guide clearance in m; 0 for a cage without a guide, where the largest distance stands in for it. */
+int32_t cagedyn_cage_motion(const double *times,
+                            const double *y,
+                            const double *z,
+                            const double *whirl_speed,
+                            const double *cage_speed,
+                            int64_t records,
+                            double clearance,
+                            double from,
+                            double *out,
+                            int64_t length);
+
+/* Number of rows that cagedyn_over_orbit() writes. */
+int64_t cagedyn_over_orbit_count(void);
+
+/* Name of one of these rows; "" for others. Static text.
+ *
+ * - mean; p95: 95th percentile of the magnitude; peak: the largest magnitude; positive_share: of the samples, as a load zone has
+ *   it of the force on the inner ring. NaN where there is no sample. */
+const char *cagedyn_over_orbit_name(int64_t index);
+
+/* Sorts samples of elements into equal sectors of their orbit, and writes what they are there to `out`: rows one after the other,
+ * each with a number per sector, sector k from 2 pi k / sectors on (length: row count times `sectors`). `angles` in rad, of any
+ * number of turns, counter-clockwise from y (output orbit_angle), and `values` have `samples` numbers. */
+int32_t cagedyn_over_orbit(const double *angles,
+                           const double *values,
+                           int64_t samples,
+                           int64_t sectors,
+                           double *out,
+                           int64_t length);
+
 /* Creates a simulation at the start of the model's scene. It keeps what it needs of the model. Returns NULL on
  * failure; with a model of NULL an error of the call before, such as that which made no model, stays the stored one. Free it
  * with cagedyn_sim_free(). */

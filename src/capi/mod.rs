@@ -13,6 +13,7 @@ pub mod integrator;
 pub mod interval;
 pub mod limits;
 pub mod model;
+pub mod motion;
 pub mod sim;
 pub mod statistics;
 pub mod whirl;

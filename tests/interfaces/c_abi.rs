@@ -52,6 +52,11 @@ fn c_batch() {
 }
 
 #[test]
+fn c_motion() {
+    run_c_test("ctests/test_motion.c", "scenes/grease_guide.json");
+}
+
+#[test]
 fn c_whirl() {
     run_c_test("ctests/test_whirl.c", "scenes/grease_guide.json");
 }

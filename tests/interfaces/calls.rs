@@ -10,6 +10,7 @@ use cagedyn::capi::integrator::*;
 use cagedyn::capi::interval::*;
 use cagedyn::capi::limits::*;
 use cagedyn::capi::model::*;
+use cagedyn::capi::motion::*;
 use cagedyn::capi::sim::*;
 use cagedyn::capi::statistics::*;
 use cagedyn::capi::whirl::*;
@@ -510,6 +511,18 @@ impl Host {
                 4 => {
                     let count = cagedyn_whirl_point_count(whirl);
                     self.check("points", count);
+                }
+                5 if self.one_of(2) => {
+                    let numbers: Vec<f64> = (0..20).map(|i| f64::from(i) + self.number()).collect();
+                    let (x, n) = (numbers.as_ptr(), self.length(20).min(20));
+                    let y = if self.one_of(8) { null() } else { x };
+                    let m = self.length(cagedyn_motion_count());
+                    let (clearance, from) = (self.number(), self.number());
+                    let status = cagedyn_cage_motion(x, y, x, y, x, n, clearance, from, out, m);
+                    self.check("motion", status.into());
+                    let (sectors, m) = (self.index(100), self.length(400));
+                    let status = cagedyn_over_orbit(x, y, n, sectors, out, m);
+                    self.check("over orbit", status.into());
                 }
                 5 => {
                     assert!(!cagedyn_whirl_end(whirl).is_null() && !cagedyn_whirl_why(whirl).is_null());
