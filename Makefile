@@ -4,7 +4,7 @@
 # make run       the NU2310 example, results in out/
 # make cases     the twelve NU2310 cases, its roller profiles, the grease guide over speed, its variants and without grease, results in out/cases/
 # make example   the C example, compiled and run, table in out/
-# make pictures  the pictures of the README
+# make figures   the figures of both papers beside what the library gives: docs/papers.md
 # make effects   cost of every effect and what it changes: docs/results/effects.md
 # make second-paper  whirl of the second paper with elastic cage and heat balance: docs/results/second-paper.md
 # make verify    errors of the integration methods against CVODE: docs/results/verification.md
@@ -33,7 +33,7 @@ CARGO ?= cargo
 # Python with what tests of its package need.
 PYTHON := $(abspath out/venv/bin/python)
 
-.PHONY: check test release-check tools python-env fmt lint doc shipped quick unit abi deb run cases pictures example effects second-paper verify hard judge tuning random statistics \
+.PHONY: check test release-check tools python-env fmt lint doc shipped quick unit abi deb run cases example figures effects second-paper verify hard judge tuning random statistics \
 	accuracy bench build-times header build install uninstall clean
 
 # The same flags everywhere, so that nothing is built twice.
@@ -99,13 +99,23 @@ cases:
 	$(CARGO) run --release --locked -- cases scenes/grease_guide_effects.cases.json --starts 24 --out out/cases/grease_effects
 	$(CARGO) run --release --locked -- cases scenes/grease_guide_dry.cases.json --starts 24 --out out/cases/grease_dry
 
-pictures:
-	$(CARGO) run --release --locked -- run scenes/nu2310.json --out out
-	$(CARGO) run --release --locked -- run scenes/grease_guide.json --out out/grease
-	$(CARGO) run --release --locked -- cases scenes/grease_guide_speed.cases.json --starts 24 --out out/cases/grease_speed
+FIGURES := out/figures
+TOOL := $(CARGO) run --release --locked --
+
+figures: tools
+	$(TOOL) run scenes/nu2310.json --set record.duration=0.5 --out $(FIGURES)/nu2310
+	$(TOOL) run scenes/nu2310.json --set inner_ring.radial_clearance=5e-6 --out $(FIGURES)/nu2310_5um
+	$(TOOL) cases scenes/nu2310_fig9.cases.json --out $(FIGURES)/fig9
+	$(TOOL) cases scenes/nu2310_unknowns.cases.json --out $(FIGURES)/unknowns
+	$(TOOL) run scenes/grease_guide.json --starts 24 --out $(FIGURES)/grease
+	$(TOOL) cases scenes/grease_guide_speed.cases.json --starts 24 --out $(FIGURES)/grease_speed
+	$(TOOL) cases scenes/grease_guide_dry.cases.json --starts 24 --out $(FIGURES)/grease_dry
+	$(CARGO) run --release --locked --package cagedyn-studies --bin papers -- $(FIGURES) --page docs/papers.md
 	mkdir -p docs/images
-	cp out/cage_orbit.svg out/roller_history.svg out/grease/whirl_history.svg docs/images/
-	cp out/cases/grease_speed/whirl_speed.svg docs/images/
+	cp $(FIGURES)/nu2310/cage_orbit.svg $(FIGURES)/nu2310/cage_position.svg $(FIGURES)/nu2310/cage_spectrum.svg docs/images/
+	cp $(FIGURES)/nu2310_5um/roller_history.svg $(FIGURES)/nu2310_5um/contact_forces.svg $(FIGURES)/nu2310_5um/over_orbit.svg docs/images/
+	cp $(FIGURES)/fig9/cage_positions.svg $(FIGURES)/grease/whirl_history.svg $(FIGURES)/grease_speed/whirl_speed.svg docs/images/
+	cp $(FIGURES)/grease/cage_orbit.svg docs/images/whirl_orbit.svg
 
 example:
 	$(CARGO) build --release --locked

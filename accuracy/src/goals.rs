@@ -5,7 +5,7 @@ use crate::kernel::{self, Costs};
 use crate::report::{empty, time};
 use crate::scenes;
 use cagedyn::Result;
-use cagedyn_studies::statistics::table::Table;
+use cagedyn_studies::table::Table;
 
 /// A figure, what is wanted and what was found.
 fn line(what: &str, goal: &str, found: String) -> Vec<String> {

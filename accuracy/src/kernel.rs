@@ -7,7 +7,7 @@ use crate::scenes;
 use cagedyn::model::PARTS;
 use cagedyn::scene::{Auto, Leapfrog, Method};
 use cagedyn::{Model, Result, Scene, Sim};
-use cagedyn_studies::statistics::table::Table;
+use cagedyn_studies::table::Table;
 use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Instant;

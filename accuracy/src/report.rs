@@ -3,7 +3,7 @@
 use crate::curves::Comparison;
 use crate::solvers::Way;
 use cagedyn::{Error, Result, Status};
-use cagedyn_studies::statistics::table::Table;
+use cagedyn_studies::table::Table;
 use std::path::Path;
 
 /// All runs of a comparison.

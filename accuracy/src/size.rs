@@ -7,7 +7,7 @@ use crate::scenes;
 use crate::solvers::Solver;
 use cagedyn::scene::Preset;
 use cagedyn::{Error, Model, Result, Sim, Status};
-use cagedyn_studies::statistics::table::Table;
+use cagedyn_studies::table::Table;
 use std::sync::Arc;
 
 /// Numbers of rollers.

@@ -16,6 +16,7 @@ pub mod random;
 #[path = "../../src/bin/cagedyn/spectrum.rs"]
 pub mod spectrum;
 pub mod statistics;
+pub mod table;
 
 use cagedyn::{Error, Result, Status};
 use std::path::Path;

@@ -1,32 +1,49 @@
-//! Tables of texts.
+//! Tables as text and as CSV files.
 
-/// A table of texts.
+use cagedyn::Result;
+use std::path::Path;
+
+/// Name, headings and lines of a table.
 pub struct Table {
-    /// Its name, which marks its place.
-    pub name: &'static str,
-    rows: Vec<Vec<String>>,
+    /// Name, for the file and the marker on the page.
+    pub name: String,
+    /// Headings.
+    pub head: Vec<String>,
+    /// Lines, each as long as the headings.
+    pub lines: Vec<Vec<String>>,
 }
 
 impl Table {
-    /// One with these heads.
-    pub fn new(name: &'static str, head: &[&str]) -> Self {
-        Self { name, rows: vec![head.iter().map(|text| (*text).to_owned()).collect()] }
+    /// One with these headings.
+    pub fn new(name: &str, head: &[&str]) -> Self {
+        let head = head.iter().map(|text| (*text).to_owned()).collect();
+        Self { name: name.to_owned(), head, lines: Vec::new() }
     }
 
-    /// Adds a row.
-    pub fn add<const N: usize>(&mut self, row: [String; N]) {
-        self.rows.push(row.to_vec());
+    /// Adds a line.
+    pub fn add<const N: usize>(&mut self, line: [String; N]) {
+        self.lines.push(line.to_vec());
     }
 
-    /// As Markdown.
+    /// The table in Markdown.
     pub fn text(&self) -> String {
-        let mut text = String::new();
-        for (i, row) in self.rows.iter().enumerate() {
-            text += &format!("| {} |\n", row.join(" | "));
-            if i == 0 {
-                text += &format!("|---|{}\n", "---:|".repeat(row.len() - 1));
-            }
-        }
-        text
+        let line = |texts: &[String]| format!("| {} |\n", texts.join(" | "));
+        let rule: String = (0..self.head.len()).map(|k| if k == 0 { "|---" } else { "|---:" }).collect();
+        let lines: String = self.lines.iter().map(|texts| line(texts)).collect();
+        format!("{}{rule}|\n{lines}", line(&self.head))
+    }
+
+    /// Writes the table as a CSV file.
+    ///
+    /// # Errors
+    /// [`cagedyn::Status::File`].
+    pub fn save(&self, folder: &Path) -> Result<()> {
+        let path = folder.join(format!("{}.csv", self.name.replace(' ', "_")));
+        let write = || {
+            let mut writer = csv::Writer::from_path(&path)?;
+            std::iter::once(&self.head).chain(&self.lines).try_for_each(|line| writer.write_record(line))?;
+            Ok(writer.flush()?)
+        };
+        write().map_err(|e: csv::Error| crate::file_error(&path, e))
     }
 }

@@ -174,10 +174,13 @@ mod tests {
 
     #[test]
     fn segments_keep_amplitudes_and_lower_the_scatter_of_noise() {
-        let mut rng = fastrand::Rng::with_seed(5);
-        let n = 8 * N;
-        let samples: Vec<f64> =
-            (0..n).map(|i| (TAU * 0.1 * i as f64).sin() + 0.5 * (rng.f64() - 0.5)).collect();
+        // Noise of a linear congruential generator.
+        let mut state = 5u32;
+        let mut noise = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            f64::from(state >> 8) / f64::from(1u32 << 24) - 0.5
+        };
+        let samples: Vec<f64> = (0..8 * N).map(|i| (TAU * 0.1 * i as f64).sin() + 0.5 * noise()).collect();
         let one = amplitude_spectrum(&samples, INTERVAL).unwrap();
         let wanted = 2.0 / (N as f64 * INTERVAL);
         let many = averaged_spectrum(&samples, INTERVAL, wanted).unwrap();

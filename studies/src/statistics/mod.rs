@@ -4,4 +4,3 @@ pub mod cases;
 pub mod methods;
 pub mod readings;
 pub mod study;
-pub mod table;

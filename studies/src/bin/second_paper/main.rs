@@ -4,16 +4,15 @@
 //! Prints tables; with `--docs` also those of `docs/results/second-paper.md`.
 
 mod motion;
-mod table;
 
 use cagedyn::heat::HeatBalance;
 use cagedyn::whirl::onset;
 use cagedyn::{Model, Result, Scene};
+use cagedyn_studies::table::Table;
 use clap::Parser;
 use motion::{Whirl, whirl_of};
 use std::f64::consts::TAU;
 use std::path::Path;
-use table::Table;
 
 #[derive(Parser)]
 #[command(about)]
@@ -37,7 +36,7 @@ fn main() -> Result<()> {
         println!("{}\n{}", table.name, table.text());
     }
     if arguments.docs {
-        let texts = tables.iter().map(|table| (table.name, table.text()));
+        let texts = tables.iter().map(|table| (table.name.as_str(), table.text()));
         cagedyn_studies::write_tables(Path::new("docs/results/second-paper.md"), texts)?;
     }
     Ok(())

@@ -4,7 +4,8 @@
 
 mod report;
 use cagedyn::Result;
-use cagedyn_studies::statistics::{cases, study, table};
+use cagedyn_studies::statistics::{cases, study};
+use cagedyn_studies::table::Table;
 use clap::Parser;
 use std::path::{Path, PathBuf};
 
@@ -51,6 +52,6 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-fn print(table: &table::Table) {
+fn print(table: &Table) {
     println!("{}\n\n{}", table.name, table.text());
 }

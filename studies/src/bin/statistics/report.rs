@@ -4,7 +4,7 @@ use cagedyn::Result;
 use cagedyn::sim::Verdict;
 use cagedyn_studies::statistics::readings::QUANTITIES;
 use cagedyn_studies::statistics::study::{Outcome, Outcomes};
-use cagedyn_studies::statistics::table::Table;
+use cagedyn_studies::table::Table;
 use std::path::Path;
 
 /// Significant digits of values.
