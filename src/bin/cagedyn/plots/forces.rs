@@ -103,7 +103,7 @@ pub fn contact_forces(run: &Run) -> Option<Result<String>> {
 fn arrow(contact: &ContactForces, on_element: bool) -> Option<Arrow> {
     let of = |name: &str| CONTACT_QUANTITIES.iter().position(|q| q.name == name).map_or(0.0, |i| contact[i]);
     let (normal, n) = (of("normal_force"), [of("normal_y"), of("normal_z")]);
-    if !(normal > 0.0) {
+    if normal <= 0.0 {
         return None;
     }
     let t = [-n[1], n[0]];

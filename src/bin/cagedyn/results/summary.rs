@@ -374,7 +374,7 @@ fn drives(name: &str) -> bool {
 fn power_loss(run: &Run) -> Option<PowerLoss> {
     let (from, before) = run.before.works?;
     let time = run.time - from;
-    if !(time > 0.0) {
+    if time <= 0.0 {
         return None;
     }
     let powers =
