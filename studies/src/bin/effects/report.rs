@@ -75,7 +75,7 @@ impl Report {
     /// Writes all tables as CSV files.
     ///
     /// # Errors
-    /// [`Status::File`].
+    /// [`cagedyn::Status::File`].
     pub fn save(&self, folder: &Path) -> Result<()> {
         for table in self.tables() {
             let path = folder.join(format!("{}_{}.csv", self.study.name, table.name));
@@ -208,7 +208,7 @@ impl Table {
 /// Puts the tables into a page, each between its marker and the end marker.
 ///
 /// # Errors
-/// [`Status::File`], also when the page has no place for a table.
+/// [`cagedyn::Status::File`], also when the page has no place for a table.
 pub fn write_page(path: &Path, reports: &[Report]) -> Result<()> {
     for report in reports {
         let tables = report.tables();

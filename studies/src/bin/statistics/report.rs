@@ -197,7 +197,7 @@ fn number(x: f64) -> String {
 /// Puts the tables into a page, each between its marker and the end marker.
 ///
 /// # Errors
-/// [`Status::File`], also when the page has no place for a table.
+/// [`cagedyn::Status::File`], also when the page has no place for a table.
 pub fn write_page(path: &Path, tables: &[Table]) -> Result<()> {
     cagedyn_studies::write_tables(path, tables.iter().map(|table| (table.name.as_str(), table.text())))
 }
