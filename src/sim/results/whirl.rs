@@ -270,7 +270,7 @@ mod tests {
         let whirl = Orbit::new(140.0, INTERVAL, circle(0.8, -2000.0)).summary();
         assert!(whirl.velocity_deviation.is_some_and(|x| x < 1e-9), "{whirl:?}");
         // Along a line the speed is that of a rectified sine: its deviation is sqrt(pi^2 / 8 - 1) of its mean.
-        let swing = Orbit::new(140.0, INTERVAL, |t| (0.1 + 0.3 * (97.0 * t).sin(), 0.0)).summary();
+        let swing = Orbit::new(140.0, INTERVAL, |t| (0.1 + 0.3 * (100.0 * TAU * t).sin(), 0.0)).summary();
         let expected = (PI * PI / 8.0 - 1.0).sqrt();
         assert!(swing.velocity_deviation.is_some_and(|x| (x - expected).abs() < 0.01), "{swing:?}");
         let rest = Orbit::new(140.0, INTERVAL, |_| (0.5, -0.5)).summary();
