@@ -77,10 +77,10 @@ pub fn contact_forces(run: &Run) -> Option<Result<String>> {
                 (Symbol::Line(kind.paint), format!("{}, largest {} N", kind.name, number(kind.largest())))
             })
             .collect();
-        style::legend_row(canvas, 76.0, &entries)?;
-        let note =
-            [(Symbol::Line(FAINT), "elements and raceways; each kind of force has its own scale".to_owned())];
-        style::legend_row(canvas, 100.0, &note)?;
+        style::legend_row(canvas, 76.0, &entries[..entries.len().min(2)])?;
+        let note = (Symbol::Line(FAINT), "elements; each kind of force has its own scale".to_owned());
+        let second: Vec<_> = entries.iter().skip(2).cloned().chain([note]).collect();
+        style::legend_row(canvas, 100.0, &second)?;
         panel(canvas, place, (&x_axis, &y_axis), true, &[], |panel| {
             for radius in circles.into_iter().flatten() {
                 panel.circle(1e3 * radius, line(MUTED, THIN))?;

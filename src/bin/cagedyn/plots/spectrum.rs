@@ -82,11 +82,7 @@ fn draw(
             entries.push((Symbol::Marker(Marker::Ring, RED), label));
         }
         let whirls = orders.iter().any(|(_, name)| name == WHIRL);
-        let marks = if whirls {
-            "f_c and multiples, Z f_c ± f_c, whirl"
-        } else {
-            "cage frequency f_c, multiples, Z f_c ± f_c"
-        };
+        let marks = if whirls { "f_c, n f_c, whirl" } else { "f_c, n f_c, Z f_c ± f_c" };
         entries.push((Symbol::Dashed(MUTED), marks.to_owned()));
         style::legend_row(canvas, 78.0, &entries)?;
         panel(canvas, place, (&x_axis, &y_axis), true, &[], |panel| {

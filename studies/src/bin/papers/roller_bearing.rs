@@ -186,9 +186,9 @@ fn fig10(run: &Folder) -> Result<Table> {
         ),
     ]);
     table.add([
-        "mean slip 20 to 40 degrees after the entry of the load zone, %".into(),
+        "mean slip 25 to 45 degrees after the entry of the load zone, %".into(),
         "rapidly at the theoretical speed".into(),
-        percent(mean_between(&angles, &slip, -half + 0.35, -half + 0.7)),
+        percent(mean_between(&angles, &slip, -half + 0.43, -half + 0.79)),
     ]);
     let columns: Vec<String> = (0..12)
         .flat_map(|j| ["pocket_position", "inner_force"].map(|what| format!("roller[{j}].{what}")))
