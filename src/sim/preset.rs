@@ -11,8 +11,10 @@ pub(super) struct Numbers {
     pub statistics: bool,
     /// Leapfrog step in units of 1/(highest frequency), with contact damping; without it takes half.
     pub leapfrog_step: f64,
-    /// Tolerance of error control; for rollers while nothing vibrates, and where the leapfrog will not do.
+    /// Tolerance of a method with error control that the scene names.
     pub tolerance: f64,
+    /// Tolerance of `auto`, which promises means; for rollers while nothing vibrates, and where the leapfrog will not do.
+    pub auto_tolerance: f64,
     /// Share of the energy that a trusted run misses at most.
     pub missing_energy: f64,
 }
@@ -20,13 +22,25 @@ pub(super) struct Numbers {
 /// Leapfrog step without contact damping, relative to that with it.
 pub(super) const UNDAMPED_SHARE: f64 = 0.5;
 
-const ENGINEERING: Numbers =
-    Numbers { statistics: true, leapfrog_step: 1.0, tolerance: 1e-6, missing_energy: 1e-3 };
+const ENGINEERING: Numbers = Numbers {
+    statistics: true,
+    leapfrog_step: 1.0,
+    tolerance: 1e-6,
+    auto_tolerance: 1e-6,
+    missing_energy: 1e-3,
+};
 
+// With 1e-4 `auto` missed a slow growth of the whirl in one of two thousand random scenes, and won a tenth of the
+// evaluations of the median one.
 const DRAFT: Numbers = Numbers { leapfrog_step: 1.4, tolerance: 1e-4, missing_energy: 1e-2, ..ENGINEERING };
 
-const REFERENCE: Numbers =
-    Numbers { statistics: false, leapfrog_step: 0.15, tolerance: 1e-8, missing_energy: 1e-4 };
+const REFERENCE: Numbers = Numbers {
+    statistics: false,
+    leapfrog_step: 0.15,
+    tolerance: 1e-8,
+    auto_tolerance: 1e-8,
+    missing_energy: 1e-4,
+};
 
 /// The numbers of a preset.
 pub(super) fn numbers(preset: Preset) -> Numbers {
