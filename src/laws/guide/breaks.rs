@@ -192,7 +192,20 @@ struct Sampled {
 impl Sampled {
     /// The smallest film of the block and this one, m; a NaN is kept.
     fn lowest(&self, other: f64) -> f64 {
-        self.film.iter().fold(other, |low, film| if *film >= low || low.is_nan() { low } else { *film })
+        let lower = |a: f64, b: f64| if b >= a || a.is_nan() { a } else { b };
+        let mut low = self.film;
+        // Halves, so that neighbours are compared at a time.
+        for half in [8, 4, 2, 1] {
+            for i in 0..half {
+                low[i] = lower(low[i], low[i + half]);
+            }
+        }
+        lower(other, low[0])
+    }
+
+    /// A bit for each step of the block at whose ends signs differ.
+    fn changes(&self) -> u32 {
+        (0..STEPS).fold(0, |bits, k| bits | u32::from(self.signs[k] != self.signs[k + 1]) << k)
     }
 
     /// Whether a film that seems to drop by this between these points (m) has to be known better. Forces only ask
@@ -300,15 +313,20 @@ impl Search<'_> {
                 out.negative = std::array::from_fn(|of| signs >> of & 1 == 1);
                 out.look_at(sampled.film[0], sampled.angles[0]);
             }
-            for k in 0..STEPS.min(steps - start) {
-                if sampled.signs[k] != sampled.signs[k + 1] {
-                    if !brackets.has_room() || out.dry >= MOST_DRY {
-                        break 'blocks;
+            let count = STEPS.min(steps - start);
+            let mut changes = sampled.changes() & ((1 << count) - 1);
+            while changes != 0 {
+                let k = changes.trailing_zeros() as usize;
+                if !brackets.has_room() || out.dry >= MOST_DRY {
+                    if k > 0 {
+                        (out.last_step, out.to) = (start + k, sampled.angles[k]);
                     }
-                    sampled.step(k, self.aims, &mut brackets, out);
+                    break 'blocks;
                 }
-                (out.last_step, out.to) = (start + k + 1, sampled.angles[k + 1]);
+                sampled.step(k, self.aims, &mut brackets, out);
+                changes &= changes - 1;
             }
+            (out.last_step, out.to) = (start + count, sampled.angles[count]);
         }
         if brackets.count > 0 {
             self.refine(&mut brackets, out);

@@ -199,9 +199,12 @@ struct Found {
 
 /// Whether the last terms of the series of pressure and stress are small, or at least of round-off. A NaN suits, or nothing would.
 pub(super) fn suits([pressure, stress, cubes]: [&Lanes; 3], noise: f64) -> bool {
-    let rough =
-        tail(pressure) > TAIL * total(pressure) + noise * total(cubes) || tail(stress) > TAIL * total(stress);
-    !rough
+    // Round-off is asked for only where it may matter.
+    let rough = |parts: &Lanes, allowed: &dyn Fn() -> f64| {
+        let (tail, whole) = (tail(parts), TAIL * total(parts));
+        tail > whole && tail > whole + allowed()
+    };
+    !(rough(pressure, &|| noise * total(cubes)) || rough(stress, &|| 0.0))
 }
 
 /// Size of the last two terms of the series.

@@ -152,7 +152,7 @@ impl BentForces {
             harmonics: Vec::with_capacity(
                 profile.iter().map(|lobe| lobe.order).fold(order, u32::max) as usize
             ),
-            sums: Sums::new(order as usize),
+            sums: Sums::new(surface),
         }
     }
 
@@ -347,12 +347,11 @@ impl GuideLaw {
         let squeeze = self.film.as_ref().map_or(0.0, GuideFilm::squeeze);
         let slides = !matches!(self.film, Some(GuideFilm::ShortBearing(_)));
         let shape = Shape { squeeze, slides, ..*shape };
-        let found = out.sums.forces();
+        let found = shape.take_forces(&mut out.sums, share, &mut out.film);
         out.parts.pressure = found.pressure.map(|f| f * share);
         out.parts.shear = found.shear.map(|f| f * share);
         out.parts.film_moment = found.moment * share;
         out.parts.moment += found.moment * share;
-        shape.add_forces(&out.sums, share, &mut out.film);
         out.all.iter_mut().zip(&out.film).for_each(|(sum, force)| *sum += force);
         shape.add_slopes(&out.sums, wanted, share, &mut out.over, &mut out.over_ring_speed);
     }
@@ -389,10 +388,9 @@ impl GuideLaw {
         out.sums.begin(wanted);
         search.over_wet(|from, to| out.sums.add_pieces(&surface, &gap, from, to, instructions));
         out.harmonics = harmonics;
-        let found = out.sums.forces();
+        let found = shape.take_forces(&mut out.sums, share, &mut out.solid);
         out.parts.solid = [0, 1].map(|k| (found.pressure[k] + found.shear[k]) * share);
         out.parts.moment += found.moment * share;
-        shape.add_forces(&out.sums, share, &mut out.solid);
         out.all.iter_mut().zip(&out.solid).for_each(|(sum, force)| *sum += force);
         shape.add_slopes(&out.sums, wanted, share, &mut out.over, &mut out.over_ring_speed);
         if wanted == Wanted::Slopes && film_share_slope != 0.0 {

@@ -1,6 +1,6 @@
 //! From Fourier coefficients to forces over the coordinates of a bent cage, and to their derivatives.
 
-use super::sums::{Of, Sums};
+use super::sums::{Found, Of, Sums};
 use super::{BentMotion, BentSurface, OF_MOTION, Wanted};
 use crate::scalar::math;
 use nalgebra::{DMatrix, DVector, DVectorViewMut};
@@ -76,15 +76,25 @@ impl Shape<'_> {
         coordinate.order > 1
     }
 
-    /// Adds the forces over all coordinates, times `share`; in place of the moment on the cage that on the journal.
-    pub(super) fn add_forces(&self, sums: &Sums, share: f64, out: &mut [f64]) {
+    /// Completes sums; writes the forces over all coordinates, times `share`, in place of the moment on the cage that on the
+    /// journal.
+    pub(super) fn take_forces(&self, sums: &mut Sums, share: f64, out: &mut [f64]) -> Found {
         let s = self.sign() * share;
-        for row in self.coordinates() {
-            let force: f64 =
-                row.weights().iter().map(|(function, wave)| mean(sums, *function, row.order, *wave)).sum();
-            out[row.place] += s * force;
-        }
-        out[2] += share * sums.of(Of::Moment, 0)[0];
+        let waves = &self.surface.waves;
+        let mut next = 0;
+        let found = sums.forces(|order, [on_cosine, on_sine]| {
+            let place = match order {
+                1 => 0,
+                _ if waves.get(next).is_some_and(|(wave, _)| *wave as usize == order) => {
+                    next += 1;
+                    OF_MOTION + 2 * (next - 1)
+                }
+                _ => return,
+            };
+            (out[place], out[place + 1]) = (s * on_cosine, s * on_sine);
+        });
+        out[2] = share * found.moment;
+        found
     }
 
     /// Adds derivatives over positions and velocities, and over the speed of the ring, times `share`.
@@ -103,9 +113,8 @@ impl Shape<'_> {
         // What the speed of the cage does to the film by its growth, m s.
         let growing = -2.0 * s * self.surface.growth * self.motion.speeds[0];
         for row in self.coordinates() {
-            let weights = row.weights();
+            let [n, t, e] = row.weights();
             let at = |function: Of, wave: Wave| mean(sums, function, row.order, wave);
-            let [(_, n), (_, t), (_, e)] = weights;
             let by_film =
                 at(Of::NormalByFilmSlope, n) + at(Of::AlongByFilmSlope, t) + at(Of::InwardByFilmSlope, e);
             let by_waves =
@@ -211,12 +220,8 @@ impl Shape<'_> {
 
 impl Coordinate {
     /// What pressure, tangential force and the part of the gradient count with in the force over it.
-    fn weights(&self) -> [(Of, Wave); 3] {
-        [
-            (Of::Normal, self.own(-1.0)),
-            (Of::Along, self.turned(-self.along)),
-            (Of::Inward, self.own(self.n() * self.along)),
-        ]
+    fn weights(&self) -> [Wave; 3] {
+        [self.own(-1.0), self.turned(-self.along), self.own(self.n() * self.along)]
     }
 }
 

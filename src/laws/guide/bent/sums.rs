@@ -1,7 +1,7 @@
 //! Fourier coefficients around the circle of what a film or a solid contact does at each place, and of its derivatives.
 
-use super::Wanted;
 use super::surface::{Surface, SurfaceLaw};
+use super::{BentSurface, Wanted};
 use crate::laws::guide::gap::Gap;
 use crate::laws::guide::panels::{Ends, Panel, PanelSums, Piece, suits, total};
 use crate::scalar::{Columns, Lanes, Numeric, Pack, WIDEST, ZEROS, dispatch};
@@ -12,17 +12,13 @@ const WIDEST_PANEL: f64 = 0.25;
 /// Halvings of one: its damper has kinks.
 const DEEPEST: u32 = 8;
 
-/// Functions of the place whose coefficients are found. First those up to the highest order of the waves, then those up to twice
-/// that; of each the ones for derivatives over velocities before those over positions. Where only the mean is needed, it stands
-/// with the others.
+/// Derivatives whose coefficients are found, as functions of the place. First those up to the highest order of the waves, then those
+/// up to twice that; of each the ones over velocities before those over positions. Where only the mean is needed, it stands with the
+/// others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(usize)]
 pub(super) enum Of {
-    Normal,
-    Along,
-    Inward,
     /// Moment with that of the pressure on waves.
-    Moment,
     MomentOverOpening,
     MomentOverSliding,
     /// Derivatives over G times h', and times the slope of what turns with the cage.
@@ -36,6 +32,8 @@ pub(super) enum Of {
     MomentByWaveSlope,
     MomentOverFilm,
     MomentOverSlope,
+    /// The pressure itself, whose waves turn with the cage.
+    Normal,
     NormalOverOpening,
     AlongOverOpening,
     AlongOverSliding,
@@ -46,11 +44,10 @@ pub(super) enum Of {
     InwardOverFilm,
 }
 
-/// Numbers of functions: all, those of forces, those of one order, those of one order without derivatives over positions, those
-/// without derivatives over positions.
+/// Numbers of functions: all, those of one order, those of one order without derivatives over positions, those without derivatives
+/// over positions.
 const FUNCTIONS: usize = Of::InwardOverFilm as usize + 1;
-const OF_FORCES: usize = Of::Moment as usize + 1;
-const SHORT: usize = Of::MomentOverSlope as usize + 1;
+const SHORT: usize = Of::Normal as usize + 1;
 const SHORT_OF_VELOCITIES: usize = Of::MomentByWaveSlope as usize + 1;
 const OF_VELOCITIES: usize = Of::InwardOverOpening as usize + 1;
 
@@ -63,15 +60,33 @@ pub(super) struct Sums {
     /// Highest order of the waves.
     order: usize,
     wanted: Wanted,
+    forces: Box<Forces>,
     lanes: Vec<Coefficients>,
     /// Their totals, once they are complete.
     totals: Vec<[f64; 2]>,
     points: Box<Points>,
 }
 
+/// Sums of the forces.
+#[derive(Clone, Debug)]
+struct Forces {
+    /// n tau_n and tau_n of each order from one on.
+    along: Vec<[f64; 2]>,
+    /// Over the cosine and the sine of each order without s: -N + n tau E on its own wave and T tau on the other.
+    on_waves: Vec<Coefficients>,
+    /// Of the pressure, order one.
+    pressure: Coefficients,
+    /// About the centre of the journal, with that of the pressure on waves.
+    moment: Lanes,
+}
+
 /// Functions at the places of a panel, times their weights.
 #[derive(Clone, Debug)]
 struct Points {
+    normal: Lanes,
+    along: Lanes,
+    inward: Lanes,
+    moment: Lanes,
     of: [Lanes; FUNCTIONS],
     /// Direction of each place.
     cos: Lanes,
@@ -87,13 +102,30 @@ pub(super) struct Found {
 }
 
 impl Sums {
-    /// Memory for waves up to this order.
-    pub(super) fn new(order: usize) -> Self {
+    /// Memory for the waves of a surface.
+    pub(super) fn new(surface: &BentSurface) -> Self {
+        let order = surface.waves.iter().map(|(order, _)| *order).max().unwrap_or(1) as usize;
+        let mut along = vec![[0.0; 2]; order];
+        along[0] = [-1.0; 2];
+        for (order, tau) in &surface.waves {
+            along[*order as usize - 1] = [f64::from(*order) * tau, *tau];
+        }
+        let forces = Forces { along, on_waves: vec![[ZEROS; 2]; order], pressure: [ZEROS; 2], moment: ZEROS };
         let count = SHORT * (order + 1) + (FUNCTIONS - SHORT) * (2 * order + 1);
-        let points = Points { of: [ZEROS; FUNCTIONS], cos: ZEROS, sin: ZEROS, series: [ZEROS; 3] };
+        let points = Points {
+            normal: ZEROS,
+            along: ZEROS,
+            inward: ZEROS,
+            moment: ZEROS,
+            of: [ZEROS; FUNCTIONS],
+            cos: ZEROS,
+            sin: ZEROS,
+            series: [ZEROS; 3],
+        };
         Self {
             order,
             wanted: Wanted::Forces,
+            forces: Box::new(forces),
             lanes: vec![[ZEROS; 2]; count],
             totals: vec![[0.0; 2]; count],
             points: Box::new(points),
@@ -103,6 +135,9 @@ impl Sums {
     /// Starts anew.
     pub(super) fn begin(&mut self, wanted: Wanted) {
         self.wanted = wanted;
+        let Forces { on_waves, pressure, moment, .. } = &mut *self.forces;
+        on_waves.fill([ZEROS; 2]);
+        (*pressure, *moment) = ([ZEROS; 2], ZEROS);
         for range in self.used() {
             self.lanes[range].fill([ZEROS; 2]);
         }
@@ -110,11 +145,7 @@ impl Sums {
 
     /// Places of the coefficients that are found.
     fn used(&self) -> [std::ops::Range<usize>; 2] {
-        let (short, long) = match self.wanted {
-            Wanted::Forces => (OF_FORCES, SHORT),
-            Wanted::Damping => (SHORT_OF_VELOCITIES, OF_VELOCITIES),
-            Wanted::Slopes => (SHORT, FUNCTIONS),
-        };
+        let [short, long] = used(self.wanted);
         let first = SHORT * (self.order + 1);
         [0..short * (self.order + 1), first..first + (long - SHORT) * (2 * self.order + 1)]
     }
@@ -138,16 +169,25 @@ impl Sums {
         [cos, if order < 0 { -sin } else { sin }]
     }
 
-    /// Completes the sums; the forces.
-    pub(super) fn forces(&mut self) -> Found {
+    /// Completes the sums; the forces. Those over each wave, without s, are told with its order.
+    pub(super) fn forces(&mut self, mut tell: impl FnMut(usize, [f64; 2])) -> Found {
         for range in self.used() {
             for (totals, lanes) in self.totals[range.clone()].iter_mut().zip(&self.lanes[range]) {
                 *totals = lanes.each_ref().map(total);
             }
         }
-        let [n, t, e] = [Of::Normal, Of::Along, Of::Inward].map(|function| self.of(function, 1));
-        let [moment, _] = self.of(Of::Moment, 0);
-        Found { pressure: [-n[0], -n[1]], shear: [-t[1] - e[0], t[0] - e[1]], moment }
+        let Forces { on_waves, pressure, moment, .. } = &*self.forces;
+        let mut on_centre = [0.0; 2];
+        for (i, lanes) in on_waves.iter().enumerate() {
+            let force = lanes.each_ref().map(total);
+            if i == 0 {
+                on_centre = force;
+            }
+            tell(i + 1, force);
+        }
+        let pressure = pressure.each_ref().map(|lanes| -total(lanes));
+        let shear = [on_centre[0] - pressure[0], on_centre[1] - pressure[1]];
+        Found { pressure, shear, moment: total(moment) }
     }
 
     /// Adds the places from `from` to `to` (rad).
@@ -188,8 +228,11 @@ impl Sums {
     fn add_points(&mut self, instructions: Arch, count: usize) {
         let (order, wanted) = (self.order, self.wanted);
         let first = [SHORT * (order + 1), 2 * order + 1];
-        let Self { lanes, points, .. } = self;
-        dispatch(instructions, Waves { order, wanted, first, lanes, points, count });
+        let Self { forces, lanes, points, .. } = self;
+        dispatch(instructions, ForceWaves { forces, points, count });
+        if wanted != Wanted::Forces {
+            dispatch(instructions, Waves { order, wanted, first, lanes, points, count });
+        }
     }
 }
 
@@ -219,7 +262,10 @@ impl<L: SurfaceLaw> PanelSums for SumsOver<'_, L> {
 
     fn add_ends(&mut self, ends: &Ends<'_>, instructions: Arch) {
         let Self { sums, law } = self;
-        sums.points.of.fill(ZEROS);
+        (sums.points.normal, sums.points.inward) = (ZEROS, ZEROS);
+        if sums.wanted != Wanted::Forces {
+            sums.points.of.fill(ZEROS);
+        }
         dispatch(instructions, AtEnds { law: *law, ends, points: &mut sums.points });
         sums.add_points(instructions, ends.count);
     }
@@ -253,10 +299,10 @@ impl<L: SurfaceLaw> Columns for Values<'_, L> {
         let points = &mut *self.points;
         place.cos.store(&mut points.cos[first..]);
         place.sin.store(&mut points.sin[first..]);
-        let values = [surface.normal, surface.along, surface.inward, moment];
-        for (column, value) in points.of.iter_mut().zip(values) {
-            (value * weight).store(&mut column[first..]);
-        }
+        (surface.normal * weight).store(&mut points.normal[first..]);
+        (surface.along * weight).store(&mut points.along[first..]);
+        (surface.inward * weight).store(&mut points.inward[first..]);
+        (moment * weight).store(&mut points.moment[first..]);
         for (column, value) in points.series.iter_mut().zip(series) {
             (value * weight).store(&mut column[first..]);
         }
@@ -310,7 +356,7 @@ impl<L: SurfaceLaw, const N: usize> Columns for Slopes<'_, L, N> {
             put!(points, first:
                 NormalOverFilm = (n.eps[h] * weight), AlongOverFilm = (t.eps[h] * weight),
                 InwardOverFilm = (e.eps[h] * weight), AlongOverSlope = (t.eps[slope] * weight),
-                MomentOverFilm = moment(h), MomentOverSlope = moment(slope),
+                MomentOverFilm = moment(h), MomentOverSlope = moment(slope), Normal = (n.re * weight),
             );
         }
     }
@@ -350,8 +396,9 @@ impl<L: SurfaceLaw> Columns for AtEnds<'_, L> {
         place.cos.store(&mut points.cos[first..]);
         place.sin.store(&mut points.sin[first..]);
         let slope = place.film[1];
+        jumped.store(&mut points.along[first..]);
+        (jumped * radius).store(&mut points.moment[first..]);
         put!(points, first:
-            Along = jumped, Moment = (jumped * radius),
             AlongOverOpening = jumped_g, MomentOverOpening = (jumped_g * radius),
             AlongByFilmSlope = (jumped_g * slope), MomentByFilmSlope = (jumped_g * radius * slope),
             AlongByWaveSlope = (jumped_g * turned), MomentByWaveSlope = (jumped_g * radius * turned),
@@ -362,7 +409,53 @@ impl<L: SurfaceLaw> Columns for AtEnds<'_, L> {
     }
 }
 
-/// Multiplies the functions at the points with all waves.
+/// Multiplies what is at the points with all waves: the forces.
+struct ForceWaves<'a> {
+    forces: &'a mut Forces,
+    points: &'a Points,
+    count: usize,
+}
+
+impl Columns for ForceWaves<'_> {
+    const PAIRED: bool = false;
+
+    fn rows(&self) -> usize {
+        self.count
+    }
+
+    #[inline(always)]
+    #[expect(clippy::needless_range_loop, reason = "iterators might not be inlined")]
+    fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
+        let Points { normal, along, inward, moment, cos, sin, .. } = self.points;
+        let of = |lanes: &Lanes| Pack::<S, K>::load(simd, &lanes[first..]);
+        let [normal, along, inward, cos, sin] = [of(normal), of(along), of(inward), of(cos), of(sin)];
+        let Forces { along: factors, on_waves, pressure, moment: sum } = &mut *self.forces;
+        of(moment).add_to(&mut sum[first..]);
+        (normal * cos).add_to(&mut pressure[0][first..]);
+        (normal * sin).add_to(&mut pressure[1][first..]);
+        let mut wave = [cos, sin];
+        for i in 0..factors.len() {
+            let [of_inward, of_along] = factors[i];
+            let (own, other) = (inward * of_inward - normal, along * of_along);
+            let [c, s] = wave;
+            (c * own + s * other).add_to(&mut on_waves[i][0][first..]);
+            (s * own - c * other).add_to(&mut on_waves[i][1][first..]);
+            wave = [c * cos - s * sin, s * cos + c * sin];
+        }
+    }
+}
+
+/// Functions that are found: their number of one order, and the number behind them and those of twice the order.
+#[inline(always)]
+fn used(wanted: Wanted) -> [usize; 2] {
+    match wanted {
+        Wanted::Forces => [0, SHORT],
+        Wanted::Damping => [SHORT_OF_VELOCITIES, OF_VELOCITIES],
+        Wanted::Slopes => [SHORT, FUNCTIONS],
+    }
+}
+
+/// Multiplies the derivatives at the points with all waves.
 struct Waves<'a> {
     order: usize,
     wanted: Wanted,
@@ -385,21 +478,13 @@ impl Columns for Waves<'_> {
     fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
         let Points { of, cos, sin, .. } = self.points;
         let (cos, sin) = (Pack::<S, K>::load(simd, &cos[first..]), Pack::load(simd, &sin[first..]));
-        let rows = self.count;
-        let (short, long) = match self.wanted {
-            Wanted::Forces => (OF_FORCES, SHORT),
-            Wanted::Damping => (SHORT_OF_VELOCITIES, OF_VELOCITIES),
-            Wanted::Slopes => (SHORT, FUNCTIONS),
-        };
+        let [short, long] = used(self.wanted);
         let [of_long, each] = self.first;
         let mut wave = [cos.like(1.0), cos.like(0.0)];
-        let highest = if long > SHORT { 2 * self.order } else { self.order };
-        debug_assert!(rows <= WIDEST);
-        for order in 0..=highest {
-            // Of the moment alone, only the mean is needed.
-            let count = if order > 0 && self.wanted == Wanted::Forces { short - 1 } else { short };
+        debug_assert!(self.count <= WIDEST);
+        for order in 0..=2 * self.order {
             if order <= self.order {
-                for function in 0..count {
+                for function in 0..short {
                     let value = Pack::<S, K>::load(simd, &of[function][first..]);
                     let [c, s] = &mut self.lanes[function * (self.order + 1) + order];
                     (value * wave[0]).add_to(&mut c[first..]);
