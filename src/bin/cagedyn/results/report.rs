@@ -157,6 +157,12 @@ pub fn results(summary: &Summary) -> Vec<Row> {
     }
     rows.spread("inner ring y", of("inner_ring.y"), 1e6, "um", "");
     rows.spread("inner ring z", of("inner_ring.z"), 1e6, "um", "");
+    for (name, statistics) in &summary.statistics {
+        if let Some(lump) = name.strip_prefix("temperature.") {
+            rows.spread("temperature", Some(statistics), 1.0, "K", lump);
+        }
+    }
+    rows.spread("viscosity", of("lubricant.viscosity"), 1e3, "mPa s", "of the lubricant");
     rows.0
 }
 
