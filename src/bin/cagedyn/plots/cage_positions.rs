@@ -1,18 +1,27 @@
 //! Mean cage centres of all cases in the circle of the guide clearance (compare Fig. 9).
 
 use super::axis::Axis;
+use super::labels::Room;
 use super::panel::{Panel, Place, panel};
-use super::style::{self, CURVE, Canvas, Drawn, INK, MUTED, Symbol, TEXT, line, px, text, text_width};
+use super::style::{self, BLUE, CURVE, Canvas, Drawn, INK, MUTED, Symbol, TEXT, line, px, text_width};
 use super::{Series, look};
 use cagedyn::Result;
-use plotters::prelude::Text;
-use plotters::style::text_anchor::{HPos, VPos};
+use plotters::prelude::{Circle, PathElement};
+use plotters::style::text_anchor::HPos;
+use std::f64::consts::TAU;
 
 /// Side of the diagram, px.
 const SIDE: f64 = 600.0;
 /// Size of the markers and of the labels of the points, px.
 const MARKER: f64 = 5.0;
 const LABEL: f64 = 11.0;
+/// Half the side of the diagram if it shows the whole circle.
+const WHOLE: f64 = 1.1;
+/// The part with all points is shown alone if it is at most this share of that, with this much room around the points.
+const PART: f64 = 0.75;
+const ROOM: f64 = 1.25;
+/// Radius of the circle that then shows which part it is, px.
+const OVERVIEW: f64 = 62.0;
 
 /// Mean cage centre of a case.
 pub struct Point {
@@ -22,162 +31,143 @@ pub struct Point {
     pub centre: (f64, f64),
 }
 
+/// The square that is shown: its centre and half its side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Square {
+    centre: (f64, f64),
+    half: f64,
+}
+
+impl Square {
+    /// The whole circle, or a part of it where all points are close together.
+    fn around(points: &[(f64, f64)]) -> Self {
+        let whole = Self { centre: (0.0, 0.0), half: WHOLE };
+        let span = |of: fn(&(f64, f64)) -> f64| {
+            let (low, high) = points
+                .iter()
+                .map(of)
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+            (0.5 * (low + high), 0.5 * (high - low))
+        };
+        let ((y, half_y), (z, half_z)) = (span(|p| p.0), span(|p| p.1));
+        // Of one point a tenth of the clearance.
+        let half = ROOM * half_y.max(half_z).max(0.04);
+        if half.is_finite() && half <= PART * WHOLE { Self { centre: (y, z), half } } else { whole }
+    }
+
+    fn is_part(&self) -> bool {
+        self.half < WHOLE
+    }
+
+    fn contains(&self, (y, z): (f64, f64)) -> bool {
+        (y - self.centre.0).abs() <= self.half && (z - self.centre.1).abs() <= self.half
+    }
+
+    fn axis(&self, name: &str, centre: f64) -> Axis {
+        Axis::new(name, centre - self.half, centre + self.half, 5)
+    }
+}
+
 /// The picture.
 ///
 /// # Errors
 /// [`cagedyn::Status::File`] when it cannot be drawn.
 pub fn cage_positions(title: &str, series: &[Series<Point>]) -> Result<String> {
-    let x_axis = Axis::new("mean cage centre y / radial guide clearance [1]", -1.1, 1.1, 5);
-    let y_axis = Axis::new("mean cage centre z / radial guide clearance [1]", -1.1, 1.1, 5);
+    let points: Vec<_> = series.iter().flat_map(|s| &s.points).map(|p| p.centre).collect();
+    let shown = Square::around(&points);
+    let x_axis = shown.axis("mean cage centre y / radial guide clearance [1]", shown.centre.0);
+    let y_axis = shown.axis("mean cage centre z / radial guide clearance [1]", shown.centre.1);
     let place = Place { x: 100.0, y: 80.0, w: SIDE, h: SIDE };
     let longest = series.iter().map(|s| text_width(&s.label, TEXT)).fold(150.0, f64::max);
     let width = 100.0 + SIDE + 28.0 + 36.0 + longest;
     let subtitle = "Mean cage centre of every case; numbers: inner ring speed in 1/min";
     style::picture((width, 80.0 + SIDE + 70.0), title, subtitle, |canvas| {
-        legend(canvas, series)?;
+        legend(canvas, series, &shown)?;
         panel(canvas, place, (&x_axis, &y_axis), true, &[], |panel| {
-            panel.circle(1.0, line(INK, CURVE))?;
-            panel.dashed([(-1.0, 0.0), (1.0, 0.0)], line(MUTED, 0.5))?;
-            panel.dashed([(0.0, -1.0), (0.0, 1.0)], line(MUTED, 0.5))?;
-            contents(panel, series)
+            let inside = |point: (f64, f64)| if shown.contains(point) { point } else { (f64::NAN, f64::NAN) };
+            let circle: Vec<_> = (0..=720)
+                .map(|i| f64::from(i) * TAU / 720.0)
+                .map(|angle| inside((angle.cos(), angle.sin())))
+                .collect();
+            panel.curve(circle.iter().copied(), line(INK, CURVE))?;
+            let clamped = |x: f64, centre: f64| x.clamp(centre - shown.half, centre + shown.half);
+            let [left, right] = [-1.0, 1.0].map(|y| (clamped(y, shown.centre.0), 0.0));
+            let [low, high] = [-1.0, 1.0].map(|z| (0.0, clamped(z, shown.centre.1)));
+            for ends in [[left, right], [low, high]] {
+                if ends.iter().all(|end| shown.contains(*end)) {
+                    panel.dashed(ends, line(MUTED, 0.5))?;
+                }
+            }
+            contents(panel, series, &circle)
         })
     })
 }
 
-fn legend(canvas: &Canvas<'_>, series: &[Series<Point>]) -> Drawn {
+fn legend(canvas: &Canvas<'_>, series: &[Series<Point>], shown: &Square) -> Drawn {
     let x = 100.0 + SIDE + 28.0;
     for (k, s) in series.iter().enumerate() {
         let (shape, color) = look(k);
         style::legend_entry(canvas, (x, 96.0 + 26.0 * k as f64), Symbol::MarkedLine(shape, color), &s.label)?;
     }
     let y = 96.0 + 26.0 * series.len() as f64;
-    style::legend_entry(canvas, (x, y), Symbol::Line(INK), "guide clearance")
-}
-
-fn contents(panel: &mut Panel<'_, '_, '_>, series: &[Series<Point>]) -> Drawn {
-    let mut room = Room::default();
-    for (k, s) in series.iter().enumerate() {
-        panel.curve(s.points.iter().map(|p| p.centre), line(look(k).1, CURVE))?;
-        let places: Vec<_> = s.points.iter().map(|p| panel.place(p.centre)).collect();
-        room.lines.extend(places.windows(2).flat_map(|ends| along(ends[0], ends[1])));
-        room.markers.extend(places);
-    }
-    for (k, s) in series.iter().enumerate() {
-        let (shape, color) = look(k);
-        for point in &s.points {
-            style::marker(panel.canvas(), shape, panel.place(point.centre), MARKER, color)?;
-        }
-    }
-    for (k, s) in series.iter().enumerate() {
-        for point in &s.points {
-            let label = format!("{:.0}", point.speed);
-            let frame = room.take(panel.place(point.centre), &label);
-            draw_label(panel.canvas(), &label, frame.centre, look(k).1)?;
-        }
+    style::legend_entry(canvas, (x, y), Symbol::Line(INK), "guide clearance")?;
+    if shown.is_part() {
+        overview(canvas, (x + WHOLE * OVERVIEW, y + 40.0 + WHOLE * OVERVIEW), shown)?;
     }
     Ok(())
 }
 
-/// Text with a white edge, to be readable on lines.
-fn draw_label(canvas: &Canvas<'_>, label: &str, at: (i32, i32), color: style::Paint) -> Drawn {
-    const EDGE: f64 = 1.2;
-    let draw = |(dx, dy): (f64, f64), color| {
-        let style = text(LABEL, color, HPos::Center, VPos::Center);
-        canvas.draw(&Text::new(label.to_owned(), (at.0 + px(EDGE * dx), at.1 + px(EDGE * dy)), style))
-    };
-    for shift in
-        [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0), (0.7, 0.7), (0.7, -0.7), (-0.7, 0.7), (-0.7, -0.7)]
-    {
-        draw(shift, style::PAPER)?;
-    }
-    draw((0.0, 0.0), color)
+/// The whole circle about a place in px, with the part of it that the diagram shows.
+fn overview(canvas: &Canvas<'_>, centre: (f64, f64), shown: &Square) -> Drawn {
+    let at = |y: f64, z: f64| (px(centre.0 + OVERVIEW * y), px(centre.1 - OVERVIEW * z));
+    canvas.draw(&Circle::new(at(0.0, 0.0), px(OVERVIEW), line(INK, CURVE)))?;
+    let (y, z) = shown.centre;
+    let signs = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)];
+    let edge = signs.map(|(a, b)| at(y + a * shown.half, z + b * shown.half));
+    canvas.draw(&PathElement::new(edge.to_vec(), line(BLUE, CURVE)))?;
+    let below = (at(0.0, 0.0).0, px(centre.1 + WHOLE * OVERVIEW + 24.0));
+    style::label(canvas, "part that is shown", below, (TEXT - 1.0, MUTED), HPos::Center)
 }
 
-/// A rectangle on the surface.
-#[derive(Clone, Copy)]
-struct Frame {
-    centre: (i32, i32),
-    half: (i32, i32),
+fn contents(panel: &mut Panel<'_, '_, '_>, series: &[Series<Point>], circle: &[(f64, f64)]) -> Drawn {
+    let mut room = Room::new(LABEL, MARKER);
+    for arc in circle.split(|(y, _)| y.is_nan()) {
+        room.line(&arc.iter().map(|point| panel.place(*point)).collect::<Vec<_>>());
+    }
+    for (k, s) in series.iter().enumerate() {
+        panel.curve(s.points.iter().map(|p| p.centre), line(look(k).1, CURVE))?;
+        room.add(&s.points.iter().map(|p| panel.place(p.centre)).collect::<Vec<_>>());
+    }
+    let points = || series.iter().enumerate().flat_map(|(k, s)| s.points.iter().map(move |p| (look(k), p)));
+    let labels: Vec<_> = points()
+        .map(|((_, color), point)| {
+            let (at, label) = (panel.place(point.centre), format!("{:.0}", point.speed));
+            (at, room.take(at, &label), label, color)
+        })
+        .collect();
+    for (at, frame, ..) in &labels {
+        room.leader(panel.canvas(), *at, frame)?;
+    }
+    for ((shape, color), point) in points() {
+        style::marker(panel.canvas(), shape, panel.place(point.centre), MARKER, color)?;
+    }
+    for (_, frame, label, color) in labels {
+        style::label(panel.canvas(), &label, frame.centre, (LABEL, color), HPos::Center)?;
+    }
+    Ok(())
 }
 
-impl Frame {
-    /// Of a width and a height in px.
-    fn around(centre: (i32, i32), width: f64, height: f64) -> Self {
-        Self { centre, half: (px(0.5 * width), px(0.5 * height)) }
-    }
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-    /// Area shared with another one.
-    fn overlap(&self, other: &Self) -> i64 {
-        let shared = |distance: i32, a: i32, b: i32| i64::from((a + b - distance).clamp(0, 2 * a.min(b)));
-        shared((self.centre.0 - other.centre.0).abs(), self.half.0, other.half.0)
-            * shared((self.centre.1 - other.centre.1).abs(), self.half.1, other.half.1)
-    }
-
-    /// Distance of a point from the rectangle.
-    fn distance(&self, point: (i32, i32)) -> i64 {
-        let outside = |a: i32, b: i32, half: i32| i64::from(((a - b).abs() - half).max(0));
-        let (x, y) =
-            (outside(point.0, self.centre.0, self.half.0), outside(point.1, self.centre.1, self.half.1));
-        (x * x + y * y).isqrt()
-    }
-}
-
-/// Small frames along a line from `a` to `b`, so that labels keep off it.
-fn along(a: (i32, i32), b: (i32, i32)) -> impl Iterator<Item = Frame> {
-    const PITCH: f64 = 3.0;
-    let (dx, dy) = (f64::from(b.0 - a.0), f64::from(b.1 - a.1));
-    let count = (dx.hypot(dy) / f64::from(px(PITCH))).ceil().max(1.0);
-    (0..=count as u32).map(move |i| {
-        let share = f64::from(i) / count;
-        let at = (a.0 + (share * dx).round() as i32, a.1 + (share * dy).round() as i32);
-        Frame::around(at, PITCH, PITCH)
-    })
-}
-
-/// What labels should keep off.
-#[derive(Default)]
-struct Room {
-    markers: Vec<(i32, i32)>,
-    lines: Vec<Frame>,
-    labels: Vec<Frame>,
-}
-
-impl Room {
-    /// Takes the best place for the label of a point: off other labels and markers, then near, then off lines.
-    fn take(&mut self, point: (i32, i32), label: &str) -> Frame {
-        let (w, h) = (text_width(label, LABEL) + 2.0, LABEL + 1.0);
-        let (dx, dy) = (0.5 * w + MARKER + 2.0, 0.5 * h + MARKER + 2.0);
-        let around = [
-            (1.0, 0.0),
-            (-1.0, 0.0),
-            (0.0, -1.0),
-            (0.0, 1.0),
-            (0.9, -0.8),
-            (0.9, 0.8),
-            (-0.9, -0.8),
-            (-0.9, 0.8),
-        ];
-        let far = [1.0, 1.6].into_iter();
-        let places = far.flat_map(|far| around.map(|(u, v)| (far * u * dx, far * v * dy, far > 1.0)));
-        let candidates = places.map(|(u, v, far)| {
-            let frame = Frame::around((point.0 + px(u), point.1 + px(v)), w, h);
-            (self.cost(&frame, point, far), frame)
-        });
-        let best = candidates.min_by_key(|(cost, _)| *cost).map(|(_, frame)| frame);
-        let frame = best.unwrap_or(Frame::around(point, w, h));
-        self.labels.push(frame);
-        frame
-    }
-
-    /// How bad a place is, in areas of overlap.
-    fn cost(&self, frame: &Frame, own: (i32, i32), far: bool) -> i64 {
-        let marker = |at: &(i32, i32)| Frame::around(*at, 2.0 * MARKER, 2.0 * MARKER);
-        let solid: i64 = self.markers.iter().map(|at| frame.overlap(&marker(at))).sum::<i64>()
-            + self.labels.iter().map(|other| frame.overlap(other)).sum::<i64>();
-        let lines: i64 = self.lines.iter().map(|other| frame.overlap(other)).sum();
-        // A label nearer to the marker of another point would be read as belonging to it.
-        let ambiguous = self.markers.iter().any(|at| frame.distance(*at) < frame.distance(own));
-        let area = 4 * i64::from(frame.half.0) * i64::from(frame.half.1);
-        20 * solid + lines + area * (i64::from(far) + i64::from(ambiguous))
+    #[test]
+    fn points_that_are_close_together_are_shown_larger() {
+        let part = Square::around(&[(-0.74, -0.23), (-0.53, 0.51)]);
+        assert!(part.is_part() && part.contains((-0.74, -0.23)) && part.contains((-0.53, 0.51)));
+        assert!((part.half - 0.4625).abs() < 1e-9);
+        assert_eq!(Square::around(&[(-0.9, -0.9), (0.9, 0.9)]), Square { centre: (0.0, 0.0), half: WHOLE });
+        assert!(!Square::around(&[]).is_part());
+        assert!(Square::around(&[(0.3, 0.3)]).half > 0.03);
     }
 }

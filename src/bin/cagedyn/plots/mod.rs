@@ -4,6 +4,7 @@ mod axis;
 mod cage_positions;
 mod forces;
 pub mod heat_flow;
+mod labels;
 mod orbit;
 mod over_orbit;
 mod panel;
@@ -34,6 +35,15 @@ pub struct Series<P> {
     pub label: String,
     /// One point per case.
     pub points: Vec<P>,
+}
+
+/// Speeds whose ratio is larger are shown by their logarithms.
+const LONG: f64 = 20.0;
+
+/// Whether low ones of these speeds would lie on each other.
+fn is_long(speeds: &[f64]) -> bool {
+    let slowest = speeds.iter().copied().fold(f64::INFINITY, f64::min);
+    slowest > 0.0 && speeds.iter().any(|speed| *speed > LONG * slowest)
 }
 
 /// Marker and colour of series `k`.

@@ -44,14 +44,17 @@ fn strips(sectors: &Sectors) -> impl Iterator<Item = Strip<'static>> {
         strip("inner race force [N]", vec![curve(BLUE, &sectors.inner_force_mean_n, 1.0)]),
         strip("slip [%]", vec![curve(GREEN, &sectors.slip_mean, 100.0)]),
         strip(
-            "pocket force [N]",
+            "pocket force [N]\nmean: driving > 0",
             vec![
                 curve(FAINT, &sectors.pocket_force_peak_n, 1.0),
                 curve(ORANGE, &sectors.pocket_force_p95_n, 1.0),
                 curve(PURPLE, &sectors.pocket_force_mean_n, 1.0),
             ],
         ),
-        strip("pocket force, mean [N]", vec![curve(PURPLE, &sectors.pocket_force_mean_n, 1.0)]),
+        strip(
+            "mean pocket force [N]\ndriving > 0 > braking",
+            vec![curve(PURPLE, &sectors.pocket_force_mean_n, 1.0)],
+        ),
     ]
     .into_iter()
     .flatten()

@@ -9,6 +9,8 @@ use plotters::style::text_anchor::{HPos, VPos};
 pub const Y_LABELS: f64 = 74.0;
 /// Height of the strip for the labels of the x axis, px.
 pub const X_LABELS: f64 = 46.0;
+/// Place of the second line of the name of the y axis in its strip, px.
+const SECOND_LINE: f64 = 22.0;
 /// Curves are drawn as dashes of this length and half as long gaps, px.
 const DASH: f64 = 6.0;
 
@@ -34,7 +36,8 @@ pub struct Panel<'c, 'a, 'b> {
     y_range: (f64, f64),
 }
 
-/// Draws a diagram; `draw` adds its contents. Without `x_labels` the x axis has a grid only.
+/// Draws a diagram; `draw` adds its contents. Without `x_labels` the x axis has a grid only. The name of the y axis may have a second
+/// line.
 pub fn panel(
     canvas: &Canvas<'_>,
     place: Place,
@@ -55,6 +58,11 @@ pub fn panel(
         .map(|&(a, b)| Rectangle::new([(a.max(x.min), y.min), (b.min(x.max), y.max)], SHADE.filled()));
     chart.draw_series(rectangles)?;
     mesh(&mut chart, x, y)?;
+    if let Some((_, second)) = y.name.split_once('\n') {
+        let style = text(TEXT - 2.0, MUTED, HPos::Center, VPos::Center).transform(FontTransform::Rotate270);
+        let at = (px(place.x - Y_LABELS + SECOND_LINE), px(place.y + 0.5 * place.h));
+        canvas.draw(&Text::new(second.to_owned(), at, style))?;
+    }
     let frame = [(x.min, y.min), (x.max, y.max)];
     chart.draw_series([Rectangle::new(frame, line(MUTED, 0.8))])?;
     draw(&mut Panel { canvas, chart, y_range: (y.min, y.max) })
@@ -70,7 +78,7 @@ fn mesh(chart: &mut ChartContext<'_, SVGBackend<'_>, Coordinates>, x: &Axis, y: 
         .label_style(label)
         .axis_desc_style(name)
         .x_desc(x.name.as_str())
-        .y_desc(y.name.as_str())
+        .y_desc(y.name.lines().next().unwrap_or_default())
         .x_label_formatter(&|v| x.label(*v))
         .y_label_formatter(&|v| y.label(*v))
         .set_all_tick_mark_size(px(4.0))

@@ -6,6 +6,7 @@ use crate::results::finished::Run;
 use crate::results::intervals::positive_intervals;
 use cagedyn::Result;
 
+const POCKET_FORCE: &str = "pocket force [N]\ndriving > 0 > braking";
 /// Length of the time shown, s.
 const SHOWN: f64 = 0.1;
 
@@ -25,23 +26,27 @@ pub fn roller_history(run: &Run) -> Option<Result<String>> {
             ..Strip::new(name)
         })
     };
+    let extremes = run.intervals("roller[0].pocket_force").and_then(|x| x.get(from..));
     let strips = [
         strip("slip ratio [1]", BLUE, values("slip", 1.0), &[]),
         strip("pocket position [mm]", GREEN, values("pocket_position", 1e3), &bounds),
-        strip("pocket force [N]", PURPLE, values("pocket_force", 1.0), &[]).map(|strip| Strip {
-            envelope: run.intervals("roller[0].pocket_force").and_then(|x| x.get(from..)),
-            ..strip
+        strip(POCKET_FORCE, PURPLE, values("pocket_force", 1.0), &[0.0]),
+        // Many times the records, which would be a flat line on the same scale.
+        extremes.map(|envelope| Strip {
+            envelope: Some(envelope),
+            bounds: vec![0.0],
+            ..Strip::new("its extremes [N]\ndriving > 0 > braking")
         }),
         strip("inner race force [N]", ORANGE, values("inner_force", 1.0), &[]),
     ];
     let strips: Vec<Strip> = strips.into_iter().flatten().collect();
     let loaded = positive_intervals(times, &values("inner_force", 1.0)?);
     let mut entries = vec![(Symbol::Patch, "load zone (force on the inner race)".to_owned())];
-    if strips.iter().any(|s| !s.bounds.is_empty()) {
-        entries.push((Symbol::Dashed(MUTED), "pocket clearance".to_owned()));
+    if !bounds.is_empty() {
+        entries.push((Symbol::Dashed(MUTED), "pocket clearance, zero".to_owned()));
     }
-    if strips.iter().any(|s| s.envelope.is_some()) {
-        entries.push((Symbol::Line(ENVELOPE), "extremes in every step".to_owned()));
+    if extremes.is_some() {
+        entries.push((Symbol::Line(ENVELOPE), "extremes of every step between records".to_owned()));
     }
     let subtitle = &run.subtitle("Roller 0: slip, place in its pocket and forces");
     let texts = Texts { title: &run.title, subtitle, axis: strips::TIME, entries };

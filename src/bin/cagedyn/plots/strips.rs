@@ -2,8 +2,9 @@
 
 use super::axis::Axis;
 use super::panel::{Place, panel};
-use super::style::{self, CURVE, FAINT, MUTED, Paint, Symbol, line};
+use super::style::{self, CURVE, FAINT, INK, MUTED, Paint, Symbol, TEXT, line, px};
 use cagedyn::{Interval, Result};
+use plotters::style::text_anchor::HPos;
 
 /// Height of a diagram and gap between two, px.
 const HEIGHT: f64 = 165.0;
@@ -13,7 +14,7 @@ const TOP: f64 = 100.0;
 
 /// One diagram.
 pub struct Strip<'a> {
-    /// Name of the quantity with unit.
+    /// Name of the quantity with unit; a second line may tell what its sign means.
     pub name: &'static str,
     /// Values over time and their colours; later curves cover earlier ones.
     pub curves: Vec<(Paint, Vec<f64>)>,
@@ -21,6 +22,8 @@ pub struct Strip<'a> {
     pub bounds: Vec<f64>,
     /// Extremes between the times, drawn behind the curves.
     pub envelope: Option<&'a [Interval]>,
+    /// A time from which on something holds, and what.
+    pub since: Option<(f64, String)>,
 }
 
 /// Colour of extremes.
@@ -29,7 +32,7 @@ pub const ENVELOPE: Paint = FAINT;
 impl Strip<'_> {
     /// A diagram without contents.
     pub fn new(name: &'static str) -> Self {
-        Self { name, curves: Vec::new(), bounds: Vec::new(), envelope: None }
+        Self { name, curves: Vec::new(), bounds: Vec::new(), envelope: None, since: None }
     }
 }
 
@@ -80,6 +83,12 @@ pub fn history(
                 for (color, values) in &strip.curves {
                     let points = times.iter().copied().zip(values.iter().copied());
                     panel.curve(points, line(*color, CURVE))?;
+                }
+                if let Some((from, what)) = &strip.since {
+                    panel.vertical(*from, y_axis.max, line(MUTED, 0.9))?;
+                    let (x, y) = panel.place((*from, y_axis.max));
+                    let at = (x + px(6.0), y + px(14.0));
+                    style::label(panel.canvas(), what, at, (TEXT - 1.0, INK), HPos::Left)?;
                 }
                 Ok(())
             })?;

@@ -167,6 +167,27 @@ pub fn marker(canvas: &Canvas<'_>, shape: Marker, at: (i32, i32), size: f64, col
     }
 }
 
+/// Draws a text of a size in px with a white edge, to be readable on lines and colours.
+pub fn label(
+    canvas: &Canvas<'_>,
+    label: &str,
+    at: (i32, i32),
+    (size, color): (f64, Paint),
+    side: HPos,
+) -> Drawn {
+    const EDGE: f64 = 1.2;
+    let draw = |(dx, dy): (f64, f64), color| {
+        let style = text(size, color, side, VPos::Center);
+        canvas.draw(&Text::new(label.to_owned(), (at.0 + px(EDGE * dx), at.1 + px(EDGE * dy)), style))
+    };
+    for shift in
+        [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0), (0.7, 0.7), (0.7, -0.7), (-0.7, 0.7), (-0.7, -0.7)]
+    {
+        draw(shift, PAPER)?;
+    }
+    draw((0.0, 0.0), color)
+}
+
 /// Symbol of a legend entry.
 #[derive(Clone, Copy)]
 pub enum Symbol {

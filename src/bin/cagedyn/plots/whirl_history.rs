@@ -4,6 +4,7 @@ use super::strips::{self, Strip, Texts};
 use super::style::{BLUE, GREEN, MUTED, ORANGE, PURPLE, Paint, RED, Symbol, TEAL};
 use crate::results::finished::Run;
 use crate::results::summary::Summary;
+use crate::results::table::rounded;
 use cagedyn::sim::SMALLEST_WHIRL_RADIUS;
 use cagedyn::{Result, Spread};
 
@@ -39,8 +40,12 @@ pub fn whirl_history(run: &Run, summary: &Summary) -> Option<Result<String>> {
     let speed = column("cage.whirl_speed", 1.0)?;
     // So close to the centre of the guide it is noise.
     let known = speed.iter().zip(&radius).map(|(x, r)| if *r >= smallest { *x } else { f64::NAN }).collect();
+    let whirl = summary.whirl.as_ref().filter(|whirl| whirl.motion.is_whirl());
+    let settled = whirl.and_then(|whirl| whirl.settling_time_s).map(|from| {
+        (from, format!("from {} ms on within 15 % of its mean in the window", rounded(1e3 * from)))
+    });
     let mut strips = vec![
-        strip("whirl speed [rad/s]", vec![(PURPLE, clipped(known))]),
+        Strip { since: settled, ..strip("whirl speed [rad/s]", vec![(PURPLE, clipped(known))]) },
         Strip {
             curves: vec![(GREEN, radius)],
             bounds: clearance.map(|c| 1e6 * c).into_iter().collect(),

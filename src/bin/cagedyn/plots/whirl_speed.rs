@@ -1,11 +1,12 @@
 //! Whirl speed of all cases over the speed of the inner ring.
 
 use super::axis::Axis;
+use super::labels::beside;
 use super::panel::{Panel, Place, panel};
 use super::style::{
     self, CURVE, Canvas, Drawn, INK, MUTED, Marker, Paint, Symbol, TEXT, THIN, line, px, text_width,
 };
-use super::{Series, look};
+use super::{Series, is_long, look};
 use cagedyn::Result;
 use plotters::prelude::PathElement;
 
@@ -35,18 +36,35 @@ pub struct WhirlPoint {
 pub fn whirl_speed(title: &str, series: &[Series<WhirlPoint>]) -> Result<String> {
     let points = || series.iter().flat_map(|s| &s.points);
     let fastest = points().map(|p| p.speed).fold(0.0, f64::max);
-    let x_axis = Axis::new("inner ring speed [1/min]", 0.0, 1.05 * fastest, 10);
+    let slowest = points().map(|p| p.speed).fold(f64::INFINITY, f64::min);
+    let logarithmic = is_long(&points().map(|p| p.speed).collect::<Vec<_>>());
+    let x = |speed: f64| if logarithmic { speed.log10() } else { speed };
+    let x_axis = if logarithmic {
+        let [low, high] = [slowest, fastest].map(f64::log10);
+        let room = 0.04 * (high - low);
+        Axis::logarithms("inner ring speed [1/min]", low - room, high + room)
+    } else {
+        Axis::new("inner ring speed [1/min]", 0.0, 1.05 * fastest, 10)
+    };
     let values = points().flat_map(|p| [p.mean, p.band[0], p.band[1]]).chain([0.0]);
     let y_axis = Axis::covering("whirl speed [rad/s]", values, 8);
     let place = Place { x: 100.0, y: 80.0, w: WIDTH, h: HEIGHT };
     let longest = series.iter().map(|s| text_width(&s.label, TEXT)).fold(120.0, f64::max);
     let width = 100.0 + WIDTH + 28.0 + 36.0 + longest;
-    let subtitle = "Whirl speed of every case: mean, bar from the 5th to the 95th percentile";
+    let subtitle = "Whirl speed of every case: mean, bar from the 5th to the 95th percentile; cases at one place are drawn beside each other";
     style::picture((width, 80.0 + HEIGHT + 70.0), title, subtitle, |canvas| {
         legend(canvas, series)?;
         panel(canvas, place, (&x_axis, &y_axis), true, &[], |panel| {
             panel.dashed([(x_axis.min, 0.0), (x_axis.max, 0.0)], line(MUTED, THIN))?;
-            series.iter().enumerate().try_for_each(|(k, s)| contents(panel, k, s))
+            let places: Vec<_> = points().map(|p| panel.place((x(p.speed), p.mean))).collect();
+            let mut shifts = beside(&places, MARKER).into_iter();
+            for (k, s) in series.iter().enumerate() {
+                panel.curve(s.points.iter().map(|p| (x(p.speed), p.mean)), line(look(k).1, CURVE))?;
+                for (p, shift) in s.points.iter().zip(shifts.by_ref()) {
+                    contents(panel, look(k), (p, x(p.speed)), px(shift))?;
+                }
+            }
+            Ok(())
         })
     })
 }
@@ -61,23 +79,23 @@ fn legend(canvas: &Canvas<'_>, series: &[Series<WhirlPoint>]) -> Drawn {
     style::legend_entry(canvas, (x, y), Symbol::Marker(Marker::Ring, INK), "no whirl")
 }
 
-fn contents(panel: &mut Panel<'_, '_, '_>, k: usize, series: &Series<WhirlPoint>) -> Drawn {
-    let (shape, color) = look(k);
-    panel.curve(series.points.iter().map(|p| (p.speed, p.mean)), line(color, CURVE))?;
-    for p in &series.points {
-        bar(panel, p, color)?;
-        let shape = if p.whirls { shape } else { Marker::Ring };
-        style::marker(panel.canvas(), shape, panel.place((p.speed, p.mean)), MARKER, color)?;
-    }
-    Ok(())
-}
-
-fn bar(panel: &mut Panel<'_, '_, '_>, p: &WhirlPoint, color: Paint) -> Drawn {
-    let [low, high] = p.band.map(|speed| panel.place((p.speed, speed)));
+/// The bar and the marker of a point, so far to the right of its place on the surface.
+fn contents(
+    panel: &Panel<'_, '_, '_>,
+    (shape, color): (Marker, Paint),
+    (p, x): (&WhirlPoint, f64),
+    shift: i32,
+) -> Drawn {
+    let place = |speed: f64| {
+        let (x, y) = panel.place((x, speed));
+        (x + shift, y)
+    };
+    let [low, high] = p.band.map(place);
     let stroke = |from, to| panel.canvas().draw(&PathElement::new(vec![from, to], line(color, THIN)));
     stroke(low, high)?;
     for (x, y) in [low, high] {
         stroke((x - px(BAR_END), y), (x + px(BAR_END), y))?;
     }
-    Ok(())
+    let shape = if p.whirls { shape } else { Marker::Ring };
+    style::marker(panel.canvas(), shape, place(p.mean), MARKER, color)
 }

@@ -87,14 +87,14 @@ pub fn text(run: &Run, summary: &Summary, folder: &Path) -> String {
     text
 }
 
-/// "backward whirl, 10.4 turns, settled at 0.024 s".
+/// "backward whirl, 10.4 turns, within 15 % of its speed from 0.024 s on".
 pub fn motion(whirl: &Whirl) -> String {
     if !whirl.motion.is_whirl() {
         return whirl.motion.name().to_owned();
     }
     let settled = match whirl.settling_time_s {
-        Some(t) => format!("settled at {} s", rounded(t)),
-        None => "not settled".to_owned(),
+        Some(t) => format!("within 15 % of its speed from {} s on", rounded(t)),
+        None => "not settled within 15 % of its speed".to_owned(),
     };
     format!("{}, {:.1} turns, {settled}", whirl.motion.name(), whirl.turns.abs())
 }
