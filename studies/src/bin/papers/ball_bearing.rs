@@ -6,8 +6,9 @@ use cagedyn_studies::table::Table;
 use serde_json::Value;
 use std::path::Path;
 
-/// The steady state of the paper begins here, s.
-const STEADY: f64 = 25e-3;
+/// The whirl is told to be steady from where its speed stays within this share of its mean in the window, beside the share of the
+/// summary.
+const NARROW: f64 = 0.05;
 /// Forces are smoothed over this time, s.
 const SMOOTHED: f64 = 1e-3;
 
@@ -24,16 +25,23 @@ fn fig8(run: &Folder) -> Result<Table> {
     let mut table = Table::new("second fig8", &["Fig. 8: 3000 rev/min, 313 K", "paper", "here"]);
     let [mean, low, high] =
         ["mean", "p05", "p95"].map(|part| run.number(&format!("/whirl/{part}_speed_rad_per_s")));
+    let mean = mean?;
     table.add([
-        "whirl speed, rad/s (5 to 95 %)".into(),
+        format!("whirl speed, mean from {} ms on, rad/s (5 to 95 %)", window(run)?),
         "negative, steady; 1.2 to 2.3 times the measured".into(),
-        format!("{:.0} ({:.0} to {:.0})", mean?, low?, high?),
+        format!("{mean:.0} ({:.0} to {:.0})", low?, high?),
     ]);
+    let columns = run.columns(&["cage.whirl_speed"])?;
+    let (times, speeds) = (&columns[0], &columns[1]);
+    let last = speeds.iter().rposition(|x| (x / mean - 1.0).abs() > NARROW);
+    let within = times.get(last.map_or(0, |i| i + 1));
+    let ms = |t: Option<f64>| t.map_or("never".to_owned(), |t| format!("{:.1}", 1e3 * t));
     table.add([
-        "steady from, ms".into(),
-        "25".into(),
-        run.number("/whirl/settling_time_s").map_or("never".into(), |t| format!("{:.1}", 1e3 * t)),
+        "whirl speed within 15 % of this mean from, ms".into(),
+        "steady from 25".into(),
+        ms(run.number("/whirl/settling_time_s").ok()),
     ]);
+    table.add(["within 5 % from, ms".into(), String::new(), ms(within.copied())]);
     table.add([
         "mean eccentricity over the clearance".into(),
         "within the guide clearance".into(),
@@ -45,6 +53,11 @@ fn fig8(run: &Folder) -> Result<Table> {
         format!("{} of {}", kind(run, "backward_whirl").0, run.number("/starts/count")?),
     ]);
     Ok(table)
+}
+
+/// Where the averaging window of a run begins, ms.
+fn window(run: &Folder) -> Result<String> {
+    Ok(format!("{:.1}", 1e3 * run.number("/window/from_s")?))
 }
 
 /// How many starts lead to a motion, and the range of their mean whirl speeds, rad/s.
@@ -73,7 +86,9 @@ fn forces(run: &Folder) -> Result<Table> {
     let names = ["guide.pressure_phi", "guide.shear_phi", "pocket.force_phi"];
     let columns = run.columns(&names)?;
     let (times, [pressure, shear, _]) = (&columns[0], [&columns[1], &columns[2], &columns[3]]);
-    let steady = times.partition_point(|t| *t < STEADY);
+    // The window of the whirl speed.
+    let from = run.number("/window/from_s")?;
+    let steady = times.partition_point(|t| *t < from);
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
     let [p, s, pockets] = [1, 2, 3].map(|k| mean(&columns[k][steady..]));
     let half = |values: &[f64], mean: f64| {
@@ -82,7 +97,7 @@ fn forces(run: &Folder) -> Result<Table> {
         found.map_or("never".to_owned(), |i| format!("{:.1}", 1e3 * times[i]))
     };
     table.add([
-        "pressure of the film, mean from 25 ms on".into(),
+        format!("pressure of the film, mean from {} ms on", window(run)?),
         "drives a positive whirl".into(),
         format!("{p:+.3}"),
     ]);
@@ -128,19 +143,24 @@ fn fig11(folder: &Path) -> Result<Table> {
 }
 
 fn dry(folder: &Path, greased: &Folder) -> Result<Table> {
+    let reference = greased.number("/whirl/mean_speed_rad_per_s")?;
+    let times = format!("times the {reference:.0} of the greased guide");
     let head = [
         "solid contact only, 3000 rev/min: friction coefficient",
         "starts with backward whirl, of 24",
         "their whirl, rad/s",
-        "times that of the greased guide",
+        times.as_str(),
     ];
     let mut table = Table::new("second dry", &head);
-    let reference = greased.number("/whirl/mean_speed_rad_per_s")?;
     for friction in ["0.1", "0.5", "0.55", "0.6", "0.65", "0.7", "0.8", "1.0"] {
         let run = Folder::new(&folder.join("grease_dry").join(format!("friction-{friction}")))?;
         let (count, range) = kind(&run, "backward_whirl");
-        let (speeds, ratio) = range.map_or(("-".into(), "-".into()), |[low, high]| {
-            (format!("{low:.0} to {high:.0}"), format!("{:.1}", 0.5 * (low + high) / reference))
+        let none = || ("-".to_owned(), "-".to_owned());
+        let (speeds, ratio) = range.map_or_else(none, |[low, high]| {
+            let span =
+                |texts: [String; 2]| if texts[0] == texts[1] { texts[0].clone() } else { texts.join(" to ") };
+            let of = |digits: usize, scale: f64| span([low, high].map(|x| format!("{:.digits$}", x / scale)));
+            (of(0, 1.0), of(1, reference))
         });
         table.add([friction.into(), count.to_string(), speeds, ratio]);
     }
