@@ -76,7 +76,7 @@ const fn added(effect: &'static str, set: &'static [(&'static str, &'static str)
 pub const STUDIES: [Study; 2] =
     [Study { name: "nu2310", rows: &NU2310 }, Study { name: "grease_guide", rows: &GREASE_GUIDE }];
 
-const NU2310: [Row; 22] = [
+const NU2310: [Row; 23] = [
     removed("gravity", &[("gravity", "null")], &[]),
     removed("raceway damping", &[("raceways.contact.damping", "null")], &[]),
     removed("raceway thermal correction", &[("raceways.contact.thermal_correction", "null")], &[]),
@@ -158,6 +158,14 @@ const NU2310: [Row; 22] = [
         states: &["inner_ring."],
     },
     added("roundness", &[("cage.guide.roundness", r#"[{"order": 3, "amplitude": 5e-6, "phase": 0.0}]"#)]),
+    added(
+        "logarithmic profile of the rollers",
+        // As in the variants of scenes/nu2310_unknowns.cases.json.
+        &[(
+            "rollers.profile",
+            r#"{"logarithmic": {"design_load": 10880.0, "crowned_share": 0.6, "end_drop": 12e-6}}"#,
+        )],
+    ),
     added("mass eccentricity", &[("cage.mass_eccentricity", r#"{"y": 20e-6, "z": 0.0}"#)]),
     added(
         "viscosity of warming oil",
