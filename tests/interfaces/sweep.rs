@@ -15,7 +15,7 @@ fn sweep(out: &Path, arguments: &[&str]) -> Output {
     run(&[&["sweep", "scenes/nu2310.json", "--until", "2e-3", "--out", &out], arguments].concat())
 }
 
-fn succeeded(output: &Output) -> String {
+pub fn succeeded(output: &Output) -> String {
     assert!(output.status.success(), "{}{}", text(&output.stdout), text(&output.stderr));
     assert!(text(&output.stderr).is_empty(), "{}", text(&output.stderr));
     text(&output.stdout)
@@ -119,10 +119,10 @@ fn points(out: &Path) -> usize {
     names.filter(|entry| entry.file_name().to_string_lossy().ends_with(".json")).count()
 }
 
-/// Starts a sweep of 24 points of 20 ms, ends it by a signal when some of them are done, and gives their number.
-fn ended(out: &Path, signal: &str, done: usize) -> (usize, Output) {
+/// Starts a sweep, ends it by a signal when some of its points are done, and gives their number.
+pub fn ended(arguments: &[String], out: &Path, signal: &str, done: usize) -> (usize, Output) {
     let child = cagedyn()
-        .args(long(out))
+        .args(arguments)
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
@@ -138,6 +138,7 @@ fn ended(out: &Path, signal: &str, done: usize) -> (usize, Output) {
     (points(out), output)
 }
 
+/// 24 points of 20 ms.
 fn long(out: &Path) -> Vec<String> {
     let vary = ["--vary", "inner_ring.speed.constant=-100:-300:12", "--vary", CLEARANCES];
     let scene = ["sweep", "scenes/nu2310.json", "--until", "0.02", "--out"].map(str::to_owned);
@@ -154,7 +155,7 @@ fn killed_and_interrupted_sweeps_go_on_to_the_same_bytes() {
         [("killed", "KILL", 1), ("killed later", "KILL", 9), ("interrupted", "INT", 3)]
     {
         let out = at(name);
-        let (kept, output) = ended(&out, signal, done);
+        let (kept, output) = ended(&long(&out), &out, signal, done);
         assert!((done..24).contains(&kept), "{name}: {kept}");
         assert!(!out.join("sweep.csv").exists());
         if signal == "INT" {
@@ -309,32 +310,4 @@ fn points_that_cannot_be_written_end_the_sweep_and_cost_no_other() {
     assert!(message.contains("points/0") && message.contains("0 of 6 points are kept"), "{message}");
     succeeded(&sweep(&at("full"), &arguments));
     assert!(files(&at("full")) == files(&at("whole")));
-}
-
-/// Killed before its first case is done, a case set has its table.
-#[test]
-fn a_case_set_has_a_table_from_the_start() {
-    let dir = tempfile::tempdir().expect("a directory");
-    let mut child = cagedyn()
-        .args(["cases", "scenes/nu2310_fig9.cases.json", "--until", "500", "--large-table", "--out"])
-        .arg(dir.path())
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .spawn()
-        .expect("the program starts");
-    let start = Instant::now();
-    while std::fs::read_dir(dir.path())
-        .map_or(0, |entries| entries.flatten().filter(|e| e.path().is_dir()).count())
-        == 0
-    {
-        assert!(start.elapsed() < Duration::from_secs(120), "no case begins");
-        std::thread::sleep(Duration::from_millis(5));
-    }
-    child.kill().expect("killed");
-    child.wait().expect("it ends");
-    let table = std::fs::read_to_string(dir.path().join("cases.csv")).expect("a table");
-    assert!(
-        table.starts_with("case,inner ring speed [1/min],inner_ring.") && table.lines().count() == 1,
-        "{table}"
-    );
 }

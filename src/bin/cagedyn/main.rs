@@ -6,6 +6,7 @@ mod heat;
 mod info;
 mod init;
 mod plots;
+mod points;
 mod report;
 mod results;
 mod run;

@@ -8,6 +8,8 @@ mod table;
 pub use grid::{MOST_POINTS, Vary, parse_vary};
 
 use crate::SweepArgs;
+use crate::points::Row;
+use crate::points::spectrum::Spectrum;
 use crate::results::facts;
 use crate::results::files::{write_csv, write_text, write_with};
 use crate::results::finished::BeforeWindow;
@@ -26,7 +28,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
 use std::sync::Arc;
 use store::Store;
-use table::{Row, Table};
+use table::Table;
 
 /// Of more points than this the longest do not come first: what the last of them costs is little beside all.
 const ORDERED: usize = 1000;
@@ -135,7 +137,7 @@ impl<'a> Sweep<'a> {
         let scene: Value = serde_json::from_str(self.text.trim_start_matches('\u{feff}'))
             .map_err(|e| in_file(&self.args.scene, Error::new(Status::BadJson, e.to_string())))?;
         Ok(json!({
-            "schema": "cagedyn.sweep/1",
+            "schema": "cagedyn.sweep/2",
             "version": env!("CARGO_PKG_VERSION"),
             "scene": scene,
             "set": self.sets(),
@@ -232,12 +234,19 @@ impl<'a> Sweep<'a> {
             _ if run.interrupted => None,
             Some(e) => Some(Row::failed(values.to_vec(), Some(run.time), e)),
             None => {
-                Some(Row::complete(values.to_vec(), &Summary::new(&run, &self.args.scene, None, Vec::new())))
+                let summary = Summary::new(&run, &self.args.scene, None, Vec::new());
+                let spectrum = self.over_one_number().then(|| Spectrum::of(&run, &summary)).flatten();
+                Some(Row { spectrum, ..Row::complete(values.to_vec(), &summary) })
             }
         })
     }
 
-    /// Writes tables and picture; names of the files.
+    /// Whether one number is varied, over which spectra are shown.
+    fn over_one_number(&self) -> bool {
+        matches!(&self.args.vary[..], [one] if one.values.numeric())
+    }
+
+    /// Writes tables and pictures; names of the files.
     fn write(&self, table: &Table, rows: &[(usize, Row)]) -> Result<Vec<&'static str>> {
         let folder = &self.args.out;
         write_csv(&folder.join(store::TABLE), table.csv())?;
@@ -252,6 +261,11 @@ impl<'a> Sweep<'a> {
         if let Some(picture) = pictures::picture(&title, self.args, rows) {
             write_text(&folder.join(store::PICTURE), &picture?)?;
             files.push(store::PICTURE);
+        }
+        if let Some(spectra) = table::spectra(&self.args.vary, rows) {
+            write_csv(&folder.join(store::SPECTRA), spectra)?;
+            write_text(&folder.join(store::WATERFALL), &pictures::waterfall(&title, self.args, rows)?)?;
+            files.extend([store::SPECTRA, store::WATERFALL]);
         }
         std::fs::remove_file(folder.join(store::UNFINISHED)).ok();
         Ok(files)

@@ -1,9 +1,10 @@
 //! Comparison of cases with rollers: where the cage is, and how much the rollers slip.
 
 use super::series::series;
-use super::{Comparison, Done, Known, cell};
+use super::{Comparison, Done, Known, rounded_cell};
 use crate::plots::{self, Point};
-use crate::results::summary::Summary;
+use crate::points::Row;
+use crate::points::columns::OF_ROLLERS;
 use cagedyn::Result;
 
 /// The comparison.
@@ -20,7 +21,6 @@ pub(super) const ROLLERS: Comparison = Comparison {
     cells,
     channels: &CHANNELS,
     csv_columns,
-    csv_cells,
     picture_name: "cage_positions.svg",
     picture,
 };
@@ -37,18 +37,15 @@ const CHANNELS: [&str; 8] = [
     "inner_ring.drag_torque",
 ];
 
-fn cells(s: &Summary) -> Vec<String> {
-    let text = |x: Option<f64>, decimals: usize| x.map_or("-".to_owned(), |x| format!("{x:.decimals$}"));
-    let mean = |name: &str| text(s.of(name).map(|s| s.spread.mean), 4);
-    let deviation = |name: &str| text(s.of(name).map(|s| s.spread.deviation), 4);
+fn cells(row: &Row) -> Vec<String> {
     vec![
-        mean("cage.y_ratio"),
-        deviation("cage.y_ratio"),
-        mean("cage.z_ratio"),
-        deviation("cage.z_ratio"),
-        mean("cage.eccentricity"),
-        text(s.max_roller_slip.as_ref().map(|slip| 100.0 * slip.value), 2),
-        text(s.pocket_forces.as_ref().map(|forces| forces.largest_n), 1),
+        rounded_cell(row, "cage.y_ratio mean [1]", 1.0, 4),
+        rounded_cell(row, "cage.y_ratio deviation [1]", 1.0, 4),
+        rounded_cell(row, "cage.z_ratio mean [1]", 1.0, 4),
+        rounded_cell(row, "cage.z_ratio deviation [1]", 1.0, 4),
+        rounded_cell(row, "cage.eccentricity mean [1]", 1.0, 4),
+        rounded_cell(row, "max roller slip [1]", 100.0, 2),
+        rounded_cell(row, "max pocket force [N]", 1.0, 1),
     ]
 }
 
@@ -60,48 +57,6 @@ fn csv_columns(known: &[Known<'_>]) -> Vec<String> {
     columns
 }
 
-fn csv_cells(s: &Summary, known: &[Known<'_>]) -> Vec<String> {
-    let mut row = Vec::new();
-    for (name, _) in known {
-        let spread = s.of(name).map(|s| &s.spread);
-        row.push(cell(spread.map(|s| s.mean)));
-        row.push(cell(spread.map(|s| s.deviation)));
-        // Of a mean that has settled.
-        row.push(cell(spread.filter(|s| s.stationary).map(|s| s.standard_error)));
-    }
-    row.extend(of_rollers(s));
-    row
-}
-
-/// Columns of tables on slip and pocket forces.
-pub const OF_ROLLERS: [&str; 5] = [
-    "max roller slip [1]",
-    "mean roller slip [1]",
-    "driving pocket force [N]",
-    "braking pocket force [N]",
-    "max pocket force [N]",
-];
-
-/// Their cells, empty where there is nothing.
-pub fn of_rollers(s: &Summary) -> [String; OF_ROLLERS.len()] {
-    let forces = s.pocket_forces.as_ref();
-    [
-        cell(s.max_roller_slip.as_ref().map(|slip| slip.value)),
-        cell(mean_slip(s)),
-        cell(forces.map(|f| f.driving_n)),
-        cell(forces.map(|f| f.braking_n)),
-        cell(forces.map(|f| f.largest_n)),
-    ]
-}
-
-/// Mean slip of all rollers.
-fn mean_slip(s: &Summary) -> Option<f64> {
-    let is_slip = |name: &str| name.starts_with("roller[") && name.ends_with("].slip");
-    let slips = || s.statistics.iter().filter(|(name, _)| is_slip(name)).map(|(_, of)| of.spread.mean);
-    let count = slips().count();
-    (count > 0).then(|| slips().sum::<f64>() / count as f64)
-}
-
 /// Mean cage centres, if any cage is guided.
 fn picture(title: &str, done: &[Done<'_>]) -> Option<Result<String>> {
     let series = series(done, point);
@@ -109,7 +64,7 @@ fn picture(title: &str, done: &[Done<'_>]) -> Option<Result<String>> {
 }
 
 fn point(d: &Done<'_>) -> Option<Point> {
-    let s = d.results()?;
-    let centre = (s.of("cage.y_ratio")?.spread.mean, s.of("cage.z_ratio")?.spread.mean);
+    let row = d.results()?;
+    let centre = (row.number("cage.y_ratio mean [1]")?, row.number("cage.z_ratio mean [1]")?);
     Some(Point { speed: d.speed, centre })
 }

@@ -1,11 +1,11 @@
 //! Comparison of cases whose elements have a prescribed motion: whether and how the cage whirls.
 
 use super::series::series;
-use super::{Comparison, Done, Known, cell};
+use super::{Comparison, Done, Known, rounded_cell};
 use crate::plots::{self, WhirlPoint};
-use crate::results::summary::{Summary, Whirl};
-use crate::results::table::rounded;
-use cagedyn::Result;
+use crate::points::Row;
+use crate::points::columns::{MOTION, OF_WHIRL};
+use cagedyn::{CageMotion, Result};
 
 /// The comparison.
 pub(super) const WHIRL: Comparison = Comparison {
@@ -20,7 +20,6 @@ pub(super) const WHIRL: Comparison = Comparison {
     cells,
     channels: &CHANNELS,
     csv_columns,
-    csv_cells,
     picture_name: "whirl_speed.svg",
     picture,
 };
@@ -38,61 +37,22 @@ const CHANNELS: [&str; 9] = [
     "lubricant.viscosity",
 ];
 
-fn cells(s: &Summary) -> Vec<String> {
-    let whirl = s.whirl.as_ref();
-    let text = |x: Option<f64>, decimals: usize| x.map_or("-".to_owned(), |x| format!("{x:.decimals$}"));
+fn cells(row: &Row) -> Vec<String> {
     vec![
-        text(whirl.and_then(|w| w.mean_speed_rad_per_s), 1),
-        text(whirl.and_then(|w| w.p05_speed_rad_per_s), 1),
-        text(whirl.and_then(|w| w.p95_speed_rad_per_s), 1),
-        text(whirl.map(|w| 1e6 * w.mean_radius_m), 2),
-        whirl.map_or("-".to_owned(), |w| w.motion.name().to_owned()),
-        text(whirl.and_then(settled), 4),
+        rounded_cell(row, "whirl speed mean [rad/s]", 1.0, 1),
+        rounded_cell(row, "whirl speed 5 % [rad/s]", 1.0, 1),
+        rounded_cell(row, "whirl speed 95 % [rad/s]", 1.0, 1),
+        rounded_cell(row, "whirl radius mean [m]", 1e6, 2),
+        row.text(MOTION).unwrap_or("-").to_owned(),
+        rounded_cell(row, "settling time [s]", 1.0, 4),
     ]
 }
 
-/// Settling time of a whirl, s; that of other motions says nothing.
-fn settled(whirl: &Whirl) -> Option<f64> {
-    whirl.settling_time_s.filter(|_| whirl.motion.is_whirl()).map(rounded)
-}
-
-/// Columns of tables on the motion of the cage centre.
-pub const OF_WHIRL: [&str; 7] = [
-    "whirl speed mean [rad/s]",
-    "whirl speed 5 % [rad/s]",
-    "whirl speed 95 % [rad/s]",
-    "whirl radius mean [m]",
-    "turns [1]",
-    "motion",
-    "settling time [s]",
-];
-
-/// Their cells, empty where there is nothing.
-pub fn of_whirl(s: &Summary) -> [String; OF_WHIRL.len()] {
-    let whirl = s.whirl.as_ref();
-    [
-        cell(whirl.and_then(|w| w.mean_speed_rad_per_s)),
-        cell(whirl.and_then(|w| w.p05_speed_rad_per_s)),
-        cell(whirl.and_then(|w| w.p95_speed_rad_per_s)),
-        cell(whirl.map(|w| w.mean_radius_m)),
-        cell(whirl.map(|w| w.turns)),
-        whirl.map_or(String::new(), |w| w.motion.name().to_owned()),
-        cell(whirl.and_then(settled)),
-    ]
-}
-
-fn csv_columns(known: &[Known]) -> Vec<String> {
+fn csv_columns(known: &[Known<'_>]) -> Vec<String> {
     let mut columns: Vec<String> =
         OF_WHIRL.into_iter().chain(["max pocket force [N]"]).map(str::to_owned).collect();
     columns.extend(known.iter().map(|(name, unit)| format!("{name} mean [{unit}]")));
     columns
-}
-
-fn csv_cells(s: &Summary, known: &[Known]) -> Vec<String> {
-    let mut row = of_whirl(s).to_vec();
-    row.push(cell(s.pocket_forces.as_ref().map(|forces| forces.largest_n)));
-    row.extend(known.iter().map(|(name, _)| cell(s.of(name).map(|s| s.spread.mean))));
-    row
 }
 
 /// Whirl over speed, if the cases have more than one speed.
@@ -104,11 +64,13 @@ fn picture(title: &str, done: &[Done<'_>]) -> Option<Result<String>> {
 }
 
 fn point(d: &Done<'_>) -> Option<WhirlPoint> {
-    let w = d.results()?.whirl.as_ref()?;
+    let row = d.results()?;
+    let speed = |part: &str| row.number(&format!("whirl speed {part} [rad/s]"));
+    let motion = row.text(MOTION)?;
     Some(WhirlPoint {
         speed: d.speed,
-        mean: w.mean_speed_rad_per_s?,
-        band: [w.p05_speed_rad_per_s?, w.p95_speed_rad_per_s?],
-        whirls: w.motion.is_whirl(),
+        mean: speed("mean")?,
+        band: [speed("5 %")?, speed("95 %")?],
+        whirls: CageMotion::ALL.iter().any(|known| known.is_whirl() && known.name() == motion),
     })
 }

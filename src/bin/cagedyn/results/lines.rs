@@ -50,7 +50,7 @@ pub fn spectrum(run: &Run, cage: Option<f64>) -> Option<(Spectrum, f64)> {
 /// Frequencies of the bearing with their names: of the cage and its harmonics, of the elements that pass, with sidebands, and of
 /// the whirl. `cage` and `whirl` in Hz.
 pub fn frequencies(elements: usize, cage: f64, whirl: Option<f64>) -> Vec<(String, f64)> {
-    let harmonic = |n: usize| (if n == 1 { "f_c".to_owned() } else { format!("{n} f_c") }, n as f64 * cage);
+    let harmonic = |n: usize| (multiple(n, "f_c"), n as f64 * cage);
     let passing = elements as f64 * cage;
     let mut all: Vec<_> = HARMONICS.into_iter().filter(|n| *n != elements).map(harmonic).collect();
     all.extend([("Z f_c", passing), ("2 Z f_c", 2.0 * passing)].map(|(name, f)| (name.to_owned(), f)));
@@ -59,6 +59,11 @@ pub fn frequencies(elements: usize, cage: f64, whirl: Option<f64>) -> Vec<(Strin
     );
     all.extend(whirl.map(|f| ("whirl".to_owned(), f)));
     all
+}
+
+/// "f_c", "2 f_c" and so on.
+pub fn multiple(n: usize, name: &str) -> String {
+    if n == 1 { name.to_owned() } else { format!("{n} {name}") }
 }
 
 /// The lines of a run whose cage turns and whirls with these frequencies, Hz.

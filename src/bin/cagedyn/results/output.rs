@@ -2,6 +2,7 @@
 //! one run only.
 
 use crate::plots;
+use crate::points::Records;
 use crate::results::files::{SERIES, UNFINISHED, file_error, write_json, write_text};
 use crate::results::finished::Run;
 use crate::results::formats::SERIES_FILES;
@@ -18,6 +19,11 @@ pub const SUMMARY: &str = "summary.json";
 pub const SCENE: &str = "scene_as_run.json";
 /// Name of the table of a case set.
 pub const CASES: &str = "cases.csv";
+/// Names of the spectra of its cases, as a table and as a picture.
+pub const CASE_SPECTRA: &str = "cases_spectra.csv";
+pub const CASE_WATERFALL: &str = "cases_waterfall.svg";
+/// Name of the folder with the records of the cases of a set that are done; no case has this name.
+pub const RECORDS: &str = ".cases";
 /// Pictures of case sets.
 pub const COMPARISONS: [&str; 2] = ["cage_positions.svg", "whirl_speed.svg"];
 
@@ -77,34 +83,60 @@ pub fn begin(folder: &Path, title: &str, scene: &Path, case: Option<&str>, set: 
 /// # Errors
 /// [`Status::File`], also for a folder that another run writes to and for files of these names that are somebody else's.
 pub fn take(folder: &Path) -> Result<File> {
+    let taken = take_keeping(folder, || Ok(Vec::new()))?;
+    let records = folder.join(RECORDS);
+    if records.is_dir() {
+        let records = Records::open(&records, "case set")?;
+        records.retain(|_| false);
+        records.discard();
+    }
+    Ok(taken)
+}
+
+/// The same, but it leaves the folders of the cases that `kept` names, which is asked when the folder is taken.
+///
+/// # Errors
+/// As [`take`], and those of `kept`.
+pub fn take_keeping<'a>(folder: &Path, kept: impl FnOnce() -> Result<Vec<&'a str>>) -> Result<File> {
     fs::create_dir_all(folder).map_err(|e| file_error(folder, e))?;
     let path = folder.join(UNFINISHED);
     let file = File::options().create(true).append(true).open(&path).map_err(|e| file_error(&path, e))?;
     if let Err(TryLockError::WouldBlock) = file.try_lock() {
         return Err(file_error(folder, "another run is writing to this folder"));
     }
-    let cleared = clear(folder).and_then(|()| file.set_len(0).map_err(|e| file_error(&path, e)));
+    let cleared = check(folder)
+        .and_then(|()| clear(folder, &kept()?))
+        .and_then(|()| file.set_len(0).map_err(|e| file_error(&path, e)));
     if cleared.is_err() {
         fs::remove_file(&path).ok();
     }
     cleared.map(|()| file)
 }
 
-/// Removes what earlier runs and case sets have left in a folder: files of their names, and folders of cases.
-fn clear(folder: &Path) -> Result<()> {
+/// Refuses a folder with files of these names that are somebody else's.
+fn check(folder: &Path) -> Result<()> {
     for (name, begins) in [
         (SUMMARY, "{\n  \"title\":"),
         (SERIES, "time [s]"),
         (SCENE, "{\n  \"schema\": \"cagedyn.scene/"),
         (CASES, "case,inner ring speed [1/min]"),
+        (CASE_SPECTRA, "case,inner ring speed [1/min]"),
     ] {
         let path = folder.join(name);
         if fs::read(&path).is_ok_and(|bytes| !bytes.starts_with(begins.as_bytes())) {
             return Err(file_error(&path, "is not of this program; choose another folder or remove it"));
         }
     }
+    Ok(())
+}
+
+/// Removes what earlier runs and case sets have left in a folder: files of their names, and folders of cases but of these.
+fn clear(folder: &Path, kept: &[&str]) -> Result<()> {
     remove_files(folder)?;
     for entry in fs::read_dir(folder).map_err(|e| file_error(folder, e))?.flatten() {
+        if entry.file_name().to_str().is_some_and(|name| kept.contains(&name)) {
+            continue;
+        }
         let inside = entry.path();
         let summary = fs::read_to_string(inside.join(SUMMARY)).ok();
         let summary = summary.and_then(|text| serde_json::from_str::<Value>(&text).ok());
@@ -119,7 +151,8 @@ fn clear(folder: &Path) -> Result<()> {
 }
 
 fn remove_files(folder: &Path) -> Result<()> {
-    let tables = [SUMMARY, SERIES, SCENE, CASES].into_iter().chain(SERIES_FILES);
+    let tables =
+        [SUMMARY, SERIES, SCENE, CASES, CASE_SPECTRA, CASE_WATERFALL].into_iter().chain(SERIES_FILES);
     let names = tables.chain(plots::PICTURES).chain(COMPARISONS);
     for path in names.map(|name| folder.join(name)) {
         if path.is_file() {

@@ -1,9 +1,9 @@
-//! What the picture of a sweep shows: curves over one value, maps over two.
+//! What the pictures of a sweep show: curves and spectra over one value, maps over two.
 
 use super::grid::plain_text;
-use super::table::Row;
 use crate::SweepArgs;
-use crate::plots::sweep::{Abscissa, Cell, Curves, Map, Mark, lines, maps};
+use crate::plots::sweep::{self, Abscissa, Cell, Curves, Map, Mark, Spectra, lines, maps};
+use crate::points::Row;
 use cagedyn::Result;
 use cagedyn::scene::parse_override;
 
@@ -58,8 +58,7 @@ pub fn picture(title: &str, args: &SweepArgs, rows: &[(usize, Row)]) -> Option<R
     if shown.is_empty() {
         return None;
     }
-    let axis =
-        |k: usize| Abscissa::new(&args.vary[k].path, args.vary[k].values.logarithmic(), &numbers(rows, k));
+    let axis = |k: usize| axis(args, rows, k);
     match (&numeric[..], args.latin) {
         ([true], _) => Some(lines(title, &axis(0), &[], &curves(rows, &shown, 0, None))),
         ([true, true], None) => Some(maps(
@@ -80,6 +79,22 @@ pub fn picture(title: &str, args: &SweepArgs, rows: &[(usize, Row)]) -> Option<R
         }
         _ => None,
     }
+}
+
+/// The spectra over one number.
+///
+/// # Errors
+/// [`cagedyn::Status::File`] when they cannot be drawn.
+pub fn waterfall(title: &str, args: &SweepArgs, rows: &[(usize, Row)]) -> Result<String> {
+    let column = |row: &Row| Some(row.spectrum.as_ref()?.column(number(row, 0)));
+    let columns = rows.iter().filter_map(|(_, row)| column(row)).collect();
+    let failed = rows.iter().filter(|(_, row)| row.error.is_some());
+    let failed = failed.map(|(_, row)| number(row, 0)).collect();
+    sweep::waterfall(title, &[Spectra { name: None, axis: axis(args, rows, 0), columns, failed }])
+}
+
+fn axis(args: &SweepArgs, rows: &[(usize, Row)], k: usize) -> Abscissa {
+    Abscissa::new(&args.vary[k].path, args.vary[k].values.logarithmic(), &numbers(rows, k))
 }
 
 fn number(row: &Row, k: usize) -> f64 {

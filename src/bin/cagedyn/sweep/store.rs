@@ -1,29 +1,28 @@
 //! The folder of a sweep: what it is of, and its finished points, each of which is kept from the moment that it is done.
 
-use crate::results::files::{file_error, write_json, write_with};
-use crate::sweep::table::Row;
+use crate::points::{Records, Row};
+use crate::results::files::{file_error, write_json};
 use cagedyn::Result;
 use serde_json::Value;
-use std::fs::{self, File, TryLockError};
-use std::path::{Path, PathBuf};
+use std::fs;
+use std::path::Path;
 
 /// Name of the file that tells what the sweep is of.
 const SWEEP: &str = "sweep.json";
-/// Name of the folder of finished points, and of the file in it that a running sweep holds.
+/// Name of the folder of finished points.
 const POINTS: &str = "points";
-const LOCK: &str = "lock";
 /// Names of what a finished sweep writes.
 pub const TABLE: &str = "sweep.csv";
 pub const PARQUET: &str = "sweep.parquet";
 pub const PICTURE: &str = "sweep.svg";
+pub const SPECTRA: &str = "spectra.csv";
+pub const WATERFALL: &str = "waterfall.svg";
 /// Name of a table of some of the points.
 pub const UNFINISHED: &str = "sweep.unfinished.csv";
 
 /// The folder of a sweep that this program has for itself.
 pub struct Store {
-    points: PathBuf,
-    /// Held as long as this lives.
-    _lock: File,
+    points: Records,
 }
 
 impl Store {
@@ -37,39 +36,26 @@ impl Store {
         let begun = fs::exists(&path).map_err(|e| file_error(&path, e))?;
         if begun {
             check(folder, &path, identity)?;
-        } else if let Some(name) =
-            [POINTS, TABLE, PARQUET, PICTURE].iter().find(|name| folder.join(name).exists())
+        } else if let Some(name) = [POINTS, TABLE, PARQUET, PICTURE, SPECTRA, WATERFALL]
+            .iter()
+            .find(|name| folder.join(name).exists())
         {
             return Err(file_error(
                 &folder.join(name),
                 "is not of a sweep; choose another folder or remove it",
             ));
         }
-        fs::create_dir_all(&points).map_err(|e| file_error(&points, e))?;
-        let lock = points.join(LOCK);
-        let file = File::options().create(true).append(true).open(&lock).map_err(|e| file_error(&lock, e))?;
-        if let Err(TryLockError::WouldBlock) = file.try_lock() {
-            return Err(file_error(folder, "another sweep is writing to this folder"));
+        let points = Records::open(&points, "sweep")?;
+        if !begun && let Err(e) = write_json(&path, identity) {
+            points.discard();
+            return Err(e);
         }
-        if !begun {
-            let made = write_json(&path, identity);
-            if made.is_err() {
-                fs::remove_file(&lock).ok();
-                fs::remove_dir(&points).ok();
-            }
-            made?;
-        }
-        Ok(Self { points, _lock: file })
+        Ok(Self { points })
     }
 
-    fn path(&self, point: usize) -> PathBuf {
-        self.points.join(format!("{point:05}.json"))
-    }
-
-    /// The row of a point that is done. What cannot be read as one, as after a loss of power, is not done.
+    /// The row of a point that is done.
     pub fn row(&self, point: usize, values: &[String]) -> Option<Row> {
-        let row: Row = serde_json::from_str(&fs::read_to_string(self.path(point)).ok()?).ok()?;
-        (row.values == values).then_some(row)
+        self.points.get(&name(point)).filter(|row: &Row| row.values == values)
     }
 
     /// Keeps the row of a point.
@@ -77,10 +63,13 @@ impl Store {
     /// # Errors
     /// [`cagedyn::Status::File`]; the points before are kept.
     pub fn keep(&self, point: usize, row: &Row) -> Result<()> {
-        let path = self.path(point);
-        let text = serde_json::to_string_pretty(row).map_err(|e| file_error(&path, e))?;
-        write_with(&path, |file| writeln!(file, "{text}"))
+        self.points.keep(&name(point), row)
     }
+}
+
+/// Name of the record of a point.
+fn name(point: usize) -> String {
+    format!("{point:05}")
 }
 
 /// Refuses a folder with another sweep, and tells in what it differs.

@@ -1,105 +1,26 @@
 //! The table of a sweep: one row for each point, with what was varied, statistics of the run, and how it ended.
 
 use super::grid::{Vary, plain_text};
-use crate::cases::rollers::{OF_ROLLERS, of_rollers};
-use crate::cases::whirl::{OF_WHIRL, of_whirl};
-use crate::results::files::plain;
+use crate::points::columns::MOTION;
+use crate::points::{Row, spectrum};
 use crate::results::formats::parquet::{Column, Values};
-use crate::results::summary::Summary;
 use cagedyn::scene::parse_override;
-use cagedyn::{Error, Spread};
-use serde::{Deserialize, Serialize};
 use std::collections::{HashMap, HashSet};
-
-/// Column of [`OF_WHIRL`] that is no number.
-const MOTION: &str = "motion";
-
-/// A part of the statistics of a channel; `None` of what is not known.
-type Part = (&'static str, fn(&Spread) -> Option<f64>);
-const PARTS: [Part; 7] = [
-    ("mean", |s| Some(s.mean)),
-    ("deviation", |s| Some(s.deviation)),
-    // Of a mean that has settled.
-    ("standard error", |s| s.stationary.then_some(s.standard_error)),
-    ("min", |s| Some(s.min)),
-    ("max", |s| Some(s.max)),
-    ("5 %", |s| Some(s.p05)),
-    ("95 %", |s| Some(s.p95)),
-];
 
 /// Columns behind the results.
 const ENDING: [&str; 6] = ["simulated time [s]", "complete", "trusted", "doubts", "error code", "error"];
 
-/// What is known of a point that is done.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Row {
-    /// Varied values, as texts.
-    pub values: Vec<String>,
-    /// Names of columns with their cells, of a run that came to its end. Numbers are texts, which keep their digits.
-    pub results: Vec<(String, String)>,
-    /// Where the run ended, s; none if it did not start.
-    pub simulated_time: Option<f64>,
-    /// Whether the run kept what its preset promises; none if it did not come to its end.
-    pub trusted: Option<bool>,
-    /// What speaks against that.
-    pub doubts: Vec<String>,
-    /// Kind of the failure by its name in C, and one line about it.
-    pub error: Option<(String, String)>,
-}
-
-impl Row {
-    /// Of a run that came to its end.
-    pub fn complete(values: Vec<String>, summary: &Summary) -> Self {
-        let mut results = Vec::new();
-        if summary.whirl.is_some() {
-            results.extend(OF_WHIRL.map(str::to_owned).into_iter().zip(of_whirl(summary)));
-        }
-        let of_rollers = OF_ROLLERS.map(str::to_owned).into_iter().zip(of_rollers(summary));
-        results.extend(of_rollers.filter(|(_, text)| !text.is_empty()));
-        let mut add = |name: &str, value: Option<f64>| {
-            results.extend(value.map(|value| (name.to_owned(), plain(value))));
-        };
-        add("velocity deviation [1]", summary.whirl.as_ref().and_then(|whirl| whirl.velocity_deviation));
-        add("load zone [rad]", summary.load_zone.map(|zone| zone.extent_rad));
-        add("power loss [W]", summary.power_loss.as_ref().map(|loss| loss.total_w));
-        for (channel, statistics) in summary.statistics.iter().filter(|(name, _)| !name.contains('[')) {
-            for (part, value) in PARTS {
-                let text = value(&statistics.spread).map_or(String::new(), plain);
-                results.push((format!("{channel} {part} [{}]", statistics.unit), text));
-            }
-        }
-        Self {
-            values,
-            results,
-            simulated_time: Some(summary.simulated_time_s),
-            trusted: Some(summary.trusted),
-            doubts: summary.doubts.clone(),
-            error: None,
-        }
-    }
-
-    /// Of a run that failed at a time in s, or did not start.
-    pub fn failed(values: Vec<String>, simulated_time: Option<f64>, error: &Error) -> Self {
-        let error = Some((error.status.name().to_owned(), error.message.clone()));
-        Self { values, results: Vec::new(), simulated_time, trusted: None, doubts: Vec::new(), error }
-    }
-
-    /// A result that is a number.
-    pub fn number(&self, column: &str) -> Option<f64> {
-        self.results.iter().find(|(name, _)| name == column)?.1.parse().ok()
-    }
-
-    fn ending(&self) -> [String; ENDING.len()] {
-        let (code, message) = self.error.clone().unwrap_or_default();
-        [
-            self.simulated_time.map_or(String::new(), plain),
-            self.error.is_none().to_string(),
-            self.trusted.map_or(String::new(), |trusted| trusted.to_string()),
-            self.doubts.join("; "),
-            code,
-            message,
-        ]
-    }
+/// Their cells.
+fn cells_of_ending(row: &Row) -> [String; ENDING.len()] {
+    let (code, message) = row.error.clone().unwrap_or_default();
+    [
+        row.simulated_time.clone().unwrap_or_default(),
+        row.error.is_none().to_string(),
+        row.trusted.map_or(String::new(), |trusted| trusted.to_string()),
+        row.doubts.join("; "),
+        code,
+        message,
+    ]
 }
 
 /// A table of points, each with its row.
@@ -146,7 +67,11 @@ impl Table {
                 row.results.iter().map(|(name, text)| (name.as_str(), text.as_str())).collect();
             let found =
                 results.iter().map(move |name| of.get(name).map_or(String::new(), |text| (*text).to_owned()));
-            std::iter::once(point.to_string()).chain(values).chain(found).chain(row.ending()).collect()
+            std::iter::once(point.to_string())
+                .chain(values)
+                .chain(found)
+                .chain(cells_of_ending(row))
+                .collect()
         });
         Self { head, kinds, rows: cells.collect() }
     }
@@ -176,4 +101,18 @@ impl Table {
         };
         columns.map(column).collect()
     }
+}
+
+/// The table of the spectra over one number, head first: a row for every line of every point. `None` if there are none.
+pub fn spectra(vary: &[Vary], rows: &[(usize, Row)]) -> Option<impl Iterator<Item = Vec<String>>> {
+    let found = rows.iter().filter_map(|(point, row)| Some((point, row, row.spectrum.as_ref()?)));
+    found.clone().next()?;
+    let lines = found.flat_map(|(point, row, spectrum)| {
+        let of_point = std::iter::once(point.to_string()).chain(row.values.iter().cloned());
+        let of_point: Vec<String> = of_point.collect();
+        spectrum.rows().map(move |line| of_point.iter().cloned().chain(line).collect())
+    });
+    let head = std::iter::once("point").chain(vary.iter().map(|one| one.path.as_str()));
+    let head = head.chain(spectrum::COLUMNS).map(str::to_owned).collect();
+    Some(std::iter::once(head).chain(lines))
 }

@@ -1,10 +1,13 @@
 //! Pictures of sweeps.
 
+mod colours;
 mod lines;
 mod maps;
+mod waterfall;
 
 pub use lines::{Curves, Mark, lines};
 pub use maps::{Cell, Map, maps};
+pub use waterfall::{Column, Spectra, waterfall};
 
 use super::axis::Axis;
 
@@ -28,6 +31,11 @@ impl Abscissa {
         axis.places.sort_by(f64::total_cmp);
         axis.places.dedup();
         axis
+    }
+
+    /// Of speeds in 1/min; with their logarithms where low ones would lie on each other.
+    pub fn of_speeds(name: &str, speeds: &[f64]) -> Self {
+        Self::new(name, super::is_long(speeds), speeds)
     }
 
     /// Where a value is.
@@ -62,6 +70,12 @@ impl Abscissa {
         let Axis { min, max, .. } = Axis::covering("", self.places.iter().copied(), ticks);
         self.axis((min, max), ticks)
     }
+}
+
+/// The edges around a place.
+fn span(edges: &[f64], place: f64) -> [f64; 2] {
+    let above = edges.partition_point(|edge| *edge < place).clamp(1, edges.len() - 1);
+    [edges[above - 1], edges[above]]
 }
 
 #[cfg(test)]
