@@ -3,7 +3,7 @@
 use super::super::axis::Axis;
 use super::super::panel::{Panel, Place, X_LABELS, panel};
 use super::super::style::{
-    self, Canvas, Drawn, GRID, INK, Marker, PAPER, Paint, RED, Symbol, TEXT, label, line, px, text,
+    self, Canvas, Drawn, GRID, INK, Marker, PAPER, Paint, RED, Symbol, TEXT, line, px, text, text_width,
 };
 use super::Abscissa;
 use super::colours::{self, STEPS, color};
@@ -15,7 +15,7 @@ use plotters::style::text_anchor::{HPos, VPos};
 const WIDTH: f64 = 720.0;
 const HEIGHT: f64 = 440.0;
 const LEFT: f64 = 100.0;
-const TOP: f64 = 100.0;
+const TOP: f64 = 112.0;
 /// Room for the scale of colours, px.
 const SCALE: f64 = 110.0;
 /// Ranges of frequency that are told apart, and columns.
@@ -74,7 +74,7 @@ pub fn waterfall(title: &str, diagrams: &[Spectra]) -> Result<String> {
             entries.push((Symbol::Marker(Marker::Cross, RED), "failed".to_owned()));
         }
         entries.retain(|(_, text)| !text.is_empty());
-        style::legend_row(canvas, 66.0, &entries)?;
+        style::legend_row(canvas, 76.0, &entries)?;
         for (k, diagram) in diagrams.iter().enumerate() {
             let place = Place { x: LEFT, y: TOP + k as f64 * (height + gap), w: WIDTH, h: height };
             if let Some(name) = &diagram.name {
@@ -120,13 +120,23 @@ fn names<'a>(columns: &[&'a Column]) -> Vec<&'a str> {
     names
 }
 
-/// The highest frequency shown: a little above those that are marked, if records show it.
+/// The highest frequency shown: a little above what is marked, but not above both all oscillations that the scale can show and the
+/// marks without multiple; at most what records show.
 fn highest(columns: &[&Column]) -> f64 {
     let largest = |frequencies: &mut dyn Iterator<Item = f64>| frequencies.fold(0.0, f64::max);
     let recorded = largest(&mut columns.iter().filter_map(|column| Some(column.lines.last()?.0)));
-    let marked = largest(&mut columns.iter().flat_map(|column| &column.marks).map(|(_, f)| *f));
-    let highest = if marked > 0.0 { recorded.min(ABOVE_MARKS * marked) } else { recorded };
-    if highest > 0.0 { highest } else { 1.0 }
+    let marks = || columns.iter().flat_map(|column| &column.marks);
+    let multiple = |name: &str| name.starts_with(|c: char| c.is_ascii_digit());
+    let marked = largest(&mut marks().map(|(_, f)| *f));
+    if marked == 0.0 {
+        return if recorded > 0.0 { recorded } else { 1.0 };
+    }
+    let limit = recorded.min(ABOVE_MARKS * marked);
+    let floor = 10f64.powf(scale(columns, limit).min);
+    let lines = columns.iter().flat_map(|column| &column.lines);
+    let seen = largest(&mut lines.filter(|(f, a)| *f <= limit && *a > floor).map(|(f, _)| *f));
+    let plain = largest(&mut marks().filter(|(name, _)| !multiple(name)).map(|(_, f)| *f));
+    limit.min(ABOVE_MARKS * seen.max(plain))
 }
 
 /// The scale of the logarithms of amplitudes: some powers of ten below the largest oscillation that is shown.
@@ -215,7 +225,11 @@ fn marks(panel: &mut Panel<'_, '_, '_>, x: &Abscissa, columns: &[&Column], highe
     let top = panel.place((0.0, highest)).1 + px(0.7 * LABEL);
     for (x, y, side, name) in ends {
         let y = y.min(below.saturating_sub(px(LABEL))).max(top);
-        label(panel.canvas(), name, (x, y), (TEXT, INK), side)?;
+        let (width, half) = (px(text_width(name, TEXT)), px(0.5 * LABEL));
+        let (left, right) = if matches!(side, HPos::Left) { (x, x + width) } else { (x - width, x) };
+        let behind = [(left - px(2.0), y - half), (right + px(2.0), y + half)];
+        panel.canvas().draw(&Rectangle::new(behind, PAPER.filled()))?;
+        panel.canvas().draw(&Text::new(name.to_owned(), (x, y), text(TEXT, INK, side, VPos::Center)))?;
         below = y;
     }
     Ok(())
@@ -247,6 +261,9 @@ mod tests {
         assert_eq!(highest(&[&plain]), 1000.0);
         assert!((highest(&[&plain, &marked]) - 264.0).abs() < 1e-9);
         assert_eq!(highest(&[]), 1.0);
+        // Multiples of which nothing is heard are left out.
+        let quiet = column(&[("f_c", 20.0), ("Z f_c", 240.0), ("3 Z f_c", 720.0)]);
+        assert!((highest(&[&quiet]) - 440.0).abs() < 1e-9, "{}", highest(&[&quiet]));
         // Neither the drift nor what is not shown.
         let scale = scale(&[&marked], 264.0);
         assert!((scale.max + 3.0).abs() < 1e-9 && (scale.min + 7.0).abs() < 1e-9);
