@@ -52,7 +52,7 @@ impl Square {
         let ((y, half_y), (z, half_z)) = (span(|p| p.0), span(|p| p.1));
         // Of one point a tenth of the clearance.
         let half = ROOM * half_y.max(half_z).max(0.04);
-        if half.is_finite() && half <= PART * WHOLE { Self { centre: (y, z), half } } else { whole }
+        if (y + z).is_finite() && half <= PART * WHOLE { Self { centre: (y, z), half } } else { whole }
     }
 
     fn is_part(&self) -> bool {

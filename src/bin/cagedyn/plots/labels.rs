@@ -7,9 +7,9 @@ use std::f64::consts::TAU;
 /// Distances of a label from its marker that are tried, in units of the nearest, and directions at each.
 const DISTANCES: [f64; 5] = [1.0, 1.35, 1.8, 2.5, 3.4];
 const DIRECTIONS: usize = 16;
-/// Weights of what a label covers: other labels and markers, then curves, in areas; then those of a distance.
-const SOLID: i64 = 200;
-const CURVES: i64 = 20;
+/// Weights of the areas that a label covers: of other labels and markers, and of curves. A step of distance weighs as the label itself.
+const SOLID: i64 = 1000;
+const CURVES: i64 = 200;
 
 /// What labels keep off; lengths are px of the surface unless said otherwise.
 pub struct Room {
