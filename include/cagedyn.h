@@ -715,9 +715,9 @@ int64_t cagedyn_balance_count(void);
 
 /* Name of an item of a power balance; "" for other numbers. Static text.
  *
- * - loads, ring_drive, element_drive (of elements with prescribed motion), ring_support, raceway_damping,
- *   raceway_friction, rolling_resistance, pocket_damping, pocket_friction, guide_film, guide_solid: works in J, positive
- *   where they go into the bearing.
+ * - loads, ring_drive (of the inner ring), outer_ring_drive, element_drive (of elements with prescribed motion),
+ *   ring_support, raceway_damping, raceway_friction, rolling_resistance, pocket_damping, pocket_friction, guide_film,
+ *   guide_solid: works in J, positive where they go into the bearing.
  * - kinetic_energy_gain, elastic_energy_gain, potential_energy_gain: what is stored, J.
  * - residual: works less gains, J, the error of the integration; relative_residual: as a share of the energy that passed
  *   through.

@@ -9,6 +9,8 @@ registry! {
     pub const INPUT_NAMES {
         /// Rotation speed of the inner ring, rad/s.
         RingSpeed = "inner_ring.speed",
+        /// Rotation speed of the outer ring, rad/s.
+        OuterRingSpeed = "outer_ring.speed",
         /// External load on the inner ring to the right, N.
         LoadY = "load.y",
         /// External load on the inner ring upwards, N.
@@ -36,6 +38,7 @@ impl Input {
     pub fn meaning(self) -> [&'static str; 2] {
         match self {
             Self::RingSpeed => ["rad/s", "rotation speed of the inner ring"],
+            Self::OuterRingSpeed => ["rad/s", "rotation speed of the outer ring"],
             Self::LoadY => ["N", "external load on the inner ring, to the right"],
             Self::LoadZ => ["N", "external load on the inner ring, upwards"],
             Self::CageForceY => ["N", "external force on the cage, to the right"],

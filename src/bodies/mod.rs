@@ -59,7 +59,7 @@ pub(crate) type SharedBodies = [Option<Box<dyn SharedBody>>; SHARED];
 
 /// The shared bodies of a checked scene with these elements: outer ring, inner ring, cage.
 pub(crate) fn shared_bodies(scene: &Scene, elements: &ElementSet) -> SharedBodies {
-    [Some(Box::new(Ring::outer())), Some(Box::new(Ring::inner(scene))), Cage::new(scene, elements)]
+    [Some(Box::new(Ring::outer(scene))), Some(Box::new(Ring::inner(scene))), Cage::new(scene, elements)]
 }
 
 /// The rolling elements of a checked scene.
@@ -132,6 +132,7 @@ registry! {
     pub const POWERS {
         Loads = "loads",
         RingDrive = "ring_drive",
+        OuterRingDrive = "outer_ring_drive",
         ElementDrive = "element_drive",
         RingSupport = "ring_support",
         RacewayDamping = "raceway_damping",
@@ -148,7 +149,10 @@ registry! {
 impl Power {
     /// Whether it turns energy of the bearing into heat within it.
     pub(crate) fn is_lost(self) -> bool {
-        !matches!(self, Self::Loads | Self::RingDrive | Self::ElementDrive | Self::RingSupport)
+        !matches!(
+            self,
+            Self::Loads | Self::RingDrive | Self::OuterRingDrive | Self::ElementDrive | Self::RingSupport
+        )
     }
 }
 
@@ -199,6 +203,11 @@ pub(crate) trait SharedBody: Debug + Send + Sync {
     /// counter-clockwise, per unit; none of a rigid body.
     fn displacements(&self, _j: usize) -> &[[f64; 2]] {
         &[]
+    }
+
+    /// The input that prescribes its rotation, if one does.
+    fn turned_by(&self) -> Option<Input> {
+        None
     }
 
     /// What it is when it is further than the pitch radius from the centre.

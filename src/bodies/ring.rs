@@ -31,9 +31,10 @@ enum Held {
 }
 
 impl Ring {
-    /// The outer ring, which stands still.
-    pub(super) fn outer() -> Self {
-        Self { name: "outer_ring", held: Held::At([0.0; 2]), speed: None }
+    /// The outer ring of a scene, held in the centre: it stands still unless the scene gives it a speed.
+    pub(super) fn outer(scene: &Scene) -> Self {
+        let speed = scene.outer_ring.as_ref().and_then(|ring| ring.speed.as_ref());
+        Self { name: "outer_ring", held: Held::At([0.0; 2]), speed: speed.map(|_| Input::OuterRingSpeed) }
     }
 
     /// Of its support, N s/m.
@@ -76,6 +77,10 @@ impl SharedBody for Ring {
             Held::Free { .. } => ([q[0], q[1]], [v[0], v[1]]),
         };
         Motion { position, velocity, angle: 0.0, speed: self.speed.map_or(0.0, |input| inputs.of(input)) }
+    }
+
+    fn turned_by(&self) -> Option<Input> {
+        self.speed
     }
 
     fn lost(&self) -> Fault {

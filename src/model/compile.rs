@@ -1,9 +1,9 @@
 //! From the scene to bodies, pairs, coordinates and inputs.
 
 use super::report::Selection;
-use super::signals::{InputSignals, InputSource, Oil, Orbit};
+use super::signals::{Drive, InputSignals, InputSource, Oil, Orbit};
 use super::{Input, Model};
-use crate::bodies;
+use crate::bodies::{self, CAGE, INNER_RING, OUTER_RING, SharedBodies};
 use crate::error::Result;
 use crate::laws::fluid::walther::Walther;
 use crate::pairs;
@@ -22,6 +22,11 @@ pub(super) fn compile(scene: Scene) -> Result<Model> {
         (pairs::element_pairs(&scene, viscosity)?, pairs::shared_pairs(&scene, viscosity)?);
     let mut model = Model {
         masses: shared.each_ref().map(|body| body.as_ref().and_then(|b| b.mass()).unwrap_or(f64::INFINITY)),
+        moving: if turns(&shared, OUTER_RING) {
+            &[OUTER_RING, INNER_RING, CAGE]
+        } else {
+            &[INNER_RING, CAGE]
+        },
         onsets: pairs.iter().any(|pair| pair.has_onset()),
         layout: bodies::layout_of(&shared, &*elements, &nodes),
         gravity: scene.gravity.map_or([0.0; 2], |g| [g.y, g.z]),
@@ -49,6 +54,11 @@ pub(super) fn compile(scene: Scene) -> Result<Model> {
     Ok(model)
 }
 
+/// Whether the rotation of a shared body is prescribed.
+fn turns(shared: &SharedBodies, place: usize) -> bool {
+    shared[place].as_ref().is_some_and(|body| body.turned_by().is_some())
+}
+
 /// Viscosity that laws are built with, Pa s.
 fn viscosity_at_start(scene: &Scene, inputs: &InputSignals) -> Option<f64> {
     match (&inputs.oil, scene.lubricant.as_ref().map(|l| &l.viscosity)) {
@@ -62,14 +72,18 @@ fn viscosity_at_start(scene: &Scene, inputs: &InputSignals) -> Option<f64> {
 fn inputs(scene: &Scene) -> Result<InputSignals> {
     let mut list = Vec::new();
     let mut add = |input: Input, signal: &Signal| list.push((input, InputSource::Time(signal.clone())));
+    let outer_speed = scene.outer_ring.as_ref().and_then(|ring| ring.speed.as_ref());
     if let Some(ring) = &scene.inner_ring {
         add(Input::RingSpeed, &ring.speed);
-        if let RingMotion::Free(free) = &ring.motion {
-            let none = Signal::Constant(0.0);
-            let (y, z) = free.load.as_ref().map_or((&none, &none), |load| (&load.y, &load.z));
-            add(Input::LoadY, y);
-            add(Input::LoadZ, z);
-        }
+    }
+    if let Some(speed) = outer_speed {
+        add(Input::OuterRingSpeed, speed);
+    }
+    if let Some(RingMotion::Free(free)) = scene.inner_ring.as_ref().map(|ring| &ring.motion) {
+        let none = Signal::Constant(0.0);
+        let (y, z) = free.load.as_ref().map_or((&none, &none), |load| (&load.y, &load.z));
+        add(Input::LoadY, y);
+        add(Input::LoadZ, z);
     }
     if let Some(load) = scene.cage.as_ref().and_then(|cage| cage.load.as_ref()) {
         add(Input::CageForceY, &load.force_y);
@@ -82,14 +96,16 @@ fn inputs(scene: &Scene) -> Result<InputSignals> {
             ElementMotion::Prescribed { orbit_speed, spin_speed } => {
                 add(Input::OrbitSpeed, orbit_speed);
                 add(Input::SpinSpeed, spin_speed);
-                let integral = SignalIntegral::new(orbit_speed);
-                orbit =
-                    Some(Orbit { drive: Input::OrbitSpeed, orbit_ratio: 1.0, spin_ratio: None, integral });
+                let drive = Drive {
+                    input: Input::OrbitSpeed,
+                    orbit_ratio: 1.0,
+                    spin_ratio: None,
+                    integral: SignalIntegral::new(orbit_speed),
+                };
+                orbit = Some(Orbit { drives: vec![drive] });
             }
             ElementMotion::Rolling { contact_angle } => {
-                let speed =
-                    scene.inner_ring.as_ref().map_or(Signal::Constant(0.0), |ring| ring.speed.clone());
-                orbit = Some(rolling(elements.radius / elements.pitch_radius, *contact_angle, &speed));
+                orbit = Some(rolling(elements.radius / elements.pitch_radius, *contact_angle, scene));
             }
         }
     }
@@ -147,19 +163,26 @@ fn inputs(scene: &Scene) -> Result<InputSignals> {
     Ok(InputSignals::new(list, orbit, oil))
 }
 
-/// Elements that roll without slip on both rings, the outer one at rest; `radius_ratio` is element over pitch radius.
+/// Elements that roll without slip on both rings; `radius_ratio` is element over pitch radius.
 ///
 /// The spin is the component along the bearing axis of the rotation about the axis across the contact line, and the
-/// rotation of that axis with the orbit.
-fn rolling(radius_ratio: f64, contact_angle: f64, ring_speed: &Signal) -> Orbit {
+/// rotation of that axis with the orbit. Seen from the outer ring the inner one turns at the difference of their speeds, so the
+/// shares of both rings in orbit and spin add up to one.
+fn rolling(radius_ratio: f64, contact_angle: f64, scene: &Scene) -> Orbit {
     let cos = math::cos(contact_angle);
     let gamma = radius_ratio * cos;
     let orbit_ratio = 0.5 * (1.0 - gamma);
     let spin_ratio = orbit_ratio - 0.5 / radius_ratio * (1.0 - gamma * gamma) * cos;
-    Orbit {
-        drive: Input::RingSpeed,
+    let inner = scene.inner_ring.as_ref().map_or(Signal::Constant(0.0), |ring| ring.speed.clone());
+    let drive = |input, orbit_ratio, spin_ratio, speed: &Signal| Drive {
+        input,
         orbit_ratio,
         spin_ratio: Some(spin_ratio),
-        integral: SignalIntegral::new(ring_speed),
+        integral: SignalIntegral::new(speed),
+    };
+    let mut drives = vec![drive(Input::RingSpeed, orbit_ratio, spin_ratio, &inner)];
+    if let Some(outer) = scene.outer_ring.as_ref().and_then(|ring| ring.speed.as_ref()) {
+        drives.push(drive(Input::OuterRingSpeed, 1.0 - orbit_ratio, 1.0 - spin_ratio, outer));
     }
+    Orbit { drives }
 }

@@ -45,7 +45,7 @@ pub use workspace::Workspace;
 pub(crate) use workspace::{AT_FLOOR, RATES};
 
 use crate::bodies::{
-    CAGE, CAGE_MOTION, Elements, ForceSource, INNER_RING, Node, OUTER_RING, SHARED, SharedBodies, SharedBody,
+    CAGE, CAGE_MOTION, Elements, ForceSource, Node, OUTER_RING, SHARED, SharedBodies, SharedBody,
 };
 use crate::error::{Error, Result, Status};
 use crate::pairs::raceway::RacewayGeometry;
@@ -67,6 +67,8 @@ pub struct Model {
     nodes: Vec<Box<dyn Node>>,
     /// Place among the velocities of the temperature of the lubricant, where it is a state.
     lubricant: Option<usize>,
+    /// Places of the shared bodies that may move or turn.
+    moving: &'static [usize],
     /// Masses of the shared bodies, kg; infinite where one is not free.
     masses: [f64; SHARED],
     /// Whether the law of a pair of elements sets in abruptly.
@@ -155,7 +157,7 @@ impl Model {
     /// [`crate::Status::BadValue`].
     pub fn check_input(&self, input: Input, value: f64) -> Result<()> {
         let allowed = match input {
-            Input::RingSpeed | Input::OrbitSpeed | Input::SpinSpeed => SPEED,
+            Input::RingSpeed | Input::OuterRingSpeed | Input::OrbitSpeed | Input::SpinSpeed => SPEED,
             Input::LoadY | Input::LoadZ | Input::CageForceY | Input::CageForceZ => FORCE,
             Input::CageTorque => TORQUE,
             Input::Temperature => TEMPERATURE,
@@ -206,7 +208,7 @@ impl Model {
     /// Radii of rollers and raceways, where there are rollers.
     fn raceway_geometry(&self) -> Option<RacewayGeometry> {
         let rollers = self.scene.rollers.as_ref()?;
-        let outer = self.scene.outer_ring.as_ref().map_or(0.0, |ring| ring.raceway_radius);
+        let outer = self.scene.outer_ring.as_ref()?.raceway_radius?;
         Some(RacewayGeometry::new(outer, rollers.radius, self.scene.radial_clearance()))
     }
 
@@ -225,10 +227,10 @@ impl Model {
         motions
     }
 
-    /// Finds those that may move. The outer ring stands still in the centre.
+    /// Finds those that may move.
     #[inline]
     fn find_motions(&self, q: &[f64], v: &[f64], inputs: &InputValues, out: &mut [Motion<f64>; SHARED]) {
-        for body in [INNER_RING, CAGE] {
+        for body in self.moving.iter().copied() {
             out[body] = self.motion_of(body, q, v, inputs);
         }
     }
@@ -265,7 +267,17 @@ impl Model {
         self.between_infos.iter().enumerate().find(|(_, info)| info.source == ForceSource::Guide)
     }
 
-    /// The ring that guides the cage; the outer one, which stands still, without a guide.
+    /// Whether the rotation of this shared body is prescribed, by an input of the scene.
+    fn is_driven(&self, body: usize) -> bool {
+        self.turned_by(body).is_some()
+    }
+
+    /// The input that prescribes the rotation of this shared body, if one does.
+    fn turned_by(&self, body: usize) -> Option<Input> {
+        self.shared[body].as_ref().and_then(|body| body.turned_by())
+    }
+
+    /// The ring that guides the cage; the outer one, which is held in the centre, without a guide.
     fn guiding_ring(&self) -> usize {
         self.guide().map_or(OUTER_RING, |(_, info)| info.bodies[1])
     }

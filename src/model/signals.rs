@@ -16,13 +16,19 @@ pub(super) enum InputSource {
     RingSpeed(Vec<f64>, Vec<f64>),
 }
 
-/// Prescribed orbit of kinematic elements.
+/// Prescribed orbit of kinematic elements: the sum of what its drives do.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Orbit {
-    /// The input that drives the orbit, and orbit speed per unit of it.
-    pub(super) drive: Input,
+    pub(super) drives: Vec<Drive>,
+}
+
+/// What drives the orbit of kinematic elements.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Drive {
+    /// The input that drives it, and orbit speed per unit of it.
+    pub(super) input: Input,
     pub(super) orbit_ratio: f64,
-    /// Spin speed per unit of the drive; `None` if it is an input of its own.
+    /// Spin speed per unit of the input; `None` if it is an input of its own.
     pub(super) spin_ratio: Option<f64>,
     pub(super) integral: SignalIntegral,
 }
@@ -93,11 +99,7 @@ impl InputSignals {
     pub(super) fn at(&self, t: f64, host: &HostInputs) -> InputValues {
         let mut now = self.listed_at(t, host);
         if let Some(orbit) = &self.orbit {
-            let drive = now.of(orbit.drive);
-            now.values[Input::OrbitSpeed as usize] = orbit.orbit_ratio * drive;
-            if let Some(ratio) = orbit.spin_ratio {
-                now.values[Input::SpinSpeed as usize] = ratio * drive;
-            }
+            orbit.follow(&mut now);
             now.orbit_travel = orbit.travel(t, host);
         }
         now
@@ -117,11 +119,7 @@ impl InputSignals {
             };
         }
         if let Some(orbit) = &self.orbit {
-            let drive = rates.of(orbit.drive);
-            rates.values[Input::OrbitSpeed as usize] = orbit.orbit_ratio * drive;
-            if let Some(ratio) = orbit.spin_ratio {
-                rates.values[Input::SpinSpeed as usize] = ratio * drive;
-            }
+            orbit.follow(&mut rates);
             rates.orbit_travel = self.at(t, host).of(Input::OrbitSpeed);
         }
         rates
@@ -184,12 +182,28 @@ impl InputSignals {
 }
 
 impl Orbit {
+    /// Sets orbit and spin speed, or their rates, to what the drives make them.
+    fn follow(&self, inputs: &mut InputValues) {
+        let driven = |ratio: fn(&Drive) -> Option<f64>| {
+            let parts = self.drives.iter().filter_map(|drive| Some(ratio(drive)? * inputs.of(drive.input)));
+            parts.reduce(|sum, part| sum + part)
+        };
+        let (orbit, spin) = (driven(|drive| Some(drive.orbit_ratio)), driven(|drive| drive.spin_ratio));
+        for (input, speed) in [(Input::OrbitSpeed, orbit), (Input::SpinSpeed, spin)] {
+            if let Some(speed) = speed {
+                inputs.values[input as usize] = speed;
+            }
+        }
+    }
+
     fn travel(&self, t: f64, host: &HostInputs) -> f64 {
         let [since, before] = host.anchor;
-        let turned = match host.values[self.drive as usize] {
-            Some(speed) => speed * (t - since),
-            None => self.integral.at(t) - self.integral.at(since),
-        };
-        before + self.orbit_ratio * turned
+        self.drives.iter().fold(before, |travel, drive| {
+            let turned = match host.values[drive.input as usize] {
+                Some(speed) => speed * (t - since),
+                None => drive.integral.at(t) - drive.integral.at(since),
+            };
+            travel + drive.orbit_ratio * turned
+        })
     }
 }

@@ -13,10 +13,14 @@
 
 use super::Model;
 use super::workspace::{AT_FLOOR, Workspace};
-use crate::bodies::{CAGE, INNER_RING, Input, Power, SharedBody};
+use crate::bodies::{CAGE, INNER_RING, OUTER_RING, Power, SharedBody};
 use crate::integrate::SemiImplicit;
 use crate::pairs::{Batch, ContactBlock, Loaded};
 use crate::space::Wrench;
+
+/// The rings, and the powers of what turns them.
+const RINGS: [usize; 2] = [OUTER_RING, INNER_RING];
+const DRIVES: [Power; 2] = [Power::OuterRingDrive, Power::RingDrive];
 
 /// Energy of a state, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -47,10 +51,12 @@ impl Model {
         p.fill(0.0);
         self.find_step(v, step, ws);
         let ws = &*ws;
-        // Moment on the inner ring, which its drive holds up.
-        let mut on_ring = 0.0;
+        // Moments on outer and inner ring, which their drives hold up.
+        let mut on_rings = [0.0; RINGS.len()];
+        let driven = |body: usize| RINGS.iter().position(|ring| *ring == body && self.is_driven(body));
         for (batch, info, contacts) in ws.contacts.by_pair(&self.infos) {
             let [of_damping, of_friction] = info.powers;
+            let ring = driven(info.mate);
             for i in contacts {
                 let (ContactBlock { step, .. }, lane) = batch.at(i);
                 let [damping, friction, rolling] = &step.powers;
@@ -62,8 +68,8 @@ impl Model {
                         p[AT_FLOOR] = 1.0;
                     }
                 }
-                if info.mate == INNER_RING {
-                    on_ring += step.surface_moment[lane];
+                if let Some(ring) = ring {
+                    on_rings[ring] += step.surface_moment[lane];
                 }
             }
         }
@@ -72,7 +78,9 @@ impl Model {
                 p[of as usize] += power;
             }
             for (body, on_body) in info.bodies.iter().zip(&force.on) {
-                on_ring += if *body == INNER_RING { on_body.moment } else { 0.0 };
+                if let Some(ring) = driven(*body) {
+                    on_rings[ring] += on_body.moment;
+                }
             }
         }
         for (place, body) in self.shared.iter().enumerate() {
@@ -80,7 +88,11 @@ impl Model {
                 body.add_powers(&ws.body(place, self.layout.range(place)), &ws.inputs, p);
             }
         }
-        p[Power::RingDrive as usize] = -on_ring * ws.inputs.of(Input::RingSpeed);
+        for ((ring, moment), power) in RINGS.into_iter().zip(on_rings).zip(DRIVES) {
+            if let Some(speed) = self.turned_by(ring) {
+                p[power as usize] = -moment * ws.inputs.of(speed);
+            }
+        }
         if self.elements.mass().is_none() {
             p[Power::ElementDrive as usize] = -self.power_on_elements(ws);
         }

@@ -64,6 +64,12 @@ impl SlopeSums<'_> {
     /// Step of the logarithm of the viscosity, where a difference over it is taken.
     pub(crate) const VISCOSITY_STEP: f64 = 1e-4;
 
+    /// Rate of the rotation speed of a shared body whose rotation is prescribed, rad/s^2; zero of others.
+    pub(crate) fn speeding(&self, body: usize) -> f64 {
+        let turned_by = self.bodies[body].as_ref().and_then(|body| body.turned_by());
+        turned_by.map_or(0.0, |input| self.rates.of(input))
+    }
+
     /// Adds the derivatives of the contact at a place of the columns, of this element with this mate, but for those of the mate
     /// over its own coordinates.
     #[inline(always)]

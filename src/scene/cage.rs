@@ -171,7 +171,7 @@ pub struct Guide {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum GuideRing {
-    /// The outer ring, at rest: the cage turns inside it.
+    /// The outer ring: the cage turns inside it.
     #[default]
     OuterRing,
     /// The inner ring: the cage turns around it and feels its speed and motion.

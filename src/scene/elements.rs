@@ -105,7 +105,8 @@ pub struct KinematicElements {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum ElementMotion {
-    /// Rolling without slip between the inner ring, which turns with its speed, and the outer ring at rest.
+    /// Rolling without slip between the inner and the outer ring, each of which turns with its speed; an outer ring without one is
+    /// at rest.
     Rolling {
         /// Contact angle, rad; 0 for a radial bearing.
         #[cfg_attr(feature = "schema", schemars(range(min = -1.5, max = 1.5)))]

@@ -53,7 +53,7 @@ use std::collections::BTreeMap;
 pub const SCENE_SCHEMA: &str = "cagedyn.scene/1";
 
 /// A rolling bearing and the run to make with it. SI units; angles in rad; y to the right, z up, rotation
-/// counter-clockwise positive; the outer ring is fixed and centred at the origin.
+/// counter-clockwise positive; the outer ring is held with its centre at the origin.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -78,7 +78,7 @@ pub struct Scene {
     /// Rolling elements with prescribed motion. Either these or `rollers`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kinematic_elements: Option<KinematicElements>,
-    /// The outer ring. Needed by rollers.
+    /// The outer ring. Needed by rollers; beside kinematic elements it gives the speed of a ring that turns.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub outer_ring: Option<OuterRing>,
     /// The inner ring. Needed by rollers, by elements that roll on it and by a cage that it guides.

@@ -3,20 +3,32 @@
 use super::{PlaneVector, Signal};
 use serde::{Deserialize, Serialize};
 
-/// The outer ring: fixed, centred at the origin.
+/// The outer ring: held with its centre at the origin. It stands still unless it is given a speed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct OuterRing {
-    /// Raceway radius R_o, m.
+    /// Rotation speed over time, rad/s; negative is clockwise. Absent: at rest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub speed: Option<Signal>,
+    /// Raceway radius R_o, m. Needed by rollers, refused beside kinematic elements.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0001, max = 5.0)))]
-    pub raceway_radius: f64,
-    /// Radius of the crown of the raceway along the axis, m. Absent: straight.
+    pub raceway_radius: Option<f64>,
+    /// Radius of the crown of the raceway along the axis, m. Absent: straight. Needs rollers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 1e-05, max = 1000000.0)))]
     pub raceway_crown_radius: Option<f64>,
-    /// Name of the material.
-    pub material: String,
+    /// Name of the material. Needed by rollers.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
+}
+
+impl OuterRing {
+    /// Whether it ever turns by the scene; a host may turn it where there is a `speed`.
+    pub fn turns(&self) -> bool {
+        self.speed.as_ref().is_some_and(|speed| *speed != Signal::Constant(0.0))
+    }
 }
 
 /// The inner ring with its shaft.

@@ -122,6 +122,10 @@ impl Averaged {
         if !scene.inner_ring.as_ref().is_none_or(|ring| constant(&ring.speed)) {
             return refused("inner_ring.speed", "changes over time; a steady whirl needs a constant speed");
         }
+        let outer_speed = scene.outer_ring.as_ref().and_then(|ring| ring.speed.as_ref());
+        if !outer_speed.is_none_or(constant) {
+            return refused("outer_ring.speed", "changes over time; a steady whirl needs a constant speed");
+        }
         let clearance = guide.diametral_clearance / 2.0;
         let layer = match &guide.film {
             Some(GuideFilm::LubricantLayer(layer)) if layer.thickness < clearance => Some(layer.thickness),

@@ -14,7 +14,7 @@ use crate::bodies::CAGE_MOTION;
 use crate::error::{Error, Result, Status};
 use crate::model::{HostInputs, Input, Model};
 use crate::scalar::math;
-use crate::scene::{PlaneVector, Scene, Signal};
+use crate::scene::{OuterRing, PlaneVector, Scene, Signal};
 use crate::sim::Sim;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -60,6 +60,10 @@ pub fn onset(scene: &Scene, [slowest, fastest]: [f64; 2]) -> Result<Onset> {
         let text = "inner_ring.speed: must be constant; it is what is varied".to_owned();
         return Err(Error::new(Status::BadScene, text));
     };
+    if scene.outer_ring.as_ref().is_some_and(OuterRing::turns) {
+        let text = "outer_ring.speed: must be absent; the speed of the inner ring alone is varied".to_owned();
+        return Err(Error::new(Status::BadScene, text));
+    }
     let sign = if *given < 0.0 { -1.0 } else { 1.0 };
     let at = |speed: f64| with_speed(scene, sign * speed);
     let goes_on = |speed: f64| whirls_on(&at(speed));

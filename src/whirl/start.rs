@@ -3,9 +3,9 @@
 use super::averaged::{Averaged, Unknowns};
 use crate::bodies::CAGE_MOTION;
 use crate::error::{Error, Result, Status};
-use crate::model::{HostInputs, Model};
+use crate::model::{HostInputs, Input, Model};
 use crate::scalar::math;
-use crate::scene::{GuideFilm, Pocket, RingStiffness, Scene};
+use crate::scene::{GuideFilm, GuideRing, Pocket, RingStiffness, Scene};
 use crate::sim::Sim;
 use std::sync::Arc;
 
@@ -41,7 +41,7 @@ pub(super) fn with_fewer_waves(scene: &Scene) -> Option<Scene> {
     Some(scene)
 }
 
-/// Balance of shear, pressure and centrifugal force at the edge of a layer.
+/// Balance of shear, pressure and centrifugal force at the edge of a layer. What shears it is the cage, seen from an outer ring.
 fn estimate(scene: &Scene, averaged: &Averaged) -> Option<Unknowns> {
     let cage = scene.cage.as_ref().filter(|cage| cage.elastic_ring.is_none())?;
     let guide = cage.guide.as_ref()?;
@@ -58,16 +58,18 @@ fn estimate(scene: &Scene, averaged: &Averaged) -> Option<Unknowns> {
         },
     };
     let (orbit, radius) = (averaged.orbit(), guide.guide_radius - clearance);
-    if inside <= 0.0 || orbit == 0.0 {
+    let sliding =
+        orbit - if guide.ring == GuideRing::OuterRing { inputs.of(Input::OuterRingSpeed) } else { 0.0 };
+    if inside <= 0.0 || sliding == 0.0 {
         return None;
     }
-    let square = 2.7 * viscosity * radius * radius * layer.land_width * orbit.abs()
+    let square = 2.7 * viscosity * radius * radius * layer.land_width * sliding.abs()
         / (layer.thickness * cage.mass * inside);
     let touching = pocket.diametral_clearance / 2.0 - inside + DEPTH;
     Some(Unknowns {
         eccentricity: inside / math::cos(ARC),
-        speed: -SHARE * square.sqrt() * orbit.signum(),
-        lead: orbit.signum() * touching / scene.pitch_radius(),
+        speed: -SHARE * square.sqrt() * sliding.signum(),
+        lead: sliding.signum() * touching / scene.pitch_radius(),
         waves: Vec::new(),
     })
 }

@@ -244,6 +244,15 @@ pub fn scenes() -> Vec<(&'static str, Value)> {
                 ("inner_ring.radial_clearance", json!(-4e-6)),
             ]),
         ),
+        (
+            "turning outer ring",
+            example_with(&[
+                ("outer_ring.speed", json!({"constant": 90.0})),
+                ("cage.pocket.lubricated_cylinder.radial_clearance", json!(60e-6)),
+                ("cage.guide.diametral_clearance", json!(240e-6)),
+                ("inner_ring.radial_clearance", json!(10e-6)),
+            ]),
+        ),
     ]
 }
 

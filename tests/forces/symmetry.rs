@@ -116,6 +116,49 @@ fn a_turned_bearing_has_turned_forces() {
     }
 }
 
+impl State {
+    /// Seen from axes that turn at `speed` (rad/s) the other way.
+    fn carried(&self, speed: f64) -> Self {
+        let mut s = self.clone();
+        s.ring_velocity[0] -= speed * s.ring[1];
+        s.ring_velocity[1] += speed * s.ring[0];
+        s.cage_velocity[0] -= speed * s.cage[1];
+        s.cage_velocity[1] += speed * s.cage[0];
+        s.cage_velocity[2] += speed;
+        for roller in &mut s.rollers {
+            roller.orbit_speed += speed;
+            roller.spin += speed;
+        }
+        s
+    }
+}
+
+#[test]
+fn contacts_know_nothing_of_a_rotation_of_the_whole() {
+    // The support stands, and a film without squeeze takes the turning of its gap for rest.
+    let relative = [
+        ("inner_ring.motion.free.support_damping", Value::Null),
+        ("cage.guide.film.short_bearing.squeeze", json!(true)),
+    ];
+    for (i, (name, scene)) in scenes().into_iter().enumerate() {
+        let [inner, outer] = ["/inner_ring/speed/constant", "/outer_ring/speed/constant"]
+            .map(|path| scene.pointer(path).and_then(Value::as_f64).unwrap_or(0.0));
+        let mut plain = Bearing::new(with(&scene, &relative));
+        for speed in [140.0, -55.0] {
+            let mut carried = plain.changed(&[
+                ("inner_ring.speed.constant", json!(inner + speed)),
+                ("outer_ring.speed", json!({"constant": outer + speed})),
+            ]);
+            let mut random = Random::new(6 + i as u64);
+            for _ in 0..STATES_PER_SCENE / 3 {
+                let state = State::random_beyond(AWAY_FROM_ONSET, &plain, &mut random);
+                let (expected, found) = (plain.forces(&state), carried.forces(&state.carried(speed)));
+                assert_same_forces(name, 1e-10, plain.pitch, (&expected, |f| f), (&found, |body| body));
+            }
+        }
+    }
+}
+
 #[test]
 fn turning_the_first_roller_is_turning_the_cage() {
     let angle = 0.8125;
@@ -154,6 +197,9 @@ fn a_mirrored_bearing_has_mirrored_forces() {
                 ("initial.first_roller_angle", json!(-PI - plain.first_angle)),
             ],
         );
+        if let Some(speed) = scene.pointer("/outer_ring/speed/constant").and_then(Value::as_f64) {
+            set(&mut other, "outer_ring.speed.constant", json!(-speed));
+        }
         if let Some(list) = scene.pointer("/cage/guide/roundness").and_then(Value::as_array) {
             // cos(n (pi - th - psi) + b) = cos(n (th + psi) - b - n pi)
             for (k, harmonic) in list.iter().enumerate() {

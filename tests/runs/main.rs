@@ -8,6 +8,7 @@ mod extremes;
 mod grease_guide;
 mod limits;
 mod nu2310;
+mod outer_ring;
 mod profile;
 mod promises;
 mod sim;

@@ -181,6 +181,9 @@ fn derivatives_match_differences_in_every_combination() {
         let swing =
             |mean: f64| json!({"sine": {"mean": mean, "amplitude": 50.0, "frequency": 80.0, "phase": 0.3}});
         scene["inner_ring"]["speed"] = swing(-314.0);
+        if i % 4 < 2 {
+            scene["outer_ring"]["speed"] = swing(90.0);
+        }
         scene["cage"]["load"] = json!({"force_y": swing(0.0), "torque": {"constant": 0.01}});
         if parts.rollers {
             scene["inner_ring"]["motion"]["free"]["load"]["z"] = swing(-4900.0);

@@ -51,6 +51,8 @@ impl List {
 }
 
 fn ring(scene: &Scene, list: &mut List) {
+    let turns = scene.outer_ring.as_ref().is_some_and(|ring| ring.speed.is_some());
+    list.flag("outer_ring.speed", turns, "motion: the outer ring turns at its given speed");
     if scene.rollers.is_none() {
         return;
     }

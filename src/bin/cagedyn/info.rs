@@ -64,7 +64,11 @@ fn bodies(model: &Model) -> Vec<Vec<String>> {
         Some(RingMotion::Fixed(at)) => format!("held at ({}, {}) m, turns at its given speed", at.y, at.z),
         Some(RingMotion::Free(_)) => "moves in the plane, turns at its given speed".to_owned(),
     };
-    let mut rows = vec![row("outer_ring", "fixed at the origin"), row("inner_ring", ring)];
+    let outer = match model.scene().outer_ring.as_ref().and_then(|ring| ring.speed.as_ref()) {
+        None => "fixed at the origin",
+        Some(_) => "held at the origin, turns at its given speed",
+    };
+    let mut rows = vec![row("outer_ring", outer), row("inner_ring", ring)];
     if layout.cage().is_some() {
         rows.push(row("cage", "moves and turns in the plane"));
     }
@@ -152,8 +156,9 @@ fn geometry(model: &Model) -> Vec<Vec<String>> {
         row("pitch radius", format!("{:.4} mm", 1e3 * model.pitch_radius())),
         row(&format!("{kind} radius"), format!("{:.4} mm", 1e3 * scene.element_radius())),
     ];
-    if let (Some(outer), Some(inner)) = (&scene.outer_ring, model.inner_raceway_radius()) {
-        rows.push(row("outer raceway radius", format!("{:.4} mm", 1e3 * outer.raceway_radius)));
+    let outer = scene.outer_ring.as_ref().and_then(|ring| ring.raceway_radius);
+    if let (Some(outer), Some(inner)) = (outer, model.inner_raceway_radius()) {
+        rows.push(row("outer raceway radius", format!("{:.4} mm", 1e3 * outer)));
         rows.push(row("inner raceway radius", format!("{:.4} mm", 1e3 * inner)));
     }
     if let Some(clearance) = scene.inner_ring.as_ref().and_then(|ring| ring.radial_clearance) {
@@ -167,6 +172,9 @@ fn geometry(model: &Model) -> Vec<Vec<String>> {
     }
     let [orbit, spin] = model.kinematic_speeds(&inputs);
     rows.push(row("inner ring speed at t = 0", turning(inputs.of(Input::RingSpeed))));
+    if scene.outer_ring.as_ref().is_some_and(|ring| ring.speed.is_some()) {
+        rows.push(row("outer ring speed at t = 0", turning(inputs.of(Input::OuterRingSpeed))));
+    }
     rows.push(row("cage and orbit speed without slip", turning(orbit)));
     rows.push(row(&format!("{kind} spin speed without slip"), turning(spin)));
     let frequency = model.highest_frequency();

@@ -50,8 +50,8 @@ impl Elements for KinematicElements {
         [inputs.of(Input::OrbitSpeed), inputs.of(Input::SpinSpeed)]
     }
 
-    fn orbit_ratio(&self) -> f64 {
-        0.0
+    fn orbit_ratios(&self) -> [f64; 2] {
+        [0.0; 2]
     }
 
     fn find(

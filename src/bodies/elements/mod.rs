@@ -48,8 +48,8 @@ pub(crate) trait Elements: Debug + Send + Sync {
     /// Orbit and spin speed without slip at these inputs, rad/s: of elements that touch both raceways, or as prescribed.
     fn kinematic_speeds(&self, inputs: &InputValues) -> [f64; 2];
 
-    /// Orbit speed without slip per speed of the inner ring.
-    fn orbit_ratio(&self) -> f64;
+    /// Orbit speed without slip per speed of the outer and of the inner ring; none where it is prescribed.
+    fn orbit_ratios(&self) -> [f64; 2];
 
     /// Finds the motion of all elements, and their travel since the start, in columns.
     ///

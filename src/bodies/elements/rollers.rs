@@ -101,15 +101,26 @@ impl Elements for Rollers {
         self.inertia.mass * self.set.pitch_radius * orbit_speed * orbit_speed
     }
 
+    /// Of a roller that touches both raceways: its centre moves at the mean of their surface speeds, and its spin is half of
+    /// their difference over its radius.
     fn kinematic_speeds(&self, inputs: &InputValues) -> [f64; 2] {
-        let orbit = self.orbit_ratio() * inputs.of(Input::RingSpeed);
-        let spin_ratio = -self.orbit_ratio() * self.outer_centre_radius() / self.set.radius;
-        [orbit, spin_ratio * inputs.of(Input::RingSpeed)]
+        let [outer_ratio, inner_ratio] = self.orbit_ratios();
+        let [outer, inner] = [inputs.of(Input::OuterRingSpeed), inputs.of(Input::RingSpeed)];
+        let spin_ratio = -inner_ratio * self.outer_centre_radius() / self.set.radius;
+        let (orbit, spin) = (inner_ratio * inner, spin_ratio * inner);
+        if outer == 0.0 {
+            return [orbit, spin];
+        }
+        let outer_spin_ratio = outer_ratio * self.outer_centre_radius() / self.set.radius;
+        [orbit + outer_ratio * outer, spin + outer_spin_ratio * outer]
     }
 
-    /// Of a roller that touches both raceways: R_i/(2 (R_o - R_b)).
-    fn orbit_ratio(&self) -> f64 {
-        (self.set.pitch_radius - self.set.radius - self.gap) / (2.0 * self.outer_centre_radius())
+    /// Of a roller that touches both raceways: R_o/(2 (R_o - R_b)) and R_i/(2 (R_o - R_b)).
+    fn orbit_ratios(&self) -> [f64; 2] {
+        let Self { set, gap, .. } = self;
+        let outer = self.outer_centre_radius() + set.radius;
+        let inner = set.pitch_radius - set.radius - gap;
+        [outer, inner].map(|raceway| raceway / (2.0 * self.outer_centre_radius()))
     }
 
     fn find(

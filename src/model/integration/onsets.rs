@@ -7,7 +7,6 @@
 //!
 //! [`InputSignals::shortest_period`]: crate::model::signals::InputSignals::shortest_period
 
-use crate::bodies::INNER_RING;
 use crate::integrate::Tuning;
 use crate::model::{HostInputs, InputValues, Model};
 use crate::pairs::Ahead;
@@ -29,7 +28,7 @@ impl Model {
             return longest;
         }
         // A ring that stands guides at no input.
-        let moved = self.between_infos.iter().any(|info| info.bodies.contains(&INNER_RING));
+        let moved = self.between_infos.iter().any(|info| self.moving.contains(&info.bodies[1]));
         let inputs = if moved || self.onsets { self.inputs_at(t, host) } else { InputValues::default() };
         let shared = self.motions_at(q, v, &inputs);
         let ahead = Ahead {

@@ -55,7 +55,8 @@ impl Model {
         let (ring, count) = (self.shared[INNER_RING].as_ref(), self.layout.count as f64);
         let ring_mass = ring.and_then(|ring| ring.mass());
         let weight = ring_mass.unwrap_or(0.0) * math::hypot(self.gravity[0], self.gravity[1]);
-        let orbit = largest(Input::RingSpeed) * self.elements.orbit_ratio();
+        let [by_outer, by_inner] = self.elements.orbit_ratios();
+        let orbit = largest(Input::RingSpeed) * by_inner + largest(Input::OuterRingSpeed) * by_outer;
         let centrifugal = self.elements.centrifugal(orbit);
         let preload = inner.spring((-self.scene.radial_clearance() / 4.0).max(0.0))[0];
         // 4.1 F/Z is the largest roller load of a line contact bearing without clearance; 1 N keeps it positive.

@@ -13,6 +13,9 @@ use std::f64::consts::{PI, TAU};
 /// A ring slower than this stands still for the slip channels, rad/s.
 const STANDSTILL: f64 = 1e-9;
 
+/// Share of the speed of the rings below which a speed without slip is none.
+const NO_SPEED: f64 = 1e-9;
+
 /// What a channel shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Source {
@@ -43,6 +46,7 @@ pub(super) enum Source {
     RingZ,
     DragTorque,
     OuterRingTorque,
+    OuterDragTorque,
     OrbitAngle(usize),
     RollerSlip(usize),
     PocketPosition(usize),
@@ -104,6 +108,12 @@ impl Model {
         }
         let text = "moment on the outer ring about its centre, positive counter-clockwise";
         list.add("outer_ring.torque", "N m", text, Source::OuterRingTorque);
+        if let Some(ring) = self.scene.outer_ring.as_ref().filter(|ring| ring.speed.is_some()) {
+            let text = "torque that keeps the outer ring turning, positive against rolling drag";
+            // A ring that only a host may turn is no column of a table.
+            let add = if ring.turns() { ChannelList::add } else { ChannelList::add_detail };
+            add(&mut list, "outer_ring.drag_torque", "N m", text, Source::OuterDragTorque);
+        }
         if self.inputs.oil.is_some() {
             let text = "dynamic viscosity of the lubricant at its temperature";
             list.add("lubricant.viscosity", "Pa s", text, Source::Viscosity);
@@ -250,7 +260,10 @@ impl Model {
         forces: &Forces,
     ) -> f64 {
         let [orbit, spin] = self.kinematic_speeds(inputs);
-        let turning = if self.has_rollers() { inputs.of(Input::RingSpeed) } else { orbit };
+        let turning = match self.has_rollers() {
+            true => inputs.of(Input::RingSpeed).abs().max(inputs.of(Input::OuterRingSpeed).abs()),
+            false => orbit.abs(),
+        };
         let direction = self.direction(inputs);
         let cage = |k: usize| self.layout.cage().map_or(0.0, |c| q[c + k]);
         let cage_speed = || self.layout.cage().map_or(0.0, |c| v[c + 2]);
@@ -262,9 +275,11 @@ impl Model {
         let raceway = |j: usize, source: ForceSource, quantity: usize| {
             self.first_contact_of(source).map_or(0.0, |k| contact(j, k)[quantity])
         };
-        // Without rotation there is no kinematic speed to compare with, and slip is reported as zero.
+        // Without rotation there is no kinematic speed to compare with, and slip is reported as zero. Rings that turn against each
+        // other can leave one that is round-off.
         let slip = |speed: f64, without_slip: f64| {
-            if turning.abs() < STANDSTILL { 0.0 } else { 1.0 - speed / without_slip }
+            let none = turning < STANDSTILL || without_slip.abs() < NO_SPEED * turning;
+            if none { 0.0 } else { 1.0 - speed / without_slip }
         };
         match channel.source {
             Source::CageY => cage(0),
@@ -300,7 +315,8 @@ impl Model {
             Source::RingY => self.motion_of(INNER_RING, q, v, inputs).position[0],
             Source::RingZ => self.motion_of(INNER_RING, q, v, inputs).position[1],
             // Weight and load have no moment about the centre of a ring.
-            Source::DragTorque => -direction * moment(INNER_RING),
+            Source::DragTorque => -self.turning_of(INNER_RING, inputs) * moment(INNER_RING),
+            Source::OuterDragTorque => -self.turning_of(OUTER_RING, inputs) * moment(OUTER_RING),
             Source::OuterRingTorque => moment(OUTER_RING),
             Source::OrbitAngle(j) => self.elements.azimuth(&self.layout, q, inputs, j),
             Source::RollerSlip(j) => slip(v[self.layout.spin(j)], spin),
@@ -344,8 +360,18 @@ impl Model {
 
     /// 1 where the elements go round counter-clockwise at these inputs, else -1.
     pub(super) fn direction(&self, inputs: &InputValues) -> f64 {
-        let drive = if self.has_rollers() { Input::RingSpeed } else { Input::OrbitSpeed };
-        if inputs.of(drive) < 0.0 { -1.0 } else { 1.0 }
+        let [orbit, _] = self.kinematic_speeds(inputs);
+        if orbit < 0.0 { -1.0 } else { 1.0 }
+    }
+
+    /// 1 where a ring turns counter-clockwise at these inputs, else -1. Beside an outer ring that cannot turn the inner one goes the way
+    /// of the elements.
+    pub(super) fn turning_of(&self, ring: usize, inputs: &InputValues) -> f64 {
+        match self.turned_by(ring).filter(|_| self.is_driven(OUTER_RING)) {
+            Some(speed) if inputs.of(speed) < 0.0 => -1.0,
+            Some(_) => 1.0,
+            None => self.direction(inputs),
+        }
     }
 
     /// Circumferential offset of element `j` in its pocket, m.

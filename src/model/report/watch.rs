@@ -54,7 +54,8 @@ impl Watch {
             }
         }
         let any = |wanted: fn(&Source) -> bool| watch.others.iter().any(|(_, source)| wanted(source));
-        let torques = any(|s| matches!(s, Source::DragTorque | Source::OuterRingTorque));
+        let torques =
+            any(|s| matches!(s, Source::DragTorque | Source::OuterRingTorque | Source::OuterDragTorque));
         let guide = torques || any(|s| matches!(s, Source::GuideY | Source::GuideZ | Source::GuideMoment));
         (watch.torques, watch.guide) = (torques, guide);
         watch.raceways |= torques;
@@ -81,6 +82,7 @@ impl Channel {
                 | S::GuideFilm
                 | S::DragTorque
                 | S::OuterRingTorque
+                | S::OuterDragTorque
                 | S::CageEccentricity
                 | S::WhirlRadius
         )
@@ -150,7 +152,8 @@ impl Model {
                 Source::GuideY => guide.force[0],
                 Source::GuideZ => guide.force[1],
                 Source::GuideMoment => guide.moment,
-                Source::DragTorque => -direction * on[INNER_RING].moment,
+                Source::DragTorque => -self.turning_of(INNER_RING, &ws.inputs) * on[INNER_RING].moment,
+                Source::OuterDragTorque => -self.turning_of(OUTER_RING, &ws.inputs) * on[OUTER_RING].moment,
                 Source::OuterRingTorque => on[OUTER_RING].moment,
                 Source::WhirlRadius => radius(offset),
                 Source::CageEccentricity => self.guide_clearance().map_or(0.0, |c| radius(offset) / c),

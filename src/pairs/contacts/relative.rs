@@ -14,7 +14,7 @@
 
 use super::law_slopes::{DIRECTIONS, EDGE_SHARE, FORCES, LawSlopes, VISCOSITY, contact_force};
 use super::{Batch, ContactBlock};
-use crate::bodies::{CAGE, ElementMotion, INNER_RING, Input, Motions};
+use crate::bodies::{CAGE, ElementMotion, Motions};
 use crate::laws::contact_pair::ContactMotion;
 use crate::pairs::slope_sums::{ContactColumns, SlopeSums};
 use crate::pairs::{ElementPair, Grip};
@@ -102,7 +102,7 @@ pub(in crate::pairs) fn add_slopes<P: Kinematics>(
     // Groups are never wider than this and begin at multiples of their width.
     let first = contacts.start / ALIGNED * ALIGNED;
     let mate = pair.info().mate;
-    let speeding = if mate == INNER_RING { sums.rates.of(Input::RingSpeed) } else { 0.0 };
+    let speeding = sums.speeding(mate);
     let warming = sums.ln_viscosity_rate;
     let slopes = &batch.slopes;
     let changing = speeding != 0.0 || warming != 0.0 || sums.layout.count == 0;

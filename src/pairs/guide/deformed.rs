@@ -4,7 +4,7 @@
 //! both together have about its centre.
 
 use super::side::GuideSide;
-use crate::bodies::{CAGE, CAGE_MOTION, INNER_RING, Input, Motions, SHARED, along_factor};
+use crate::bodies::{CAGE, CAGE_MOTION, Motions, SHARED, along_factor};
 use crate::laws::fluid::Fluid;
 use crate::laws::guide::bent::{BentForces, BentMotion, BentSurface, Wanted};
 use crate::laws::guide::journal::{Harmonic, NoFilm};
@@ -253,7 +253,7 @@ impl DeformedGuide {
                 }
             }
         }
-        let speeding = if self.ring == INNER_RING { sums.rates.of(Input::RingSpeed) } else { 0.0 };
+        let speeding = sums.speeding(self.ring);
         self.add_over_time(&beside, &forces.over_ring_speed, speeding, sums);
         if sums.ln_viscosity_rate != 0.0 {
             self.add_warming(law, motions, fluid, force, sums);

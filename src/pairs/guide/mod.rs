@@ -7,7 +7,7 @@ mod deformed;
 mod longest_step;
 pub mod side;
 
-use crate::bodies::{CAGE, Fault, ForceSource, INNER_RING, Input, Motions, OUTER_RING, Power, SHARED};
+use crate::bodies::{CAGE, Fault, ForceSource, INNER_RING, Motions, OUTER_RING, Power, SHARED};
 use crate::error::Result;
 use crate::laws::elastic::solid::SolidContact;
 use crate::laws::fluid::Fluid;
@@ -265,7 +265,7 @@ impl SharedPair for Guide {
         let m = self.journal_motion(&motions.shared);
         let motion = lift(&m);
         let Ok(force) = self.law.force(&motion, fluid) else { return };
-        let speeding = if self.ring == INNER_RING { sums.rates.of(Input::RingSpeed) } else { 0.0 };
+        let speeding = sums.speeding(self.ring);
         let bodies = [CAGE, self.ring];
         let wrenches = self.side.wrenches(&force, &motion).map(|on_body| on_body.components());
         for (body, rows) in bodies.into_iter().zip(wrenches) {

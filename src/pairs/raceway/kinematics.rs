@@ -54,16 +54,17 @@ impl RacewayGeometry {
         outer_raceway_radius - 2.0 * self.roller_radius - 2.0 * self.gap
     }
 
-    /// Motion and levers of the contact with the outer raceway; the outer ring is centred and at rest.
+    /// Motion and levers of the contact with the outer raceway; the outer ring is centred and turns at this speed in rad/s.
     #[inline(always)]
-    pub fn outer<T: Numeric>(&self, roller: &ElementMotion<T>) -> (ContactMotion<T>, Grip<T>) {
+    pub fn outer<T: Numeric>(&self, roller: &ElementMotion<T>, ring_speed: T) -> (ContactMotion<T>, Grip<T>) {
         let arm_1 = roller.radial_offset.like(self.roller_radius);
         let arm_2 = -(roller.radial_offset + (self.pitch_radius + self.roller_radius));
         let motion = ContactMotion {
             delta: roller.radial_offset - self.gap,
             delta_dot: roller.radial_speed,
             u1: arm_1 * (roller.spin_speed - roller.orbit_speed),
-            u2: arm_2 * roller.orbit_speed,
+            // In this order a ring at rest changes no bit.
+            u2: arm_2 * (roller.orbit_speed - ring_speed),
         };
         let normal = [arm_1.like(1.0), arm_1.like(0.0)];
         (motion, Grip::centred(normal, arm_1, arm_2))
@@ -125,7 +126,7 @@ mod tests {
         let roller =
             ElementMotion { radial_offset: 0.0, radial_speed: 0.0, orbit_speed: orbit, spin_speed: spin };
         let ring = RingMotion { position: [0.0; 2], velocity: [0.0; 2], speed: w_i };
-        let (outer, _) = G.outer(&roller);
+        let (outer, _) = G.outer(&roller, 0.0);
         let (inner, frame) = G.inner(&roller, &ring);
         assert!((outer.u1 - outer.u2).abs() < 1e-13);
         assert!((inner.u1 - inner.u2).abs() < 1e-13);

@@ -52,14 +52,16 @@ fn laws_of(builder: &LawBuilder<'_>) -> Result<Option<(RacewayGeometry, [LineCon
     let this = builder.at("raceways.contact");
     let rings = (scene.outer_ring.as_ref(), scene.inner_ring.as_ref());
     let outer_ring = needed("outer_ring", rings.0, "raceways")?;
-    let (outer, radius) = (outer_ring.raceway_radius, scene.element_radius());
+    let outer = needed("outer_ring.raceway_radius", outer_ring.raceway_radius, "raceways")?;
+    let outer_material = needed("outer_ring.material", outer_ring.material.as_deref(), "raceways")?;
+    let radius = scene.element_radius();
     let geometry = RacewayGeometry::new(outer, radius, scene.radial_clearance());
     let inner = geometry.inner_radius(outer);
     let inner_material = rings.1.and_then(|ring| ring.material.as_deref());
     let inner_material = needed("inner_ring.material", inner_material, "raceways")?;
     let crowns = [outer_ring.raceway_crown_radius, rings.1.and_then(|ring| ring.raceway_crown_radius)];
     let laws = [
-        this.raceway(laws, &outer_ring.material, 1.0 / (1.0 / radius - 1.0 / outer), crowns[0])?,
+        this.raceway(laws, outer_material, 1.0 / (1.0 / radius - 1.0 / outer), crowns[0])?,
         this.raceway(laws, inner_material, 1.0 / (1.0 / radius + 1.0 / inner), crowns[1])?,
     ];
     Ok(Some((geometry, laws)))
@@ -140,7 +142,7 @@ impl Kinematics for Raceway {
                 orbit_speed: across_speed / varied(r, [one, zero, zero, zero, zero]),
                 spin_speed,
             };
-            let (motion, mut grip) = self.geometry.outer(&roller);
+            let (motion, mut grip) = self.geometry.outer(&roller, Varied::lift(turning));
             grip.normal[1] = varied(zero, [zero, turn, zero, zero, zero]);
             return VariedContact { motion, edge_share: None, grip };
         }
@@ -190,7 +192,8 @@ impl Columns for Outer<'_> {
     fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
         let (block, lane) = place_of(first);
         let motion = self.motions.blocks[block].motion.load::<S, K>(simd, lane);
-        let (motion, grip) = self.geometry.outer(&motion);
+        let turning = Pack::<S, K>::all(simd, self.motions.shared[OUTER_RING].speed);
+        let (motion, grip) = self.geometry.outer(&motion, turning);
         self.found[block].motion.store(lane, &motion);
         self.found[block].grip.store(lane, &grip);
     }

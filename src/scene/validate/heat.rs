@@ -153,6 +153,10 @@ impl Scene {
                 return Err(bad("inner_ring.speed", text));
             }
         }
+        if self.outer_ring.as_ref().is_some_and(|ring| ring.speed.is_some()) {
+            let text = "not allowed beside 'heat', whose torque and conductances are by the speed of the inner ring alone; remove one of them";
+            return Err(bad("outer_ring.speed", text));
+        }
         match self.lubricant.as_ref().map(|lubricant| &lubricant.viscosity) {
             Some(Viscosity::Walther(_)) => {}
             _ => {
@@ -182,7 +186,7 @@ impl Scene {
         let heat = self.heat.as_ref()?;
         let play = heat.play.as_ref()?;
         let diameter = 2.0 * self.rollers.as_ref()?.radius;
-        let outer = 2.0 * self.outer_ring.as_ref()?.raceway_radius;
+        let outer = 2.0 * self.outer_ring.as_ref()?.raceway_radius?;
         let inner = outer - 2.0 * diameter - given;
         let above = |k: usize| {
             let start = heat.nodes.iter().find(|node| node.name == play.nodes[k]).and_then(|node| node.start);

@@ -90,6 +90,9 @@ impl Scene {
         if let Some(ring) = &self.inner_ring {
             self.validate_inner_ring(ring)?;
         }
+        if let Some(speed) = self.outer_ring.as_ref().and_then(|ring| ring.speed.as_ref()) {
+            signal("outer_ring.speed", speed, SPEED)?;
+        }
         if let Some(rollers) = &self.rollers {
             self.validate_rollers(rollers)?;
         }
@@ -137,9 +140,9 @@ impl Scene {
     fn validate_rollers(&self, r: &Rollers) -> Result<()> {
         count("rollers.count", r.count)?;
         // Geometry first: a radius in millimetres would be blamed on the inertia otherwise.
-        if let Some(outer) = &self.outer_ring {
-            number("outer_ring.raceway_radius", outer.raceway_radius, RADIUS)?;
-            number("rollers.radius", r.radius, range(RADIUS.min, 0.5 * outer.raceway_radius, "m"))?;
+        if let Some(raceway) = self.outer_ring.as_ref().and_then(|outer| outer.raceway_radius) {
+            number("outer_ring.raceway_radius", raceway, RADIUS)?;
+            number("rollers.radius", r.radius, range(RADIUS.min, 0.5 * raceway, "m"))?;
         }
         number("rollers.radius", r.radius, RADIUS)?;
         number("rollers.effective_length", r.effective_length, range(WIDTH.min, 50.0 * r.radius, "m"))?;
@@ -150,7 +153,9 @@ impl Scene {
         self.material_exists("rollers.material", &r.material)?;
         let missing = |path: &str| bad(path, "missing; 'rollers' need it");
         let outer = self.outer_ring.as_ref().ok_or_else(|| missing("outer_ring"))?;
-        self.material_exists("outer_ring.material", &outer.material)?;
+        let raceway = outer.raceway_radius.ok_or_else(|| missing("outer_ring.raceway_radius"))?;
+        let material = outer.material.as_ref().ok_or_else(|| missing("outer_ring.material"))?;
+        self.material_exists("outer_ring.material", material)?;
         let inner = self.inner_ring.as_ref().ok_or_else(|| missing("inner_ring"))?;
         let clearance = inner.radial_clearance.ok_or_else(|| missing("inner_ring.radial_clearance"))?;
         inner.material.as_ref().ok_or_else(|| missing("inner_ring.material"))?;
@@ -158,11 +163,10 @@ impl Scene {
             let text = format!("{clearance:?} m is more than a fifth of the roller radius {:?} m", r.radius);
             return Err(bad("inner_ring.radial_clearance", text));
         }
-        let inner_radius = outer.raceway_radius - 2.0 * r.radius - clearance / 2.0;
+        let inner_radius = raceway - 2.0 * r.radius - clearance / 2.0;
         if inner_radius < 0.1 * r.radius {
             let text = format!(
-                "{:?} m leaves no room for the inner ring (its raceway radius would be {inner_radius:?} m)",
-                outer.raceway_radius
+                "{raceway:?} m leaves no room for the inner ring (its raceway radius would be {inner_radius:?} m)"
             );
             return Err(bad("outer_ring.raceway_radius", text));
         }
@@ -216,13 +220,22 @@ impl Scene {
                 signal(&format!("{path}.spin_speed"), spin_speed, SPEED)?;
             }
         }
-        for (path, present) in
-            [("outer_ring", self.outer_ring.is_some()), ("raceways", self.raceways.is_some())]
-        {
+        let outer = self.outer_ring.as_ref();
+        for (path, present) in [
+            ("outer_ring.raceway_radius", outer.is_some_and(|ring| ring.raceway_radius.is_some())),
+            (
+                "outer_ring.raceway_crown_radius",
+                outer.is_some_and(|ring| ring.raceway_crown_radius.is_some()),
+            ),
+            ("raceways", self.raceways.is_some()),
+        ] {
             if present {
                 let text = "not allowed beside 'kinematic_elements', which touch no raceway; remove it";
                 return Err(bad(path, text));
             }
+        }
+        if let Some(material) = outer.and_then(|ring| ring.material.as_ref()) {
+            self.material_exists("outer_ring.material", material)?;
         }
         if self.initial.inner_ring == RingStart::Equilibrium {
             return Err(bad("initial.inner_ring", "'equilibrium' needs 'rollers'; write 'centred'"));
@@ -264,7 +277,7 @@ impl Scene {
         if let Some(elements) = &self.kinematic_elements {
             return elements.pitch_radius;
         }
-        let outer = self.outer_ring.as_ref().map_or(0.0, |r| r.raceway_radius);
+        let outer = self.outer_ring.as_ref().and_then(|r| r.raceway_radius).unwrap_or(0.0);
         outer - self.element_radius() - self.radial_clearance() / 4.0
     }
 

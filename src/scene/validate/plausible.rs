@@ -2,7 +2,7 @@
 
 use crate::scalar::math;
 use crate::scene::check::{Range, range, shown, slip_hint};
-use crate::scene::{RingMotion, Scene, Viscosity};
+use crate::scene::{RingMotion, Scene, Signal, Viscosity};
 use std::f64::consts::TAU;
 
 /// Speed times pitch diameter above which only special bearings run, m/min: a million mm/min.
@@ -23,15 +23,19 @@ impl Scene {
     pub fn warnings(&self) -> Vec<String> {
         let mut list = Vec::new();
         let diameter = 2.0 * self.pitch_radius();
-        if let Some(ring) = &self.inner_ring {
+        let outer_speed = self.outer_ring.as_ref().and_then(|ring| ring.speed.as_ref());
+        for (path, signal) in [
+            ("inner_ring.speed", self.inner_ring.as_ref().map(|ring| &ring.speed)),
+            ("outer_ring.speed", outer_speed),
+        ] {
             let fastest = FASTEST / 60.0 * TAU / diameter;
-            let speed = ring.speed.largest();
+            let speed = signal.map_or(0.0, Signal::largest);
             if speed > fastest {
                 let why = format!(
                     "more than {} rad/s, which only special bearings of this size reach",
                     shown(fastest)
                 );
-                list.push(unlikely("inner_ring.speed", speed, range(0.0, fastest, "rad/s"), &why));
+                list.push(unlikely(path, speed, range(0.0, fastest, "rad/s"), &why));
             }
         }
         if let (Some(rollers), Some(RingMotion::Free(ring))) =
@@ -70,7 +74,8 @@ impl Scene {
         for (path, angle) in angles.filter(|(_, angle)| angle.abs() > TURN) {
             list.push(unlikely(&path, angle, range(-TURN, TURN, "rad"), "more than a turn"));
         }
-        let ring = self.inner_ring.as_ref().map_or(f64::INFINITY, |ring| ring.speed.largest());
+        let inner = self.inner_ring.as_ref().map_or(f64::INFINITY, |ring| ring.speed.largest());
+        let ring = inner.max(outer_speed.map_or(0.0, Signal::largest));
         if let Some(speed) = self.initial.cage_speed.filter(|speed| speed.abs() > 1.5 * ring && *speed != 0.0)
         {
             let usual = range(-1.5 * ring, 1.5 * ring, "rad/s");

@@ -53,13 +53,49 @@ fn together() -> Vec<Row> {
             &["'equilibrium' needs a free inner ring"],
         ),
         grease().scene(
-            "outer ring beside kinematic elements",
+            "outer raceway beside kinematic elements",
             &[
                 ("materials", steel.clone()),
                 ("outer_ring", json!({"raceway_radius": 0.05, "material": "steel"})),
             ],
-            "outer_ring",
+            "outer_ring.raceway_radius",
             not_beside,
+        ),
+        grease().scene(
+            "crown of an outer raceway beside kinematic elements",
+            &[("outer_ring", json!({"raceway_crown_radius": 5.0}))],
+            "outer_ring.raceway_crown_radius",
+            not_beside,
+        ),
+        grease().scene(
+            "unneeded material of the outer ring unknown",
+            &[("outer_ring", json!({"material": "steel"}))],
+            "outer_ring.material",
+            &["'steel' is not one of the materials"],
+        ),
+        rollers().needed(
+            "rollers without outer raceway",
+            "outer_ring.raceway_radius",
+            "outer_ring.raceway_radius",
+            &["missing; 'rollers' need it"],
+        ),
+        rollers().needed(
+            "rollers without material of the outer ring",
+            "outer_ring.material",
+            "outer_ring.material",
+            &["missing; 'rollers' need it"],
+        ),
+        rollers().scene(
+            "outer ring faster than anything",
+            &[("outer_ring.speed", json!({"constant": 3e5}))],
+            "outer_ring.speed.constant",
+            &["300000.0 rad/s"],
+        ),
+        warm().scene(
+            "outer ring that turns beside a heat balance",
+            &[("outer_ring", json!({"speed": {"constant": 10.0}}))],
+            "outer_ring.speed",
+            &["not allowed beside 'heat'"],
         ),
         grease().scene(
             "raceways beside kinematic elements",

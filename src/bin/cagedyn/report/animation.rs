@@ -182,7 +182,7 @@ impl<'a> Shown<'a> {
         let guide = cage.and_then(|cage| cage.guide.as_ref());
         let (pitch_radius, radius) = (self.model.pitch_radius(), scene.element_radius());
         let outer = scene.outer_ring.as_ref().filter(|_| self.model.has_rollers());
-        let raceways = self.model.inner_raceway_radius().zip(outer.map(|ring| ring.raceway_radius));
+        let raceways = self.model.inner_raceway_radius().zip(outer.and_then(|ring| ring.raceway_radius));
         let first = self.places[0];
         let last = self.places[self.places.len() - 1];
         let times = &self.series.times;

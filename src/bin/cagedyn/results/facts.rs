@@ -24,6 +24,8 @@ pub fn facts(model: &Model) -> String {
         }
         _ => {}
     }
+    let outer = scene.outer_ring.as_ref().filter(|ring| ring.turns()).and_then(|ring| ring.speed.as_ref());
+    list.extend(outer.map(|speed| format!("outer ring {} 1/min", range(speed))));
     let load = match scene.inner_ring.as_ref().map(|ring| &ring.motion) {
         Some(RingMotion::Free(free)) => free.load.as_ref(),
         _ => None,

@@ -146,6 +146,7 @@ pub fn results(summary: &Summary) -> Vec<Row> {
         rows.add("pocket force, largest", number(forces.largest_n), "N", "of one element, from every step");
     }
     rows.spread("drag torque", of("inner_ring.drag_torque"), 1.0, "N m", "on the inner ring");
+    rows.spread("drag torque, outer", of("outer_ring.drag_torque"), 1.0, "N m", "on the outer ring");
     if let Some(loss) = &summary.power_loss {
         let mut sources: Vec<_> = loss.by_source_w.iter().collect();
         sources.sort_by(|(_, a), (_, b)| b.total_cmp(a));

@@ -368,7 +368,7 @@ fn balance(b: &PowerBalance) -> Balance {
 
 /// Sources that are no loss: what drives the bearing, and loads, which give back what they take.
 fn drives(name: &str) -> bool {
-    matches!(name, "loads" | "ring_drive" | "element_drive")
+    matches!(name, "loads" | "ring_drive" | "outer_ring_drive" | "element_drive")
 }
 
 fn power_loss(run: &Run) -> Option<PowerLoss> {
