@@ -47,6 +47,8 @@ struct Content {
     roundness: Vec<(u32, f64, f64)>,
     /// Angle of the inner ring since the first frame.
     ring_angle: Packed,
+    /// That of an outer ring that turns.
+    outer_ring_angle: Option<Packed>,
     ring: Option<[Packed; 2]>,
     cage: Option<CageOf>,
     /// Angle from which those of the elements count: of the cage, or of the first element; since the start of the run.
@@ -210,7 +212,12 @@ impl<'a> Shown<'a> {
             roundness: guide.map_or(Vec::new(), |guide| {
                 guide.roundness.iter().map(|wave| (wave.order, wave.amplitude, wave.phase)).collect()
             }),
-            ring_angle: self.ring_angle(),
+            ring_angle: self.ring_angle(Input::RingSpeed),
+            outer_ring_angle: scene
+                .outer_ring
+                .as_ref()
+                .filter(|ring| ring.turns())
+                .map(|_| self.ring_angle(Input::OuterRingSpeed)),
             ring: self.ring(),
             cage: self.cage(),
             turn: self.packed(&self.turn),
@@ -250,11 +257,9 @@ impl<'a> Shown<'a> {
             .push(format!("{what} in the animation: {channels} is not in the table (record.channels)"));
     }
 
-    /// Speed of the inner ring, orbit and spin speed of an element without slip, rad/s, at a record.
-    fn speeds(&self, i: usize) -> [f64; 3] {
-        let inputs = self.model.inputs_at(self.series.times[i], &HostInputs::default());
-        let [orbit, spin] = self.model.kinematic_speeds(&inputs);
-        [inputs.of(Input::RingSpeed), orbit, spin]
+    /// Orbit and spin speed of an element without slip, rad/s, at a record.
+    fn speeds(&self, i: usize) -> [f64; 2] {
+        self.model.kinematic_speeds(&self.model.inputs_at(self.series.times[i], &HostInputs::default()))
     }
 
     /// Angles since the first frame from their rates at all records from there on.
@@ -264,8 +269,10 @@ impl<'a> Shown<'a> {
         self.places.iter().map(|i| angle[i - first]).collect()
     }
 
-    fn ring_angle(&self) -> Packed {
-        let rates: Vec<f64> = (self.places[0]..self.turn.len()).map(|i| self.speeds(i)[0]).collect();
+    fn ring_angle(&self, speed: Input) -> Packed {
+        let times = &self.series.times[self.places[0]..];
+        let rates: Vec<f64> =
+            times.iter().map(|t| self.model.inputs_at(*t, &HostInputs::default()).of(speed)).collect();
         Packed::new(&self.integrated(&rates))
     }
 
@@ -310,7 +317,7 @@ impl<'a> Shown<'a> {
 
     fn spin(&mut self) -> Option<Packed> {
         let first = self.places[0];
-        let without_slip: Vec<f64> = (first..self.turn.len()).map(|i| self.speeds(i)[2]).collect();
+        let without_slip: Vec<f64> = (first..self.turn.len()).map(|i| self.speeds(i)[1]).collect();
         if !self.model.has_rollers() {
             return Some(Packed::new(&self.integrated(&without_slip)));
         }
@@ -354,7 +361,7 @@ impl<'a> Shown<'a> {
 
     /// -1 where the elements go clockwise: the table has pocket forces positive where they drive the cage.
     fn direction(&self, i: usize) -> f64 {
-        if self.speeds(i)[1] < 0.0 { -1.0 } else { 1.0 }
+        if self.speeds(i)[0] < 0.0 { -1.0 } else { 1.0 }
     }
 
     fn pocket_samples(&self) -> Option<Packed> {

@@ -302,6 +302,10 @@ function bearing(data, state) {
     const mark = rightwards(Math.PI / 2 + between(data.ring_angle, at));
     const markAt = (r) => [s.ring[0] + r * mark[0], s.ring[1] + r * mark[1]];
     outline(on, [markAt(bore), markAt(bore + 0.45 * radius)], null, colors.ink, 3, true);
+    if (data.outer_ring_angle) {
+      const turned = rightwards(Math.PI / 2 + between(data.outer_ring_angle, at));
+      outline(on, [reach, reach - 0.45 * radius].map((r) => turned.map((x) => r * x)), null, colors.ink, 3, true);
+    }
     if (s.cage) drawCage(on, s);
     s.elements.forEach(({ centre }, j) => {
       circle(on, centre, s.shown, j ? colors.metal : colors.first, colors.ink);
