@@ -56,7 +56,7 @@ impl Model {
         let driven = |body: usize| RINGS.iter().position(|ring| *ring == body && self.is_driven(body));
         for (batch, info, contacts) in ws.contacts.by_pair(&self.infos) {
             let [of_damping, of_friction] = info.powers;
-            let ring = driven(info.mate);
+            let mut moment = 0.0;
             for i in contacts {
                 let (ContactBlock { step, .. }, lane) = batch.at(i);
                 let [damping, friction, rolling] = &step.powers;
@@ -68,9 +68,10 @@ impl Model {
                         p[AT_FLOOR] = 1.0;
                     }
                 }
-                if let Some(ring) = ring {
-                    on_rings[ring] += step.surface_moment[lane];
-                }
+                moment += step.surface_moment[lane];
+            }
+            if let Some(ring) = driven(info.mate) {
+                on_rings[ring] += moment;
             }
         }
         for (place, (info, force)) in self.between_infos.iter().zip(&ws.between).enumerate() {

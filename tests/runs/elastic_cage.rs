@@ -130,8 +130,13 @@ fn derivatives_and_power_balance_hold_with_every_part() {
         ("cage.guide.film_share", "null"),
         ("cage.guide.solid.asperity_height", "1e-6"),
     ];
-    let cases: [(&str, Vec<(&str, &str)>); 9] = [
+    let cases: [(&str, Vec<(&str, &str)>); 11] = [
         (SCENE, vec![]),
+        (SCENE, vec![("outer_ring", r#"{"speed": -90.0}"#), ("cage.guide.roundness", lobes)]),
+        (
+            "nu2310_elastic",
+            vec![("outer_ring", r#"{"raceway_radius": 0.0475, "material": "steel", "speed": 70.0}"#)],
+        ),
         (SCENE, vec![("cage.guide.roundness", lobes)]),
         (SCENE, dry.to_vec()),
         (SCENE, vec![("cage.guide.film.lubricant_layer.thickness", "5e-6")]),

@@ -264,7 +264,7 @@ impl Model {
             true => inputs.of(Input::RingSpeed).abs().max(inputs.of(Input::OuterRingSpeed).abs()),
             false => orbit.abs(),
         };
-        let direction = self.direction(inputs);
+        let direction = direction_of(orbit);
         let cage = |k: usize| self.layout.cage().map_or(0.0, |c| q[c + k]);
         let cage_speed = || self.layout.cage().map_or(0.0, |c| v[c + 2]);
         let clearance = self.guide_clearance().unwrap_or(f64::INFINITY);
@@ -361,15 +361,14 @@ impl Model {
     /// 1 where the elements go round counter-clockwise at these inputs, else -1.
     pub(super) fn direction(&self, inputs: &InputValues) -> f64 {
         let [orbit, _] = self.kinematic_speeds(inputs);
-        if orbit < 0.0 { -1.0 } else { 1.0 }
+        direction_of(orbit)
     }
 
     /// 1 where a ring turns counter-clockwise at these inputs, else -1. Beside an outer ring that cannot turn the inner one goes the way
     /// of the elements.
     pub(super) fn turning_of(&self, ring: usize, inputs: &InputValues) -> f64 {
         match self.turned_by(ring).filter(|_| self.is_driven(OUTER_RING)) {
-            Some(speed) if inputs.of(speed) < 0.0 => -1.0,
-            Some(_) => 1.0,
+            Some(speed) => direction_of(inputs.of(speed)),
             None => self.direction(inputs),
         }
     }
@@ -404,6 +403,11 @@ impl Model {
         };
         (0..self.element_count()).filter(|&j| touches(j)).count()
     }
+}
+
+/// -1 for a clockwise speed, else 1.
+fn direction_of(speed: f64) -> f64 {
+    if speed < 0.0 { -1.0 } else { 1.0 }
 }
 
 /// Channels in the making.
