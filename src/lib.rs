@@ -25,6 +25,7 @@ pub mod batch;
 mod bodies;
 #[doc(hidden)]
 pub mod capi;
+mod check;
 mod error;
 pub mod heat;
 #[doc(hidden)]
@@ -45,6 +46,7 @@ pub mod space;
 pub mod stored;
 pub mod whirl;
 
+pub use check::Problem;
 pub use error::{Error, Result, Status};
 pub use model::Model;
 pub use scene::Scene;

@@ -1,7 +1,9 @@
 //! Case sets: many scenes as one base scene and the values that differ.
 
 use super::Scene;
-use super::json::{parse, set_path, typed};
+use super::json::{parse, set_path, typed, typed_beside};
+use super::problems::{self, Doubts, Found};
+use super::validate::Judge;
 use crate::error::{Error, Result, Status};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -47,30 +49,49 @@ impl CaseSet {
     /// [`Status::BadJson`]; [`Status::BadScene`] for a wrong format name or names that cannot name files.
     pub fn from_json(text: &str) -> Result<Self> {
         let value = parse(text)?;
+        Self::refuse_scenes(&value)?;
+        let set: Self = typed(&value)?;
+        set.judged(Judge::STRICT)?;
+        Ok(set)
+    }
+
+    fn refuse_scenes(value: &serde_json::Value) -> Result<()> {
         if let Some(schema) = value.get("schema").and_then(|schema| schema.as_str())
             && schema.starts_with(SCENE_NAME)
         {
             let text = format!("schema: '{schema}' is a scene, not a case set; `cagedyn run` runs it");
             return Err(Error::new(Status::BadScene, text));
         }
-        let set: Self = typed(&value)?;
-        let bad = |text: String| Err(Error::new(Status::BadScene, text));
-        if set.schema != CASES_SCHEMA {
-            return bad(format!("schema: '{}' is not '{CASES_SCHEMA}'", set.schema));
+        Ok(())
+    }
+
+    /// Checks format and names.
+    fn judged(&self, judge: Judge<'_>) -> Result<()> {
+        if self.schema != CASES_SCHEMA {
+            judge.refuse("schema", format!("'{}' is not '{CASES_SCHEMA}'", self.schema))?;
         }
-        for (i, case) in set.cases.iter().enumerate() {
+        for (i, case) in self.cases.iter().enumerate() {
+            let path = format!("cases.{i}.name");
             let plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
             if case.name.is_empty() || case.name.starts_with('.') || !case.name.chars().all(plain) {
-                return bad(format!(
-                    "cases.{i}.name: '{}' has other characters than A-Z a-z 0-9 - _ .",
-                    case.name
-                ));
+                let text = format!("'{}' has other characters than A-Z a-z 0-9 - _ .", case.name);
+                judge.refuse(&path, text)?;
             }
-            if set.cases[..i].iter().any(|other| other.name == case.name) {
-                return bad(format!("cases.{i}.name: '{}' is used twice", case.name));
+            if self.cases[..i].iter().any(|other| other.name == case.name) {
+                judge.refuse(&path, format!("'{}' is used twice", case.name))?;
             }
         }
-        Ok(set)
+        Ok(())
+    }
+
+    /// Everything that is wrong with a case set, but for its scenes.
+    pub(crate) fn problems(value: &serde_json::Value) -> Vec<Found> {
+        problems::all(value, &|doubts: &Doubts, pick| {
+            Self::refuse_scenes(value)?;
+            let set: Self = typed_beside(value, &doubts.unknown, pick)?;
+            set.judged(Judge::beside(&doubts.paths))?;
+            Ok(())
+        })
     }
 
     /// The checked scene of every case; `base` is the JSON text of the base scene.

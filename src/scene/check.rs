@@ -111,11 +111,6 @@ fn unit_slip(value: f64, allowed: Range) -> Option<(f64, &'static str)> {
         .min_by(|a, b| distance(a.0).total_cmp(&distance(b.0)))
 }
 
-/// Checks an optional number.
-pub fn optional(path: &str, value: Option<f64>, allowed: Range) -> Result<()> {
-    value.map_or(Ok(()), |v| number(path, v, allowed))
-}
-
 /// The value that a law needs, or an error that says which law needs it.
 pub fn needed<T: Copy>(path: &str, value: Option<T>, by: &str) -> Result<T> {
     value.ok_or_else(|| bad(path, format!("missing; {by} needs it")))

@@ -13,6 +13,7 @@ mod grease;
 pub(crate) mod heat;
 mod json;
 mod lubricant;
+pub(crate) mod problems;
 mod rings;
 mod run;
 mod signal;
@@ -36,6 +37,7 @@ pub use heat::{
     BearingTorque, Conductance, ElementsShare, Heat, HeatLink, HeatNode, HeatSource, OilFlow,
     SplashedSurface, ThermalPlay,
 };
+pub(crate) use json::{line_of, parse_located};
 pub use json::{parse_override, set_path};
 pub use lubricant::{Lubricant, Temperature, Viscosity, ViscosityPoint, WaltherViscosity};
 pub use rings::{FreeRing, InnerRing, Load, OuterRing, RingMotion};
@@ -182,16 +184,21 @@ impl Scene {
     /// # Errors
     /// As [`Scene::from_json`].
     pub fn from_value(value: &serde_json::Value) -> Result<Self> {
+        Self::refuse_other_formats(value)?;
+        let scene: Self = typed(value)?;
+        scene.validate()?;
+        Ok(scene)
+    }
+
+    /// Refuses what is no scene, or one of another version.
+    fn refuse_other_formats(value: &serde_json::Value) -> Result<()> {
         if let Some(schema) = value.get("schema").and_then(|schema| schema.as_str())
             && schema.starts_with(CASES_NAME)
         {
             let text = format!("schema: '{schema}' is a case set, not a scene; `cagedyn cases` runs it");
             return Err(Error::new(Status::BadScene, text));
         }
-        check_format(value)?;
-        let scene: Self = typed(value)?;
-        scene.validate()?;
-        Ok(scene)
+        check_format(value)
     }
 
     /// JSON text of the scene.

@@ -2,7 +2,7 @@
 
 use crate::common::{Random, example_text, read as read_file, set};
 use crate::{check_error, check_finite, paths, runner};
-use cagedyn::{Model, Sim, Status};
+use cagedyn::{Model, Scene, Sim, Status};
 use proptest::prelude::*;
 use serde_json::{Value, json};
 use std::sync::Arc;
@@ -11,7 +11,11 @@ use std::sync::Arc;
 fn read(text: &str) -> Result<(), TestCaseError> {
     let model = match Model::from_json(text) {
         Ok(model) => Arc::new(model),
-        Err(e) => return check_error(&e, &[Status::BadJson, Status::BadScene]),
+        Err(e) => {
+            let problems = Scene::check(text);
+            prop_assert!(!problems.is_empty() && problems.iter().all(|problem| problem.line >= 1), "{}", e);
+            return check_error(&e, &[Status::BadJson, Status::BadScene]);
+        }
     };
     match Sim::new(model) {
         Ok(mut sim) => {

@@ -1,14 +1,18 @@
 //! From JSON text to typed data and back: `parse` reads the text, `typed` makes the data, both with the path of what is
 //! wrong.
 
+mod lines;
 mod overrides;
 mod parse;
 mod schema;
 mod typed;
+mod unknown;
 
+pub(crate) use lines::line_of;
 pub use overrides::{parse_override, set_path};
-pub use parse::parse;
-pub use typed::typed;
+pub use parse::{parse, parse_located};
+pub use typed::{Complaint, PICKS, UNKNOWN_TEXT, typed, typed_beside};
+pub use unknown::Unknown;
 
 use crate::error::{Error, Status};
 use std::fmt::Display;

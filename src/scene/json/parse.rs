@@ -12,13 +12,33 @@ const LONGEST_PATH: usize = 16;
 /// Longest text, bytes: many times the largest table of a signal that a person would give, and read within a third of a gigabyte.
 const LONGEST_TEXT: usize = 16 << 20;
 
+/// Why a text is no JSON.
+#[derive(Debug)]
+pub struct Misread {
+    /// Keys that lead to the place.
+    pub path: Vec<String>,
+    /// In words, with line and column.
+    pub text: String,
+    /// Line, from 1 on.
+    pub line: usize,
+}
+
 /// Reads JSON text.
 ///
 /// # Errors
 /// [`crate::Status::BadJson`] for syntax, doubled keys and numbers beyond the range, with path, line and column.
 pub fn parse(text: &str) -> Result<Value> {
+    parse_located(text).map_err(|e| complaint(&e.path, e.text))
+}
+
+/// The same.
+///
+/// # Errors
+/// Where and why.
+pub fn parse_located(text: &str) -> std::result::Result<Value, Misread> {
     if text.len() > LONGEST_TEXT {
-        return Err(complaint(&[], format!("{} bytes of text, at most {LONGEST_TEXT}", text.len())));
+        let text = format!("{} bytes of text, at most {LONGEST_TEXT}", text.len());
+        return Err(Misread { path: Vec::new(), text, line: 1 });
     }
     let mut path = Vec::new();
     // Some editors begin a file with this mark.
@@ -27,7 +47,8 @@ pub fn parse(text: &str) -> Result<Value> {
     let value = Tree(&mut path).deserialize(&mut reader);
     value.and_then(|value| reader.end().map(|()| value)).map_err(|e| {
         path.truncate(LONGEST_PATH);
-        complaint(&path, e.to_string().replace("expected value", "expected a JSON value"))
+        let text = e.to_string().replace("expected value", "expected a JSON value");
+        Misread { path, text, line: e.line().max(1) }
     })
 }
 

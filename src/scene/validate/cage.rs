@@ -1,7 +1,7 @@
 //! Checks of the cage: its masses, its pockets and its guide.
 
 use crate::scalar::math;
-use crate::scene::check::{Range, bad, number, optional, range, shown};
+use crate::scene::check::{Range, bad, range, shown};
 use crate::scene::validate::*;
 use crate::scene::*;
 use std::f64::consts::FRAC_PI_2;
@@ -14,49 +14,55 @@ const MAX_HARMONICS: usize = 64;
 const MAX_ORDER: u32 = 200;
 
 impl Scene {
-    pub(in crate::scene) fn validate_cage(&self, cage: &Cage) -> Result<()> {
-        number("cage.mass", cage.mass, MASS)?;
-        number("cage.inertia", cage.inertia, INERTIA)?;
+    pub(in crate::scene) fn validate_cage(&self, judge: Judge<'_>, cage: &Cage) -> Result<()> {
+        judge.number("cage.mass", cage.mass, MASS)?;
+        judge.number("cage.inertia", cage.inertia, INERTIA)?;
         let ring = cage.mass * self.pitch_radius().powi(2);
-        fitting_mass("cage.mass", cage.mass, cage.inertia, [0.05 * ring, 5.0 * ring])?;
-        number("cage.inertia", cage.inertia, range(0.05 * ring, 5.0 * ring, "kg m^2"))?;
+        fitting_mass(judge, "cage.mass", cage.mass, cage.inertia, [0.05 * ring, 5.0 * ring])?;
+        judge.number("cage.inertia", cage.inertia, range(0.05 * ring, 5.0 * ring, "kg m^2"))?;
         if let Some(material) = &cage.material {
-            self.material_exists("cage.material", material)?;
+            self.material_exists(judge, "cage.material", material)?;
         }
         if let Some(offset) = &cage.mass_eccentricity {
             let largest = 0.5 * self.pitch_radius();
-            vector("cage.mass_eccentricity", offset, range(-largest, largest, "m"))?;
+            vector(judge, "cage.mass_eccentricity", offset, range(-largest, largest, "m"))?;
         }
         if let Some(ring) = &cage.elastic_ring {
-            self.validate_elastic_ring(ring, cage)?;
+            self.validate_elastic_ring(judge, ring, cage)?;
         }
         if let Some(load) = &cage.load {
-            signal("cage.load.force_y", &load.force_y, FORCE)?;
-            signal("cage.load.force_z", &load.force_z, FORCE)?;
-            signal("cage.load.torque", &load.torque, TORQUE)?;
+            signal(judge, "cage.load.force_y", &load.force_y, FORCE)?;
+            signal(judge, "cage.load.force_z", &load.force_z, FORCE)?;
+            signal(judge, "cage.load.torque", &load.torque, TORQUE)?;
         }
         if let Some(start) = &self.initial.cage {
-            vector("initial.cage", start, POSITION)?;
+            vector(judge, "initial.cage", start, POSITION)?;
         }
-        vector("initial.cage_velocity", &self.initial.cage_velocity, VELOCITY)?;
-        optional("initial.cage_speed", self.initial.cage_speed, SPEED)?;
+        vector(judge, "initial.cage_velocity", &self.initial.cage_velocity, VELOCITY)?;
+        judge.optional("initial.cage_speed", self.initial.cage_speed, SPEED)?;
         match &cage.pocket {
             None => {}
-            Some(Pocket::LubricatedCylinder(pocket)) => self.validate_cylinder_pocket(pocket)?,
+            Some(Pocket::LubricatedCylinder(pocket)) => self.validate_cylinder_pocket(judge, pocket)?,
             Some(Pocket::SolidPlane(pocket)) => {
                 let path = "cage.pocket.solid_plane";
-                number(&format!("{path}.diametral_clearance"), pocket.diametral_clearance, POCKET_CLEARANCE)?;
-                solid(&format!("{path}.contact"), &pocket.contact)?;
+                judge.number(
+                    &format!("{path}.diametral_clearance"),
+                    pocket.diametral_clearance,
+                    POCKET_CLEARANCE,
+                )?;
+                solid(judge, &format!("{path}.contact"), &pocket.contact)?;
                 let half_width = self.element_radius() + 0.5 * pocket.diametral_clearance;
-                self.neighbours_apart(&format!("{path}.diametral_clearance"), half_width, "pockets")?;
+                self.neighbours_apart(judge, &format!("{path}.diametral_clearance"), half_width, "pockets")?;
             }
         }
         if let Some(guide) = &cage.guide {
-            self.validate_guide(guide)?;
+            self.validate_guide(judge, guide)?;
         }
         // Where a free ring starts is not known before its equilibrium is found.
         match self.known_guide_centre() {
-            Some(centre) => self.check_cage_start(self.initial.cage.map_or(centre, |c| [c.y, c.z]), centre),
+            Some(centre) => judge.pass("initial.cage", || {
+                self.check_cage_start(self.initial.cage.map_or(centre, |c| [c.y, c.z]), centre)
+            }),
             None => Ok(()),
         }
     }
@@ -136,24 +142,24 @@ impl Scene {
         Ok(())
     }
 
-    fn validate_cylinder_pocket(&self, pocket: &CylinderPocket) -> Result<()> {
+    fn validate_cylinder_pocket(&self, judge: Judge<'_>, pocket: &CylinderPocket) -> Result<()> {
         let at = |field: &str| format!("cage.pocket.lubricated_cylinder.{field}");
-        number(&at("radial_clearance"), pocket.radial_clearance, POCKET_CLEARANCE)?;
-        number(&at("half_angle"), pocket.half_angle, range(1e-3, FRAC_PI_2 - 1e-3, "rad"))?;
-        number(&at("edge_blend"), pocket.edge_blend, range(0.0, pocket.half_angle, "rad"))?;
+        judge.number(&at("radial_clearance"), pocket.radial_clearance, POCKET_CLEARANCE)?;
+        judge.number(&at("half_angle"), pocket.half_angle, range(1e-3, FRAC_PI_2 - 1e-3, "rad"))?;
+        judge.number(&at("edge_blend"), pocket.edge_blend, range(0.0, pocket.half_angle, "rad"))?;
         if let Some(law) = &pocket.edge_friction {
-            friction(&at("edge_friction"), law)?;
+            friction(judge, &at("edge_friction"), law)?;
         }
-        contact(&at("contact"), &pocket.contact)?;
+        contact(judge, &at("contact"), &pocket.contact)?;
         let radius = self.element_radius() + pocket.radial_clearance;
-        self.neighbours_apart(&at("radial_clearance"), radius, "pockets")
+        self.neighbours_apart(judge, &at("radial_clearance"), radius, "pockets")
     }
 
-    fn validate_guide(&self, guide: &Guide) -> Result<()> {
+    fn validate_guide(&self, judge: Judge<'_>, guide: &Guide) -> Result<()> {
         let at = |field: &str| format!("cage.guide.{field}");
         let pitch = self.pitch_radius();
         if guide.ring == GuideRing::InnerRing && self.inner_ring.is_none() {
-            return Err(bad("inner_ring", "missing; cage.guide.ring needs it"));
+            judge.refuse("inner_ring", "missing; cage.guide.ring needs it")?;
         }
         // A shoulder of the ring: beside the elements, not beyond its raceway.
         let (near, beyond) = (0.1 * self.element_radius(), 1.25 * self.element_radius());
@@ -161,96 +167,94 @@ impl Scene {
             GuideRing::OuterRing => range(pitch - near, pitch + beyond, "m"),
             GuideRing::InnerRing => range(pitch - beyond, pitch + near, "m"),
         };
-        number(&at("guide_radius"), guide.guide_radius, shoulder)?;
+        judge.number(&at("guide_radius"), guide.guide_radius, shoulder)?;
         let land = range(WIDTH.min, guide.guide_radius, "m");
-        number(&at("diametral_clearance"), guide.diametral_clearance, GUIDE_CLEARANCE)?;
+        judge.number(&at("diametral_clearance"), guide.diametral_clearance, GUIDE_CLEARANCE)?;
         if guide.diametral_clearance > 0.1 * guide.guide_radius {
             let text = format!(
                 "{:?} m is more than a tenth of the guide radius {:?} m; guide laws need a narrow gap",
                 guide.diametral_clearance, guide.guide_radius
             );
-            return Err(bad(&at("diametral_clearance"), text));
+            judge.refuse(&at("diametral_clearance"), text)?;
         }
         match &guide.film {
             None => {}
             Some(GuideFilm::ShortBearing(film)) => {
-                number(&at("film.short_bearing.land_width"), film.land_width, land)?;
+                judge.number(&at("film.short_bearing.land_width"), film.land_width, land)?;
             }
             Some(GuideFilm::LubricantLayer(film)) => {
                 let at = |field: &str| at(&format!("film.lubricant_layer.{field}"));
-                number(&at("land_width"), film.land_width, land)?;
-                number(&at("thickness"), film.thickness, range(1e-8, 0.1, "m"))?;
-                number(&at("pressure_cap"), film.pressure_cap, range(0.1, 0.999, ""))?;
+                judge.number(&at("land_width"), film.land_width, land)?;
+                judge.number(&at("thickness"), film.thickness, range(1e-8, 0.1, "m"))?;
+                judge.number(&at("pressure_cap"), film.pressure_cap, range(0.1, 0.999, ""))?;
             }
         }
         if let Some(law) = &guide.solid {
-            solid(&at("solid.contact"), &law.contact)?;
+            solid(judge, &at("solid.contact"), &law.contact)?;
             let allowed = range(0.0, 0.25 * guide.diametral_clearance, "m");
-            optional(&at("solid.asperity_height"), law.asperity_height, allowed)?;
+            judge.optional(&at("solid.asperity_height"), law.asperity_height, allowed)?;
         }
         match (&guide.film, &guide.solid, &guide.film_share) {
             (None, None, _) => {
-                return Err(bad(
-                    "cage.guide",
-                    "guides by nothing: give 'film', 'solid' or both; or remove it",
-                ));
+                judge
+                    .refuse("cage.guide", "guides by nothing: give 'film', 'solid' or both; or remove it")?;
             }
             (Some(_), Some(_), None) => {
-                return Err(bad(&at("film_share"), "missing; a guide with film and solid contact needs it"));
+                judge.refuse(&at("film_share"), "missing; a guide with film and solid contact needs it")?;
             }
             (Some(_), Some(_), Some(share)) => {
                 let largest = guide.diametral_clearance / 12.0;
-                number(&at("film_share.roughness"), share.roughness, range(1e-9, largest, "m"))?;
-                number(&at("film_share.touching_ratio"), share.touching_ratio, range(0.0, 3.0, ""))?;
+                judge.number(&at("film_share.roughness"), share.roughness, range(1e-9, largest, "m"))?;
+                judge.number(&at("film_share.touching_ratio"), share.touching_ratio, range(0.0, 3.0, ""))?;
             }
             (_, _, Some(_)) => {
-                return Err(bad(&at("film_share"), "needs both 'film' and 'solid' beside it"));
+                judge.refuse(&at("film_share"), "needs both 'film' and 'solid' beside it")?;
             }
             _ => {}
         }
-        self.validate_gap(guide)
+        self.validate_gap(judge, guide)
     }
 
     /// Roundness must leave a gap.
-    fn validate_gap(&self, guide: &Guide) -> Result<()> {
+    fn validate_gap(&self, judge: Judge<'_>, guide: &Guide) -> Result<()> {
         let path = "cage.guide.roundness";
         if guide.roundness.len() > MAX_HARMONICS {
             let text = format!("{} harmonics, at most {MAX_HARMONICS}", guide.roundness.len());
-            return Err(bad(path, text));
+            judge.refuse(path, text)?;
         }
         if guide.film.is_none() && !guide.roundness.is_empty() {
-            return Err(bad(path, "needs 'film' beside it"));
+            judge.refuse(path, "needs 'film' beside it")?;
         }
         let clearance = guide.diametral_clearance / 2.0;
         for (i, a) in guide.roundness.iter().enumerate() {
             let at = |field: &str| format!("{path}.{i}.{field}");
             if !(2..=MAX_ORDER).contains(&a.order) {
                 let text = format!("{} is not within 2 to {MAX_ORDER} (order 1 is eccentricity)", a.order);
-                return Err(bad(&at("order"), text));
+                judge.refuse(&at("order"), text)?;
             }
-            number(&at("amplitude"), a.amplitude, range(-clearance, clearance, "m"))?;
-            number(&at("phase"), a.phase, ANGLE)?;
+            judge.number(&at("amplitude"), a.amplitude, range(-clearance, clearance, "m"))?;
+            judge.number(&at("phase"), a.phase, ANGLE)?;
         }
         let roundness: f64 = guide.roundness.iter().map(|a| a.amplitude.abs()).sum();
         if roundness >= clearance {
             let text = format!(
                 "the amplitudes add up to {roundness:?} m and close the radial clearance {clearance:?} m"
             );
-            return Err(bad(path, text));
+            judge.refuse(path, text)?;
         }
         Ok(())
     }
 }
 
-fn solid(path: &str, law: &SolidContact) -> Result<()> {
+fn solid(judge: Judge<'_>, path: &str, law: &SolidContact) -> Result<()> {
     let at = |field: &str| format!("{path}.{field}");
-    number(&at("stiffness"), law.stiffness, range(1.0, 1e12, "N/m"))?;
-    number(&at("damping"), law.damping, range(0.0, 1e6, "N s/m"))?;
-    number(&at("softening_depth"), law.softening_depth, range(0.0, 1e-3, "m"))?;
-    law.friction.as_ref().map_or(Ok(()), |law| friction(&at("friction"), law))
+    judge.number(&at("stiffness"), law.stiffness, range(1.0, 1e12, "N/m"))?;
+    judge.number(&at("damping"), law.damping, range(0.0, 1e6, "N s/m"))?;
+    judge.number(&at("softening_depth"), law.softening_depth, range(0.0, 1e-3, "m"))?;
+    law.friction.as_ref().map_or(Ok(()), |law| friction(judge, &at("friction"), law))
 }
 
-fn friction(path: &str, law: &Friction) -> Result<()> {
-    number(&format!("{path}.coefficient"), law.coefficient, COEFFICIENT)?;
-    number(&format!("{path}.transition_speed"), law.transition_speed, TRANSITION_SPEED)
+fn friction(judge: Judge<'_>, path: &str, law: &Friction) -> Result<()> {
+    judge.number(&format!("{path}.coefficient"), law.coefficient, COEFFICIENT)?;
+    judge.number(&format!("{path}.transition_speed"), law.transition_speed, TRANSITION_SPEED)
 }

@@ -1,6 +1,6 @@
 //! Checks of the elastic ring of a cage.
 
-use crate::scene::check::{Range, bad, number, range};
+use crate::scene::check::{Range, range};
 use crate::scene::validate::*;
 use crate::scene::*;
 
@@ -12,7 +12,12 @@ const FREQUENCY: Range = range(1.0, 1e8, "rad/s");
 const SHORTEST_WAVE: f64 = 1.0;
 
 impl Scene {
-    pub(in crate::scene) fn validate_elastic_ring(&self, ring: &ElasticRing, cage: &Cage) -> Result<()> {
+    pub(in crate::scene) fn validate_elastic_ring(
+        &self,
+        judge: Judge<'_>,
+        ring: &ElasticRing,
+        cage: &Cage,
+    ) -> Result<()> {
         let at = |field: &str| format!("{PATH}.{field}");
         let elements = self.element_count();
         let most = MOST_RING_ORDERS.min(elements / 2);
@@ -21,18 +26,18 @@ impl Scene {
                 "{} is not within 2 to {most}, half of the {elements} elements and {MOST_RING_ORDERS} at most",
                 ring.modes
             );
-            return Err(bad(&at("modes"), text));
+            judge.refuse(&at("modes"), text)?;
         }
         let pitch = self.pitch_radius();
-        number(&at("neutral_radius"), ring.neutral_radius, range(0.5 * pitch, 1.5 * pitch, "m"))?;
-        number(&at("damping"), ring.damping, range(0.0, 1.0, ""))?;
-        number(&at("growth"), ring.growth, range(0.0, 1e-6, "m s^2"))?;
-        number(&at("contact_depth"), ring.contact_depth, range(1e-8, 1e-4, "m"))?;
+        judge.number(&at("neutral_radius"), ring.neutral_radius, range(0.5 * pitch, 1.5 * pitch, "m"))?;
+        judge.number(&at("damping"), ring.damping, range(0.0, 1.0, ""))?;
+        judge.number(&at("growth"), ring.growth, range(0.0, 1e-6, "m s^2"))?;
+        judge.number(&at("contact_depth"), ring.contact_depth, range(1e-8, 1e-4, "m"))?;
         match &ring.stiffness {
-            RingStiffness::Bending(bending) => number(&at("stiffness.bending"), *bending, BENDING)?,
-            RingStiffness::Section(section) => self.validate_section(section, ring)?,
+            RingStiffness::Bending(bending) => judge.number(&at("stiffness.bending"), *bending, BENDING)?,
+            RingStiffness::Section(section) => self.validate_section(judge, section, ring)?,
             RingStiffness::FiniteElements(modes) => {
-                let wanted = ring.modes as usize - 1;
+                let wanted = (ring.modes as usize).saturating_sub(1);
                 for (field, list, allowed) in [
                     ("frequencies", &modes.frequencies, FREQUENCY),
                     ("modal_masses", &modes.modal_masses, range(1e-3 * cage.mass, 1e3 * cage.mass, "kg")),
@@ -44,10 +49,10 @@ impl Scene {
                             list.len(),
                             ring.modes
                         );
-                        return Err(bad(&path, text));
+                        judge.refuse(&path, text)?;
                     }
                     for (i, value) in list.iter().enumerate() {
-                        number(&format!("{path}.{i}"), *value, allowed)?;
+                        judge.number(&format!("{path}.{i}"), *value, allowed)?;
                     }
                 }
             }
@@ -55,24 +60,24 @@ impl Scene {
         Ok(())
     }
 
-    fn validate_section(&self, section: &RingSection, ring: &ElasticRing) -> Result<()> {
+    fn validate_section(&self, judge: Judge<'_>, section: &RingSection, ring: &ElasticRing) -> Result<()> {
         let at = |field: &str| format!("{PATH}.stiffness.section.{field}");
-        number(&at("young_modulus"), section.young_modulus, MODULUS)?;
-        number(&at("width"), section.width, WIDTH)?;
+        judge.number(&at("young_modulus"), section.young_modulus, MODULUS)?;
+        judge.number(&at("width"), section.width, WIDTH)?;
         let (a, n) = (ring.neutral_radius, f64::from(ring.modes));
         let thickest = SHORTEST_WAVE * a / n;
-        number(&at("thickness"), section.thickness, range(1e-4, a, "m"))?;
+        judge.number(&at("thickness"), section.thickness, range(1e-4, a, "m"))?;
         if section.thickness > thickest {
             let text = format!(
                 "{:?} m is more than {thickest:?} m, where waves of order {} are no longer those of a thin ring",
                 section.thickness, ring.modes
             );
-            return Err(bad(&at("thickness"), text));
+            judge.refuse(&at("thickness"), text)?;
         }
         if let Some(diameter) = section.pocket_diameter {
             let pitch = 2.0 * PI * a / f64::from(self.element_count());
             let widest = (0.999 * section.width).min(pitch);
-            number(&at("pocket_diameter"), diameter, range(1e-4, widest, "m"))?;
+            judge.number(&at("pocket_diameter"), diameter, range(1e-4, widest, "m"))?;
         }
         Ok(())
     }

@@ -6,14 +6,16 @@
 mod cage;
 mod elastic_ring;
 mod heat;
+mod judge;
 mod lubricant;
 mod plausible;
 mod profile;
 
 pub(crate) use cage::TORQUE;
+pub(in crate::scene) use judge::{Judge, is_at_or_below};
 
 use crate::scalar::math;
-use crate::scene::check::{Range, bad, number, optional, range, shown, slip_hint};
+use crate::scene::check::{Range, bad, range, shown, slip_hint};
 use crate::scene::*;
 use std::f64::consts::PI;
 
@@ -45,151 +47,164 @@ impl Scene {
     /// # Errors
     /// [`crate::Status::BadScene`]; the message starts with the JSON path.
     pub fn validate(&self) -> Result<()> {
+        self.judged(Judge::STRICT)
+    }
+
+    /// The same, going on where the judge says so.
+    pub(in crate::scene) fn judged(&self, judge: Judge<'_>) -> Result<()> {
         if self.schema != SCENE_SCHEMA {
-            return Err(bad("schema", format!("'{}' is not '{SCENE_SCHEMA}'", self.schema)));
+            judge.refuse("schema", format!("'{}' is not '{SCENE_SCHEMA}'", self.schema))?;
         }
         if let Some(g) = &self.gravity {
-            vector("gravity", g, GRAVITY)?;
+            vector(judge, "gravity", g, GRAVITY)?;
         }
         for (name, material) in &self.materials {
-            material.validate(&format!("materials.{name}"))?;
+            material.validate(judge, &format!("materials.{name}"))?;
         }
         if let Some(lubricant) = &self.lubricant {
-            lubricant.validate()?;
+            lubricant.validate(judge)?;
             let guide = self.cage.as_ref().and_then(|cage| cage.guide.as_ref()?.film.as_ref());
-            if lubricant.grease.is_some() && !matches!(guide, Some(GuideFilm::LubricantLayer(_))) {
+            let seen =
+                matches!(guide, Some(GuideFilm::LubricantLayer(_))) || judge.excuses("cage.guide.film");
+            if lubricant.grease.is_some() && !seen {
                 let text = "nothing sees it; it thickens the oil of cage.guide.film.lubricant_layer only";
-                return Err(bad("lubricant.grease", text));
+                judge.refuse("lubricant.grease", text)?;
             }
             if let Viscosity::Walther(walther) = &lubricant.viscosity {
                 let path = "lubricant.viscosity.walther.temperature";
                 match (&walther.temperature, &self.heat) {
                     (None, None) => {
-                        return Err(bad(path, "missing; give it, or 'heat', which it follows from"));
+                        judge.refuse(path, "missing; give it, or 'heat', which it follows from")?;
                     }
                     (Some(_), Some(_)) => {
-                        return Err(bad(
+                        judge.refuse(
                             path,
                             "not allowed beside 'heat', which it follows from; remove one of them",
-                        ));
+                        )?;
                     }
                     _ => {}
                 }
             }
         }
         if let Some(heat) = &self.heat {
-            self.validate_heat(heat)?;
+            self.validate_heat(judge, heat)?;
         }
         match (&self.rollers, &self.kinematic_elements) {
             (Some(_), None) | (None, Some(_)) => {}
-            (None, None) => return Err(bad("rollers", "missing; give these or 'kinematic_elements'")),
+            (None, None) => judge.refuse("rollers", "missing; give these or 'kinematic_elements'")?,
             (Some(_), Some(_)) => {
-                return Err(bad("kinematic_elements", "not allowed beside 'rollers'; remove one of them"));
+                judge.refuse("kinematic_elements", "not allowed beside 'rollers'; remove one of them")?;
             }
         }
         if let Some(ring) = &self.inner_ring {
-            self.validate_inner_ring(ring)?;
+            self.validate_inner_ring(judge, ring)?;
         }
         if let Some(speed) = self.outer_ring.as_ref().and_then(|ring| ring.speed.as_ref()) {
-            signal("outer_ring.speed", speed, SPEED)?;
+            signal(judge, "outer_ring.speed", speed, SPEED)?;
         }
-        if let Some(rollers) = &self.rollers {
-            self.validate_rollers(rollers)?;
+        // What elements of an unknown kind need is unknown.
+        let known = |path: &str| !judge.excuses(path);
+        let either = self.rollers.is_none() || self.kinematic_elements.is_none();
+        if let Some(rollers) = self.rollers.as_ref().filter(|_| either && known("rollers")) {
+            self.validate_rollers(judge, rollers)?;
         }
-        if let Some(elements) = &self.kinematic_elements {
-            self.validate_kinematic(elements)?;
+        if let Some(elements) =
+            self.kinematic_elements.as_ref().filter(|_| either && known("kinematic_elements"))
+        {
+            self.validate_kinematic(judge, elements)?;
         }
         if let Some(cage) = &self.cage {
-            self.validate_cage(cage)?;
+            self.validate_cage(judge, cage)?;
         }
-        self.validate_run()
+        self.validate_run(judge)
     }
 
-    fn validate_inner_ring(&self, inner: &InnerRing) -> Result<()> {
-        signal("inner_ring.speed", &inner.speed, SPEED)?;
+    fn validate_inner_ring(&self, judge: Judge<'_>, inner: &InnerRing) -> Result<()> {
+        signal(judge, "inner_ring.speed", &inner.speed, SPEED)?;
         if let Some(clearance) = inner.radial_clearance {
-            number("inner_ring.radial_clearance", clearance, ROLLER_CLEARANCE)?;
+            judge.number("inner_ring.radial_clearance", clearance, ROLLER_CLEARANCE)?;
         }
         if inner.raceway_crown_radius.is_some() && self.rollers.is_none() {
-            return Err(bad(
-                "inner_ring.raceway_crown_radius",
-                "needs 'rollers', which run on it; remove it",
-            ));
+            judge.refuse("inner_ring.raceway_crown_radius", "needs 'rollers', which run on it; remove it")?;
         }
         if let Some(material) = &inner.material {
-            self.material_exists("inner_ring.material", material)?;
+            self.material_exists(judge, "inner_ring.material", material)?;
         }
         match &inner.motion {
-            RingMotion::Fixed(position) => vector("inner_ring.motion.fixed", position, POSITION),
+            RingMotion::Fixed(position) => vector(judge, "inner_ring.motion.fixed", position, POSITION),
             RingMotion::Free(_) if self.rollers.is_none() => {
-                Err(bad("inner_ring.motion", "a free ring needs 'rollers' to carry it; write 'fixed'"))
+                judge.refuse("inner_ring.motion", "a free ring needs 'rollers' to carry it; write 'fixed'")
             }
             RingMotion::Free(ring) => {
-                number("inner_ring.motion.free.mass", ring.mass, MASS)?;
+                judge.number("inner_ring.motion.free.mass", ring.mass, MASS)?;
                 let path = "inner_ring.motion.free.support_damping";
-                optional(path, ring.support_damping, SUPPORT_DAMPING)?;
+                judge.optional(path, ring.support_damping, SUPPORT_DAMPING)?;
                 if let Some(load) = &ring.load {
-                    signal("inner_ring.motion.free.load.y", &load.y, FORCE)?;
-                    signal("inner_ring.motion.free.load.z", &load.z, FORCE)?;
+                    signal(judge, "inner_ring.motion.free.load.y", &load.y, FORCE)?;
+                    signal(judge, "inner_ring.motion.free.load.z", &load.z, FORCE)?;
                 }
                 Ok(())
             }
         }
     }
 
-    fn validate_rollers(&self, r: &Rollers) -> Result<()> {
-        count("rollers.count", r.count)?;
+    fn validate_rollers(&self, judge: Judge<'_>, r: &Rollers) -> Result<()> {
+        count(judge, "rollers.count", r.count)?;
         // Geometry first: a radius in millimetres would be blamed on the inertia otherwise.
         if let Some(raceway) = self.outer_ring.as_ref().and_then(|outer| outer.raceway_radius) {
-            number("outer_ring.raceway_radius", raceway, RADIUS)?;
-            number("rollers.radius", r.radius, range(RADIUS.min, 0.5 * raceway, "m"))?;
+            judge.number("outer_ring.raceway_radius", raceway, RADIUS)?;
+            judge.number("rollers.radius", r.radius, range(RADIUS.min, 0.5 * raceway, "m"))?;
         }
-        number("rollers.radius", r.radius, RADIUS)?;
-        number("rollers.effective_length", r.effective_length, range(WIDTH.min, 50.0 * r.radius, "m"))?;
-        number("rollers.mass", r.mass, MASS)?;
+        judge.number("rollers.radius", r.radius, RADIUS)?;
+        judge.number(
+            "rollers.effective_length",
+            r.effective_length,
+            range(WIDTH.min, 50.0 * r.radius, "m"),
+        )?;
+        judge.number("rollers.mass", r.mass, MASS)?;
         let ring = r.mass * r.radius * r.radius;
-        fitting_mass("rollers.mass", r.mass, r.inertia, [0.2 * ring, 1.1 * ring])?;
-        number("rollers.inertia", r.inertia, range(0.2 * ring, 1.1 * ring, "kg m^2"))?;
-        self.material_exists("rollers.material", &r.material)?;
+        fitting_mass(judge, "rollers.mass", r.mass, r.inertia, [0.2 * ring, 1.1 * ring])?;
+        judge.number("rollers.inertia", r.inertia, range(0.2 * ring, 1.1 * ring, "kg m^2"))?;
+        self.material_exists(judge, "rollers.material", &r.material)?;
         let missing = |path: &str| bad(path, "missing; 'rollers' need it");
         let outer = self.outer_ring.as_ref().ok_or_else(|| missing("outer_ring"))?;
         let raceway = outer.raceway_radius.ok_or_else(|| missing("outer_ring.raceway_radius"))?;
         let material = outer.material.as_ref().ok_or_else(|| missing("outer_ring.material"))?;
-        self.material_exists("outer_ring.material", material)?;
+        self.material_exists(judge, "outer_ring.material", material)?;
         let inner = self.inner_ring.as_ref().ok_or_else(|| missing("inner_ring"))?;
         let clearance = inner.radial_clearance.ok_or_else(|| missing("inner_ring.radial_clearance"))?;
         inner.material.as_ref().ok_or_else(|| missing("inner_ring.material"))?;
         if clearance > 0.2 * r.radius {
             let text = format!("{clearance:?} m is more than a fifth of the roller radius {:?} m", r.radius);
-            return Err(bad("inner_ring.radial_clearance", text));
+            judge.refuse("inner_ring.radial_clearance", text)?;
         }
         let inner_radius = raceway - 2.0 * r.radius - clearance / 2.0;
         if inner_radius < 0.1 * r.radius {
             let text = format!(
                 "{raceway:?} m leaves no room for the inner ring (its raceway radius would be {inner_radius:?} m)"
             );
-            return Err(bad("outer_ring.raceway_radius", text));
+            judge.refuse("outer_ring.raceway_radius", text)?;
         }
         if self.initial.inner_ring == RingStart::Equilibrium && matches!(inner.motion, RingMotion::Fixed(_)) {
             let text = "'equilibrium' needs a free inner ring; write 'centred' for a fixed one";
-            return Err(bad("initial.inner_ring", text));
+            judge.refuse("initial.inner_ring", text)?;
         }
         let raceways = self.raceways.as_ref().ok_or_else(|| missing("raceways"))?;
-        contact("raceways.contact", &raceways.contact)?;
+        contact(judge, "raceways.contact", &raceways.contact)?;
         if let Some(RollingResistance { extent: Extent::Loaded { threshold }, .. }) =
             raceways.rolling_resistance
         {
             let path = "raceways.rolling_resistance.extent.loaded.threshold";
-            number(path, threshold, range(1e-6, 1e9, "N"))?;
+            judge.number(path, threshold, range(1e-6, 1e9, "N"))?;
         }
-        self.validate_profile(r, outer, inner, raceways)?;
-        self.neighbours_apart("rollers.count", r.radius, "rollers")
+        self.validate_profile(judge, r, outer, inner, raceways)?;
+        self.neighbours_apart(judge, "rollers.count", r.radius, "rollers")
     }
 
-    fn validate_kinematic(&self, elements: &KinematicElements) -> Result<()> {
-        count("kinematic_elements.count", elements.count)?;
-        number("kinematic_elements.radius", elements.radius, RADIUS)?;
-        number("kinematic_elements.pitch_radius", elements.pitch_radius, RADIUS)?;
+    fn validate_kinematic(&self, judge: Judge<'_>, elements: &KinematicElements) -> Result<()> {
+        count(judge, "kinematic_elements.count", elements.count)?;
+        judge.number("kinematic_elements.radius", elements.radius, RADIUS)?;
+        judge.number("kinematic_elements.pitch_radius", elements.pitch_radius, RADIUS)?;
         if elements.radius >= elements.pitch_radius {
             let text = format!(
                 "{:?} m is not smaller than the pitch radius {:?} m; the element would cover the bearing centre{}",
@@ -197,27 +212,25 @@ impl Scene {
                 elements.pitch_radius,
                 slip_hint(elements.radius, range(RADIUS.min, 0.5 * elements.pitch_radius, "m"))
             );
-            return Err(bad("kinematic_elements.radius", text));
+            judge.refuse("kinematic_elements.radius", text)?;
         }
-        optional("kinematic_elements.effective_length", elements.effective_length, WIDTH)?;
+        judge.optional("kinematic_elements.effective_length", elements.effective_length, WIDTH)?;
         if let Some(material) = &elements.material {
-            self.material_exists("kinematic_elements.material", material)?;
+            self.material_exists(judge, "kinematic_elements.material", material)?;
         }
         match &elements.motion {
             ElementMotion::Rolling { contact_angle } => {
                 let path = "kinematic_elements.motion.rolling.contact_angle";
-                number(path, *contact_angle, range(-1.5, 1.5, "rad"))?;
+                judge.number(path, *contact_angle, range(-1.5, 1.5, "rad"))?;
                 if self.inner_ring.is_none() {
-                    return Err(bad(
-                        "inner_ring",
-                        "missing; kinematic_elements.motion.rolling needs its speed",
-                    ));
+                    judge
+                        .refuse("inner_ring", "missing; kinematic_elements.motion.rolling needs its speed")?;
                 }
             }
             ElementMotion::Prescribed { orbit_speed, spin_speed } => {
                 let path = "kinematic_elements.motion.prescribed";
-                signal(&format!("{path}.orbit_speed"), orbit_speed, SPEED)?;
-                signal(&format!("{path}.spin_speed"), spin_speed, SPEED)?;
+                signal(judge, &format!("{path}.orbit_speed"), orbit_speed, SPEED)?;
+                signal(judge, &format!("{path}.spin_speed"), spin_speed, SPEED)?;
             }
         }
         let outer = self.outer_ring.as_ref();
@@ -231,23 +244,29 @@ impl Scene {
         ] {
             if present {
                 let text = "not allowed beside 'kinematic_elements', which touch no raceway; remove it";
-                return Err(bad(path, text));
+                judge.refuse(path, text)?;
             }
         }
         if let Some(material) = outer.and_then(|ring| ring.material.as_ref()) {
-            self.material_exists("outer_ring.material", material)?;
+            self.material_exists(judge, "outer_ring.material", material)?;
         }
         if self.initial.inner_ring == RingStart::Equilibrium {
-            return Err(bad("initial.inner_ring", "'equilibrium' needs 'rollers'; write 'centred'"));
+            judge.refuse("initial.inner_ring", "'equilibrium' needs 'rollers'; write 'centred'")?;
         }
         if self.cage.is_none() {
-            return Err(bad("cage", "missing; beside 'kinematic_elements' nothing else can move"));
+            judge.refuse("cage", "missing; beside 'kinematic_elements' nothing else can move")?;
         }
-        self.neighbours_apart("kinematic_elements.count", elements.radius, "elements")
+        self.neighbours_apart(judge, "kinematic_elements.count", elements.radius, "elements")
     }
 
     /// Distance between neighbouring centres must exceed twice `radius`.
-    pub(in crate::scene) fn neighbours_apart(&self, path: &str, radius: f64, what: &str) -> Result<()> {
+    pub(in crate::scene) fn neighbours_apart(
+        &self,
+        judge: Judge<'_>,
+        path: &str,
+        radius: f64,
+        what: &str,
+    ) -> Result<()> {
         let count = self.element_count();
         let spacing = 2.0 * self.pitch_radius() * math::sin(PI / f64::from(count));
         if count > 1 && spacing <= 2.0 * radius {
@@ -255,7 +274,7 @@ impl Scene {
                 "{count} {what} of radius {radius:?} m overlap on a pitch circle of radius {:?} m",
                 self.pitch_radius()
             );
-            return Err(bad(path, text));
+            judge.refuse(path, text)?;
         }
         Ok(())
     }
@@ -287,7 +306,7 @@ impl Scene {
         self.warmed_clearance(given).unwrap_or(given)
     }
 
-    fn validate_run(&self) -> Result<()> {
+    fn validate_run(&self, judge: Judge<'_>) -> Result<()> {
         if self.cage.is_none() {
             let start = &self.initial;
             for (field, given) in [
@@ -296,34 +315,34 @@ impl Scene {
                 ("cage_speed", start.cage_speed.is_some()),
             ] {
                 if given {
-                    return Err(bad(&format!("initial.{field}"), "there is no cage to place"));
+                    judge.refuse(&format!("initial.{field}"), "there is no cage to place")?;
                 }
             }
         }
-        number("initial.first_roller_angle", self.initial.first_roller_angle, ANGLE)?;
-        number("solver.min_step", self.solver.min_step, range(1e-18, 1e-6, "s"))?;
-        optional("solver.max_step", self.solver.max_step, range(self.solver.min_step, 1e-2, "s"))?;
+        judge.number("initial.first_roller_angle", self.initial.first_roller_angle, ANGLE)?;
+        judge.number("solver.min_step", self.solver.min_step, range(1e-18, 1e-6, "s"))?;
+        judge.optional("solver.max_step", self.solver.max_step, range(self.solver.min_step, 1e-2, "s"))?;
         let method = &self.solver.method;
         let path = format!("solver.method.{}.tolerance", method.name());
-        optional(&path, method.tolerance(), range(1e-13, 1e-1, ""))?;
+        judge.optional(&path, method.tolerance(), range(1e-13, 1e-1, ""))?;
         if let Method::Leapfrog(m) = method {
             let largest = self.solver.max_step.unwrap_or(LARGEST_LEAPFROG_STEP);
             let largest = largest.min(LARGEST_LEAPFROG_STEP);
             let allowed = range(self.solver.min_step.max(1e-10).min(largest), largest, "s");
-            optional("solver.method.leapfrog.step", m.step, allowed)?;
+            judge.optional("solver.method.leapfrog.step", m.step, allowed)?;
         }
         if self.solver.max_steps == 0 {
-            return Err(bad("solver.max_steps", "0 is not allowed; at least 1"));
+            judge.refuse("solver.max_steps", "0 is not allowed; at least 1")?;
         }
-        number("record.duration", self.record.duration, range(1e-9, 1e5, "s"))?;
+        judge.number("record.duration", self.record.duration, range(1e-9, 1e5, "s"))?;
         let Record { duration, interval, .. } = self.record;
         if interval > duration {
             let text =
                 format!("{interval:?} s is longer than the run, {} s (record.duration)", shown(duration));
-            return Err(bad("record.interval", text));
+            judge.refuse("record.interval", text)?;
         }
-        number("record.interval", interval, range(1e-10, duration, "s"))?;
-        optional(
+        judge.number("record.interval", interval, range(1e-10, duration, "s"))?;
+        judge.optional(
             "record.window",
             self.record.window,
             range(self.record.interval, self.record.duration, "s"),
@@ -332,74 +351,89 @@ impl Scene {
         if records > MAX_RECORDS {
             let text =
                 format!("{:?} s gives {records:e} records, at most {MAX_RECORDS:e}", self.record.interval);
-            return Err(bad("record.interval", text));
+            judge.refuse("record.interval", text)?;
         }
         Ok(())
     }
 
-    pub(in crate::scene) fn material_exists(&self, path: &str, name: &str) -> Result<()> {
-        if self.materials.contains_key(name) {
+    pub(in crate::scene) fn material_exists(&self, judge: Judge<'_>, path: &str, name: &str) -> Result<()> {
+        if self.materials.contains_key(name) || judge.excuses("materials") {
             return Ok(());
         }
         let known: Vec<&str> = self.materials.keys().map(String::as_str).collect();
         let known = if known.is_empty() { "there are none".to_owned() } else { known.join(", ") };
-        Err(bad(path, format!("'{name}' is not one of the materials ({known})")))
+        judge.refuse(path, format!("'{name}' is not one of the materials ({known})"))
     }
 }
 
 /// A mass in grams makes an inertia in kg m^2 look far too small.
-pub(in crate::scene) fn fitting_mass(path: &str, mass: f64, inertia: f64, allowed: [f64; 2]) -> Result<()> {
+pub(in crate::scene) fn fitting_mass(
+    judge: Judge<'_>,
+    path: &str,
+    mass: f64,
+    inertia: f64,
+    allowed: [f64; 2],
+) -> Result<()> {
     let [min, max] = allowed.map(|inertia| 1e-3 * inertia);
-    if inertia >= 1e3 * min || inertia < min || inertia > max {
+    let in_grams = min <= inertia && inertia <= max && inertia < 1e3 * min;
+    if !in_grams {
         return Ok(());
     }
     let text = format!(
         "{mass:?} kg is far too much for the inertia; was it meant in grams, {} kg?",
         shown(1e-3 * mass)
     );
-    Err(bad(path, text))
+    judge.refuse(path, text)
 }
 
 impl Material {
-    fn validate(&self, path: &str) -> Result<()> {
-        number(&format!("{path}.young_modulus"), self.young_modulus, range(1e7, 1e13, "Pa"))?;
-        number(&format!("{path}.poisson_ratio"), self.poisson_ratio, range(0.0, 0.499, ""))?;
+    fn validate(&self, judge: Judge<'_>, path: &str) -> Result<()> {
+        judge.number(&format!("{path}.young_modulus"), self.young_modulus, range(1e7, 1e13, "Pa"))?;
+        judge.number(&format!("{path}.poisson_ratio"), self.poisson_ratio, range(0.0, 0.499, ""))?;
         if let Some(t) = &self.thermal {
-            number(&format!("{path}.thermal.conductivity"), t.conductivity, range(1e-2, 1e4, "W/(m K)"))?;
-            number(&format!("{path}.thermal.density"), t.density, range(10.0, 3e4, "kg/m^3"))?;
-            number(&format!("{path}.thermal.specific_heat"), t.specific_heat, range(10.0, 1e4, "J/(kg K)"))?;
+            judge.number(
+                &format!("{path}.thermal.conductivity"),
+                t.conductivity,
+                range(1e-2, 1e4, "W/(m K)"),
+            )?;
+            judge.number(&format!("{path}.thermal.density"), t.density, range(10.0, 3e4, "kg/m^3"))?;
+            judge.number(
+                &format!("{path}.thermal.specific_heat"),
+                t.specific_heat,
+                range(10.0, 1e4, "J/(kg K)"),
+            )?;
         }
         Ok(())
     }
 }
 
 /// Checks both components of a vector.
-pub(in crate::scene) fn vector(path: &str, v: &PlaneVector, allowed: Range) -> Result<()> {
-    number(&format!("{path}.y"), v.y, allowed)?;
-    number(&format!("{path}.z"), v.z, allowed)
+pub(in crate::scene) fn vector(judge: Judge<'_>, path: &str, v: &PlaneVector, allowed: Range) -> Result<()> {
+    judge.number(&format!("{path}.y"), v.y, allowed)?;
+    judge.number(&format!("{path}.z"), v.z, allowed)
 }
 
-fn count(path: &str, n: u32) -> Result<()> {
+fn count(judge: Judge<'_>, path: &str, n: u32) -> Result<()> {
     if (1..=MAX_ELEMENTS).contains(&n) {
         return Ok(());
     }
-    Err(bad(path, format!("{n} is not within 1 to {MAX_ELEMENTS}")))
+    judge.refuse(path, format!("{n} is not within 1 to {MAX_ELEMENTS}"))
 }
 
 /// Checks the optional laws of a line contact.
-pub(in crate::scene) fn contact(path: &str, laws: &ContactLaws) -> Result<()> {
+pub(in crate::scene) fn contact(judge: Judge<'_>, path: &str, laws: &ContactLaws) -> Result<()> {
     let at = |field: &str| format!("{path}.{field}");
     if let Some(d) = &laws.damping {
-        number(&at("damping.relaxation_time"), d.relaxation_time, range(1e-12, 1e-3, "s"))?;
-        number(&at("damping.softening_depth"), d.softening_depth, range(1e-12, 1e-4, "m"))?;
+        judge.number(&at("damping.relaxation_time"), d.relaxation_time, range(1e-12, 1e-3, "s"))?;
+        judge.number(&at("damping.softening_depth"), d.softening_depth, range(1e-12, 1e-4, "m"))?;
     }
     if let Some(b) = &laws.boundary_friction {
-        number(&at("boundary_friction.coefficient"), b.coefficient, COEFFICIENT)?;
-        number(&at("boundary_friction.transition_speed"), b.transition_speed, TRANSITION_SPEED)?;
-        number(&at("boundary_friction.roughness"), b.roughness, range(1e-10, 1e-4, "m"))?;
-        number(&at("boundary_friction.lambda_boundary"), b.lambda_boundary, range(0.0, 100.0, ""))?;
+        judge.number(&at("boundary_friction.coefficient"), b.coefficient, COEFFICIENT)?;
+        judge.number(&at("boundary_friction.transition_speed"), b.transition_speed, TRANSITION_SPEED)?;
+        judge.number(&at("boundary_friction.roughness"), b.roughness, range(1e-10, 1e-4, "m"))?;
+        judge.number(&at("boundary_friction.lambda_boundary"), b.lambda_boundary, range(0.0, 100.0, ""))?;
         let full = range(b.lambda_boundary + 1e-3, 1e3, "");
-        number(&at("boundary_friction.lambda_full"), b.lambda_full, full)?;
+        judge.number(&at("boundary_friction.lambda_full"), b.lambda_full, full)?;
     }
     for (field, present, needs, has) in [
         ("thermal_correction", laws.thermal_correction.is_some(), "film", laws.film.is_some()),
@@ -408,60 +442,62 @@ pub(in crate::scene) fn contact(path: &str, laws: &ContactLaws) -> Result<()> {
         ("self_heating", laws.self_heating.is_some(), "traction", laws.traction.is_some()),
     ] {
         if present && !has {
-            return Err(bad(&at(field), format!("needs '{needs}' beside it")));
+            judge.refuse(&at(field), format!("needs '{needs}' beside it"))?;
         }
     }
     Ok(())
 }
 
 /// Checks a function of time whose values must lie in `allowed`.
-pub(in crate::scene) fn signal(path: &str, s: &Signal, allowed: Range) -> Result<()> {
+pub(in crate::scene) fn signal(judge: Judge<'_>, path: &str, s: &Signal, allowed: Range) -> Result<()> {
     let at = |field: &str| format!("{path}.{field}");
     match s {
-        Signal::Constant(value) => number(&at("constant"), *value, allowed),
+        Signal::Constant(value) => judge.number(&at("constant"), *value, allowed),
         Signal::Step { before, after, time } => {
-            number(&at("step.before"), *before, allowed)?;
-            number(&at("step.after"), *after, allowed)?;
-            number(&at("step.time"), *time, TIME)
+            judge.number(&at("step.before"), *before, allowed)?;
+            judge.number(&at("step.after"), *after, allowed)?;
+            judge.number(&at("step.time"), *time, TIME)
         }
         Signal::Ramp { from, to, start, end } => {
-            number(&at("ramp.from"), *from, allowed)?;
-            number(&at("ramp.to"), *to, allowed)?;
-            number(&at("ramp.start"), *start, TIME)?;
-            number(&at("ramp.end"), *end, TIME)?;
+            judge.number(&at("ramp.from"), *from, allowed)?;
+            judge.number(&at("ramp.to"), *to, allowed)?;
+            judge.number(&at("ramp.start"), *start, TIME)?;
+            judge.number(&at("ramp.end"), *end, TIME)?;
             if end <= start {
-                return Err(bad(&at("ramp.end"), format!("{end:?} s is not after the start {start:?} s")));
+                judge.refuse(&at("ramp.end"), format!("{end:?} s is not after the start {start:?} s"))?;
             }
             Ok(())
         }
         Signal::Sine { mean, amplitude, frequency, phase } => {
-            number(&at("sine.mean"), *mean, allowed)?;
+            judge.number(&at("sine.mean"), *mean, allowed)?;
             let room = (mean - allowed.min).min(allowed.max - mean);
-            number(&at("sine.amplitude"), *amplitude, range(-room, room, allowed.unit))?;
-            number(&at("sine.frequency"), *frequency, range(0.0, 1e6, "Hz"))?;
-            number(&at("sine.phase"), *phase, ANGLE)
+            judge.number(&at("sine.amplitude"), *amplitude, range(-room, room, allowed.unit))?;
+            judge.number(&at("sine.frequency"), *frequency, range(0.0, 1e6, "Hz"))?;
+            judge.number(&at("sine.phase"), *phase, ANGLE)
         }
-        Signal::Table { time, value } => table(&at("table"), ("time", time, TIME), ("value", value, allowed)),
+        Signal::Table { time, value } => {
+            table(judge, &at("table"), ("time", time, TIME), ("value", value, allowed))
+        }
     }
 }
 
 /// Checks two lists, each given with its name and range: equally long, the first in strictly growing order.
-fn table(path: &str, x: (&str, &[f64], Range), y: (&str, &[f64], Range)) -> Result<()> {
+fn table(judge: Judge<'_>, path: &str, x: (&str, &[f64], Range), y: (&str, &[f64], Range)) -> Result<()> {
     let at = |field: &str| format!("{path}.{field}");
     if x.1.is_empty() || x.1.len() > MAX_POINTS {
-        return Err(bad(&at(x.0), format!("{} points, 1 to {MAX_POINTS} are allowed", x.1.len())));
+        judge.refuse(&at(x.0), format!("{} points, 1 to {MAX_POINTS} are allowed", x.1.len()))?;
     }
     if x.1.len() != y.1.len() {
-        return Err(bad(&at(y.0), format!("{} values for {} points", y.1.len(), x.1.len())));
+        judge.refuse(&at(y.0), format!("{} values for {} points", y.1.len(), x.1.len()))?;
     }
     for (i, (a, b)) in x.1.iter().zip(y.1).enumerate() {
-        number(&at(&format!("{}.{i}", x.0)), *a, x.2)?;
-        number(&at(&format!("{}.{i}", y.0)), *b, y.2)?;
+        judge.number(&at(&format!("{}.{i}", x.0)), *a, x.2)?;
+        judge.number(&at(&format!("{}.{i}", y.0)), *b, y.2)?;
         if let Some(before) = i.checked_sub(1).map(|i| x.1[i])
             && *a <= before
         {
             let text = format!("{a:?} {unit} is not after {before:?} {unit}", unit = x.2.unit);
-            return Err(bad(&at(&format!("{}.{i}", x.0)), text));
+            judge.refuse(&at(&format!("{}.{i}", x.0)), text)?;
         }
     }
     Ok(())

@@ -14,14 +14,14 @@ mod ranges;
 mod signals;
 mod start;
 mod syntax;
-mod table;
+pub mod table;
 
 use crate::common::{example, example_text, read, set};
 use cagedyn::{Model, Status};
 use serde_json::json;
 use table::{Row, complaint};
 
-fn rows() -> Vec<Row> {
+pub fn rows() -> Vec<Row> {
     let parts = [
         syntax::rows(),
         fields::rows(),
