@@ -20,7 +20,8 @@
 # make abi       commits to the ABI of the header anew, after it grew: ctests/abi
 # make deb       a Debian package in out/
 # make build     library and tool, for make install
-# make install   library, header, tool, scenes, schemas, licences and pkg-config file below $(DESTDIR)$(PREFIX); libraries in LIBDIR
+# make install   library, header, tool with manual and completions, scenes, schemas, licences and pkg-config file below
+#                $(DESTDIR)$(PREFIX); libraries in LIBDIR
 # make uninstall removes them
 
 PREFIX ?= /usr/local

@@ -13,6 +13,11 @@ export BUILT VERSION LIBDIR PREFIX=/usr DESTDIR=$tree/cagedyn
 tools/install_tree.sh > /dev/null
 # dpkg knows itself what it has installed.
 rm "$DESTDIR/usr/share/cagedyn/installed"
+# Debian's zsh looks elsewhere, and its manual pages are compressed.
+mkdir -p "$DESTDIR/usr/share/zsh/vendor-completions"
+mv "$DESTDIR/usr/share/zsh/site-functions/_cagedyn" "$DESTDIR/usr/share/zsh/vendor-completions/"
+rmdir "$DESTDIR/usr/share/zsh/site-functions"
+gzip -9n "$DESTDIR"/usr/share/man/man1/*.1
 
 # What the library and the tool need, by the tool that Debian has for it.
 mkdir -p "$tree/debian" "$DESTDIR/DEBIAN"

@@ -48,6 +48,18 @@ put 644 "$BUILT/libcagedyn.a" "$LIBDIR/libcagedyn.a"
 put 755 "$BUILT/cagedyn" "$PREFIX/bin/cagedyn"
 ${STRIP:-strip} "$tree$PREFIX/bin/cagedyn"
 for file in cagedyn.h cagedyn.hpp; do put 644 "include/$file" "$PREFIX/include/$file"; done
+# The tool knows its commands itself.
+"$BUILT/cagedyn" man --out "$tree/man"
+for page in "$tree"/man/*.1; do put 644 "$page" "$PREFIX/share/man/man1/$(basename "$page")"; done
+rm -r "$tree/man"
+complete() {
+    "$BUILT/cagedyn" completions "$1" > "$tree/completions"
+    put 644 "$tree/completions" "$PREFIX/share/$2"
+    rm "$tree/completions"
+}
+complete bash bash-completion/completions/cagedyn
+complete zsh zsh/site-functions/_cagedyn
+complete fish fish/vendor_completions.d/cagedyn.fish
 for file in scenes/*.json schemas/*.json; do put 644 "$file" "$share/$file"; done
 for file in matlab/cagedyn_mex.c matlab/Cagedyn.m; do put 644 "$file" "$share/$file"; done
 doc=$PREFIX/share/doc/cagedyn

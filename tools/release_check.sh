@@ -60,6 +60,9 @@ deb() {
     cagedyn info /usr/share/cagedyn/scenes/nu2310.json > "$out/info.txt"
     cc -std=c99 -Wall -Werror /usr/share/doc/cagedyn/examples/nu2310.c $(pkg-config --cflags --libs cagedyn) -o "$out/nu2310"
     "$out/nu2310" /usr/share/cagedyn/scenes/nu2310.json "$out/nu2310.csv"
+    dpkg -c "$package" > "$out/package.txt"
+    grep -q man/man1/cagedyn-run.1.gz "$out/package.txt" || { echo "there is no manual" >&2; exit 1; }
+    grep -q bash-completion/completions/cagedyn "$out/package.txt" || { echo "there are no completions" >&2; exit 1; }
     dpkg -L cagedyn | while read -r file; do [ -d "$file" ] || echo "$file"; done > "$out/files.txt"
     $as_root dpkg -r cagedyn
     while read -r file; do [ ! -e "$file" ] || { echo "$file is left" >&2; exit 1; }; done < "$out/files.txt"

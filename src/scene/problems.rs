@@ -79,6 +79,7 @@ pub(super) type Attempt<'a> = dyn Fn(&Doubts, usize) -> std::result::Result<(), 
 
 /// Everything that attempts to use a value find, in their order.
 pub(super) fn all(value: &Value, attempt: &Attempt<'_>) -> Vec<Found> {
+    let Err(first) = attempt(&Doubts::default(), 0) else { return Vec::new() };
     let mut found = with_pick(value, attempt, 0);
     for pick in 1..PICKS {
         if found.len() < 2 {
@@ -87,6 +88,10 @@ pub(super) fn all(value: &Value, attempt: &Attempt<'_>) -> Vec<Found> {
         // What depends on the pick is no mistake of its own.
         let others = with_pick(value, attempt, pick);
         found.retain(|mistake| others.contains(mistake));
+    }
+    if found.is_empty() {
+        // What is refused has a reason.
+        found.push(located(value, &first));
     }
     found
 }

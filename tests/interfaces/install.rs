@@ -59,6 +59,7 @@ fn installing_puts_everything_in_place_and_removing_takes_it_away() {
         "include/cagedyn.hpp",
         "lib64/cmake/cagedyn/cagedynConfig.cmake",
         "lib64/cmake/cagedyn/cagedynConfigVersion.cmake",
+        "share/bash-completion/completions/cagedyn",
         "share/cagedyn/matlab/Cagedyn.m",
         "share/doc/cagedyn/examples/nu2310.c",
         "share/doc/cagedyn/docs/scene.md",
@@ -70,6 +71,10 @@ fn installing_puts_everything_in_place_and_removing_takes_it_away() {
         "share/cagedyn/schemas/scene.schema.json",
         "share/doc/cagedyn/LICENSE-APACHE",
         "share/doc/cagedyn/LICENSE-MIT",
+        "share/fish/vendor_completions.d/cagedyn.fish",
+        "share/man/man1/cagedyn.1",
+        "share/man/man1/cagedyn-run.1",
+        "share/zsh/site-functions/_cagedyn",
     ] {
         assert!(installed.contains(&format!("opt/bearing/{file}")), "{file} is not in {installed:#?}");
     }

@@ -46,6 +46,7 @@ fn what_is_refused_is_told() {
         "unknown guide",
         "no materials",
         "cage guided by no inner ring",
+        "clearance of the size of a roller",
         "lubricated pocket with nothing it needs",
         "pocket traction of kinematic elements without constants",
     ];
@@ -105,6 +106,11 @@ fn consequences_are_not_told() {
         ),
         (vec![("cage.pocket", json!({"round": {}}))], vec!["cage.pocket"]),
         (vec![("inner_ring.motion", json!("loose"))], vec!["inner_ring.motion"]),
+        // Without the clearance the circle of the rollers is known well enough.
+        (
+            vec![("inner_ring.radial_clearance", json!("40 um")), ("rollers.count", json!(40))],
+            vec!["inner_ring.radial_clearance", "rollers.count"],
+        ),
         // One mistake beside another one.
         (
             vec![("rollers.radius", json!(7.5)), ("cage.inertia", json!(-1))],

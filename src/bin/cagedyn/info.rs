@@ -1,5 +1,7 @@
 //! The command `info`.
 
+mod json;
+
 use crate::effects::effects;
 use crate::results::facts;
 use crate::results::table::{self, Align, number};
@@ -21,6 +23,10 @@ pub fn command(args: &InfoArgs) -> Result<ExitCode> {
     let model = scene.and_then(Model::new).map_err(|e| in_file(&args.scene, e))?;
     let set: Vec<String> = args.sets.pairs().map(|(path, value)| format!("{path}={value}")).collect();
     let title = facts::title(model.scene().title.as_deref(), &stem(&args.scene), &set);
+    if args.json {
+        terminal::print(&format!("{:#}\n", json::as_json(&title, model)))?;
+        return Ok(ExitCode::SUCCESS);
+    }
     let mut text = format!("{title}\n{}\n", facts::facts(&model));
     let warnings = model.scene().warnings();
     if !warnings.is_empty() {
@@ -59,16 +65,11 @@ fn row(name: &str, value: impl Into<String>) -> Vec<String> {
 
 fn bodies(model: &Model) -> Vec<Vec<String>> {
     let layout = model.layout();
-    let ring = match model.scene().inner_ring.as_ref().map(|ring| &ring.motion) {
-        None => "does not turn".to_owned(),
-        Some(RingMotion::Fixed(at)) => format!("held at ({}, {}) m, turns at its given speed", at.y, at.z),
-        Some(RingMotion::Free(_)) => "moves in the plane, turns at its given speed".to_owned(),
-    };
     let outer = match model.scene().outer_ring.as_ref().and_then(|ring| ring.speed.as_ref()) {
         None => "fixed at the origin",
         Some(_) => "held at the origin, turns at its given speed",
     };
-    let mut rows = vec![row("outer_ring", outer), row("inner_ring", ring)];
+    let mut rows = vec![row("outer_ring", outer), row("inner_ring", ring(model))];
     if layout.cage().is_some() {
         rows.push(row("cage", "moves and turns in the plane"));
     }
@@ -81,6 +82,15 @@ fn bodies(model: &Model) -> Vec<Vec<String>> {
     let (q, v) = (layout.positions(), layout.velocities());
     rows.push(row("states", format!("{}: {q} positions, {v} velocities", layout.states())));
     rows
+}
+
+/// How the inner ring moves.
+fn ring(model: &Model) -> String {
+    match model.scene().inner_ring.as_ref().map(|ring| &ring.motion) {
+        None => "does not turn".to_owned(),
+        Some(RingMotion::Fixed(at)) => format!("held at ({}, {}) m, turns at its given speed", at.y, at.z),
+        Some(RingMotion::Free(_)) => "moves in the plane, turns at its given speed".to_owned(),
+    }
 }
 
 /// `roller[0..11]` for twelve rollers.

@@ -1,6 +1,7 @@
 //! `cagedyn`: runs scenes and case sets from the command line and writes tables and pictures of the results.
 
 mod cases;
+mod check;
 mod effects;
 mod heat;
 mod info;
@@ -11,6 +12,7 @@ mod report;
 mod results;
 mod run;
 mod schema;
+mod shell;
 mod spectrum;
 mod starts;
 mod sweep;
@@ -31,6 +33,9 @@ use std::process::ExitCode;
 struct Cli {
     #[command(subcommand)]
     command: Command,
+    /// Print nothing to standard output, and no progress: only errors and doubts, and the exit code, tell how it went.
+    #[arg(long, short, global = true)]
+    quiet: bool,
 }
 
 /// What to do.
@@ -38,6 +43,8 @@ struct Cli {
 enum Command {
     /// Run a scene; write its time series, summary and pictures.
     Run(RunArgs),
+    /// Tell everything that is wrong with a scene or a case set, with lines; nothing is run.
+    Check(CheckArgs),
     /// Write a starter scene with comments for a kind of bearing.
     Init(InitArgs),
     /// Run every case of a case set; write each like `run`, and a comparison.
@@ -54,6 +61,10 @@ enum Command {
     Info(InfoArgs),
     /// Print the JSON Schema of a file format.
     Schema(SchemaArgs),
+    /// Print a script with which a shell completes commands and options.
+    Completions(CompletionsArgs),
+    /// Print the manual page, or write one for every command.
+    Man(ManArgs),
 }
 
 /// Arguments of `run`.
@@ -67,6 +78,9 @@ pub struct RunArgs {
     /// Formats of the time series, for example csv,mat.
     #[arg(long, value_enum, value_delimiter = ',', default_value = "csv")]
     format: Vec<TableFormat>,
+    /// Print the content of summary.json instead of tables.
+    #[arg(long)]
+    json: bool,
     #[command(flatten)]
     instead: Instead,
     #[command(flatten)]
@@ -183,6 +197,19 @@ impl Instead {
     }
 }
 
+/// Arguments of `check`.
+#[derive(Args)]
+pub struct CheckArgs {
+    /// Scene or case set file.
+    #[arg(value_name = "SCENE|CASES")]
+    file: PathBuf,
+    /// Print an array of objects with file, line, path and message.
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    sets: Sets,
+}
+
 /// Arguments of `init`.
 #[derive(Args)]
 pub struct InitArgs {
@@ -199,6 +226,9 @@ pub struct InitArgs {
 pub struct InfoArgs {
     /// Scene file.
     scene: PathBuf,
+    /// Print it as JSON, in SI units.
+    #[arg(long)]
+    json: bool,
     #[command(flatten)]
     sets: Sets,
 }
@@ -253,6 +283,22 @@ pub struct SchemaArgs {
     format: Format,
 }
 
+/// Arguments of `completions`.
+#[derive(Args)]
+pub struct CompletionsArgs {
+    /// Shell.
+    #[arg(value_enum)]
+    shell: clap_complete::Shell,
+}
+
+/// Arguments of `man`.
+#[derive(Args)]
+pub struct ManArgs {
+    /// Folder for a page of every command, cagedyn-run.1 and so on; made if it does not exist.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
 /// A file format with a schema.
 #[derive(Clone, Copy, ValueEnum)]
 pub enum Format {
@@ -278,7 +324,11 @@ impl Sets {
 }
 
 fn main() -> ExitCode {
-    match dispatch(&Cli::parse().command) {
+    let Cli { command, quiet } = Cli::parse();
+    if quiet {
+        terminal::be_quiet();
+    }
+    match dispatch(&command) {
         Ok(code) => code,
         Err(error) => {
             terminal::complain(&error);
@@ -295,9 +345,12 @@ fn dispatch(command: &Command) -> Result<ExitCode> {
         Command::Report(args) => report::command(args),
         Command::Heat(args) => heat::command(args),
         Command::Whirl(args) => whirl::command(args),
+        Command::Check(args) => check::command(args),
         Command::Init(args) => init::command(args),
         Command::Info(args) => info::command(args),
         Command::Schema(args) => schema::command(args),
+        Command::Completions(args) => shell::completions(args),
+        Command::Man(args) => shell::man(args),
     }
 }
 

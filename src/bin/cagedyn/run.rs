@@ -1,6 +1,7 @@
 //! The command `run`, and the simulation of one scene that `cases` shares with it.
 
 use crate::results::facts;
+use crate::results::files::to_json;
 use crate::results::finished::{BeforeWindow, Run};
 use crate::results::formats::{self, TableFormat};
 use crate::results::stream::{self, Stream};
@@ -61,12 +62,16 @@ pub struct Request<'a> {
 pub fn command(args: &RunArgs) -> Result<ExitCode> {
     let request = request(&args.scene, &args.sets, &args.instead, &args.out)?;
     let progress = Progress::new("run", request.scene.record.duration);
-    let request = Request { aloud: true, formats: &args.format, ..request };
+    let request = Request { aloud: !args.json, formats: &args.format, ..request };
     let performed = perform(request, &args.instead, &|t| progress.at(t));
     drop(progress);
     let (run, summary) =
         performed.map_err(|e| if e.status == Status::File { e } else { in_file(&args.scene, e) })?;
-    terminal::print(&report::text(&run, &summary, &args.out))?;
+    if args.json {
+        terminal::print(&to_json(&summary)?)?;
+    } else {
+        terminal::print(&report::text(&run, &summary, &args.out))?;
+    }
     Ok(exit_code(&run))
 }
 

@@ -6,7 +6,8 @@ use indicatif::{HumanDuration, MultiProgress, ProgressBar, ProgressStyle};
 use std::cell::Cell;
 use std::io::{self, ErrorKind, IsTerminal, Write};
 #[cfg(unix)]
-use std::sync::{Arc, atomic::AtomicBool};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{LazyLock, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -23,6 +24,21 @@ const SAME_SIGNAL: Duration = Duration::from_millis(300);
 static STOP: OnceLock<Instant> = OnceLock::new();
 static RUNNING: Mutex<Vec<Canceller>> = Mutex::new(Vec::new());
 static BARS: LazyLock<MultiProgress> = LazyLock::new(MultiProgress::new);
+static QUIET: AtomicBool = AtomicBool::new(false);
+
+/// From now on nothing is printed to standard output, and there is no progress.
+pub fn be_quiet() {
+    QUIET.store(true, Ordering::Relaxed);
+}
+
+fn is_quiet() -> bool {
+    QUIET.load(Ordering::Relaxed)
+}
+
+/// Whether progress can be seen.
+fn shows_progress() -> bool {
+    io::stderr().is_terminal() && !is_quiet()
+}
 
 /// Lets Ctrl-C stop this simulation, too, within a step.
 pub fn stop_with(canceller: Canceller) {
@@ -66,6 +82,9 @@ pub fn listen_for_interrupt() -> Result<()> {
 /// # Errors
 /// [`Status::File`] when standard output cannot be written.
 pub fn print(text: &str) -> Result<()> {
+    if is_quiet() {
+        return Ok(());
+    }
     let write = || {
         let mut out = io::stdout().lock();
         out.write_all(text.as_bytes()).and_then(|()| out.flush())
@@ -98,7 +117,7 @@ pub struct Progress {
 impl Progress {
     /// A bar for a run of `duration` seconds with a short label.
     pub fn new(label: &str, duration: f64) -> Self {
-        if !io::stderr().is_terminal() {
+        if !shows_progress() {
             return Self { bar: ProgressBar::hidden() };
         }
         let bar = BARS.add(ProgressBar::new((duration * TICKS_PER_SECOND) as u64));
@@ -150,7 +169,7 @@ const TICKS_PER_RUN: f64 = 1e3;
 impl Together {
     /// A line for `all` runs, of which so many are `done` already, and so many of these `failed`.
     pub fn new(all: usize, done: usize, failed: usize) -> Self {
-        let bar = if io::stderr().is_terminal() {
+        let bar = if shows_progress() {
             BARS.add(ProgressBar::new((all as f64 * TICKS_PER_RUN) as u64))
         } else {
             ProgressBar::hidden()

@@ -76,7 +76,9 @@ impl Unknown {
 
 /// The name that was probably meant: about a quarter of the letters differ at most.
 fn nearest(word: &str, names: &[&'static str]) -> Option<&'static str> {
-    let most = (word.chars().count() / 4).max(1);
+    // A word without letters resembles nothing.
+    let letters = word.chars().count();
+    let most = if letters == 0 { 0 } else { (letters / 4).max(1) };
     let distances = names.iter().map(|name| (distance(word, name), *name));
     distances
         .filter(|(distance, _)| *distance <= most)

@@ -139,7 +139,7 @@ impl Scene {
                 judge.refuse("heat.play", "has no radial clearance to change; it needs 'rollers'")?;
             }
             let warm = self.radial_clearance();
-            if warm < -2e-4 || warm > 2e-3 {
+            if !warm.is_nan() && !(-2e-4..=2e-3).contains(&warm) {
                 let text = format!(
                     "the radial clearance is {warm:?} m at the temperatures of the start, allowed are -0.0002 to 0.002 m"
                 );

@@ -1,5 +1,8 @@
 //! Checks of a parsed scene: ranges, geometry that can exist, references between its parts.
 //!
+//! Values that are known to be wrong are NaN while others are looked for (see `scene/problems.rs`), so a comparison that refuses a
+//! value must be false of NaN, and what is refused without one asks the [`Judge`].
+//!
 //! The ranges are wide for engineering and narrow for unit slips. What a law needs from other parts of the scene is
 //! checked where the law is built, in the model.
 
@@ -297,7 +300,9 @@ impl Scene {
             return elements.pitch_radius;
         }
         let outer = self.outer_ring.as_ref().and_then(|r| r.raceway_radius).unwrap_or(0.0);
-        outer - self.element_radius() - self.radial_clearance() / 4.0
+        // A clearance that is not known yet changes the circle by less than what checks of a scene can tell.
+        let clearance = Some(self.radial_clearance()).filter(|clearance| !clearance.is_nan()).unwrap_or(0.0);
+        outer - self.element_radius() - clearance / 4.0
     }
 
     /// Diametral play of the inner ring on the rollers, m; zero without rollers.

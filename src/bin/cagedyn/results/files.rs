@@ -37,8 +37,16 @@ pub fn write_with(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<
 }
 
 pub fn write_json(path: &Path, value: &impl Serialize) -> Result<()> {
-    let text = serde_json::to_string_pretty(value).map_err(|e| file_error(path, e))?;
-    write_text(path, &(text + "\n"))
+    write_text(path, &to_json(value).map_err(|e| file_error(path, e))?)
+}
+
+/// The JSON text of a value, as files have it.
+///
+/// # Errors
+/// [`Status::Internal`] for a value that JSON cannot express.
+pub fn to_json(value: &impl Serialize) -> Result<String> {
+    let text = serde_json::to_string_pretty(value);
+    text.map(|text| text + "\n").map_err(|e| Error::new(Status::Internal, format!("JSON: {e}")))
 }
 
 /// Writes a table of comma-separated values.
