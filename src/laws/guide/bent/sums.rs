@@ -424,7 +424,6 @@ impl Columns for ForceWaves<'_> {
     }
 
     #[inline(always)]
-    #[expect(clippy::needless_range_loop, reason = "iterators might not be inlined")]
     fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
         let Points { normal, along, inward, moment, cos, sin, .. } = self.points;
         let of = |lanes: &Lanes| Pack::<S, K>::load(simd, &lanes[first..]);
