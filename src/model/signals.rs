@@ -184,15 +184,17 @@ impl InputSignals {
 impl Orbit {
     /// Sets orbit and spin speed, or their rates, to what the drives make them.
     fn follow(&self, inputs: &mut InputValues) {
-        let driven = |ratio: fn(&Drive) -> Option<f64>| {
-            let parts = self.drives.iter().filter_map(|drive| Some(ratio(drive)? * inputs.of(drive.input)));
-            parts.reduce(|sum, part| sum + part)
-        };
-        let (orbit, spin) = (driven(|drive| Some(drive.orbit_ratio)), driven(|drive| drive.spin_ratio));
-        for (input, speed) in [(Input::OrbitSpeed, orbit), (Input::SpinSpeed, spin)] {
-            if let Some(speed) = speed {
-                inputs.values[input as usize] = speed;
-            }
+        let Some((first, others)) = self.drives.split_first() else { return };
+        let speed = inputs.of(first.input);
+        let (mut orbit, mut spin) = (first.orbit_ratio * speed, first.spin_ratio.map(|ratio| ratio * speed));
+        for drive in others {
+            let speed = inputs.of(drive.input);
+            orbit += drive.orbit_ratio * speed;
+            spin = spin.zip(drive.spin_ratio).map(|(sum, ratio)| sum + ratio * speed);
+        }
+        inputs.values[Input::OrbitSpeed as usize] = orbit;
+        if let Some(spin) = spin {
+            inputs.values[Input::SpinSpeed as usize] = spin;
         }
     }
 
