@@ -3,7 +3,7 @@
 use super::report::Selection;
 use super::signals::{Drive, InputSignals, InputSource, Oil, Orbit};
 use super::{Input, Model};
-use crate::bodies::{self, CAGE, INNER_RING, OUTER_RING, SharedBodies};
+use crate::bodies::{self, OUTER_RING, SharedBodies};
 use crate::error::Result;
 use crate::laws::fluid::walther::Walther;
 use crate::pairs;
@@ -22,11 +22,7 @@ pub(super) fn compile(scene: Scene) -> Result<Model> {
         (pairs::element_pairs(&scene, viscosity)?, pairs::shared_pairs(&scene, viscosity)?);
     let mut model = Model {
         masses: shared.each_ref().map(|body| body.as_ref().and_then(|b| b.mass()).unwrap_or(f64::INFINITY)),
-        moving: if turns(&shared, OUTER_RING) {
-            &[OUTER_RING, INNER_RING, CAGE]
-        } else {
-            &[INNER_RING, CAGE]
-        },
+        outer_turns: turns(&shared, OUTER_RING),
         onsets: pairs.iter().any(|pair| pair.has_onset()),
         layout: bodies::layout_of(&shared, &*elements, &nodes),
         gravity: scene.gravity.map_or([0.0; 2], |g| [g.y, g.z]),
@@ -102,7 +98,7 @@ fn inputs(scene: &Scene) -> Result<InputSignals> {
                     spin_ratio: None,
                     integral: SignalIntegral::new(orbit_speed),
                 };
-                orbit = Some(Orbit { drives: vec![drive] });
+                orbit = Some(Orbit { drive, by_outer: None });
             }
             ElementMotion::Rolling { contact_angle } => {
                 orbit = Some(rolling(elements.radius / elements.pitch_radius, *contact_angle, scene));
@@ -180,9 +176,9 @@ fn rolling(radius_ratio: f64, contact_angle: f64, scene: &Scene) -> Orbit {
         spin_ratio: Some(spin_ratio),
         integral: SignalIntegral::new(speed),
     };
-    let mut drives = vec![drive(Input::RingSpeed, orbit_ratio, spin_ratio, &inner)];
-    if let Some(outer) = scene.outer_ring.as_ref().and_then(|ring| ring.speed.as_ref()) {
-        drives.push(drive(Input::OuterRingSpeed, 1.0 - orbit_ratio, 1.0 - spin_ratio, outer));
+    let outer = scene.outer_ring.as_ref().and_then(|ring| ring.speed.as_ref());
+    Orbit {
+        drive: drive(Input::RingSpeed, orbit_ratio, spin_ratio, &inner),
+        by_outer: outer.map(|speed| drive(Input::OuterRingSpeed, 1.0 - orbit_ratio, 1.0 - spin_ratio, speed)),
     }
-    Orbit { drives }
 }

@@ -45,7 +45,7 @@ pub use workspace::Workspace;
 pub(crate) use workspace::{AT_FLOOR, RATES};
 
 use crate::bodies::{
-    CAGE, CAGE_MOTION, Elements, ForceSource, Node, OUTER_RING, SHARED, SharedBodies, SharedBody,
+    CAGE, CAGE_MOTION, Elements, ForceSource, INNER_RING, Node, OUTER_RING, SHARED, SharedBodies, SharedBody,
 };
 use crate::error::{Error, Result, Status};
 use crate::pairs::raceway::RacewayGeometry;
@@ -67,8 +67,8 @@ pub struct Model {
     nodes: Vec<Box<dyn Node>>,
     /// Place among the velocities of the temperature of the lubricant, where it is a state.
     lubricant: Option<usize>,
-    /// Places of the shared bodies that may move or turn.
-    moving: &'static [usize],
+    /// Whether the outer ring, which is held in the centre, may turn.
+    outer_turns: bool,
     /// Masses of the shared bodies, kg; infinite where one is not free.
     masses: [f64; SHARED],
     /// Whether the law of a pair of elements sets in abruptly.
@@ -230,8 +230,11 @@ impl Model {
     /// Finds those that may move.
     #[inline]
     fn find_motions(&self, q: &[f64], v: &[f64], inputs: &InputValues, out: &mut [Motion<f64>; SHARED]) {
-        for body in self.moving.iter().copied() {
+        for body in [INNER_RING, CAGE] {
             out[body] = self.motion_of(body, q, v, inputs);
+        }
+        if self.outer_turns {
+            out[OUTER_RING] = self.motion_of(OUTER_RING, q, v, inputs);
         }
     }
 

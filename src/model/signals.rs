@@ -19,7 +19,9 @@ pub(super) enum InputSource {
 /// Prescribed orbit of kinematic elements: the sum of what its drives do.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Orbit {
-    pub(super) drives: Vec<Drive>,
+    pub(super) drive: Drive,
+    /// That by an outer ring that turns.
+    pub(super) by_outer: Option<Drive>,
 }
 
 /// What drives the orbit of kinematic elements.
@@ -184,10 +186,10 @@ impl InputSignals {
 impl Orbit {
     /// Sets orbit and spin speed, or their rates, to what the drives make them.
     fn follow(&self, inputs: &mut InputValues) {
-        let Some((first, others)) = self.drives.split_first() else { return };
-        let speed = inputs.of(first.input);
-        let (mut orbit, mut spin) = (first.orbit_ratio * speed, first.spin_ratio.map(|ratio| ratio * speed));
-        for drive in others {
+        let speed = inputs.of(self.drive.input);
+        let mut orbit = self.drive.orbit_ratio * speed;
+        let mut spin = self.drive.spin_ratio.map(|ratio| ratio * speed);
+        if let Some(drive) = &self.by_outer {
             let speed = inputs.of(drive.input);
             orbit += drive.orbit_ratio * speed;
             spin = spin.zip(drive.spin_ratio).map(|(sum, ratio)| sum + ratio * speed);
@@ -200,12 +202,14 @@ impl Orbit {
 
     fn travel(&self, t: f64, host: &HostInputs) -> f64 {
         let [since, before] = host.anchor;
-        self.drives.iter().fold(before, |travel, drive| {
-            let turned = match host.values[drive.input as usize] {
-                Some(speed) => speed * (t - since),
-                None => drive.integral.at(t) - drive.integral.at(since),
-            };
-            travel + drive.orbit_ratio * turned
-        })
+        let turned = |drive: &Drive| match host.values[drive.input as usize] {
+            Some(speed) => speed * (t - since),
+            None => drive.integral.at(t) - drive.integral.at(since),
+        };
+        let travel = before + self.drive.orbit_ratio * turned(&self.drive);
+        match &self.by_outer {
+            None => travel,
+            Some(drive) => travel + drive.orbit_ratio * turned(drive),
+        }
     }
 }

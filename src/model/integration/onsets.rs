@@ -7,6 +7,7 @@
 //!
 //! [`InputSignals::shortest_period`]: crate::model::signals::InputSignals::shortest_period
 
+use crate::bodies::OUTER_RING;
 use crate::integrate::Tuning;
 use crate::model::{HostInputs, InputValues, Model};
 use crate::pairs::Ahead;
@@ -28,7 +29,7 @@ impl Model {
             return longest;
         }
         // A ring that stands guides at no input.
-        let moved = self.between_infos.iter().any(|info| self.moving.contains(&info.bodies[1]));
+        let moved = self.between_infos.iter().any(|info| info.bodies[1] != OUTER_RING || self.outer_turns);
         let inputs = if moved || self.onsets { self.inputs_at(t, host) } else { InputValues::default() };
         let shared = self.motions_at(q, v, &inputs);
         let ahead = Ahead {
