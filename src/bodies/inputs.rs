@@ -82,6 +82,13 @@ impl HostInputs {
     pub fn of(&self, input: Input) -> Option<f64> {
         self.values[input as usize]
     }
+
+    /// Whether it has set any.
+    #[inline]
+    pub fn sets_any(&self) -> bool {
+        // Without branches: this is asked in every evaluation.
+        self.values.iter().fold(false, |any, value| any | value.is_some())
+    }
 }
 
 stored! {

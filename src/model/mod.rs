@@ -135,6 +135,7 @@ impl Model {
 
     /// Values of the inputs at time `t` in s.
     #[doc(hidden)]
+    #[inline]
     pub fn inputs_at(&self, t: f64, host: &HostInputs) -> InputValues {
         self.inputs.at(t, host)
     }

@@ -79,8 +79,9 @@ impl InputSignals {
     }
 
     /// Values of the list at time `t` in s.
+    #[inline]
     fn listed_at(&self, t: f64, host: &HostInputs) -> InputValues {
-        if let Some(constant) = self.constant.filter(|_| host.values.iter().all(Option::is_none)) {
+        if let Some(constant) = self.constant.filter(|_| !host.sets_any()) {
             return constant;
         }
         let mut now = InputValues::default();
@@ -98,6 +99,7 @@ impl InputSignals {
     }
 
     /// All values at time `t` in s.
+    #[inline]
     pub(super) fn at(&self, t: f64, host: &HostInputs) -> InputValues {
         let mut now = self.listed_at(t, host);
         if let Some(orbit) = &self.orbit {
