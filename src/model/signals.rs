@@ -202,6 +202,7 @@ impl Orbit {
         }
     }
 
+    #[inline]
     fn travel(&self, t: f64, host: &HostInputs) -> f64 {
         let [since, before] = host.anchor;
         let turned = |drive: &Drive| match host.values[drive.input as usize] {

@@ -205,7 +205,16 @@ impl SignalIntegral {
     }
 
     /// Integral from 0 to `t` in s; exact apart from round-off.
+    #[inline]
     pub fn at(&self, t: f64) -> f64 {
+        match &self.signal {
+            Signal::Constant(value) => value * t,
+            _ => self.varying(t),
+        }
+    }
+
+    /// That of a signal that may vary.
+    fn varying(&self, t: f64) -> f64 {
         match &self.signal {
             Signal::Constant(value) => value * t,
             Signal::Step { before, after, time } => before * t.min(*time) + after * (t - time).max(0.0),
