@@ -73,7 +73,7 @@ fn first_step(model: &Model, solver: &Solver) -> f64 {
 /// are what can be had at little cost; everything else is smooth between contacts.
 fn aim(model: &Model, solver: &Solver, tuning: Tuning) -> Aim {
     let asked = solver.method.tolerance();
-    let Numbers { statistics, leapfrog_step, auto_tolerance, missing_energy, .. } = numbers(solver.preset);
+    let Numbers { statistics, leapfrog_step, auto_tolerance, watched_energy, .. } = numbers(solver.preset);
     let statistics = statistics && model.has_rollers() && asked.is_none();
     let units = model.state_scales();
     Aim {
@@ -86,7 +86,7 @@ fn aim(model: &Model, solver: &Solver, tuning: Tuning) -> Aim {
         },
         units,
         tolerance: asked.unwrap_or(auto_tolerance),
-        missing_energy,
+        missing_energy: watched_energy,
         first_step: first_step(model, solver),
         tuning,
     }
