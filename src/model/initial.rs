@@ -181,23 +181,25 @@ impl StillBearing<'_> {
     fn roller(&self, j: usize, x: [f64; 2]) -> (RollerBalance, Frame<f64>) {
         let Model { layout, elements, .. } = self.model;
         let frame = elements.frame(layout, self.q, &InputValues::default(), j);
-        (self.roller_balance(frame.to_local(x)), frame)
+        (self.roller_balance(frame.to_local(x), elements.set().radius_excess[j]), frame)
     }
 
-    /// Radial equilibrium of a roller, with the ring centre at `ring` (m) in the roller's local frame.
-    fn roller_balance(&self, ring: [f64; 2]) -> RollerBalance {
+    /// Radial equilibrium of a roller whose radius is larger by `excess` (m), with the ring centre at `ring` (m) in its local frame.
+    fn roller_balance(&self, ring: [f64; 2], excess: f64) -> RollerBalance {
         let [outer, inner] = self.laws;
         let (g, centrifugal) = (self.geometry, self.centrifugal);
+        // On the pitch circle, to the outer raceway.
+        let gap = g.gap - excess;
         // The outward force of the roller falls with its offset: bisection between resting outside and squeezed in.
         let state = |offset: f64| {
             let still =
-                ElementMotion { radial_offset: offset, radial_speed: 0.0, orbit_speed: 0.0, spin_speed: 0.0 };
+                ElementMotion { radial_offset: offset, radius_excess: excess, ..ElementMotion::default() };
             let still_ring = RingMotion { position: ring, velocity: [0.0; 2], speed: 0.0 };
             let (motion, grip) = g.inner(&still, &still_ring);
-            (inner.rest_at(motion.delta), outer.rest_at(offset - g.gap), motion.delta, grip.normal)
+            (inner.rest_at(motion.delta), outer.rest_at(offset - gap), motion.delta, grip.normal)
         };
-        let resting = g.gap + outer.approach(centrifugal);
-        let squeezed = ring[0].abs() + ring[1].abs() + 2.0 * g.gap.abs();
+        let resting = gap + outer.approach(centrifugal);
+        let squeezed = ring[0].abs() + ring[1].abs() + 2.0 * gap.abs();
         let (mut low, mut high) = (resting, resting + squeezed);
         for _ in 0..100 {
             let middle = 0.5 * (low + high);
@@ -210,10 +212,10 @@ impl StillBearing<'_> {
         }
         let ([load, work], [on_outer, work_outer], delta, normal) = state(high);
         // Palmgren's law: the energy at the approach delta is 9/19 Q delta.
-        let energy = 9.0 / 19.0 * (work + work_outer) - centrifugal * (high - g.gap);
+        let energy = 9.0 / 19.0 * (work + work_outer) - centrifugal * (high - gap);
         let stiffness = if load > 0.0 {
             1.0 / (1.0 / inner.stiffness_at_rest(load, delta)
-                + 1.0 / outer.stiffness_at_rest(on_outer, high - g.gap))
+                + 1.0 / outer.stiffness_at_rest(on_outer, high - gap))
         } else {
             0.0
         };

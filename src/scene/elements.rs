@@ -3,7 +3,7 @@
 use super::Signal;
 use serde::{Deserialize, Serialize};
 
-/// A set of equal, equally spaced cylindrical rollers that move in the plane under the forces of their contacts.
+/// A set of equally spaced cylindrical rollers that move in the plane under the forces of their contacts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -28,6 +28,52 @@ pub struct Rollers {
     /// Profile of the rollers along their length in the contacts with the raceways. Absent: straight.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub profile: Option<RollerProfile>,
+    /// How much the radii of single rollers deviate from `radius`. Absent: they are equal.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radius_deviations: Option<RadiusDeviations>,
+}
+
+/// Deviations of the radii of rollers, which are numbered from 0 on counter-clockwise from the first.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum RadiusDeviations {
+    /// Of every roller in the order of their numbers, m.
+    Each(Vec<f64>),
+    /// Of groups of rollers; the others have none.
+    Groups(Vec<RollerGroup>),
+}
+
+/// Rollers whose radii deviate by the same.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct RollerGroup {
+    /// Their numbers.
+    pub rollers: Vec<u32>,
+    /// By how much their radii are larger than `radius`, m.
+    #[cfg_attr(feature = "schema", schemars(range(min = -1e-3, max = 1e-3)))]
+    pub deviation: f64,
+}
+
+impl RadiusDeviations {
+    /// Deviation of each of `count` rollers, m.
+    pub(crate) fn of_each(&self, count: usize) -> Vec<f64> {
+        let mut each = vec![0.0; count];
+        match self {
+            Self::Each(list) => each.iter_mut().zip(list).for_each(|(deviation, given)| *deviation = *given),
+            Self::Groups(groups) => {
+                for group in groups {
+                    for &roller in &group.rollers {
+                        if let Some(deviation) = each.get_mut(roller as usize) {
+                            *deviation = group.deviation;
+                        }
+                    }
+                }
+            }
+        }
+        each
+    }
 }
 
 /// Profile of a roller: how far its surface falls back from a cylinder.

@@ -31,7 +31,10 @@ pub use contact_laws::{
 };
 pub(crate) use elastic_ring::MOST_RING_ORDERS;
 pub use elastic_ring::{ElasticRing, FiniteElementModes, RingSection, RingStiffness};
-pub use elements::{ElementMotion, KinematicElements, LogarithmicProfile, RollerProfile, Rollers};
+pub use elements::{
+    ElementMotion, KinematicElements, LogarithmicProfile, RadiusDeviations, RollerGroup, RollerProfile,
+    Rollers,
+};
 pub use grease::{Grease, PolymerGrease, SoapGrease};
 pub use heat::{
     BearingTorque, Conductance, ElementsShare, Heat, HeatLink, HeatNode, HeatSource, OilFlow,

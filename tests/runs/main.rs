@@ -11,6 +11,7 @@ mod nu2310;
 mod outer_ring;
 mod profile;
 mod promises;
+mod roller_sizes;
 mod sim;
 mod snapshots;
 mod started;

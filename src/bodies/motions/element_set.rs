@@ -8,8 +8,10 @@ use std::f64::consts::TAU;
 #[derive(Clone, Debug)]
 pub(crate) struct ElementSet {
     pub(crate) count: usize,
-    /// Radius of one, m.
+    /// Nominal radius R_b of one, m.
     pub(crate) radius: f64,
+    /// How much larger each is, m.
+    pub(crate) radius_excess: Vec<f64>,
     /// Radius of the circle of their centres, m.
     pub(crate) pitch_radius: f64,
     /// Angle from which the travel of each element counts, and of its pocket in the cage, rad.
@@ -30,7 +32,9 @@ impl ElementSet {
             column
         };
         let directions = [column(math::sin), column(math::cos)];
+        let deviations = scene.rollers.as_ref().and_then(|rollers| rollers.radius_deviations.as_ref());
+        let radius_excess = deviations.map_or_else(|| vec![0.0; count], |list| list.of_each(count));
         let (radius, pitch_radius) = (scene.element_radius(), scene.pitch_radius());
-        Self { count, radius, pitch_radius, reference_angles, directions }
+        Self { count, radius, radius_excess, pitch_radius, reference_angles, directions }
     }
 }

@@ -22,11 +22,18 @@ pub(crate) struct ElementMotion<T> {
     pub(crate) orbit_speed: T,
     /// Spin speed w_b, rad/s.
     pub(crate) spin_speed: T,
+    /// How much larger its radius is than the nominal R_b, m; it never changes.
+    pub(crate) radius_excess: T,
 }
 
 impl ElementMotion<Lanes> {
-    const ZERO: Self =
-        Self { radial_offset: ZEROS, radial_speed: ZEROS, orbit_speed: ZEROS, spin_speed: ZEROS };
+    const ZERO: Self = Self {
+        radial_offset: ZEROS,
+        radial_speed: ZEROS,
+        orbit_speed: ZEROS,
+        spin_speed: ZEROS,
+        radius_excess: ZEROS,
+    };
 
     /// Motion at a place of the lanes.
     #[inline(always)]
@@ -37,6 +44,7 @@ impl ElementMotion<Lanes> {
             radial_speed: self.radial_speed[i],
             orbit_speed: self.orbit_speed[i],
             spin_speed: self.spin_speed[i],
+            radius_excess: self.radius_excess[i],
         }
     }
 
@@ -48,6 +56,7 @@ impl ElementMotion<Lanes> {
             radial_speed: Pack::load(simd, &self.radial_speed[lane..]),
             orbit_speed: Pack::load(simd, &self.orbit_speed[lane..]),
             spin_speed: Pack::load(simd, &self.spin_speed[lane..]),
+            radius_excess: Pack::load(simd, &self.radius_excess[lane..]),
         }
     }
 }
@@ -129,11 +138,16 @@ pub(crate) struct Motions {
 impl Motions {
     /// Memory for the motion of these elements and of a cage with so many modes.
     pub(crate) fn new(set: &ElementSet, modes: usize) -> Self {
+        let mut blocks = vec![ElementBlock::ZERO; blocks_for(set.count)];
+        for (j, excess) in set.radius_excess.iter().enumerate() {
+            let (block, lane) = place_of(j);
+            blocks[block].motion.radius_excess[lane] = *excess;
+        }
         Self {
             shared: [Motion::default(); SHARED],
             modes: [vec![0.0; modes], vec![0.0; modes]],
             displaced: vec![[[ZEROS; 2]; 2]; if modes > 0 { blocks_for(set.count) } else { 0 }],
-            blocks: vec![ElementBlock::ZERO; blocks_for(set.count)],
+            blocks,
             count: set.count,
             together: None,
             pitch_radius: set.pitch_radius,

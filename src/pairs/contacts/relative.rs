@@ -68,7 +68,7 @@ pub(in crate::pairs) trait Kinematics: ElementPair {
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub(crate) struct RelativeSlopes {
-    element: [Lanes; 4],
+    element: [Lanes; 5],
     travel: Lanes,
     contact: Lanes,
     displaced: [[Lanes; 2]; 2],
@@ -78,7 +78,7 @@ pub(crate) struct RelativeSlopes {
 impl RelativeSlopes {
     pub(crate) fn new() -> Self {
         Self {
-            element: [ZEROS; 4],
+            element: [ZEROS; 5],
             travel: ZEROS,
             contact: ZEROS,
             displaced: [[ZEROS; 2]; 2],
@@ -205,6 +205,7 @@ impl<P: Kinematics> Chain<'_, '_, P> {
             element[1][lane] = m.radial_speed[from];
             element[2][lane] = m.orbit_speed[from];
             element[3][lane] = m.spin_speed[from];
+            element[4][lane] = m.radius_excess[from];
             travel[lane] = self.motions.travel(site.element);
             if self.deforms {
                 let displacement = self.motions.displacement(site.element);
@@ -224,12 +225,13 @@ impl<P: Kinematics> Chain<'_, '_, P> {
         let load = |column: &Lanes| Pack::<S, K>::load(simd, &column[lane..]);
         let all = |x: f64| Pack::<S, K>::all(simd, x);
         let frame = frame.load::<S, K>(simd, lane);
-        let [offset, radial_speed, orbit_speed, spin_speed] = &self.memory.element;
+        let [offset, radial_speed, orbit_speed, spin_speed, radius_excess] = &self.memory.element;
         let element = ElementMotion {
             radial_offset: load(offset),
             radial_speed: load(radial_speed),
             orbit_speed: load(orbit_speed),
             spin_speed: load(spin_speed),
+            radius_excess: load(radius_excess),
         };
         let mate = &self.motions.shared[self.mate];
         let mate = Motion {

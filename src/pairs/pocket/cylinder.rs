@@ -58,8 +58,10 @@ impl PocketShape for CylinderPocket {
     }
 
     #[inline(always)]
-    fn apart<T: Numeric>(&self, [a, b]: [T; 2]) -> T::Mask {
-        (a * a + b * b).below(self.clearance * self.clearance)
+    fn apart<T: Numeric>(&self, [a, b]: [T; 2], excess: T) -> T::Mask {
+        let clearance = -excess + self.clearance;
+        let clearance = clearance.base();
+        (a * a + b * b).base().less(clearance * clearance)
     }
 
     #[inline(always)]
@@ -76,7 +78,7 @@ impl PocketShape for CylinderPocket {
         let (mut delta, mut normal, mut edge_share) = (square, [zero; 2], zero);
         if T::Base::any(within) {
             let distance = square.sqrt();
-            delta = T::select(within, distance - self.clearance, delta);
+            delta = T::select(within, distance - self.clearance + m.radius_excess, delta);
             normal = [radial / distance, across / distance];
             let (along, up) = at_angle(self.blend);
             let fading = along.less(up);
@@ -88,15 +90,16 @@ impl PocketShape for CylinderPocket {
         }
         if T::Base::any(beyond) {
             let (sin, cos) = self.edge;
-            let radius = self.place.element_radius;
-            let pocket_radius = radius + self.clearance;
+            let pocket_radius = self.place.element_radius + self.clearance;
+            let radius = m.radius_excess + self.place.element_radius;
+            let clearance = -m.radius_excess + self.clearance;
             let edge_height = pocket_radius * sin;
             let edge_height = T::select(radial.below(0.0), zero.like(-edge_height), zero.like(edge_height));
             let edge_along = pocket_radius * cos;
             // R_b - |d - R_p e| without the difference of two radii.
             let inside = (radial * edge_height + towards * edge_along) * 2.0
                 - square
-                - self.clearance * (radius + pocket_radius);
+                - clearance * (radius + pocket_radius);
             delta = T::select(beyond, inside, delta);
             if T::Base::any(inside.above(0.0) & beyond) {
                 let to_edge = [edge_height - radial, -towards + edge_along];
@@ -151,7 +154,7 @@ mod tests {
     }
 
     fn at(offset: [f64; 2]) -> PocketMotion<f64> {
-        PocketMotion { offset, velocity: [0.1, -0.2], spin: 800.0 }
+        PocketMotion { offset, velocity: [0.1, -0.2], spin: 800.0, radius_excess: 0.0 }
     }
 
     #[test]
@@ -201,11 +204,33 @@ mod tests {
     }
 
     #[test]
+    fn a_larger_element_is_one_in_a_tighter_pocket_of_the_same_wall() {
+        let excess = 0.02e-3;
+        let place = PocketPlace { pitch_radius: 0.04, element_radius: 0.0075 + excess };
+        let tighter = CylinderPocket::new(place, 0.15e-3 - excess, 0.436, 0.02);
+        for i in 0..100 {
+            let phi = i as f64 * 0.0628;
+            let m = at([0.16e-3 * phi.sin(), 0.16e-3 * phi.cos()]);
+            let larger = PocketMotion { radius_excess: excess, ..m };
+            for front in [true, false] {
+                let (a, b) = (pocket().pillar(front, &larger), tighter.pillar(front, &m));
+                assert!((a.motion.delta - b.motion.delta).abs() < 1e-17, "{phi}");
+                assert!((a.motion.u1 - b.motion.u1).abs() < 1e-13);
+                assert!(
+                    (a.normal[0] - b.normal[0]).abs() < 1e-12 && (a.edge_share - b.edge_share).abs() < 1e-9
+                );
+            }
+            assert!(!pocket().apart(m.offset, excess));
+            assert!(pocket().apart(at([0.129e-3 * phi.sin(), 0.129e-3 * phi.cos()]).offset, excess));
+        }
+    }
+
+    #[test]
     fn nothing_touches_within_the_clearance() {
         for i in 0..100 {
             let phi = i as f64 * 0.0628;
             let m = at([0.1499e-3 * phi.sin(), 0.1499e-3 * phi.cos()]);
-            assert!(pocket().apart(m.offset));
+            assert!(pocket().apart(m.offset, 0.0));
             assert!([true, false].iter().all(|front| pocket().pillar(*front, &m).motion.delta < 0.0));
         }
     }

@@ -17,7 +17,7 @@ use std::fmt::Debug;
 pub struct PocketPlace {
     /// Radius of the circle of pocket centres, m.
     pub pitch_radius: f64,
-    /// R_b, m.
+    /// Nominal R_b, m.
     pub element_radius: f64,
 }
 
@@ -39,6 +39,8 @@ pub struct PocketMotion<T> {
     pub velocity: [T; 2],
     /// Spin of the roller relative to the cage, rad/s.
     pub spin: T,
+    /// How much larger its radius is than R_b, m.
+    pub radius_excess: T,
 }
 
 impl<T: Numeric> PocketMotion<T> {
@@ -95,6 +97,7 @@ impl PocketPlace {
             offset,
             velocity: [v[0] - carried[0], v[1] - carried[1]],
             spin: roller.spin_speed - cage_speed,
+            radius_excess: roller.radius_excess,
         }
     }
 
@@ -108,7 +111,8 @@ impl PocketPlace {
         edge_share: T,
     ) -> PillarContact<T> {
         let tangent = [-normal[1], normal[0]];
-        let sliding = m.velocity[0] * tangent[0] + m.velocity[1] * tangent[1] + m.spin * self.element_radius;
+        let radius = m.radius_excess + self.element_radius;
+        let sliding = m.velocity[0] * tangent[0] + m.velocity[1] * tangent[1] + m.spin * radius;
         let motion = ContactMotion {
             delta,
             delta_dot: m.velocity[0] * normal[0] + m.velocity[1] * normal[1],
@@ -118,19 +122,17 @@ impl PocketPlace {
         PillarContact { motion, normal, edge_share }
     }
 
-    /// Levers of a contact of an element that is ahead of its pocket by `lead` and at `offset` (m) there.
+    /// Levers of a contact of an element, larger by `excess` (m), that is ahead of its pocket by `lead` and at `offset` (m) there.
     #[inline(always)]
-    pub fn grip<T: Numeric>(&self, offset: [T; 2], normal: [T; 2], lead: Frame<T>) -> Grip<T> {
-        Grip::at_point(normal, offset[0].like(self.element_radius), self.lever(offset, normal), lead)
+    pub fn grip<T: Numeric>(&self, offset: [T; 2], excess: T, normal: [T; 2], lead: Frame<T>) -> Grip<T> {
+        let radius = excess + self.element_radius;
+        Grip::at_point(normal, radius, self.lever(offset, radius, normal), lead)
     }
 
     /// Contact point relative to the cage centre, m.
     #[inline(always)]
-    pub fn lever<T: Numeric>(&self, offset: [T; 2], normal: [T; 2]) -> [T; 2] {
-        [
-            offset[0] + self.pitch_radius + normal[0] * self.element_radius,
-            offset[1] + normal[1] * self.element_radius,
-        ]
+    fn lever<T: Numeric>(&self, offset: [T; 2], radius: T, normal: [T; 2]) -> [T; 2] {
+        [offset[0] + self.pitch_radius + normal[0] * radius, offset[1] + normal[1] * radius]
     }
 }
 
@@ -142,8 +144,8 @@ pub(super) trait PocketShape: Debug + Send + Sync {
     /// Clearance on each side of a centred element, m.
     fn clearance(&self) -> f64;
 
-    /// True when no pillar can touch an element at `offset` (m).
-    fn apart<T: Numeric>(&self, offset: [T; 2]) -> T::Mask;
+    /// True when no pillar can touch an element, larger by `excess` (m), at `offset` (m).
+    fn apart<T: Numeric>(&self, offset: [T; 2], excess: T) -> T::Mask;
 
     /// The contact with the front pillar where `front` is true, with the back one elsewhere. They touch where the approach is
     /// above zero.

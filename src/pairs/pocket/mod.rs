@@ -91,7 +91,7 @@ impl<S: PocketShape> ElementPair for Pockets<S> {
                     if motion.delta <= 0.0 {
                         continue;
                     }
-                    let grip = place.grip(offset, normal, lead);
+                    let grip = place.grip(offset, relative.radius_excess, normal, lead);
                     touching.push(first + lane, side as usize, &grip, edge_share, &motion);
                 }
             }
@@ -155,6 +155,7 @@ impl<P: PocketShape> Kinematics for Pockets<P> {
                 varied(m.velocity[1], [zero, zero, sin, cos, zero]),
             ],
             spin: varied(m.spin, [zero, zero, zero, zero, one]),
+            radius_excess: Varied::lift(m.radius_excess),
         };
         // Levers are those of the contact point from the centre of the cage, wherever the pocket is.
         let offset = m.offset;
@@ -165,7 +166,11 @@ impl<P: PocketShape> Kinematics for Pockets<P> {
         let front = at.contact.below(0.5);
         let PillarContact { motion, normal, edge_share } = self.shape.pillar(front, &m);
         let lead = Frame { sin: Varied::lift(sin), cos: Varied::lift(cos) };
-        VariedContact { motion, edge_share: Some(edge_share), grip: place.grip(offset, normal, lead) }
+        VariedContact {
+            motion,
+            edge_share: Some(edge_share),
+            grip: place.grip(offset, m.radius_excess, normal, lead),
+        }
     }
 }
 
@@ -195,15 +200,16 @@ impl<P: PocketShape> Columns for Offsets<'_, P> {
         };
         let (frame, turned) = (of_elements.frame.load(simd, at), Frame { sin, cos });
         let centre = turned.to_global(frame.to_local([all(cage.position[0]), all(cage.position[1])]));
-        let radial_offset = Pack::load(simd, &of_elements.motion.radial_offset[at..]);
+        let [radial_offset, excess] = [&of_elements.motion.radial_offset, &of_elements.motion.radius_excess]
+            .map(|column| Pack::load(simd, &column[at..]));
         let [along, across] = self.place.offset(radial_offset, turned, centre);
         let Found { lead, offset, near, any_near, .. } = &mut self.found[block];
         lead.store(at, turned);
         let apart = match self.motions.displaced.get(block) {
-            None => self.shape.apart([along, across]),
+            None => self.shape.apart([along, across], excess),
             Some([[outwards, ahead], _]) => {
                 let moved = [outwards, ahead].map(|x| Pack::load(simd, &x[at..]));
-                self.shape.apart([along - moved[0], across - moved[1]])
+                self.shape.apart([along - moved[0], across - moved[1]], excess)
             }
         };
         let touching = Pack::select(apart, all(0.0), all(1.0));

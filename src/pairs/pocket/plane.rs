@@ -39,15 +39,15 @@ impl PocketShape for PlanePocket {
     }
 
     #[inline(always)]
-    fn apart<T: Numeric>(&self, [_, along]: [T; 2]) -> T::Mask {
-        along.abs().below(self.clearance)
+    fn apart<T: Numeric>(&self, [_, along]: [T; 2], excess: T) -> T::Mask {
+        (along.abs() + excess).below(self.clearance)
     }
 
     #[inline(always)]
     fn pillar<T: Numeric>(&self, front: T::Mask, m: &PocketMotion<T>) -> PillarContact<T> {
         let [_, along] = m.offset;
         let zero = along.like(0.0);
-        let delta = T::select(front, along, -along) - self.clearance;
+        let delta = T::select(front, along, -along) - self.clearance + m.radius_excess;
         let normal = [zero, T::select(front, along.like(1.0), along.like(-1.0))];
         self.place.contact(m, delta, normal, zero)
     }
@@ -101,7 +101,7 @@ fn longest_step(shape: &PlanePocket, law: &ContactLaw, ahead: &Ahead<'_>) -> f64
         let [[_, moved], [_, moving]] = ahead.displacement(j);
         let offset = pitch * (angle - cage.angle) - (place[1] * x - place[0] * y) - moved;
         let approach = pitch * (orbit - cage.speed) - (speed[1] * x - speed[0] * y) - moving;
-        let rest = shape.clearance - offset * approach.signum();
+        let rest = shape.clearance - set.radius_excess[j] - offset * approach.signum();
         if rest > 0.0 && rest <= approach.abs() * ahead.wanted {
             longest = longest.min(rest / approach.abs() + pass.time(approach.abs()));
         }
@@ -119,7 +119,12 @@ mod tests {
     #[test]
     fn walls_are_flat_and_face_each_other() {
         for radial in [-0.3e-3, 0.0, 0.2e-3] {
-            let m = |s: f64| PocketMotion { offset: [radial, s], velocity: [0.3, 0.2], spin: -1500.0 };
+            let m = |s: f64| PocketMotion {
+                offset: [radial, s],
+                velocity: [0.3, 0.2],
+                spin: -1500.0,
+                radius_excess: 0.0,
+            };
             let front = P.pillar(true, &m(0.251e-3));
             assert!((front.motion.delta - 1e-6).abs() < 1e-18);
             assert_eq!(front.normal, [0.0, 1.0]);
@@ -129,7 +134,7 @@ mod tests {
             let back = P.pillar(false, &m(-0.252e-3));
             assert!((back.motion.delta - 2e-6).abs() < 1e-18);
             assert_eq!(back.motion.delta_dot, -0.2);
-            assert!(P.apart([radial, 0.249e-3]) && P.pillar(true, &m(0.249e-3)).motion.delta < 0.0);
+            assert!(P.apart([radial, 0.249e-3], 0.0) && P.pillar(true, &m(0.249e-3)).motion.delta < 0.0);
         }
     }
 }

@@ -9,7 +9,7 @@
 //! inner gap = gap_0 + rho + (d - r),   d - r = (|x|^2 - 2 r x_r)/(d + r)
 //! ```
 //!
-//! with x the centre of the inner ring, x_r its component along the roller's radius and d its distance from the
+//! each less what the radius of the roller exceeds the nominal R_b, with x the centre of the inner ring, x_r its component along the roller's radius and d its distance from the
 //! roller centre. Local frame: (radial, circumferential) at the roller.
 //!
 //! Surface speeds are relative to the contact point, which moves with the line of centres:
@@ -36,7 +36,7 @@ pub struct RingMotion<T> {
 pub struct RacewayGeometry {
     /// r_p, radius of the pitch circle: mean of the raceway radii, m.
     pub pitch_radius: f64,
-    /// R_b, m.
+    /// Nominal R_b, m.
     pub roller_radius: f64,
     /// Gap of a roller on the pitch circle to either raceway with the inner ring centred, m.
     pub gap: f64,
@@ -57,10 +57,11 @@ impl RacewayGeometry {
     /// Motion and levers of the contact with the outer raceway; the outer ring is centred and turns at this speed in rad/s.
     #[inline(always)]
     pub fn outer<T: Numeric>(&self, roller: &ElementMotion<T>, ring_speed: T) -> (ContactMotion<T>, Grip<T>) {
-        let arm_1 = roller.radial_offset.like(self.roller_radius);
-        let arm_2 = -(roller.radial_offset + (self.pitch_radius + self.roller_radius));
+        let arm_1 = roller.radius_excess + self.roller_radius;
+        let to_contact = roller.radial_offset + (self.pitch_radius + self.roller_radius);
+        let arm_2 = -(to_contact + roller.radius_excess);
         let motion = ContactMotion {
-            delta: roller.radial_offset - self.gap,
+            delta: roller.radial_offset - self.gap + roller.radius_excess,
             delta_dot: roller.radial_speed,
             u1: arm_1 * (roller.spin_speed - roller.orbit_speed),
             // In this order a ring at rest changes no bit.
@@ -81,14 +82,14 @@ impl RacewayGeometry {
         let to_ring = [ring.position[0] - r, ring.position[1]];
         let d = (to_ring[0] * to_ring[0] + to_ring[1] * to_ring[1]).sqrt();
         let normal = [to_ring[0] / d, to_ring[1] / d];
-        let arm_1 = d.like(self.roller_radius);
-        let arm_2 = d - self.roller_radius;
+        let arm_1 = roller.radius_excess + self.roller_radius;
+        let arm_2 = d - arm_1;
         let grip = Grip::centred(normal, arm_1, arm_2);
         let tangent = grip.tangent();
         let relative = [ring.velocity[0] - roller.radial_speed, ring.velocity[1] - r * roller.orbit_speed];
         let turning = (relative[0] * tangent[0] + relative[1] * tangent[1]) / d;
         let motion = ContactMotion {
-            delta: -(roller.radial_offset + self.gap + shift(r, d, ring.position)),
+            delta: roller.radius_excess - (roller.radial_offset + self.gap + shift(r, d, ring.position)),
             delta_dot: -(relative[0] * normal[0] + relative[1] * normal[1]),
             u1: arm_1 * (roller.spin_speed - turning),
             u2: -(arm_2 * (ring.speed - turning)),
@@ -123,8 +124,7 @@ mod tests {
         let w_i = -314.0;
         let orbit = w_i * r_i / (r_i + r_o);
         let spin = -orbit * 0.03999 / 0.0075;
-        let roller =
-            ElementMotion { radial_offset: 0.0, radial_speed: 0.0, orbit_speed: orbit, spin_speed: spin };
+        let roller = ElementMotion { orbit_speed: orbit, spin_speed: spin, ..ElementMotion::default() };
         let ring = RingMotion { position: [0.0; 2], velocity: [0.0; 2], speed: w_i };
         let (outer, _) = G.outer(&roller, 0.0);
         let (inner, frame) = G.inner(&roller, &ring);
@@ -157,9 +157,38 @@ mod tests {
     }
 
     #[test]
+    fn a_larger_roller_is_one_in_larger_raceways() {
+        let excess = 3e-6;
+        let roller = ElementMotion {
+            radial_offset: 2e-6,
+            radial_speed: 0.01,
+            orbit_speed: -120.0,
+            spin_speed: 700.0,
+            radius_excess: excess,
+        };
+        let nominal = ElementMotion { radius_excess: 0.0, ..roller };
+        let larger = RacewayGeometry { roller_radius: G.roller_radius + excess, gap: G.gap - excess, ..G };
+        let ring = RingMotion { position: [8e-6, -1.5e-5], velocity: [0.02, -0.03], speed: -314.0 };
+        let pairs = [
+            (G.outer(&roller, 11.0), larger.outer(&nominal, 11.0)),
+            (G.inner(&roller, &ring), larger.inner(&nominal, &ring)),
+        ];
+        for ((a, grip), (b, other)) in pairs {
+            assert!((a.delta - b.delta).abs() < 1e-19 && a.delta_dot == b.delta_dot);
+            assert!((a.u1 - b.u1).abs() < 1e-13 && (a.u2 - b.u2).abs() < 1e-13);
+            assert!((grip.arm - other.arm).abs() < 1e-17 && grip.normal == other.normal);
+        }
+    }
+
+    #[test]
     fn approach_speed_is_the_derivative_of_approach() {
-        let roller =
-            ElementMotion { radial_offset: 2e-6, radial_speed: 0.01, orbit_speed: -120.0, spin_speed: 700.0 };
+        let roller = ElementMotion {
+            radial_offset: 2e-6,
+            radial_speed: 0.01,
+            orbit_speed: -120.0,
+            spin_speed: 700.0,
+            radius_excess: 0.0,
+        };
         let ring = RingMotion { position: [8e-6, -1.5e-5], velocity: [0.02, -0.03], speed: -314.0 };
         let (motion, frame) = G.inner(&roller, &ring);
         let h = 1e-9;

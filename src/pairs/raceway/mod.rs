@@ -131,6 +131,7 @@ impl Kinematics for Raceway {
         let (zero, one) = (r.splat(0.0), r.splat(1.0));
         let varied = |re: B, eps: [B; 5]| Varied { re, eps };
         let spin_speed = varied(m.spin_speed, [zero, zero, zero, zero, one]);
+        let radius_excess = Varied::lift(m.radius_excess);
         let turning = mate.speed;
         if self.ring.mate == OUTER_RING {
             // The roller moves in the polar coordinates of the ring, whose axes turn with it.
@@ -141,6 +142,7 @@ impl Kinematics for Raceway {
                 radial_speed: varied(m.radial_speed, [zero, turn * across - turning, one, zero, zero]),
                 orbit_speed: across_speed / varied(r, [one, zero, zero, zero, zero]),
                 spin_speed,
+                radius_excess,
             };
             let (motion, mut grip) = self.geometry.outer(&roller, Varied::lift(turning));
             grip.normal[1] = varied(zero, [zero, turn, zero, zero, zero]);
@@ -151,6 +153,7 @@ impl Kinematics for Raceway {
             radial_speed: Varied::lift(m.radial_speed),
             orbit_speed: Varied::lift(m.orbit_speed),
             spin_speed,
+            radius_excess,
         };
         let ring = RingMotion {
             position: [

@@ -84,8 +84,8 @@ impl Scene {
         let Some(Pocket::LubricatedCylinder(pocket)) = self.cage.as_ref()?.pocket.as_ref() else {
             return None;
         };
-        let element = self.element_radius();
-        let radius = element + pocket.radial_clearance;
+        let element = self.element_radius() + self.largest_deviation();
+        let radius = self.element_radius() + pocket.radial_clearance;
         let edge = radius * math::sin(pocket.half_angle);
         let discriminant = edge * edge - (radius * radius - element * element);
         (discriminant > 0.0).then(|| edge - discriminant.sqrt())

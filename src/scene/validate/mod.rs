@@ -13,6 +13,7 @@ mod judge;
 mod lubricant;
 mod plausible;
 mod profile;
+mod sizes;
 
 pub(crate) use cage::TORQUE;
 pub(in crate::scene) use judge::{Judge, is_at_or_below};
@@ -168,6 +169,7 @@ impl Scene {
         let ring = r.mass * r.radius * r.radius;
         fitting_mass(judge, "rollers.mass", r.mass, r.inertia, [0.2 * ring, 1.1 * ring])?;
         judge.number("rollers.inertia", r.inertia, range(0.2 * ring, 1.1 * ring, "kg m^2"))?;
+        self.validate_sizes(judge, r)?;
         self.material_exists(judge, "rollers.material", &r.material)?;
         let missing = |path: &str| bad(path, "missing; 'rollers' need it");
         let outer = self.outer_ring.as_ref().ok_or_else(|| missing("outer_ring"))?;

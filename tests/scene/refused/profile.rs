@@ -87,5 +87,32 @@ pub fn rows() -> Vec<Row> {
             "raceways.slices",
             &["1 is not within 2 to 32"],
         ),
+        rollers().scene(
+            "too few deviations of radii",
+            &[("rollers.radius_deviations", json!({"each": [1e-6, 0.0]}))],
+            "rollers.radius_deviations.each",
+            &["2 numbers for 12 rollers"],
+        ),
+        rollers().scene(
+            "roller that does not fit its pocket",
+            &[("rollers.radius_deviations", json!({"groups": [{"rollers": [3], "deviation": 3e-4}]}))],
+            "rollers.radius_deviations.groups.0.deviation",
+            &["0.0003 m", "-7.5e-5 to 7.5e-5 m"],
+        ),
+        rollers().scene(
+            "deviation of a roller that is not there",
+            &[("rollers.radius_deviations", json!({"groups": [{"rollers": [3, 12], "deviation": 1e-6}]}))],
+            "rollers.radius_deviations.groups.0.rollers.1",
+            &["no roller 12", "0 to 11"],
+        ),
+        rollers().scene(
+            "two deviations of one roller",
+            &[(
+                "rollers.radius_deviations",
+                json!({"groups": [{"rollers": [3], "deviation": 1e-6}, {"rollers": [1, 3], "deviation": 2e-6}]}),
+            )],
+            "rollers.radius_deviations.groups.1.rollers.1",
+            &["roller 3", "twice"],
+        ),
     ]
 }
