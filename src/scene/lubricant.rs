@@ -7,7 +7,11 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
+#[cfg_attr(feature = "schema", schemars(transform = filled_by_catalogue))]
 pub struct Lubricant {
+    /// Name of an oil in the catalogue, whose values stand where this block gives none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub catalogue: Option<String>,
     /// Dynamic viscosity eta0 at ambient pressure.
     pub viscosity: Viscosity,
     /// Pressure-viscosity coefficient alpha, 1/Pa. Needed by contact films, traction, rolling resistance and lubricant
@@ -36,6 +40,12 @@ pub struct Lubricant {
     pub grease: Option<Grease>,
 }
 
+/// What the catalogue may give is not required.
+#[cfg(feature = "schema")]
+fn filled_by_catalogue(schema: &mut schemars::Schema) {
+    schema.remove("required");
+}
+
 /// Viscosity at inlet temperature and ambient pressure.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -51,6 +61,7 @@ pub enum Viscosity {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
+#[cfg_attr(feature = "schema", schemars(transform = filled_by_catalogue))]
 pub struct WaltherViscosity {
     /// First point.
     pub cold: ViscosityPoint,

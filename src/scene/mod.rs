@@ -5,6 +5,7 @@
 
 mod cage;
 mod cases;
+mod catalogue;
 mod check;
 mod contact_laws;
 mod elastic_ring;
@@ -24,6 +25,7 @@ pub use cage::{
     PlanePocket, Pocket, PressureShear, RoundnessHarmonic, ShortBearingFilm, SolidContact,
 };
 pub use cases::{CASES_SCHEMA, Case, CaseSet};
+pub use catalogue::catalogue;
 pub(crate) use check::{bad as bad_scene, needed};
 pub use contact_laws::{
     BoundaryFriction, ContactDamping, ContactLaws, Extent, FilmLaw, Raceways, RollingLaw, RollingResistance,
@@ -71,7 +73,7 @@ pub struct Scene {
     /// Acceleration of gravity, m/s^2. Absent: no gravity.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gravity: Option<PlaneVector>,
-    /// Materials by name.
+    /// Materials by name, beside those of the catalogue.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub materials: BTreeMap<String, Material>,
     /// The lubricant. Needed by films, traction, rolling resistance and lubricated guides.
@@ -188,7 +190,7 @@ impl Scene {
     /// As [`Scene::from_json`].
     pub fn from_value(value: &serde_json::Value) -> Result<Self> {
         Self::refuse_other_formats(value)?;
-        let scene: Self = typed(value)?;
+        let scene: Self = typed(catalogue::filled(value)?.as_ref())?;
         scene.validate()?;
         Ok(scene)
     }

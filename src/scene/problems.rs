@@ -3,7 +3,7 @@
 
 use super::json::{Complaint, PICKS, UNKNOWN_TEXT, Unknown, typed_beside};
 use super::validate::{Judge, is_at_or_below};
-use super::{Material, Scene, ThermalMaterial};
+use super::{Material, Scene, ThermalMaterial, catalogue};
 use crate::error::{Error, Result};
 use serde_json::Value;
 
@@ -193,7 +193,9 @@ impl Scene {
     /// Everything that is wrong with a scene. `more` checks what the scene itself cannot, of a scene that has NaN for what is
     /// unknown; it is told whether nothing of that kind is left.
     pub(crate) fn problems(value: &Value, more: &dyn Fn(&Scene, bool) -> Result<()>) -> Vec<Found> {
-        all(value, &|doubts: &Doubts, pick| {
+        let (value, unknown_oil) = catalogue::filled_and_found(value);
+        let value = value.as_ref();
+        let found = all(value, &|doubts: &Doubts, pick| {
             Self::refuse_other_formats(value)?;
             let mut scene: Self = typed_beside(value, &doubts.unknown, pick)?;
             let judge = Judge::beside(&doubts.paths);
@@ -209,7 +211,8 @@ impl Scene {
                 more(&scene, doubts.paths.iter().all(only_names))?;
             }
             Ok(())
-        })
+        });
+        unknown_oil.into_iter().chain(found).collect()
     }
 }
 

@@ -1,6 +1,7 @@
 //! The command line program: files, exit codes, messages, interruption.
 #![cfg(feature = "cli")]
 
+use serde_json::{Value, json};
 use std::path::Path;
 use std::process::{Command, Output};
 use std::time::{Duration, Instant};
@@ -289,6 +290,56 @@ fn cases_with_prescribed_elements_compare_their_whirl() {
     let svg = std::fs::read_to_string(at("out/whirl_speed.svg")).expect("a picture");
     assert!(svg.contains("whirl speed [rad/s]") && !svg.contains("NaN"));
     assert!(!at("out/cage_positions.svg").exists());
+}
+
+#[test]
+fn the_catalogue_is_listed_and_its_entries_run() {
+    let list = text(&run(&["catalogue"]).stdout);
+    // The page has the same list.
+    let page = crate::common::read("docs/scene/catalogue.md");
+    assert!(page.contains(&format!("```text\n{list}```")), "{list}");
+    let entry = text(&run(&["catalogue", "fva_3"]).stdout);
+    assert!(entry.contains("pressure_viscosity 2.24e-8") && entry.contains("Lubricants 2023"), "{entry}");
+    let all: serde_json::Value = serde_json::from_slice(&run(&["catalogue", "--json"]).stdout).unwrap();
+    assert_eq!(all["materials"]["steel_100cr6"]["values"]["young_modulus"], 210e9);
+    let unknown = run(&["catalogue", "butter"]);
+    assert!(!unknown.status.success() && text(&unknown.stderr).contains("iso_vg_46"));
+
+    // A scene with nothing but names, in which one is replaced.
+    let warm =
+        json!({"catalogue": "iso_vg_68", "viscosity": {"walther": {"temperature": {"over_time": 333.15}}}});
+    let mut scene = crate::common::example_with(&[
+        ("materials", Value::Null),
+        ("lubricant", warm),
+        ("rollers.material", json!("steel_100cr6")),
+        ("outer_ring.material", json!("steel_100cr6")),
+        ("inner_ring.material", json!("steel_100cr6")),
+        ("cage.material", json!("brass_cuzn39pb3")),
+    ]);
+    scene["record"]["duration"] = json!(0.002);
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("named.json");
+    std::fs::write(&file, scene.to_string()).unwrap();
+    let drag = |changes: &[&str]| {
+        let out = folder.path().join("out");
+        let arguments = ["run", file.to_str().unwrap(), "--out", out.to_str().unwrap(), "--json"];
+        let output = run(&[&arguments[..], changes].concat());
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        let summary: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        summary.to_string()
+    };
+    let [thick, thin] =
+        [&[][..], &["--set", "lubricant.catalogue=iso_vg_10", "--set", "cage.material=pa66_gf33"]].map(drag);
+    assert!(thick != thin);
+    let check = run(&["check", file.to_str().unwrap()]);
+    assert!(check.status.success(), "{}", text(&check.stdout));
+    let wrong = run(&["info", file.to_str().unwrap(), "--set", "cage.material=cheese"]);
+    let message = text(&wrong.stderr);
+    assert!(
+        !wrong.status.success()
+            && message.contains("cage.material: 'cheese'")
+            && message.contains("phenolic_cotton")
+    );
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! `cagedyn`: runs scenes and case sets from the command line and writes tables and pictures of the results.
 
 mod cases;
+mod catalogue;
 mod check;
 mod effects;
 mod heat;
@@ -59,6 +60,8 @@ enum Command {
     Whirl(WhirlArgs),
     /// Show what a scene contains: bodies, states, effects, channels, geometry.
     Info(InfoArgs),
+    /// List the materials and lubricants that scenes can name, or show the values and sources of one.
+    Catalogue(CatalogueArgs),
     /// Print the JSON Schema of a file format.
     Schema(SchemaArgs),
     /// Print a script with which a shell completes commands and options.
@@ -283,6 +286,16 @@ pub struct SchemaArgs {
     format: Format,
 }
 
+/// Arguments of `catalogue`.
+#[derive(Args)]
+pub struct CatalogueArgs {
+    /// Name of an entry. Absent: the list.
+    name: Option<String>,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
 /// Arguments of `completions`.
 #[derive(Args)]
 pub struct CompletionsArgs {
@@ -348,6 +361,7 @@ fn dispatch(command: &Command) -> Result<ExitCode> {
         Command::Check(args) => check::command(args),
         Command::Init(args) => init::command(args),
         Command::Info(args) => info::command(args),
+        Command::Catalogue(args) => catalogue::command(args),
         Command::Schema(args) => schema::command(args),
         Command::Completions(args) => shell::completions(args),
         Command::Man(args) => shell::man(args),

@@ -369,7 +369,11 @@ impl Scene {
         }
         let known: Vec<&str> = self.materials.keys().map(String::as_str).collect();
         let known = if known.is_empty() { "there are none".to_owned() } else { known.join(", ") };
-        judge.refuse(path, format!("'{name}' is not one of the materials ({known})"))
+        let others = catalogue::names("materials").collect::<Vec<&str>>().join(", ");
+        judge.refuse(
+            path,
+            format!("'{name}' is not one of the materials ({known}), nor of the catalogue ({others})"),
+        )
     }
 }
 

@@ -12,6 +12,25 @@ fn fields() -> Vec<Row> {
     let walther = "lubricant.viscosity.walther";
     vec![
         rollers().missing("viscosity missing", viscosity, "lubricant", &["missing field `viscosity`"]),
+        rollers().scene(
+            "oil that there is not",
+            &[("lubricant.catalogue", json!("butter"))],
+            "lubricant.catalogue",
+            &["'butter' is not in the catalogue", "iso_vg_68"],
+        ),
+        rollers().scene(
+            "oil of the catalogue without a temperature",
+            &[("lubricant", json!({"catalogue": "iso_vg_68"}))],
+            "lubricant.viscosity.walther.temperature",
+            &["missing", "'heat'"],
+        ),
+        rollers().json(
+            "number for an oil",
+            "lubricant.catalogue",
+            json!(68),
+            "lubricant.catalogue",
+            &["expected a text, found 68"],
+        ),
         rollers().json(
             "truth value for a viscosity",
             viscosity,
