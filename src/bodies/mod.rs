@@ -263,6 +263,11 @@ pub(crate) trait SharedBody: Debug + Send + Sync {
     /// Largest squared frequency in 1/s^2 that a stiffness of `radial` (N/m) between centre and surroundings, and of `turning`
     /// (N/m) along the circle with the radius `lever` (m), gives the body.
     fn frequency_on(&self, radial: f64, turning: f64, lever: f64) -> f64;
+
+    /// Orders and frequencies (rad/s) of the waves of a body that bends, free and at rest.
+    fn waves(&self) -> Vec<(u32, f64)> {
+        Vec::new()
+    }
 }
 
 /// Displacement, or its rate, of a place that these amplitudes, or their rates, displace by so much each.

@@ -99,6 +99,10 @@ impl SharedBody for VibratingCage {
     fn frequency_on(&self, radial: f64, turning: f64, lever: f64) -> f64 {
         self.cage.frequency_on(radial, turning, lever)
     }
+
+    fn waves(&self) -> Vec<(u32, f64)> {
+        self.cage.waves()
+    }
 }
 
 /// A scene with such a cage.

@@ -8,7 +8,7 @@ use crate::integrate::{Adams, DormandPrince, Leapfrog, Limits, Radau, Rosenbrock
 use crate::model::Model;
 use crate::scene::{Method, Solver};
 
-/// Largest step of methods with error control, unless the scene says otherwise, in units of 1/(highest frequency): half
+/// Largest step of methods with error control, unless the scene says otherwise, in units of 1/(frequency of contacts): half
 /// the time of a contact, so that none is jumped over except by a graze. Not with rollers, whose loaded contacts keep
 /// steps short. And in s: a tenth of a millisecond still sees every roller pass.
 const LARGEST_SHARE: f64 = std::f64::consts::FRAC_PI_2;
@@ -60,7 +60,7 @@ fn bound(solver: &Solver) -> f64 {
 fn largest_step(model: &Model, solver: &Solver) -> f64 {
     solver.max_step.unwrap_or_else(|| match model.has_rollers() {
         true => MAX_STEP,
-        false => (LARGEST_SHARE / model.highest_frequency()).min(MAX_STEP),
+        false => (LARGEST_SHARE / model.contact_frequency()).min(MAX_STEP),
     })
 }
 

@@ -9,6 +9,7 @@ mod common;
 /// Where the judged scenes expect them.
 mod agreement;
 mod bearing;
+mod elastic_and_warm;
 mod guide;
 mod motion;
 mod numbers;
@@ -86,7 +87,7 @@ fn move_cage(sim: &mut Sim, share: f64) {
 
 /// All cases.
 pub fn cases() -> Vec<Case> {
-    bearing::cases().into_iter().chain(guide::cases()).collect()
+    bearing::cases().into_iter().chain(guide::cases()).chain(elastic_and_warm::cases()).collect()
 }
 
 /// The case of this name.

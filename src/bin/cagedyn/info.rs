@@ -187,9 +187,11 @@ fn geometry(model: &Model) -> Vec<Vec<String>> {
     }
     rows.push(row("cage and orbit speed without slip", turning(orbit)));
     rows.push(row(&format!("{kind} spin speed without slip"), turning(spin)));
-    let frequency = model.highest_frequency();
-    let text = format!("{} rad/s ({} Hz)", number(frequency), number(frequency / TAU));
-    rows.push(row("highest contact frequency", text));
+    let vibrating = |frequency: f64| format!("{} rad/s ({} Hz)", number(frequency), number(frequency / TAU));
+    rows.push(row("highest contact frequency", vibrating(model.contact_frequency())));
+    for (order, frequency) in model.ring_waves() {
+        rows.push(row(&format!("wave of order {order} of the free ring of the cage"), vibrating(frequency)));
+    }
     rows
 }
 

@@ -302,8 +302,11 @@ impl SharedBody for Cage {
     }
 
     fn frequency_on(&self, radial: f64, turning: f64, lever: f64) -> f64 {
-        let rigid = turning * (1.0 / self.mass + lever * lever / self.inertia) + radial / self.mass;
-        self.modes.as_ref().map_or(rigid, |modes| rigid.max(modes.highest_square()))
+        turning * (1.0 / self.mass + lever * lever / self.inertia) + radial / self.mass
+    }
+
+    fn waves(&self) -> Vec<(u32, f64)> {
+        self.modes.as_ref().map_or_else(Vec::new, RingModes::frequencies)
     }
 }
 

@@ -258,9 +258,9 @@ impl RingModes {
         self.modes.iter().flat_map(|mode| [mode.damping; 2])
     }
 
-    /// Highest squared frequency of a mode, 1/s^2.
-    pub(super) fn highest_square(&self) -> f64 {
-        self.modes.iter().map(|mode| mode.stiffness / mode.mass).fold(0.0, f64::max)
+    /// Order and frequency (rad/s) of each mode.
+    pub(super) fn frequencies(&self) -> Vec<(u32, f64)> {
+        self.modes.iter().map(|mode| (mode.order, (mode.stiffness / mode.mass).sqrt())).collect()
     }
 }
 

@@ -30,7 +30,7 @@ impl Model {
     /// Highest contact frequency in rad/s at the largest load of the scene: of a roller between two loaded raceways,
     /// or, if one is so light, of the ring on half of the rollers or the cage between all elements or on its guide.
     /// Zero without contacts.
-    pub fn highest_frequency(&self) -> f64 {
+    pub fn contact_frequency(&self) -> f64 {
         let (rollers, pocket_load) = self.roller_frequencies().unwrap_or((0.0, 1.0));
         let cage = self.shared[CAGE].as_ref().map_or(0.0, |cage| {
             let pockets: f64 = self.laws_on(CAGE).map(|law| law.stiffness_at_load(pocket_load)).sum();
@@ -39,6 +39,16 @@ impl Model {
             cage.frequency_on(guide, pockets * self.element_count() as f64, self.pitch_radius())
         });
         rollers.max(cage).sqrt()
+    }
+
+    /// Orders and frequencies in rad/s of the waves of an elastic ring of the cage, free and at rest.
+    pub fn ring_waves(&self) -> Vec<(u32, f64)> {
+        self.shared[CAGE].as_ref().map_or_else(Vec::new, |cage| cage.waves())
+    }
+
+    /// The highest of all: contacts and waves, rad/s.
+    pub fn highest_frequency(&self) -> f64 {
+        self.ring_waves().iter().fold(self.contact_frequency(), |highest, (_, wave)| highest.max(*wave))
     }
 
     /// Laws of the pairs with this shared body.

@@ -91,6 +91,8 @@ fn geometry(model: &Model) -> Value {
     let scene = model.scene();
     let inputs = model.inputs_at(0.0, &HostInputs::default());
     let [orbit, spin] = model.kinematic_speeds(&inputs);
+    let wave = |(order, frequency): (u32, f64)| json!({"order": order, "frequency_rad_s": frequency});
+    let waves: Vec<Value> = model.ring_waves().into_iter().map(wave).collect();
     json!({
         "pitch_radius_m": model.pitch_radius(),
         "element_radius_m": scene.element_radius(),
@@ -102,6 +104,7 @@ fn geometry(model: &Model) -> Value {
         "inner_ring_speed_rad_s": inputs.of(Input::RingSpeed),
         "orbit_speed_without_slip_rad_s": orbit,
         "spin_speed_without_slip_rad_s": spin,
-        "highest_contact_frequency_rad_s": model.highest_frequency(),
+        "highest_contact_frequency_rad_s": model.contact_frequency(),
+        "ring_waves": waves,
     })
 }
