@@ -139,6 +139,7 @@ impl<'a> Sweep<'a> {
         Ok(json!({
             "schema": "cagedyn.sweep/2",
             "version": env!("CARGO_PKG_VERSION"),
+            "build": env!("CAGEDYN_BUILD"),
             "scene": scene,
             "set": self.sets(),
             "vary": self.args.vary.iter().map(|one| &one.given).collect::<Vec<_>>(),

@@ -57,8 +57,8 @@ tuning! {
     /// Steps that are judged together, at most. More would lose more work where they are wrong; fewer, more evaluations of
     /// their energy.
     longest_stretch: usize = 32, "steps";
-    /// Share of what a preset may miss of its energy that one stretch and the run so far may miss: what is left is for the
-    /// stretches to come.
+    /// Share of what a preset may miss of its energy, `draft` as much as `engineering`, that one stretch and the run so far may
+    /// miss: what is left is for the stretches to come.
     energy_share: f64 = 0.2, "1";
     /// Less missing energy than this share of the stored one is round-off.
     energy_rounding: f64 = 1e-12, "1";
