@@ -125,13 +125,17 @@ impl StillBearing<'_> {
     /// Position of the ring, m, at which the rollers carry `load` (N): the minimum of the potential energy, found by
     /// Newton steps whose length a Levenberg-Marquardt parameter controls.
     fn equilibrium(&self, load: [f64; 2]) -> Result<[f64; 2]> {
-        let size = math::hypot(load[0], load[1]);
-        if size == 0.0 {
-            return Ok([0.0; 2]);
-        }
-        let reach = (2.0 * self.geometry.gap).max(0.0) + 2.0 * self.laws[1].approach(size);
+        let mut size = math::hypot(load[0], load[1]);
         let mut x = [0.0; 2];
         let mut here = self.ring_balance(x, load);
+        // Rollers of different size press on a ring without a load, too, and what they cancel has a round-off.
+        if self.model.elements.set().radius_excess.iter().any(|excess| *excess != 0.0) {
+            size += here.pressing;
+        }
+        if size == 0.0 {
+            return Ok(x);
+        }
+        let reach = (2.0 * self.geometry.gap).max(0.0) + 2.0 * self.laws[1].approach(size);
         let mut parameter = size / reach;
         for _ in 0..MAX_ITERATIONS {
             let residual = math::hypot(here.force[0], here.force[1]);
@@ -162,12 +166,17 @@ impl StillBearing<'_> {
 
     /// Energy, force and stiffness of the ring at `x` under `load` and all rollers.
     fn ring_balance(&self, x: [f64; 2], load: [f64; 2]) -> RingBalance {
-        let mut sum =
-            RingBalance { energy: -(load[0] * x[0] + load[1] * x[1]), force: load, stiffness: [0.0; 3] };
+        let mut sum = RingBalance {
+            energy: -(load[0] * x[0] + load[1] * x[1]),
+            force: load,
+            pressing: 0.0,
+            stiffness: [0.0; 3],
+        };
         for j in 0..self.model.layout.count {
             let (roller, frame) = self.roller(j, x);
             let [ny, nz] = frame.to_global(roller.normal);
             sum.energy += roller.energy;
+            sum.pressing += roller.load;
             sum.force[0] += roller.load * ny;
             sum.force[1] += roller.load * nz;
             sum.stiffness[0] += roller.stiffness * ny * ny;
@@ -184,7 +193,8 @@ impl StillBearing<'_> {
         (self.roller_balance(frame.to_local(x), elements.set().radius_excess[j]), frame)
     }
 
-    /// Radial equilibrium of a roller whose radius is larger by `excess` (m), with the ring centre at `ring` (m) in its local frame.
+    /// Radial equilibrium of a roller whose radius is larger by `excess` (m), with the ring centre at `ring` (m) in its local
+    /// frame.
     fn roller_balance(&self, ring: [f64; 2], excess: f64) -> RollerBalance {
         let [outer, inner] = self.laws;
         let (g, centrifugal) = (self.geometry, self.centrifugal);
@@ -228,6 +238,8 @@ struct RingBalance {
     energy: f64,
     /// Sum of load and contact forces (y, z), N.
     force: [f64; 2],
+    /// Sum of the magnitudes of contact forces, N.
+    pressing: f64,
     /// Stiffness of the contacts (yy, yz, zz), N/m.
     stiffness: [f64; 3],
 }

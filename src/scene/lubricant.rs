@@ -7,11 +7,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
-#[cfg_attr(feature = "schema", schemars(transform = filled_by_catalogue))]
+#[cfg_attr(feature = "schema", schemars(transform = named_in_catalogue))]
 pub struct Lubricant {
-    /// Name of an oil in the catalogue, whose values stand where this block gives none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub catalogue: Option<String>,
     /// Dynamic viscosity eta0 at ambient pressure.
     pub viscosity: Viscosity,
     /// Pressure-viscosity coefficient alpha, 1/Pa. Needed by contact films, traction, rolling resistance and lubricant
@@ -44,6 +41,16 @@ pub struct Lubricant {
 #[cfg(feature = "schema")]
 fn filled_by_catalogue(schema: &mut schemars::Schema) {
     schema.remove("required");
+}
+
+/// A scene may name an oil instead, which the reader replaces by its values.
+#[cfg(feature = "schema")]
+fn named_in_catalogue(schema: &mut schemars::Schema) {
+    filled_by_catalogue(schema);
+    let text = "Name of an oil in the catalogue, whose values stand where this block gives none.";
+    if let Some(properties) = schema.ensure_object().get_mut("properties") {
+        properties["catalogue"] = serde_json::json!({"description": text, "type": "string"});
+    }
 }
 
 /// Viscosity at inlet temperature and ambient pressure.

@@ -33,9 +33,9 @@ const ENGINEERING: Numbers = Numbers {
     watched_energy: 1e-3,
 };
 
-// With a tolerance of 1e-4 `auto` missed a slow growth of the whirl in one of two thousand random scenes; it saved a tenth of the
-// evaluations of the median one, and two fifths of the time of two hundred together. Stretches that may miss ten times as much as at
-// `engineering` shifted means in four of two thousand; they saved a fifth of the evaluations of the median one.
+// With a tolerance of 1e-4 `auto` missed a slow growth of the whirl in one of two thousand random scenes; it saved a tenth of
+// the evaluations of the median one, and two fifths of the time of two hundred together. Stretches that may miss ten times as
+// much as at `engineering` shifted means in four of two thousand; they saved a fifth of the evaluations of the median one.
 const DRAFT: Numbers = Numbers { leapfrog_step: 1.4, tolerance: 1e-4, missing_energy: 1e-2, ..ENGINEERING };
 
 const REFERENCE: Numbers = Numbers {

@@ -74,7 +74,7 @@ pub fn cases() -> Vec<Case> {
         ),
         case(
             "film at the cold end",
-            "a viscosity law near its end, thirty times as thick as at 40 C",
+            "a viscosity law near its end, a hundred times as thick as at 40 C",
             warm(&[("heat.ambient", json!(255.0)), ("heat.nodes.0.start", json!(255.0))]),
             12.0,
         ),

@@ -320,17 +320,21 @@ fn the_catalogue_is_listed_and_its_entries_run() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("named.json");
     std::fs::write(&file, scene.to_string()).unwrap();
-    let drag = |changes: &[&str]| {
-        let out = folder.path().join("out");
-        let arguments = ["run", file.to_str().unwrap(), "--out", out.to_str().unwrap(), "--json"];
-        let output = run(&[&arguments[..], changes].concat());
+    let out = folder.path().join("out");
+    let ran = run(&["run", file.to_str().unwrap(), "--out", out.to_str().unwrap()]);
+    assert!(ran.status.success(), "{}", text(&ran.stderr));
+    let viscosity = |file: &Path, changes: &[&str]| {
+        let output = run(&[&["info", file.to_str().unwrap(), "--json"][..], changes].concat());
         assert!(output.status.success(), "{}", text(&output.stderr));
-        let summary: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-        summary.to_string()
+        let info: Value = serde_json::from_slice(&output.stdout).unwrap();
+        info["geometry"]["viscosity_pa_s"].as_f64().unwrap()
     };
-    let [thick, thin] =
-        [&[][..], &["--set", "lubricant.catalogue=iso_vg_10", "--set", "cage.material=pa66_gf33"]].map(drag);
-    assert!(thick != thin);
+    let thick = viscosity(&file, &[]);
+    let thin =
+        viscosity(&file, &["--set", "lubricant.catalogue=iso_vg_10", "--set", "cage.material=pa66_gf33"]);
+    assert!(thin < 0.3 * thick, "{thin} {thick} Pa s");
+    // What was run has the values and no name, so that it is the same whatever the catalogue becomes.
+    assert_eq!(viscosity(&out.join("scene_as_run.json"), &[]), thick);
     let check = run(&["check", file.to_str().unwrap()]);
     assert!(check.status.success(), "{}", text(&check.stdout));
     let wrong = run(&["info", file.to_str().unwrap(), "--set", "cage.material=cheese"]);

@@ -195,15 +195,9 @@ type HardRing<'a> = (&'a str, &'a str, Vec<(&'a str, &'a str)>);
 #[test]
 fn hard_rings_finish_or_say_why_not() {
     let layer = "cage.guide.film.lubricant_layer.thickness";
-    let bending = "cage.elastic_ring.stiffness.bending";
     let leapfrog = r#"{"method": {"leapfrog": {"step": 4e-6}}}"#;
-    let cases: [HardRing<'_>; 7] = [
-        ("a ring like rubber", SCENE, vec![(bending, "1e-4")]),
-        ("a layer that floods", SCENE, vec![(layer, "1e-3")]),
-        ("arcs that merge", SCENE, vec![(layer, "180e-6")]),
+    let cases: [HardRing<'_>; 2] = [
         ("a layer thinner than the roughness", SCENE, vec![(layer, "1e-7")]),
-        ("waves beyond any step", SCENE, vec![("cage.elastic_ring.modes", "12"), (bending, "1e4")]),
-        ("no damping", SCENE, vec![("cage.elastic_ring.damping", "0")]),
         ("modes faster than the step of a leapfrog", "nu2310_elastic", vec![("solver", leapfrog)]),
     ];
     for (label, scene, changes) in cases {

@@ -88,6 +88,24 @@ fn a_larger_roller_carries_more_and_its_neighbours_less() {
     assert!(lifted > 1e-6 && lifted < 6e-6, "{lifted} m");
 }
 
+/// A roller that takes more than the play pushes the ring aside until the others across carry it.
+#[test]
+fn a_ring_without_a_load_rests_between_rollers_of_different_size() {
+    let free = [
+        ("inner_ring.motion.free.load", Value::Null),
+        (DEVIATIONS, json!({"groups": [{"rollers": [0], "deviation": 30e-6}]})),
+    ];
+    let mut sim = sim(&still(&free));
+    let state = sim.state().to_vec();
+    let place = |name: &str| sim.model().state_infos().iter().position(|info| info.name == name).unwrap();
+    let [z, fall] = ["inner_ring.z", "inner_ring.vz"].map(place);
+    assert!(state[z] > 20e-6 && state[z] < 40e-6, "{} m", state[z]);
+    let mut rate = vec![0.0; state.len()];
+    sim.derivative(0.0, &state, &mut rate).unwrap();
+    // Contacts of kilonewtons are in balance on three kilograms.
+    assert!(loads(&mut sim, "inner_raceway")[0] > 1e3 && rate[fall].abs() < 1e-2, "{} m/s^2", rate[fall]);
+}
+
 #[test]
 fn numbers_and_groups_are_the_same() {
     let mut each = vec![0.0; 12];

@@ -179,7 +179,9 @@ fn derivatives_match_differences_in_every_combination() {
         let mut scene = scene(parts);
         add_profile(&mut scene, i);
         if parts.rollers && i % 3 == 0 {
-            scene["rollers"]["radius_deviations"] = json!({"groups": [{"rollers": [1, 4], "deviation": 3e-6}, {"rollers": [0], "deviation": -2e-6}]});
+            let groups =
+                [json!({"rollers": [1, 4], "deviation": 3e-6}), json!({"rollers": [0], "deviation": -2e-6})];
+            scene["rollers"]["radius_deviations"] = json!({ "groups": groups });
         }
         let swing =
             |mean: f64| json!({"sine": {"mean": mean, "amplitude": 50.0, "frequency": 80.0, "phase": 0.3}});

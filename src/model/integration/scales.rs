@@ -68,7 +68,8 @@ impl Model {
         let [by_outer, by_inner] = self.elements.orbit_ratios();
         let orbit = largest(Input::RingSpeed) * by_inner + largest(Input::OuterRingSpeed) * by_outer;
         let centrifugal = self.elements.centrifugal(orbit);
-        let preload = inner.spring((-self.scene.radial_clearance() / 4.0).max(0.0))[0];
+        let larger = self.elements.set().radius_excess.iter().copied().fold(0.0, f64::max);
+        let preload = inner.spring((larger - self.scene.radial_clearance() / 4.0).max(0.0))[0];
         // 4.1 F/Z is the largest roller load of a line contact bearing without clearance; 1 N keeps it positive.
         let per_roller = 4.1 / count.max(4.1);
         let load = math::hypot(largest(Input::LoadY), largest(Input::LoadZ)) + weight;

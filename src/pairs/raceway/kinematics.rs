@@ -9,8 +9,8 @@
 //! inner gap = gap_0 + rho + (d - r),   d - r = (|x|^2 - 2 r x_r)/(d + r)
 //! ```
 //!
-//! each less what the radius of the roller exceeds the nominal R_b, with x the centre of the inner ring, x_r its component along the roller's radius and d its distance from the
-//! roller centre. Local frame: (radial, circumferential) at the roller.
+//! each less what the radius of the roller exceeds the nominal R_b, with x the centre of the inner ring, x_r its component along
+//! the roller's radius and d its distance from the roller centre. Local frame: (radial, circumferential) at the roller.
 //!
 //! Surface speeds are relative to the contact point, which moves with the line of centres:
 //! `u1 = arm_1 (w_b - phi_dot)`, `u2 = -arm_2 (w_r - phi_dot)`, phi_dot the turning rate of that line.

@@ -12,6 +12,8 @@ use std::sync::OnceLock;
 /// Text of the catalogue: `materials` and `lubricants` by name, with `title`, `values` and `sources`.
 const TEXTS: [(&str, &str); 2] =
     [("materials", include_str!("materials.json")), ("lubricants", include_str!("lubricants.json"))];
+/// An oil with all values.
+const COMPLETE: &str = "fva_3";
 /// Where a scene names an oil.
 const PATH: &str = "lubricant.catalogue";
 /// Blocks whose `material` names one.
@@ -42,11 +44,6 @@ pub(super) fn names(kind: &str) -> impl Iterator<Item = &'static str> {
     entries(kind).into_iter().flat_map(|map| map.keys().map(String::as_str))
 }
 
-/// The oil that a scene names, if it does.
-fn named_oil(scene: &Value) -> Option<&str> {
-    scene.pointer("/lubricant/catalogue")?.as_str()
-}
-
 /// Materials that parts of a scene name and that it does not describe itself, as far as the catalogue has them.
 fn named_materials(scene: &Value) -> impl Iterator<Item = (&str, &'static Value)> {
     let own = scene.get("materials");
@@ -58,75 +55,86 @@ fn named_materials(scene: &Value) -> impl Iterator<Item = (&str, &'static Value)
     })
 }
 
-/// The scene with the values of the catalogue that it names.
+/// The scene with the values of the catalogue that it names, and without the name of the oil.
 ///
 /// # Errors
-/// [`Status::BadScene`] for an oil that is not in the catalogue.
+/// [`Status::BadScene`] for an oil that is not in the catalogue, or one of which nothing is taken.
 pub(super) fn filled(scene: &Value) -> Result<Cow<'_, Value>> {
-    let oil = match named_oil(scene) {
-        Some(name) => Some(values("lubricants", name).ok_or_else(|| unknown_oil(name))?),
-        None => None,
-    };
+    let (full, refused) = filled_and_refused(scene);
+    refused.map_or(Ok(full), |text| Err(Error::new(Status::BadScene, format!("{PATH}: {text}"))))
+}
+
+/// The same for a list of all that is wrong: what is wrong with the name of the oil is told, and nothing that follows from it.
+pub(super) fn filled_and_found(scene: &Value) -> (Cow<'_, Value>, Option<Found>) {
+    let (full, refused) = filled_and_refused(scene);
+    let path = || PATH.split('.').map(str::to_owned).collect();
+    (full, refused.map(|text| Found { path: path(), text }))
+}
+
+fn filled_and_refused(scene: &Value) -> (Cow<'_, Value>, Option<String>) {
+    let named = scene.get("lubricant").and_then(|block| block.get("catalogue"));
     let materials: Map<String, Value> =
         named_materials(scene).map(|(name, values)| (name.to_owned(), values.clone())).collect();
-    if oil.is_none() && materials.is_empty() {
-        return Ok(Cow::Borrowed(scene));
+    if named.is_none() && materials.is_empty() {
+        return (Cow::Borrowed(scene), None);
     }
-    let mut full = scene.clone();
-    if let Some(values) = oil {
-        fill(&mut full["lubricant"], values);
+    let (mut full, mut refused) = (scene.clone(), None);
+    if let Some(Value::Object(block)) = full.get_mut("lubricant")
+        && let Some(name) = block.remove("catalogue").filter(|name| !name.is_null())
+    {
+        refused = take_oil(block, &name).err();
     }
-    if !materials.is_empty() {
+    if !materials.is_empty()
+        && let Value::Object(top) = &mut full
+    {
+        let own = top.entry("materials").or_insert_with(|| json!({}));
         // What is no list of materials is told by the reader.
-        if full["materials"].is_null() {
-            full["materials"] = Value::Object(Map::new());
-        }
-        if let Value::Object(own) = &mut full["materials"] {
+        if let Value::Object(own) = own {
             own.extend(materials);
         }
     }
-    Ok(Cow::Owned(full))
+    (Cow::Owned(full), refused)
 }
 
-/// The same for a list of all that is wrong: an oil that there is not is told, and another one stands in for it.
-pub(super) fn filled_and_found(scene: &Value) -> (Cow<'_, Value>, Option<Found>) {
-    let error = match filled(scene) {
-        Ok(full) => return (full, None),
-        Err(error) => error,
+/// Gives a block what it does not have of the oil of this name, or what another one has where it is refused.
+fn take_oil(block: &mut Map<String, Value>, name: &Value) -> std::result::Result<(), String> {
+    let oil = name.as_str().and_then(|name| values("lubricants", name));
+    let (Some(Value::Object(oil)), Some(name)) = (oil, name.as_str()) else {
+        if let Some(Value::Object(complete)) = values("lubricants", COMPLETE) {
+            fill(block, complete);
+        }
+        let known = names("lubricants").collect::<Vec<&str>>().join(", ");
+        return Err(match name.as_str() {
+            Some(name) => format!("'{name}' is not in the catalogue ({known})"),
+            None => format!("expected a name of the catalogue ({known}), found {name}"),
+        });
     };
-    let path = PATH.split('.').map(str::to_owned).collect();
-    let text = error.message.strip_prefix(PATH).unwrap_or_default().trim_start_matches(": ").to_owned();
-    let mut other = scene.clone();
-    other["lubricant"]["catalogue"] = json!(names("lubricants").next());
-    let full = filled(&other).map(Cow::into_owned).unwrap_or(other);
-    (Cow::Owned(full), Some(Found { path, text }))
+    let before = block.clone();
+    fill(block, oil);
+    let text =
+        || format!("nothing is taken of '{name}', as all values stand beside it; remove them, or the name");
+    if *block == before { Err(text()) } else { Ok(()) }
 }
 
-fn unknown_oil(name: &str) -> Error {
-    let known: Vec<&str> = names("lubricants").collect();
-    let text = format!("{PATH}: '{name}' is not in the catalogue ({})", known.join(", "));
-    Error::new(Status::BadScene, text)
-}
-
-/// Adds what a block does not have. A choice between kinds that the block has made stays as it is.
-fn fill(block: &mut Value, values: &Value) {
-    let (Value::Object(own), Value::Object(values)) = (block, values) else { return };
+/// Adds what a block does not have. What belongs together stays as the block has it.
+fn fill(own: &mut Map<String, Value>, values: &Map<String, Value>) {
     for (key, value) in values {
-        match own.get_mut(key) {
-            None => {
+        match (own.get_mut(key), value) {
+            (None, value) => {
                 own.insert(key.clone(), value.clone());
             }
-            Some(mine)
-                if is_choice(key)
-                    && value.as_object().is_some_and(|v| v.keys().all(|k| mine.get(k).is_none())) => {}
-            Some(mine) => fill(mine, value),
+            (Some(Value::Object(mine)), Value::Object(values)) if !is_whole(key, mine, values) => {
+                fill(mine, values)
+            }
+            _ => {}
         }
     }
 }
 
-/// Whether a field of a lubricant is one of several kinds.
-fn is_choice(key: &str) -> bool {
-    key == "viscosity"
+/// Whether an object of a scene is not to be mixed with that of the catalogue: a point, and a choice of another kind.
+fn is_whole(key: &str, mine: &Map<String, Value>, values: &Map<String, Value>) -> bool {
+    let same_kind = || values.keys().any(|kind| mine.contains_key(kind));
+    matches!(key, "cold" | "hot") || (key == "viscosity" && !same_kind())
 }
 
 #[cfg(test)]
@@ -198,21 +206,40 @@ mod tests {
         let full = filled(&scene).unwrap();
         assert_eq!(full["materials"]["mine"], json!({"young_modulus": 1e9}));
         assert!(full["materials"]["steel_100cr6"]["young_modulus"].as_f64().unwrap() > 1.9e11);
-        assert_eq!(full["lubricant"]["conductivity"], 0.2);
+        assert_eq!(
+            (&full["lubricant"]["conductivity"], &full["lubricant"]["catalogue"]),
+            (&json!(0.2), &Value::Null)
+        );
         let walther = &full["lubricant"]["viscosity"]["walther"];
         assert_eq!(
             (&walther["density"], &walther["cold"]["kinematic_viscosity"]),
             (&json!(900.0), &json!(68e-6))
         );
-        // Filled once more it is the same; a viscosity of another kind is not mixed with that of the oil.
-        assert_eq!(filled(&full).unwrap().as_ref(), full.as_ref());
-        let constant = json!({"lubricant": {"catalogue": "iso_vg_68", "viscosity": {"constant": 0.06}}});
+        assert!(matches!(filled(&full).unwrap(), Cow::Borrowed(_)));
+        // A viscosity of another kind and half a point are not mixed with those of the oil.
+        let with =
+            |viscosity: Value| json!({"lubricant": {"catalogue": "iso_vg_68", "viscosity": viscosity}});
+        let constant = with(json!({"constant": 0.06}));
         assert_eq!(filled(&constant).unwrap()["lubricant"]["viscosity"], json!({"constant": 0.06}));
-        assert!(matches!(filled(&json!({"cage": {"material": "brass"}})).unwrap(), Cow::Borrowed(_)));
-        let e = filled(&json!({"lubricant": {"catalogue": "butter"}})).unwrap_err();
-        assert!(
-            e.message.starts_with("lubricant.catalogue: 'butter'") && e.message.contains("iso_vg_68"),
-            "{e}"
+        let half = with(json!({"walther": {"cold": {"temperature": 293.15}}}));
+        assert_eq!(
+            filled(&half).unwrap()["lubricant"]["viscosity"]["walther"]["cold"],
+            json!({"temperature": 293.15})
         );
+        assert!(matches!(filled(&json!({"cage": {"material": "brass"}})).unwrap(), Cow::Borrowed(_)));
+        let refused = |scene: Value| filled(&scene).unwrap_err().message;
+        let e = refused(json!({"lubricant": {"catalogue": "butter"}}));
+        assert!(e.starts_with("lubricant.catalogue: 'butter'") && e.contains("iso_vg_68"), "{e}");
+        // A name that changes nothing is no oversight to keep.
+        let mut all = full.into_owned();
+        all["lubricant"]["catalogue"] = json!("iso_vg_10");
+        assert!(refused(all).contains("nothing is taken of 'iso_vg_10'"));
+        // What is no block is left to the reader.
+        for odd in [json!(3), json!([]), Value::Null, json!({"catalogue": null})] {
+            assert!(
+                filled(&json!({"lubricant": odd, "materials": odd, "cage": {"material": "steel_100cr6"}}))
+                    .is_ok()
+            );
+        }
     }
 }

@@ -203,7 +203,7 @@ impl Scene {
             judge.number(path, threshold, range(1e-6, 1e9, "N"))?;
         }
         self.validate_profile(judge, r, outer, inner, raceways)?;
-        self.neighbours_apart(judge, "rollers.count", r.radius, "rollers")
+        self.neighbours_apart(judge, "rollers.count", r.radius + self.largest_deviation(), "rollers")
     }
 
     fn validate_kinematic(&self, judge: Judge<'_>, elements: &KinematicElements) -> Result<()> {
@@ -369,7 +369,8 @@ impl Scene {
         }
         let known: Vec<&str> = self.materials.keys().map(String::as_str).collect();
         let known = if known.is_empty() { "there are none".to_owned() } else { known.join(", ") };
-        let others = catalogue::names("materials").collect::<Vec<&str>>().join(", ");
+        let others = catalogue::names("materials").filter(|name| !self.materials.contains_key(*name));
+        let others = others.collect::<Vec<&str>>().join(", ");
         judge.refuse(
             path,
             format!("'{name}' is not one of the materials ({known}), nor of the catalogue ({others})"),

@@ -24,12 +24,17 @@ fn fields() -> Vec<Row> {
             "lubricant.viscosity.walther.temperature",
             &["missing", "'heat'"],
         ),
-        rollers().json(
+        rollers().scene(
             "number for an oil",
+            &[("lubricant.catalogue", json!(68))],
             "lubricant.catalogue",
-            json!(68),
+            &["expected a name", "found 68"],
+        ),
+        rollers().scene(
+            "oil beside all its values",
+            &[("lubricant.catalogue", json!("iso_vg_68"))],
             "lubricant.catalogue",
-            &["expected a text, found 68"],
+            &["nothing is taken of 'iso_vg_68'", "remove them, or the name"],
         ),
         rollers().json(
             "truth value for a viscosity",
