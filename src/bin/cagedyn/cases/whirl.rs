@@ -5,6 +5,7 @@ use super::{Comparison, Done, Known, rounded_cell};
 use crate::plots::{self, WhirlPoint};
 use crate::points::Row;
 use crate::points::columns::{MOTION, OF_WHIRL};
+use crate::points::row::share_of;
 use cagedyn::{CageMotion, Result};
 
 /// The comparison.
@@ -67,10 +68,12 @@ fn point(d: &Done<'_>) -> Option<WhirlPoint> {
     let row = d.results()?;
     let speed = |part: &str| row.number(&format!("whirl speed {part} [rad/s]"));
     let motion = row.text(MOTION)?;
+    let whirls = || CageMotion::ALL.into_iter().filter(|motion| motion.is_whirl());
     Some(WhirlPoint {
         speed: d.speed,
         mean: speed("mean")?,
         band: [speed("5 %")?, speed("95 %")?],
-        whirls: CageMotion::ALL.iter().any(|known| known.is_whirl() && known.name() == motion),
+        whirls: whirls().any(|known| known.name() == motion),
+        share: whirls().map(|known| row.number(&share_of(known))).sum(),
     })
 }

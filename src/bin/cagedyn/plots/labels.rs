@@ -134,22 +134,13 @@ impl Room {
     }
 }
 
-/// Shifts sideways of markers, px of the picture, that would cover earlier ones; `places` are those of the markers on the surface.
-pub fn beside(places: &[(i32, i32)], marker: f64) -> Vec<f64> {
-    let pitch = 2.0 * marker + 1.0;
-    let mut taken: Vec<(i32, i32)> = Vec::new();
-    let mut shifts = Vec::new();
-    for (x, y) in places {
-        let free = |shift: f64| {
-            let at = x + px(shift);
-            !taken.iter().any(|(a, b)| (a - at).abs() < px(pitch) && (b - y).abs() < px(pitch))
-        };
-        let tried = (0..8).flat_map(|k| [f64::from(k), -f64::from(k)]).map(|k| 0.5 * k * pitch);
-        let shift = tried.into_iter().find(|shift| free(*shift)).unwrap_or(0.0);
-        taken.push((x + px(shift), *y));
-        shifts.push(shift);
-    }
-    shifts
+/// Sizes of markers that are drawn in this order, so that those at one place lie in each other; px of the picture, while `places` are
+/// on the surface.
+pub fn nested(places: &[(i32, i32)], marker: f64) -> Vec<f64> {
+    const RIM: f64 = 2.6;
+    let near = |(a, b): (i32, i32), (x, y): (i32, i32)| (a - x).abs().max((b - y).abs()) < px(marker);
+    let above = |k: usize| places[k + 1..].iter().filter(|other| near(places[k], **other)).count();
+    (0..places.len()).map(|k| marker + RIM * above(k) as f64).collect()
 }
 
 #[cfg(test)]
@@ -177,10 +168,10 @@ mod tests {
     }
 
     #[test]
-    fn markers_at_one_place_are_drawn_beside_each_other() {
-        let places = [(0, 0), (0, 0), (px(100.0), 0), (0, px(1.0)), (0, px(20.0))];
-        let shifts = beside(&places, 4.5);
-        assert_eq!((shifts[0], shifts[2], shifts[4]), (0.0, 0.0, 0.0));
-        assert_eq!((shifts[1], shifts[3]), (10.0, -10.0));
+    fn markers_at_one_place_lie_in_each_other() {
+        let places = [(0, 0), (px(100.0), 0), (0, px(1.0)), (0, px(20.0)), (0, 0)];
+        let sizes = nested(&places, 4.5);
+        assert_eq!((sizes[1], sizes[3], sizes[4]), (4.5, 4.5, 4.5));
+        assert!(sizes[0] > sizes[2] && sizes[2] > sizes[4]);
     }
 }
