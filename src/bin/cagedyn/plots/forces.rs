@@ -1,7 +1,7 @@
 //! The bearing with the forces of its contacts at the end of a run (compare Fig. 11).
 
 use super::axis::Axis;
-use super::panel::{Panel, Place, panel};
+use super::panel::{HEAD, Panel, Place, panel};
 use super::style::{self, CURVE, Drawn, FAINT, GREEN, INK, MUTED, PURPLE, Paint, RED, Symbol, THIN, line};
 use crate::results::finished::Run;
 use crate::results::table::{number, rounded};
@@ -17,8 +17,6 @@ const ON_RACEWAYS: f64 = 0.45;
 const ON_CAGE: f64 = 0.4;
 /// Arrows shorter than this are not seen, in units of the pitch radius.
 const SHORTEST: f64 = 0.004;
-/// Head of an arrow: length and half width in units of the pitch radius.
-const HEAD: (f64, f64) = (0.035, 0.013);
 /// Radius of the arrow that tells which way the elements go, in units of the pitch radius.
 const TURNING: f64 = 0.16;
 
@@ -115,7 +113,9 @@ pub fn contact_forces(run: &Run) -> Option<Result<String>> {
                     .curve(circle([pitch * angle.cos(), pitch * angle.sin()], radius), line(FAINT, CURVE))?;
             }
             panel.circle(1e3 * SHORTEST * pitch, line(INK, THIN))?;
-            turning(panel, run, pitch)?;
+            if let Some(way) = run.direction() {
+                panel.turning(1e3 * TURNING * pitch, way, (1e3 * pitch, MUTED))?;
+            }
             for kind in &kinds {
                 let scale = scale(kind.body);
                 kind.arrows.iter().try_for_each(|arrow| draw(panel, arrow, (scale, pitch), kind.paint))?;
@@ -138,21 +138,6 @@ fn arrow(contact: &ContactForces) -> Option<Arrow> {
     Some(Arrow { at: [of("point_y"), of("point_z")], force })
 }
 
-/// An arc with a head about the middle that tells which way the elements go.
-fn turning(panel: &mut Panel<'_, '_, '_>, run: &Run, pitch: f64) -> Drawn {
-    let Some(way) = run.direction() else { return Ok(()) };
-    let at = |angle: f64, radius: f64| {
-        let angle = 0.25 * TAU - way * angle;
-        (1e3 * radius * angle.cos(), 1e3 * radius * angle.sin())
-    };
-    let (radius, [length, half]) = (TURNING * pitch, [0.8 * HEAD.0, 0.8 * HEAD.1].map(|x| x * pitch));
-    // From behind the top to as far ahead of it.
-    let (from, neck) = (TAU / 9.0, -TAU / 9.0);
-    panel
-        .curve((0..=20).map(|i| at(from + (neck - from) * f64::from(i) / 20.0, radius)), line(MUTED, 1.2))?;
-    panel.area([at(neck - length / radius, radius), at(neck, radius + half), at(neck, radius - half)], MUTED)
-}
-
 /// Points of a circle, mm.
 fn circle(centre: [f64; 2], radius: f64) -> impl Iterator<Item = (f64, f64)> {
     let angles = (0..=60).map(|i| f64::from(i) * TAU / 60.0);
@@ -166,7 +151,7 @@ fn draw(panel: &mut Panel<'_, '_, '_>, arrow: &Arrow, (scale, pitch): (f64, f64)
         return Ok(());
     }
     let along = arrow.force.map(|x| scale * x / size);
-    let (length, half) = (HEAD.0 * pitch, HEAD.1 * pitch);
+    let (length, half) = (pitch * HEAD.0, pitch * HEAD.1);
     let point = |ahead: f64, aside: f64| {
         let y = arrow.at[0] + ahead * along[0] - aside * along[1];
         let z = arrow.at[1] + ahead * along[1] + aside * along[0];
