@@ -104,8 +104,10 @@ FIGURES := out/figures
 TOOL := $(CARGO) run --release --locked --
 
 figures: tools
-	$(TOOL) run scenes/nu2310.json --set record.duration=0.5 --out $(FIGURES)/nu2310
-	$(TOOL) run scenes/nu2310.json --set inner_ring.radial_clearance=5e-6 --out $(FIGURES)/nu2310_5um
+	$(TOOL) run scenes/nu2310.json --set record.duration=0.5 \
+		--set 'title=NU2310, 40 µm, 4900 N, 3000 rev/min (Figs. 4 to 6)' --out $(FIGURES)/nu2310
+	$(TOOL) run scenes/nu2310.json --set inner_ring.radial_clearance=5e-6 \
+		--set 'title=NU2310, 5 µm, 4900 N, 3000 rev/min (Figs. 10 and 11)' --out $(FIGURES)/nu2310_5um
 	$(TOOL) cases scenes/nu2310_fig9.cases.json --out $(FIGURES)/fig9
 	$(TOOL) cases scenes/nu2310_unknowns.cases.json --out $(FIGURES)/unknowns
 	$(TOOL) run scenes/grease_guide.json --starts 24 --out $(FIGURES)/grease

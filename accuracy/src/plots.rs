@@ -18,7 +18,8 @@ const LEGEND: f64 = 300.0;
 const LEGEND_LINE: f64 = 24.0;
 /// Room around the points, powers of ten.
 const ROOM: f64 = 0.3;
-/// Points beyond these errors, in units of the smallest target or noise, are left out of the picture.
+/// Smaller errors, in units of the noise, and errors so many powers of ten above the smallest that is shown stand at these ends.
+const FLOOR: f64 = 0.3;
 const DECADES: f64 = 8.0;
 
 /// The diagram of a comparison.
@@ -31,14 +32,22 @@ pub fn diagram(comparison: &Comparison, machine: &str) -> Result<String> {
         let logs = values.iter().map(|x| x.log10());
         logs.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
     };
-    let errors = ends(points().map(|p| p.error.max(0.3 * comparison.noise)).collect());
+    let floor = FLOOR * comparison.noise;
+    let errors = ends(points().map(|p| p.error.max(floor)).collect());
     let times = ends(points().map(|p| p.seconds).collect());
     let most = errors.1.min(errors.0 + DECADES);
     let x = Axis::powers_of_ten(comparison.error, errors.0 - ROOM, most + ROOM);
     let y = Axis::powers_of_ten("wall time, s", times.0 - ROOM, times.1 + ROOM);
     let place = Place { x: LEFT + Y_LABELS, y: TOP, w: WIDTH, h: HEIGHT };
     let size = (place.x + WIDTH + LEGEND + 2.0 * LEFT, TOP + HEIGHT + X_LABELS + 16.0);
-    let subtitle = format!("{} s simulated, {machine}. Shaded: noise of the error.", comparison.simulated);
+    let mut subtitle = format!("{} s simulated, {machine}. Shaded: noise of the error", comparison.simulated);
+    if points().any(|p| p.error < floor) {
+        subtitle += &format!("; errors below {FLOOR} of it are drawn there");
+    }
+    if errors.1 > most {
+        subtitle += "; errors beyond the scale are drawn at its end";
+    }
+    subtitle.push('.');
     let noise = [(x.min, comparison.noise.log10())];
     style::picture(size, comparison.title, &subtitle, |canvas| {
         panel(canvas, place, (&x, &y), true, &noise, |panel| {
@@ -47,9 +56,7 @@ pub fn diagram(comparison: &Comparison, machine: &str) -> Result<String> {
             }
             for (k, curve) in comparison.curves.iter().enumerate() {
                 let (color, shape) = look(k, curve);
-                let at = |p: &crate::curves::Point| {
-                    (p.error.max(0.3 * comparison.noise).log10().min(most), p.seconds.log10())
-                };
+                let at = |p: &crate::curves::Point| (p.error.max(floor).log10().min(most), p.seconds.log10());
                 let width = if curve.solver.ours() { 1.5 * CURVE } else { CURVE };
                 panel.curve(curve.points.iter().map(at), line(color, width))?;
                 for point in &curve.points {

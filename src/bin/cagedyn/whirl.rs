@@ -21,6 +21,10 @@ pub fn command(args: &WhirlArgs) -> Result<ExitCode> {
     let in_scene = |e| in_file(&args.scene, e);
     let scene = Scene::from_json_with(&text, args.sets.pairs()).map_err(in_scene)?;
     let set: Vec<String> = args.sets.pairs().map(|(path, value)| format!("{path}={value}")).collect();
+    // That of a scene whose values are varied tells of others.
+    let varied =
+        args.vary.iter().map(|vary| format!("{}={:?}:{:?}", vary.path, vary.range[0], vary.range[1]));
+    let set: Vec<String> = set.into_iter().chain(varied).collect();
     let title = facts::title(scene.title.as_deref(), &stem(&args.scene), &set);
     let started = Instant::now();
     if let Some(range) = args.onset {

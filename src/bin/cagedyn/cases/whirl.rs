@@ -4,7 +4,8 @@ use super::series::series;
 use super::{Comparison, Done, Known, rounded_cell};
 use crate::plots::{self, WhirlPoint};
 use crate::points::Row;
-use crate::points::columns::{MOTION, OF_WHIRL};
+use crate::points::columns::{MOTION, OF_WHIRL, whirls};
+use crate::points::row::share_of;
 use cagedyn::{CageMotion, Result};
 
 /// The comparison.
@@ -66,11 +67,12 @@ fn picture(title: &str, done: &[Done<'_>]) -> Option<Result<String>> {
 fn point(d: &Done<'_>) -> Option<WhirlPoint> {
     let row = d.results()?;
     let speed = |part: &str| row.number(&format!("whirl speed {part} [rad/s]"));
-    let motion = row.text(MOTION)?;
+    let motions = || CageMotion::ALL.into_iter().filter(|motion| motion.is_whirl());
     Some(WhirlPoint {
         speed: d.speed,
         mean: speed("mean")?,
         band: [speed("5 %")?, speed("95 %")?],
-        whirls: CageMotion::ALL.iter().any(|known| known.is_whirl() && known.name() == motion),
+        whirls: whirls(row),
+        share: motions().map(|known| row.number(&share_of(known))).sum(),
     })
 }

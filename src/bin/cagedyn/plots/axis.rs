@@ -20,6 +20,8 @@ enum Notation {
     PowerOfTen,
     /// The number itself; the axis shows logarithms.
     Antilogarithm,
+    /// The number with the digits that it has.
+    Plain,
 }
 
 /// Range, ticks and name of an axis.
@@ -33,6 +35,8 @@ pub struct Axis {
     pub max: f64,
     step: f64,
     notation: Notation,
+    /// Places of the ticks, where they are at equal distances of no round number.
+    at: Option<Vec<f64>>,
 }
 
 impl Axis {
@@ -43,7 +47,21 @@ impl Axis {
         let decimals = (-(step * (1.0 + 1e-9)).log10().floor()).max(0.0);
         let plain = decimals <= MAX_DECIMALS && min.abs().max(max.abs()) < LARGEST_PLAIN;
         let notation = if plain { Notation::Decimals(decimals as usize) } else { Notation::Exponent };
-        Self { name: name.to_owned(), min, max, step, notation }
+        Self { name: name.to_owned(), min, max, step, notation, at: None }
+    }
+
+    /// The axis with its ticks at these places, or some of them where there are more than `most`. They are written as they are, or
+    /// as numbers of which they are the logarithms.
+    pub fn at(mut self, places: &[f64], most: usize, logarithmic: bool) -> Self {
+        let every = places.len().div_ceil(most.max(1)).max(1);
+        self.at = Some(places.iter().copied().step_by(every).collect());
+        self.notation = if logarithmic { Notation::Antilogarithm } else { Notation::Plain };
+        self
+    }
+
+    /// The axis with a tick at every multiple of `step`.
+    pub fn every(self, step: f64) -> Self {
+        Self { step, ..self }
     }
 
     /// An axis that shows all finite values with some room around them.
@@ -64,12 +82,12 @@ impl Axis {
 
     /// An axis of logarithms to the base 10, with a tick at every power of ten.
     pub fn powers_of_ten(name: &str, min: f64, max: f64) -> Self {
-        Self { name: name.to_owned(), min, max, step: 1.0, notation: Notation::PowerOfTen }
+        Self { name: name.to_owned(), min, max, step: 1.0, notation: Notation::PowerOfTen, at: None }
     }
 
     /// An axis of logarithms to the base 10, with a tick at 1, 2 and 5 times every power of ten.
     pub fn logarithms(name: &str, min: f64, max: f64) -> Self {
-        Self { name: name.to_owned(), min, max, step: 1.0, notation: Notation::Antilogarithm }
+        Self { name: name.to_owned(), min, max, step: 1.0, notation: Notation::Antilogarithm, at: None }
     }
 
     /// Writes numbers of more than four decimals with an exponent, beside which the name has room.
@@ -84,6 +102,9 @@ impl Axis {
 
     /// Places of the ticks.
     pub fn ticks(&self) -> Vec<f64> {
+        if let Some(at) = &self.at {
+            return at.clone();
+        }
         if self.notation == Notation::Antilogarithm {
             let (first, last) = (self.min.floor() as i64, self.max.ceil() as i64);
             let all = (first..=last).flat_map(|power| [1.0f64, 2.0, 5.0].map(|m| power as f64 + m.log10()));
@@ -102,6 +123,7 @@ impl Axis {
             Notation::Narrow if value == 0.0 => "0".to_owned(),
             Notation::Exponent | Notation::Narrow => minus(&format!("{value:.1e}")),
             Notation::Antilogarithm => short(10f64.powf(value)),
+            Notation::Plain => short(value),
             Notation::PowerOfTen => format!("10{}", superscript(value.round() as i64)),
         }
     }
@@ -136,9 +158,11 @@ fn round_step(x: f64) -> f64 {
     step.unwrap_or(10.0) * power
 }
 
-/// A round number.
+/// A number with the digits that it has, at most four.
 fn short(x: f64) -> String {
-    if (1e-3..1e5).contains(&x) { format!("{}", (x * 1e6).round() / 1e6) } else { minus(&format!("{x:.0e}")) }
+    let rounded: f64 = format!("{x:.3e}").parse().unwrap_or(x);
+    let plain = rounded == 0.0 || (1e-3..1e5).contains(&rounded.abs());
+    minus(&if plain { format!("{rounded}") } else { format!("{rounded:e}") })
 }
 
 /// A number with a typographic minus sign, and none in front of zero.
@@ -180,6 +204,11 @@ mod tests {
         let labels: Vec<_> = log.ticks().iter().map(|&t| log.label(t)).collect();
         assert_eq!(labels, ["5e-6", "1e-5", "2e-5", "5e-5", "1e-4"]);
         assert_eq!(Axis::new("x", 0.0, 3e-5, 3).narrow().label(1e-5), "1.0e-5");
+        let at = Axis::new("x", 0.0, 4.0, 3).at(&[0.5, 1.25, 2.0, -1500.0], 2, false);
+        let labels: Vec<_> = at.ticks().iter().map(|&t| at.label(t)).collect();
+        assert_eq!(labels, ["0.5", "2"]);
+        assert_eq!(at.label(-1234.56), "\u{2212}1235");
+        assert_eq!(Axis::new("x", 0.0, 360.0, 10).every(90.0).ticks().len(), 5);
     }
 
     #[test]

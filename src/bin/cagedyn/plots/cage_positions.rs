@@ -132,7 +132,7 @@ fn overview(canvas: &Canvas<'_>, centre: (f64, f64), shown: &Square) -> Drawn {
 fn contents(panel: &mut Panel<'_, '_, '_>, series: &[Series<Point>], circle: &[(f64, f64)]) -> Drawn {
     let mut room = Room::new(LABEL, MARKER);
     for arc in circle.split(|(y, _)| y.is_nan()) {
-        room.line(&arc.iter().map(|point| panel.place(*point)).collect::<Vec<_>>());
+        room.line(&arc.iter().map(|point| panel.place(*point)).collect::<Vec<_>>(), CURVE);
     }
     for (k, s) in series.iter().enumerate() {
         panel.curve(s.points.iter().map(|p| p.centre), line(look(k).1, CURVE))?;

@@ -1,21 +1,24 @@
 //! The bearing with the forces of its contacts at the end of a run (compare Fig. 11).
 
 use super::axis::Axis;
-use super::panel::{Panel, Place, panel};
-use super::style::{self, BLUE, CURVE, Drawn, FAINT, GREEN, INK, MUTED, Paint, RED, Symbol, THIN, line};
+use super::panel::{HEAD, Panel, Place, panel};
+use super::style::{self, CURVE, Drawn, FAINT, GREEN, INK, MUTED, PURPLE, Paint, RED, Symbol, THIN, line};
 use crate::results::finished::Run;
 use crate::results::table::{number, rounded};
 use cagedyn::Result;
 use cagedyn::model::{CONTACT_QUANTITIES, ContactForces};
+use std::f64::consts::TAU;
 
 /// Side of the diagram, px.
 const SIDE: f64 = 600.0;
-/// Length of the longest arrow of a kind in units of the pitch radius.
-const LONGEST: f64 = 0.4;
+/// Length of the longest arrow on a raceway in units of the diameter of an element, so that those on both raceways stay apart, and of
+/// the longest one on the cage in units of the pitch radius.
+const ON_RACEWAYS: f64 = 0.45;
+const ON_CAGE: f64 = 0.4;
 /// Arrows shorter than this are not seen, in units of the pitch radius.
 const SHORTEST: f64 = 0.004;
-/// Head of an arrow: length and half width in units of the pitch radius.
-const HEAD: (f64, f64) = (0.035, 0.013);
+/// Radius of the arrow that tells which way the elements go, in units of the pitch radius.
+const TURNING: f64 = 0.16;
 
 /// A force at a place, N and m.
 struct Arrow {
@@ -23,14 +26,26 @@ struct Arrow {
     force: [f64; 2],
 }
 
-/// Forces of one kind, which have a scale of their own.
+/// What forces of one kind act on; all forces on one body have one scale, since they may balance each other.
+#[derive(Clone, Copy, PartialEq)]
+enum Body {
+    Raceways,
+    Cage,
+}
+
+/// Forces of one kind.
 struct Kind {
     name: &'static str,
+    body: Body,
     paint: Paint,
     arrows: Vec<Arrow>,
 }
 
 impl Kind {
+    fn new(name: &'static str, body: Body, paint: Paint) -> Self {
+        Self { name, body, paint, arrows: Vec::new() }
+    }
+
     fn largest(&self) -> f64 {
         self.arrows.iter().map(|arrow| arrow.force[0].hypot(arrow.force[1])).fold(0.0, f64::max)
     }
@@ -42,14 +57,14 @@ pub fn contact_forces(run: &Run) -> Option<Result<String>> {
     let length = |name: &str| geometry.iter().find(|(q, _)| q.name == name).map(|(_, value)| *value);
     let (pitch, radius) = (length("pitch_radius")?, length("element_radius")?);
     let mut kinds = vec![
-        Kind { name: "on elements", paint: BLUE, arrows: Vec::new() },
-        Kind { name: "elements on cage", paint: RED, arrows: Vec::new() },
-        Kind { name: "guide on cage", paint: GREEN, arrows: Vec::new() },
+        // As in the animation of the report.
+        Kind::new("elements on raceways", Body::Raceways, RED),
+        Kind::new("elements on cage", Body::Cage, PURPLE),
+        Kind::new("guide on cage", Body::Cage, GREEN),
     ];
     for (name, contact) in run.model.contact_names().iter().zip(&run.contacts) {
-        let raceway = name.ends_with("_raceway");
-        if let Some(arrow) = arrow(contact, raceway) {
-            kinds[usize::from(!raceway)].arrows.push(arrow);
+        if let Some(arrow) = arrow(contact) {
+            kinds[usize::from(!name.ends_with("_raceway"))].arrows.push(arrow);
         }
     }
     let last = |name: &str| run.column(name)?.last().copied();
@@ -65,7 +80,15 @@ pub fn contact_forces(run: &Run) -> Option<Result<String>> {
     let angles = (0..run.model.element_count()).map(|j| last(&format!("{kind}[{j}].orbit_angle")));
     let angles: Vec<f64> = angles.collect::<Option<_>>()?;
     let circles = ["outer_raceway_radius", "inner_raceway_radius"].map(length);
-    let reach = 1.12 * (pitch + radius);
+    let longest = |body| match body {
+        Body::Raceways => ON_RACEWAYS * 2.0 * radius,
+        Body::Cage => ON_CAGE * pitch,
+    };
+    let scale = |body| {
+        let largest = kinds.iter().filter(|kind| kind.body == body).map(Kind::largest).fold(0.0, f64::max);
+        longest(body) / largest
+    };
+    let reach = pitch + radius + 1.1 * longest(Body::Raceways);
     let axis = |name| Axis::new(name, -1e3 * reach, 1e3 * reach, 5);
     let (x_axis, y_axis) = (axis("y [mm]"), axis("z [mm]"));
     let place = Place { x: 100.0, y: 122.0, w: SIDE, h: SIDE };
@@ -78,7 +101,7 @@ pub fn contact_forces(run: &Run) -> Option<Result<String>> {
             })
             .collect();
         style::legend_row(canvas, 76.0, &entries[..entries.len().min(2)])?;
-        let note = (Symbol::Line(FAINT), "elements; each kind of force has its own scale".to_owned());
+        let note = (Symbol::Line(FAINT), "elements; one scale for the raceways, one for the cage".to_owned());
         let second: Vec<_> = entries.iter().skip(2).cloned().chain([note]).collect();
         style::legend_row(canvas, 100.0, &second)?;
         panel(canvas, place, (&x_axis, &y_axis), true, &[], |panel| {
@@ -90,8 +113,11 @@ pub fn contact_forces(run: &Run) -> Option<Result<String>> {
                     .curve(circle([pitch * angle.cos(), pitch * angle.sin()], radius), line(FAINT, CURVE))?;
             }
             panel.circle(1e3 * SHORTEST * pitch, line(INK, THIN))?;
+            if let Some(way) = run.direction() {
+                panel.turning(1e3 * TURNING * pitch, way, (1e3 * pitch, MUTED))?;
+            }
             for kind in &kinds {
-                let scale = LONGEST * pitch / kind.largest();
+                let scale = scale(kind.body);
                 kind.arrows.iter().try_for_each(|arrow| draw(panel, arrow, (scale, pitch), kind.paint))?;
             }
             Ok(())
@@ -99,26 +125,22 @@ pub fn contact_forces(run: &Run) -> Option<Result<String>> {
     }))
 }
 
-/// Force on the element, or on its mate; none where the surfaces are apart.
-fn arrow(contact: &ContactForces, on_element: bool) -> Option<Arrow> {
+/// Force of an element on its mate; none where the surfaces are apart.
+fn arrow(contact: &ContactForces) -> Option<Arrow> {
     let of = |name: &str| CONTACT_QUANTITIES.iter().position(|q| q.name == name).map_or(0.0, |i| contact[i]);
     let (normal, n) = (of("normal_force"), [of("normal_y"), of("normal_z")]);
     if normal <= 0.0 {
         return None;
     }
     let t = [-n[1], n[0]];
-    let (q, along) = if on_element {
-        (-normal, of("friction") + of("rolling_resistance") + of("film_pressure_roller"))
-    } else {
-        (normal, of("rolling_resistance") + of("film_pressure_mate") - of("friction"))
-    };
-    let force = [0, 1].map(|k| q * n[k] + along * t[k]);
+    let along = of("rolling_resistance") + of("film_pressure_mate") - of("friction");
+    let force = [0, 1].map(|k| normal * n[k] + along * t[k]);
     Some(Arrow { at: [of("point_y"), of("point_z")], force })
 }
 
 /// Points of a circle, mm.
 fn circle(centre: [f64; 2], radius: f64) -> impl Iterator<Item = (f64, f64)> {
-    let angles = (0..=60).map(|i| f64::from(i) * std::f64::consts::TAU / 60.0);
+    let angles = (0..=60).map(|i| f64::from(i) * TAU / 60.0);
     angles.map(move |a| (1e3 * (centre[0] + radius * a.cos()), 1e3 * (centre[1] + radius * a.sin())))
 }
 
@@ -129,7 +151,7 @@ fn draw(panel: &mut Panel<'_, '_, '_>, arrow: &Arrow, (scale, pitch): (f64, f64)
         return Ok(());
     }
     let along = arrow.force.map(|x| scale * x / size);
-    let (length, half) = (HEAD.0 * pitch, HEAD.1 * pitch);
+    let (length, half) = (pitch * HEAD.0, pitch * HEAD.1);
     let point = |ahead: f64, aside: f64| {
         let y = arrow.at[0] + ahead * along[0] - aside * along[1];
         let z = arrow.at[1] + ahead * along[1] + aside * along[0];

@@ -1,5 +1,6 @@
 //! Lumps of a heat balance with their temperatures, and the heat that flows between them.
 
+use super::labels::Room;
 use super::style::{BLUE, Drawn, FAINT, INK, MUTED, Paint, RED, TEXT, line, picture, px, text};
 use cagedyn::Result;
 use cagedyn::heat::HeatState;
@@ -15,9 +16,8 @@ const RADII: (f64, f64) = (310.0, 210.0);
 const LUMP: f64 = 38.0;
 const LUMP_SHARE: f64 = 0.4;
 const WIDEST: f64 = 14.0;
-/// Place of the label of a flow on its way, and width of a digit of it, px.
+/// Usual place of the label of a flow on its way: off the middle, where arrows cross.
 const LABEL: f64 = 0.42;
-const WIDTH_OF_DIGIT: f64 = 8.0;
 /// Flows below this share of the largest are lines of the least width.
 const LEAST: f64 = 0.8;
 
@@ -32,8 +32,7 @@ pub fn draw(
     state: &HeatState,
     ambient: f64,
 ) -> Result<String> {
-    let subtitle =
-        "temperatures of the lumps, heat made in them (red) and heat that flows (width in proportion)";
+    let subtitle = "temperatures of the lumps, heat made in them (red) and heat that flows (width in proportion, at least a hairline)";
     picture(SIZE, title, subtitle, |canvas| {
         let count = names.len() + 1;
         let place = |i: usize| {
@@ -45,21 +44,22 @@ pub fn draw(
         let at = |(x, y): (f64, f64)| (px(x), px(y));
         let way = TAU * RADII.1 / count as f64;
         let lump = LUMP.min(LUMP_SHARE * way);
+        let mut room = Room::new(TEXT, lump);
+        (0..count).for_each(|i| room.add(&[at(place(i))]));
         let mut labels = Vec::new();
         let largest = state.flows.iter().fold(1e-12, |most: f64, flow| most.max(flow.abs()));
         for ([from, to], flow) in links.iter().zip(&state.flows) {
             let (from, to) = if *flow >= 0.0 { (of(from), of(to)) } else { (of(to), of(from)) };
             let width = (WIDEST * flow.abs() / largest).max(LEAST);
             arrow(canvas, from, to, lump, width, FAINT)?;
-            // Off the middle, where arrows cross.
-            let place = |share: f64| (from.0 + share * (to.0 - from.0), from.1 + share * (to.1 - from.1));
-            labels.push((place(LABEL), format!("{:.2} W", flow.abs())));
+            let ends = (at(from), at(to));
+            room.line(&[ends.0, ends.1], width);
+            labels.push((ends, format!("{:.2} W", flow.abs())));
         }
-        for ((x, y), label) in labels {
-            let half = (0.5 * WIDTH_OF_DIGIT * label.len() as f64, 9.0);
-            let corners = [at((x - half.0, y - half.1)), at((x + half.0, y + half.1))];
-            canvas.draw(&Rectangle::new(corners, WHITE.mix(0.85).filled()))?;
-            canvas.draw(&Text::new(label, at((x, y)), text(TEXT, BLUE, HPos::Center, VPos::Center)))?;
+        for (ends, label) in labels {
+            let frame = room.slide(ends, LABEL, &label);
+            canvas.draw(&Rectangle::new(frame.corners(), WHITE.mix(0.85).filled()))?;
+            canvas.draw(&Text::new(label, frame.centre, text(TEXT, BLUE, HPos::Center, VPos::Center)))?;
         }
         let lumps = names.iter().zip(state.temperatures.iter().zip(&state.heat));
         let lumps = lumps.map(|(name, (temperature, heat))| (name.as_str(), *temperature, *heat));

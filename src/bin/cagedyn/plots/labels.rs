@@ -11,6 +11,9 @@ const DIRECTIONS: usize = 16;
 const SOLID: i64 = 1000;
 const CURVES: i64 = 200;
 
+/// Width that a curve has at least for labels, px of the picture.
+const THINNEST: f64 = 3.0;
+
 /// What labels keep off; lengths are px of the surface unless said otherwise.
 pub struct Room {
     /// Size of the text and of the markers, px of the picture.
@@ -35,6 +38,16 @@ impl Frame {
         Self { centre, half: (px(0.5 * width), px(0.5 * height)) }
     }
 
+    fn area(&self) -> i64 {
+        4 * i64::from(self.half.0) * i64::from(self.half.1)
+    }
+
+    /// Corners on the surface.
+    pub fn corners(&self) -> [(i32, i32); 2] {
+        let ((x, y), (w, h)) = (self.centre, self.half);
+        [(x - w, y - h), (x + w, y + h)]
+    }
+
     /// Area shared with another one.
     fn overlap(&self, other: &Self) -> i64 {
         let shared = |distance: i32, a: i32, b: i32| i64::from((a + b - distance).clamp(0, 2 * a.min(b)));
@@ -56,15 +69,14 @@ impl Frame {
     }
 }
 
-/// Small frames along a line from `a` to `b`.
-fn along(a: (i32, i32), b: (i32, i32)) -> impl Iterator<Item = Frame> {
-    const PITCH: f64 = 3.0;
+/// Frames along a line of a width from `a` to `b`.
+fn along(a: (i32, i32), b: (i32, i32), width: f64) -> impl Iterator<Item = Frame> {
     let (dx, dy) = (f64::from(b.0 - a.0), f64::from(b.1 - a.1));
-    let count = (dx.hypot(dy) / f64::from(px(PITCH))).ceil().max(1.0);
+    let count = (dx.hypot(dy) / f64::from(px(width))).ceil().max(1.0);
     (0..=count as u32).map(move |i| {
         let share = f64::from(i) / count;
         let at = (a.0 + (share * dx).round() as i32, a.1 + (share * dy).round() as i32);
-        Frame::around(at, PITCH, PITCH)
+        Frame::around(at, width, width)
     })
 }
 
@@ -76,13 +88,14 @@ impl Room {
 
     /// Adds the markers of a curve, and the curve.
     pub fn add(&mut self, places: &[(i32, i32)]) {
-        self.line(places);
+        self.line(places, THINNEST);
         self.markers.extend(places);
     }
 
-    /// Adds a curve without markers.
-    pub fn line(&mut self, places: &[(i32, i32)]) {
-        self.lines.extend(places.windows(2).flat_map(|ends| along(ends[0], ends[1])));
+    /// Adds a curve of a width in px of the picture without markers.
+    pub fn line(&mut self, places: &[(i32, i32)], width: f64) {
+        let width = width.max(THINNEST);
+        self.lines.extend(places.windows(2).flat_map(|ends| along(ends[0], ends[1], width)));
     }
 
     /// Takes the best place for the label of a point: off other labels and markers, then off curves, then near.
@@ -105,6 +118,27 @@ impl Room {
         frame
     }
 
+    /// Takes the best place for the label of a line, on it: off other labels and markers, then off other lines, then near the share
+    /// `wanted` of its way.
+    pub fn slide(&mut self, (from, to): ((i32, i32), (i32, i32)), wanted: f64, label: &str) -> Frame {
+        const STEPS: i32 = 40;
+        let (w, h) = (text_width(label, self.size) + 2.0, self.size + 4.0);
+        let on = |a: i32, b: i32, share: f64| a + (share * f64::from(b - a)).round() as i32;
+        let candidates = (0..=STEPS).map(|k| {
+            let share = f64::from(k) / f64::from(STEPS);
+            let frame = Frame::around((on(from.0, to.0, share), on(from.1, to.1, share)), w, h);
+            let (solid, lines) = self.covered(&frame);
+            (
+                SOLID * solid + CURVES * lines + (frame.area() as f64 * 8.0 * (share - wanted).abs()) as i64,
+                frame,
+            )
+        });
+        let best = candidates.min_by_key(|(cost, _)| *cost);
+        let frame = best.map_or(Frame::around(from, w, h), |(_, frame)| frame);
+        self.labels.push(frame);
+        frame
+    }
+
     /// Draws a thin line from a point to its label where that is not right beside it.
     pub fn leader(&self, canvas: &Canvas<'_>, point: (i32, i32), frame: &Frame) -> Drawn {
         if frame.distance(point) < i64::from(px(2.0 * self.marker + 2.0)) {
@@ -122,8 +156,7 @@ impl Room {
         let (solid, lines) = self.covered(frame);
         // A label nearer to the marker of another point would be read as belonging to it.
         let ambiguous = self.markers.iter().any(|at| frame.distance(*at) < frame.distance(own));
-        let area = 4 * i64::from(frame.half.0) * i64::from(frame.half.1);
-        SOLID * solid + CURVES * lines + area * (far as i64 + 2 * i64::from(ambiguous))
+        SOLID * solid + CURVES * lines + frame.area() * (far as i64 + 2 * i64::from(ambiguous))
     }
 
     /// Areas of markers and other labels under a frame, and of curves.
@@ -134,22 +167,13 @@ impl Room {
     }
 }
 
-/// Shifts sideways of markers, px of the picture, that would cover earlier ones; `places` are those of the markers on the surface.
-pub fn beside(places: &[(i32, i32)], marker: f64) -> Vec<f64> {
-    let pitch = 2.0 * marker + 1.0;
-    let mut taken: Vec<(i32, i32)> = Vec::new();
-    let mut shifts = Vec::new();
-    for (x, y) in places {
-        let free = |shift: f64| {
-            let at = x + px(shift);
-            !taken.iter().any(|(a, b)| (a - at).abs() < px(pitch) && (b - y).abs() < px(pitch))
-        };
-        let tried = (0..8).flat_map(|k| [f64::from(k), -f64::from(k)]).map(|k| 0.5 * k * pitch);
-        let shift = tried.into_iter().find(|shift| free(*shift)).unwrap_or(0.0);
-        taken.push((x + px(shift), *y));
-        shifts.push(shift);
-    }
-    shifts
+/// Sizes of markers that are drawn in this order, so that those at one place lie in each other; px of the picture, while `places` are
+/// on the surface.
+pub fn nested(places: &[(i32, i32)], marker: f64) -> Vec<f64> {
+    const RIM: f64 = 2.6;
+    let near = |(a, b): (i32, i32), (x, y): (i32, i32)| (a - x).abs().max((b - y).abs()) < px(marker);
+    let above = |k: usize| places[k + 1..].iter().filter(|other| near(places[k], **other)).count();
+    (0..places.len()).map(|k| marker + RIM * above(k) as f64).collect()
 }
 
 #[cfg(test)]
@@ -177,10 +201,10 @@ mod tests {
     }
 
     #[test]
-    fn markers_at_one_place_are_drawn_beside_each_other() {
-        let places = [(0, 0), (0, 0), (px(100.0), 0), (0, px(1.0)), (0, px(20.0))];
-        let shifts = beside(&places, 4.5);
-        assert_eq!((shifts[0], shifts[2], shifts[4]), (0.0, 0.0, 0.0));
-        assert_eq!((shifts[1], shifts[3]), (10.0, -10.0));
+    fn markers_at_one_place_lie_in_each_other() {
+        let places = [(0, 0), (px(100.0), 0), (0, px(1.0)), (0, px(20.0)), (0, 0)];
+        let sizes = nested(&places, 4.5);
+        assert_eq!((sizes[1], sizes[3], sizes[4]), (4.5, 4.5, 4.5));
+        assert!(sizes[0] > sizes[2] && sizes[2] > sizes[4]);
     }
 }

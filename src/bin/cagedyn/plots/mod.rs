@@ -14,6 +14,7 @@ mod spectrum;
 mod strips;
 mod style;
 pub mod sweep;
+mod units;
 pub mod whirl_branch;
 mod whirl_history;
 mod whirl_speed;

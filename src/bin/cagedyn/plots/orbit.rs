@@ -2,7 +2,7 @@
 
 use super::axis::{Axis, minus};
 use super::panel::{Place, panel};
-use super::style::{self, BLUE, CURVE, FAINT, GREEN, INK, MUTED, Marker, RED, Symbol, THIN, line};
+use super::style::{self, BLUE, CURVE, FAINT, GREEN, INK, MUTED, Marker, PURPLE, RED, Symbol, THIN, line};
 use crate::results::finished::Run;
 use crate::results::summary::Summary;
 use cagedyn::Result;
@@ -16,10 +16,18 @@ pub fn cage_orbit(run: &Run, summary: &Summary) -> Option<Result<String>> {
     let mean = (summary.of("cage.y_ratio")?.spread.mean, summary.of("cage.z_ratio")?.spread.mean);
     let points: Vec<(f64, f64)> = y.iter().copied().zip(z.iter().copied()).collect();
     let from = run.recording.index_at(run.window_start());
-    Some(draw(run, &points, from, mean))
+    let whirl = summary.whirl.as_ref().filter(|whirl| whirl.motion.is_whirl());
+    let way = whirl.and_then(|whirl| whirl.mean_speed_rad_per_s).map(f64::signum);
+    Some(draw(run, &points, from, (mean, way)))
 }
 
-fn draw(run: &Run, points: &[(f64, f64)], from: usize, mean: (f64, f64)) -> Result<String> {
+/// `from` is the first point of the averaging window, `way` that of a whirl: 1 counter-clockwise, -1 clockwise.
+fn draw(
+    run: &Run,
+    points: &[(f64, f64)],
+    from: usize,
+    (mean, way): ((f64, f64), Option<f64>),
+) -> Result<String> {
     // A cage with lobes can move beyond the mean clearance.
     let reach = points.iter().fold(1.1, |r: f64, p| r.max(1.05 * p.0.abs()).max(1.05 * p.1.abs()));
     let x_axis =
@@ -38,6 +46,11 @@ fn draw(run: &Run, points: &[(f64, f64)], from: usize, mean: (f64, f64)) -> Resu
             (Symbol::Marker(Marker::Ring, GREEN), "start".to_owned()),
             (Symbol::Marker(Marker::Cross, RED), minus_signs(&mean_text)),
         ];
+        let turning = way.map(|way| {
+            let sense = if way > 0.0 { "whirls counter-clockwise" } else { "whirls clockwise" };
+            (Symbol::Line(PURPLE), sense.to_owned())
+        });
+        let second: Vec<_> = second.into_iter().chain(turning).collect();
         style::legend_row(canvas, 76.0, &first)?;
         style::legend_row(canvas, 100.0, &second)?;
         panel(canvas, place, (&x_axis, &y_axis), true, &[], |panel| {
@@ -46,6 +59,9 @@ fn draw(run: &Run, points: &[(f64, f64)], from: usize, mean: (f64, f64)) -> Resu
             panel.dashed([(0.0, -1.0), (0.0, 1.0)], line(MUTED, 0.5))?;
             panel.curve(points.iter().take(from + 1).copied(), line(FAINT, THIN))?;
             panel.curve(points.iter().skip(from).copied(), line(BLUE, CURVE))?;
+            if let Some(way) = way {
+                panel.turning(0.5 * (1.0 + reach), way, (1.2 * reach, PURPLE))?;
+            }
             if let Some(&start) = points.first() {
                 style::marker(panel.canvas(), Marker::Ring, panel.place(start), 5.0, GREEN)?;
             }

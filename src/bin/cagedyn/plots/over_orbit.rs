@@ -24,8 +24,13 @@ pub fn over_orbit(run: &Run, summary: &Summary) -> Option<Result<String>> {
     }
     let what = "Elements over the angle of their orbit, all of them together";
     let subtitle = &run.subtitle(what);
-    let axis = "angle from y, counter-clockwise; 270 is the bottom [deg]";
-    let texts = Texts { title: &run.title, subtitle, axis, entries };
+    let way = match run.direction() {
+        Some(way) if way < 0.0 => "; elements go to smaller angles",
+        Some(_) => "; elements go to larger angles",
+        None => "",
+    };
+    let axis = &format!("angle from y, counter-clockwise; 270 is the bottom [deg]{way}");
+    let texts = Texts { title: &run.title, subtitle, axis, step: Some(45.0), entries };
     Some(strips::history(&texts, &degrees, &strips, &shaded(summary.load_zone)))
 }
 

@@ -4,6 +4,7 @@ use super::axis::Axis;
 use super::style::{Canvas, Drawn, GRID, INK, MUTED, Paint, SHADE, TEXT, line, px, text};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
+use std::f64::consts::TAU;
 
 /// Width of the strip for the labels of the y axis, px.
 pub const Y_LABELS: f64 = 74.0;
@@ -13,6 +14,10 @@ pub const X_LABELS: f64 = 46.0;
 const SECOND_LINE: f64 = 22.0;
 /// Curves are drawn as dashes of this length and half as long gaps, px.
 const DASH: f64 = 6.0;
+/// Head of an arrow in a diagram of round things: length and half width in units of a radius of it.
+pub const HEAD: (f64, f64) = (0.035, 0.013);
+/// Largest half length of an arc that tells a direction, in the same unit.
+const ARC: f64 = 0.15;
 
 /// Rectangle of a diagram without its labels, px.
 #[derive(Clone, Copy)]
@@ -124,8 +129,21 @@ impl<'b> Panel<'_, '_, 'b> {
 
     /// Draws a circle about the origin.
     pub fn circle(&mut self, radius: f64, style: ShapeStyle) -> Drawn {
-        let angles = (0..=180).map(|i| f64::from(i) * std::f64::consts::TAU / 180.0);
+        let angles = (0..=180).map(|i| f64::from(i) * TAU / 180.0);
         self.curve(angles.map(|a| (radius * a.cos(), radius * a.sin())), style)
+    }
+
+    /// Draws an arc about the origin, above it, that tells a direction of turning: 1 counter-clockwise, -1 clockwise. `scale` is a
+    /// radius of the diagram, which the size of its head follows.
+    pub fn turning(&mut self, radius: f64, way: f64, (scale, color): (f64, Paint)) -> Drawn {
+        let at = |angle: f64, radius: f64| {
+            let angle = 0.25 * TAU + way * angle;
+            (radius * angle.cos(), radius * angle.sin())
+        };
+        let (length, half) = (0.8 * HEAD.0 * scale / radius, 0.8 * HEAD.1 * scale);
+        let arc = (ARC * scale / radius).min(TAU / 9.0);
+        self.curve((-20..=20).map(|i| at(arc * f64::from(i) / 20.0, radius)), line(color, 1.2))?;
+        self.area([at(arc + length, radius), at(arc, radius + half), at(arc, radius - half)], color)
     }
 
     /// Place of a point on the surface.

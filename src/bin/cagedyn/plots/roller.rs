@@ -29,7 +29,7 @@ pub fn roller_history(run: &Run) -> Option<Result<String>> {
     let extremes = run.intervals("roller[0].pocket_force").and_then(|x| x.get(from..));
     let strips = [
         strip("slip ratio [1]", BLUE, values("slip", 1.0), &[]),
-        strip("pocket position [mm]", GREEN, values("pocket_position", 1e3), &bounds),
+        strip("pocket position [mm]\nahead > 0 > behind", GREEN, values("pocket_position", 1e3), &bounds),
         strip(POCKET_FORCE, PURPLE, values("pocket_force", 1.0), &[0.0]),
         // Many times the records, which would be a flat line on the same scale.
         extremes.map(|envelope| Strip {
@@ -49,6 +49,6 @@ pub fn roller_history(run: &Run) -> Option<Result<String>> {
         entries.push((Symbol::Line(ENVELOPE), "extremes of every step between records".to_owned()));
     }
     let subtitle = &run.subtitle("Roller 0: slip, place in its pocket and forces");
-    let texts = Texts { title: &run.title, subtitle, axis: strips::TIME, entries };
+    let texts = Texts { title: &run.title, subtitle, axis: strips::TIME, step: None, entries };
     Some(strips::history(&texts, times, &strips, &loaded))
 }

@@ -2,9 +2,10 @@
 
 use super::axis::Axis;
 use super::panel::{Place, panel};
-use super::style::{self, CURVE, FAINT, INK, MUTED, Paint, Symbol, TEXT, line, px};
+use super::style::{self, CURVE, FAINT, INK, MUTED, Paint, Symbol, TEXT, line, px, text};
 use cagedyn::{Interval, Result};
-use plotters::style::text_anchor::HPos;
+use plotters::prelude::Text;
+use plotters::style::text_anchor::{HPos, VPos};
 
 /// Height of a diagram and gap between two, px.
 const HEIGHT: f64 = 165.0;
@@ -22,6 +23,8 @@ pub struct Strip<'a> {
     pub bounds: Vec<f64>,
     /// Extremes between the times, drawn behind the curves.
     pub envelope: Option<&'a [Interval]>,
+    /// Remark below it; not of the last one.
+    pub note: Option<&'static str>,
     /// A time from which on something holds, and what.
     pub since: Option<(f64, String)>,
 }
@@ -32,7 +35,7 @@ pub const ENVELOPE: Paint = FAINT;
 impl Strip<'_> {
     /// A diagram without contents.
     pub fn new(name: &'static str) -> Self {
-        Self { name, curves: Vec::new(), bounds: Vec::new(), envelope: None, since: None }
+        Self { name, curves: Vec::new(), bounds: Vec::new(), envelope: None, note: None, since: None }
     }
 }
 
@@ -44,6 +47,8 @@ pub struct Texts<'a> {
     pub subtitle: &'a str,
     /// Name of the common axis with unit.
     pub axis: &'a str,
+    /// Step of its ticks, if it is no round number.
+    pub step: Option<f64>,
     /// Legend.
     pub entries: Vec<(Symbol, String)>,
 }
@@ -63,6 +68,7 @@ pub fn history(
 ) -> Result<String> {
     let (start, end) = (times.first().copied().unwrap_or(0.0), times.last().copied().unwrap_or(1.0));
     let x_axis = Axis::new(texts.axis, start, end, 10);
+    let x_axis = texts.step.map_or(x_axis.clone(), |step| x_axis.every(step));
     let height = TOP + strips.len() as f64 * (HEIGHT + GAP) + 46.0;
     style::picture((900.0, height), texts.title, texts.subtitle, |canvas| {
         style::legend_row(canvas, 78.0, &texts.entries)?;
@@ -73,6 +79,11 @@ pub fn history(
             let y_axis = Axis::covering(strip.name, shown, 5);
             let place = Place { x: 100.0, y: TOP + k as f64 * (HEIGHT + GAP), w: 770.0, h: HEIGHT };
             let last = k + 1 == strips.len();
+            if let Some(note) = strip.note {
+                let style = text(TEXT - 2.0, MUTED, HPos::Right, VPos::Center);
+                let at = (px(place.x + place.w), px(place.y + place.h + 0.5 * GAP));
+                canvas.draw(&Text::new(note, at, style))?;
+            }
             panel(canvas, place, (&x_axis, &y_axis), last, shaded, |panel| {
                 for &bound in &strip.bounds {
                     panel.dashed([(start, bound), (end, bound)], line(MUTED, 0.9))?;

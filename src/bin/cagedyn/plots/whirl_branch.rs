@@ -5,6 +5,7 @@ use super::panel::{Panel, Place, panel};
 use super::style::{
     self, BLUE, CURVE, Canvas, Drawn, INK, MUTED, Marker, ORANGE, Paint, RED, Symbol, THIN, line,
 };
+use super::units::with_unit;
 use cagedyn::Result;
 use cagedyn::whirl::{Branch, End, Point};
 
@@ -27,11 +28,7 @@ type Value = fn(&Point) -> f64;
 /// [`cagedyn::Status::File`] when it cannot be drawn.
 pub fn draw(title: &str, path: &str, branch: &Branch) -> Result<String> {
     let points = &branch.points;
-    let name = match path {
-        "inner_ring.speed.constant" => "speed of the inner ring [rad/s]",
-        path => path,
-    };
-    let x_axis = Axis::covering(name, points.iter().map(|point| point.parameter), 10);
+    let x_axis = Axis::covering(&with_unit(path), points.iter().map(|point| point.parameter), 10);
     let subtitle = format!(
         "Steady whirl over {path}, without gravity; the branch ends {}",
         match branch.end {
@@ -42,7 +39,7 @@ pub fn draw(title: &str, path: &str, branch: &Branch) -> Result<String> {
     );
     let rows: [(&str, Value); 3] = [
         ("whirl speed [rad/s]", |point| point.whirl.speed),
-        ("eccentricity [um]", |point| 1e6 * point.whirl.eccentricity),
+        ("eccentricity [\u{b5}m]", |point| 1e6 * point.whirl.eccentricity),
         ("largest growth rate [1/s]", |point| {
             point.whirl.eigenvalues.first().map_or(f64::NAN, |value| value[0])
         }),

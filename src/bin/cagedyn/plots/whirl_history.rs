@@ -5,12 +5,15 @@ use super::style::{BLUE, GREEN, MUTED, ORANGE, PURPLE, Paint, RED, Symbol, TEAL}
 use crate::results::finished::Run;
 use crate::results::summary::Summary;
 use crate::results::table::rounded;
-use cagedyn::sim::SMALLEST_WHIRL_RADIUS;
 use cagedyn::{Result, Spread};
 
 /// Share of the records whose extreme values do not stretch a diagram: right after the start, while the centre is
 /// near the guide centre, whirl speeds are large without meaning.
 const CLIPPED: f64 = 0.01;
+
+/// Whirl speeds nearer to the centre of the guide are left out, as a share of the clearance, or of the largest radius without a guide:
+/// there the whirl has little motion and much speed.
+const SMALLEST_RADIUS: f64 = 0.02;
 
 /// Parts of the guide force: channel, name, colour.
 const PARTS: [(&str, &str, Paint); 3] = [
@@ -36,26 +39,44 @@ pub fn whirl_history(run: &Run, summary: &Summary) -> Option<Result<String>> {
     let mut entries = vec![(Symbol::Patch, "averaging window".to_owned())];
     let radius = column("cage.whirl_radius", 1e6)?;
     let largest = radius.iter().copied().fold(0.0, f64::max);
-    let smallest = SMALLEST_WHIRL_RADIUS * clearance.map_or(largest, |c| 1e6 * c);
+    let smallest = SMALLEST_RADIUS * clearance.map_or(largest, |c| 1e6 * c);
     let speed = column("cage.whirl_speed", 1.0)?;
-    // So close to the centre of the guide it is noise.
+    let note = match clearance {
+        Some(_) => "where the radius is at least 2 % of the clearance",
+        None => "where the radius is at least 2 % of the largest",
+    };
     let known = speed.iter().zip(&radius).map(|(x, r)| if *r >= smallest { *x } else { f64::NAN }).collect();
     let whirl = summary.whirl.as_ref().filter(|whirl| whirl.motion.is_whirl());
     let settled = whirl.and_then(|whirl| whirl.settling_time_s).map(|from| {
         (from, format!("from {} ms on within 15 % of its mean in the window", rounded(1e3 * from)))
     });
     let mut strips = vec![
-        Strip { since: settled, ..strip("whirl speed [rad/s]", vec![(PURPLE, clipped(known))]) },
+        Strip {
+            note: Some(note),
+            since: settled,
+            ..strip("whirl speed [rad/s]", vec![(PURPLE, clipped(known))])
+        },
         Strip {
             curves: vec![(GREEN, radius)],
             bounds: clearance.map(|c| 1e6 * c).into_iter().collect(),
             ..Strip::new("whirl radius [\u{b5}m]")
         },
     ];
-    if clearance.is_some() {
-        entries.push((Symbol::Dashed(MUTED), "guide clearance".to_owned()));
+    let dashed = [
+        (strips[0].since.is_some(), "steady whirl from here"),
+        (clearance.is_some(), "guide clearance"),
+        (run.column("guide.film_share").is_some(), "zero"),
+    ];
+    let dashed: Vec<&str> = dashed.into_iter().filter_map(|(there, name)| there.then_some(name)).collect();
+    if !dashed.is_empty() {
+        entries.push((Symbol::Dashed(MUTED), dashed.join("; ")));
     }
-    if let Some(share) = column("guide.film_share", 1.0) {
+    if let Some(mut share) = column("guide.film_share", 1.0) {
+        // It is a share of a force.
+        if let (Some(y), Some(z)) = (run.column("guide.force_y"), run.column("guide.force_z")) {
+            let forces = y.iter().zip(z).map(|(y, z)| y.hypot(*z));
+            share.iter_mut().zip(forces).filter(|(_, force)| *force == 0.0).for_each(|(x, _)| *x = f64::NAN);
+        }
         strips.push(Strip { bounds: vec![0.0], ..strip("film share [1]", vec![(TEAL, share)]) });
     }
     let parts: Vec<_> = PARTS.into_iter().filter_map(|(c, name, p)| Some((p, name, present(c)?))).collect();
@@ -73,7 +94,8 @@ pub fn whirl_history(run: &Run, summary: &Summary) -> Option<Result<String>> {
     let window = [(summary.window.from_s, summary.window.to_s)];
     let what =
         "Whirl of the cage; forces across the line from guide to cage centre, positive counter-clockwise";
-    let texts = Texts { title: &run.title, subtitle: &run.subtitle(what), axis: strips::TIME, entries };
+    let texts =
+        Texts { title: &run.title, subtitle: &run.subtitle(what), axis: strips::TIME, step: None, entries };
     Some(strips::history(&texts, &run.recording.times, &strips, &window))
 }
 

@@ -1,18 +1,23 @@
-//! Whirl speed of all cases over the speed of the inner ring.
+//! Whirl speed of all cases over the speed of the inner ring, and how many of their starts lead to a whirl.
 
 use super::axis::Axis;
-use super::labels::beside;
-use super::panel::{Panel, Place, panel};
+use super::labels::nested;
+use super::panel::{Panel, Place, X_LABELS, panel};
 use super::style::{
-    self, CURVE, Canvas, Drawn, INK, MUTED, Marker, Paint, Symbol, TEXT, THIN, line, px, text_width,
+    self, CURVE, Canvas, Drawn, INK, MUTED, Marker, Symbol, TEXT, THIN, line, px, text_width,
 };
 use super::{Series, is_long, look};
 use cagedyn::Result;
 use plotters::prelude::PathElement;
 
-/// Size of the diagram, px.
+/// Place and size of the diagram, px.
+const LEFT: f64 = 100.0;
+const TOP: f64 = 80.0;
 const WIDTH: f64 = 720.0;
 const HEIGHT: f64 = 440.0;
+/// Height of the diagram of the starts, and its distance from the other, px.
+const STARTS: f64 = 120.0;
+const GAP: f64 = 16.0;
 /// Size of the markers and half width of the ends of the bars, px.
 const MARKER: f64 = 4.5;
 const BAR_END: f64 = 4.0;
@@ -27,6 +32,8 @@ pub struct WhirlPoint {
     pub band: [f64; 2],
     /// Whether the cage whirls.
     pub whirls: bool,
+    /// Share of the starts from which it does, if others than the scene's own were tried.
+    pub share: Option<f64>,
 }
 
 /// The picture.
@@ -48,54 +55,77 @@ pub fn whirl_speed(title: &str, series: &[Series<WhirlPoint>]) -> Result<String>
     };
     let values = points().flat_map(|p| [p.mean, p.band[0], p.band[1]]).chain([0.0]);
     let y_axis = Axis::covering("whirl speed [rad/s]", values, 8);
-    let place = Place { x: 100.0, y: 80.0, w: WIDTH, h: HEIGHT };
-    let longest = series.iter().map(|s| text_width(&s.label, TEXT)).fold(120.0, f64::max);
-    let width = 100.0 + WIDTH + 28.0 + 36.0 + longest;
-    let subtitle = "Whirl speed of every case: mean, bar from the 5th to the 95th percentile; cases at one place are drawn beside each other";
-    style::picture((width, 80.0 + HEIGHT + 70.0), title, subtitle, |canvas| {
+    let longest = series.iter().map(|s| text_width(&s.label, TEXT)).fold(160.0, f64::max);
+    let starts = points().any(|p| p.share.is_some());
+    let below = if starts { GAP + STARTS } else { 0.0 };
+    let size = (LEFT + WIDTH + 28.0 + 36.0 + longest, TOP + HEIGHT + below + X_LABELS + 24.0);
+    // A cage may have more than one motion at a speed, which a single start does not show.
+    let subtitle = match starts {
+        true => {
+            "Whirl speed from the scene's own start: mean, bar from the 5th to the 95th percentile; below: starts that whirl"
+        }
+        false => {
+            "Whirl speed of every case, from one start each: mean, bar from the 5th to the 95th percentile"
+        }
+    };
+    style::picture(size, title, subtitle, |canvas| {
         legend(canvas, series)?;
-        panel(canvas, place, (&x_axis, &y_axis), true, &[], |panel| {
+        let place = Place { x: LEFT, y: TOP, w: WIDTH, h: HEIGHT };
+        panel(canvas, place, (&x_axis, &y_axis), !starts, &[], |panel| {
             panel.dashed([(x_axis.min, 0.0), (x_axis.max, 0.0)], line(MUTED, THIN))?;
-            let places: Vec<_> = points().map(|p| panel.place((x(p.speed), p.mean))).collect();
-            let mut shifts = beside(&places, MARKER).into_iter();
-            for (k, s) in series.iter().enumerate() {
-                panel.curve(s.points.iter().map(|p| (x(p.speed), p.mean)), line(look(k).1, CURVE))?;
-                for (p, shift) in s.points.iter().zip(shifts.by_ref()) {
-                    contents(panel, look(k), (p, x(p.speed)), px(shift))?;
-                }
-            }
-            Ok(())
+            contents(panel, series, |p| Some((x(p.speed), p.mean)), |p| p.band)
+        })?;
+        if !starts {
+            return Ok(());
+        }
+        let y_axis = Axis::new("starts that whirl [%]", -8.0, 108.0, 4);
+        let place = Place { y: TOP + HEIGHT + GAP, h: STARTS, ..place };
+        panel(canvas, place, (&x_axis, &y_axis), true, &[], |panel| {
+            let share = |p: &WhirlPoint| Some(100.0 * p.share?);
+            contents(panel, series, |p| Some((x(p.speed), share(p)?)), |p| [share(p).unwrap_or(f64::NAN); 2])
         })
     })
 }
 
 fn legend(canvas: &Canvas<'_>, series: &[Series<WhirlPoint>]) -> Drawn {
-    let x = 100.0 + WIDTH + 28.0;
+    let x = LEFT + WIDTH + 28.0;
     for (k, s) in series.iter().enumerate() {
         let (shape, color) = look(k);
         style::legend_entry(canvas, (x, 96.0 + 26.0 * k as f64), Symbol::MarkedLine(shape, color), &s.label)?;
     }
     let y = 96.0 + 26.0 * series.len() as f64;
-    style::legend_entry(canvas, (x, y), Symbol::Marker(Marker::Ring, INK), "no whirl")
+    style::legend_entry(canvas, (x, y), Symbol::Marker(Marker::Ring, INK), "no whirl from that start")
 }
 
-/// The bar and the marker of a point, so far to the right of its place on the surface.
+/// Curves, bars and markers of all series. Markers at one place lie in each other: beside each other they would stand at wrong speeds.
 fn contents(
-    panel: &Panel<'_, '_, '_>,
-    (shape, color): (Marker, Paint),
-    (p, x): (&WhirlPoint, f64),
-    shift: i32,
+    panel: &mut Panel<'_, '_, '_>,
+    series: &[Series<WhirlPoint>],
+    at: impl Fn(&WhirlPoint) -> Option<(f64, f64)>,
+    band: impl Fn(&WhirlPoint) -> [f64; 2],
 ) -> Drawn {
-    let place = |speed: f64| {
-        let (x, y) = panel.place((x, speed));
-        (x + shift, y)
-    };
-    let [low, high] = p.band.map(place);
-    let stroke = |from, to| panel.canvas().draw(&PathElement::new(vec![from, to], line(color, THIN)));
-    stroke(low, high)?;
-    for (x, y) in [low, high] {
-        stroke((x - px(BAR_END), y), (x + px(BAR_END), y))?;
+    for (k, s) in series.iter().enumerate() {
+        let points = s.points.iter().map(|p| at(p).unwrap_or((f64::NAN, f64::NAN)));
+        panel.curve(points, line(look(k).1, CURVE))?;
     }
-    let shape = if p.whirls { shape } else { Marker::Ring };
-    style::marker(panel.canvas(), shape, place(p.mean), MARKER, color)
+    let shown = || {
+        let points = series.iter().enumerate().flat_map(|(k, s)| s.points.iter().map(move |p| (k, p)));
+        points.filter_map(|(k, p)| Some((k, p, at(p)?)))
+    };
+    let places: Vec<_> = shown().map(|(.., place)| panel.place(place)).collect();
+    let sizes = nested(&places, MARKER);
+    for (((k, p, (x, _)), place), size) in shown().zip(&places).zip(sizes) {
+        let (shape, color) = look(k);
+        let ends = band(p).map(|y| panel.place((x, y)));
+        let stroke = |from, to| panel.canvas().draw(&PathElement::new(vec![from, to], line(color, THIN)));
+        if ends[0] != ends[1] {
+            stroke(ends[0], ends[1])?;
+            for (x, y) in ends {
+                stroke((x - px(BAR_END), y), (x + px(BAR_END), y))?;
+            }
+        }
+        let shape = if p.whirls { shape } else { Marker::Ring };
+        style::marker(panel.canvas(), shape, *place, size, color)?;
+    }
+    Ok(())
 }

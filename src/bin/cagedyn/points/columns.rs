@@ -1,8 +1,10 @@
 //! Columns of tables of runs on slip, pocket forces and whirl, and their cells.
 
+use super::Row;
 use crate::results::files::plain;
 use crate::results::summary::{Summary, Whirl};
 use crate::results::table::rounded;
+use cagedyn::CageMotion;
 
 /// Columns on slip and pocket forces.
 pub const OF_ROLLERS: [&str; 5] = [
@@ -59,6 +61,12 @@ pub fn of_whirl(s: &Summary) -> [String; OF_WHIRL.len()] {
         whirl.map_or(String::new(), |w| w.motion.name().to_owned()),
         cell(whirl.and_then(settled)),
     ]
+}
+
+/// Whether the cage of a run whirls.
+pub fn whirls(row: &Row) -> bool {
+    let motion = row.text(MOTION);
+    CageMotion::ALL.into_iter().any(|known| known.is_whirl() && Some(known.name()) == motion)
 }
 
 /// Settling time of a whirl, s; that of other motions says nothing.

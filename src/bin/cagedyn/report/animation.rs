@@ -81,6 +81,9 @@ struct Forces {
     pocket: Option<Packed>,
     /// Whether they are the largest in any step since the frame before, or those of the records.
     pocket_of_steps: bool,
+    /// What the largest of those of the records exceeds in a tenth of the frames: beside hits of single steps, the force of the
+    /// guide would not be seen.
+    pocket_usual: Option<f64>,
     inner: Option<Packed>,
     outer: Option<Packed>,
     /// Components of the force of the guide on the cage.
@@ -338,7 +341,9 @@ impl<'a> Shown<'a> {
         if self.model.pocket_clearance().is_some() {
             let peaks = self.pocket_peaks();
             forces.pocket_of_steps = peaks.is_some();
-            forces.pocket = peaks.or_else(|| self.pocket_samples());
+            let samples = self.pocket_samples();
+            forces.pocket_usual = samples.as_ref().map(|samples| self.usual(samples));
+            forces.pocket = peaks.or_else(|| samples.map(|samples| Packed::new(&samples)));
             if forces.pocket.is_none() {
                 self.miss("pocket forces", &format!("{}[j].pocket_force", self.kind));
             }
@@ -364,13 +369,23 @@ impl<'a> Shown<'a> {
         if self.speeds(i)[0] < 0.0 { -1.0 } else { 1.0 }
     }
 
-    fn pocket_samples(&self) -> Option<Packed> {
+    /// Pocket forces of the records; by element, then by frame.
+    fn pocket_samples(&self) -> Option<Vec<f64>> {
         let mut values = Vec::new();
         for j in 0..self.count {
             let column = self.of_element(j, "pocket_force")?;
             values.extend(self.places.iter().map(|i| self.direction(*i) * column[*i]));
         }
-        Some(Packed::new(&values))
+        Some(values)
+    }
+
+    /// What the largest of these values of a frame exceeds in a tenth of the frames with any.
+    fn usual(&self, values: &[f64]) -> f64 {
+        let frames = self.places.len();
+        let of_frame = |i: usize| values.iter().skip(i).step_by(frames).fold(0.0, |m: f64, x| m.max(x.abs()));
+        let mut largest: Vec<f64> = (0..frames).map(of_frame).filter(|x| *x > 0.0).collect();
+        largest.sort_by(f64::total_cmp);
+        largest.get(largest.len() * 9 / 10).copied().unwrap_or(0.0)
     }
 
     /// The forces that were largest in any step since the frame before.

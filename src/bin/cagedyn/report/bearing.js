@@ -45,9 +45,11 @@ function bearing(data, state) {
     return found;
   };
   const ofGuide = ([y, z]) => (i) => Math.hypot(y.unit * y.values[i], z.unit * z.values[i]);
+  // On the cage it is that of the records, beside which the largest forces of single steps are cut.
+  const onCage = Math.max(Number((data.forces.pocket_usual ?? 0).toPrecision(2)), data.forces.guide ? scale([ofGuide(data.forces.guide)]) : 0);
   const scales = {
     raceway: scale([data.forces.inner, data.forces.outer].filter(Boolean).map(ofAll)),
-    cage: scale([data.forces.pocket && ofAll(data.forces.pocket), data.forces.guide && ofGuide(data.forces.guide)].filter(Boolean)),
+    cage: onCage > 0 || !data.forces.pocket ? onCage : scale([ofAll(data.forces.pocket)]),
   };
 
   // ---- What is drawn, with all play magnified ----

@@ -1,6 +1,6 @@
 //! A run that has come to its end, and what is asked of it.
 
-use cagedyn::model::{Channel, ContactForces, POWERS, PartTimes};
+use cagedyn::model::{Channel, ContactForces, HostInputs, POWERS, PartTimes};
 use cagedyn::scene::Record;
 use cagedyn::sim::{PowerBalance, RunStatistics};
 use cagedyn::{Error, Interval, Model, Recording, Result, Sim, Status};
@@ -105,6 +105,13 @@ impl Run {
     /// Time of the last record, s.
     pub fn end(&self) -> f64 {
         self.recording.times.last().copied().unwrap_or(0.0)
+    }
+
+    /// Which way the elements go round at the end: 1 counter-clockwise, -1 clockwise; none where they stand still.
+    pub fn direction(&self) -> Option<f64> {
+        let inputs = self.model.inputs_at(self.end(), &HostInputs::default());
+        let [orbit, _] = self.model.kinematic_speeds(&inputs);
+        (orbit != 0.0).then(|| orbit.signum())
     }
 
     /// Number of rollers with a motion of their own.

@@ -4,11 +4,15 @@ use super::grid::plain_text;
 use crate::SweepArgs;
 use crate::plots::sweep::{self, Abscissa, Cell, Curves, Map, Mark, Spectra, lines, maps};
 use crate::points::Row;
+use crate::points::columns::whirls;
 use cagedyn::Result;
 use cagedyn::scene::parse_override;
 
 /// A quantity: its name, the column of its mean, and those of the ends of its band.
 type Quantity = (&'static str, &'static str, Option<[&'static str; 2]>);
+
+/// Column of a mean that says nothing where the cage does not whirl.
+const WHIRL_SPEED: &str = "whirl speed mean [rad/s]";
 
 /// Quantities in the order of the picture; of each group the first that is not zero everywhere.
 const QUANTITIES: [&[Quantity]; 6] = [
@@ -28,11 +32,7 @@ const QUANTITIES: [&[Quantity]; 6] = [
         ),
         ("cage z [m]", "cage.z mean [m]", Some(["cage.z 5 % [m]", "cage.z 95 % [m]"])),
     ],
-    &[(
-        "whirl speed [rad/s]",
-        "whirl speed mean [rad/s]",
-        Some(["whirl speed 5 % [rad/s]", "whirl speed 95 % [rad/s]"]),
-    )],
+    &[("whirl speed [rad/s]", WHIRL_SPEED, Some(["whirl speed 5 % [rad/s]", "whirl speed 95 % [rad/s]"]))],
     &[("cage slip [1]", "cage.slip mean [1]", Some(["cage.slip 5 % [1]", "cage.slip 95 % [1]"]))],
     &[("max roller slip [1]", "max roller slip [1]", None)],
     &[
@@ -64,7 +64,7 @@ pub fn picture(title: &str, args: &SweepArgs, rows: &[(usize, Row)]) -> Option<R
         ([true, true], None) => Some(maps(
             title,
             [&axis(0), &axis(1)],
-            &shown.iter().map(|quantity| map(rows, quantity)).collect::<Vec<_>>(),
+            &shown.iter().map(|quantity| map(rows, quantity)).filter(Map::has_values).collect::<Vec<_>>(),
         )),
         ([true, false] | [false, true], None) => {
             let (x, list) = if numeric[0] { (0, 1) } else { (1, 0) };
@@ -94,7 +94,7 @@ pub fn waterfall(title: &str, args: &SweepArgs, rows: &[(usize, Row)]) -> Result
 }
 
 fn axis(args: &SweepArgs, rows: &[(usize, Row)], k: usize) -> Abscissa {
-    Abscissa::new(&args.vary[k].path, args.vary[k].values.logarithmic(), &numbers(rows, k))
+    Abscissa::of_path(&args.vary[k].path, args.vary[k].values.logarithmic(), &numbers(rows, k))
 }
 
 fn number(row: &Row, k: usize) -> f64 {
@@ -140,10 +140,14 @@ fn curves(
 }
 
 fn map(rows: &[(usize, Row)], (name, mean, _): &Quantity) -> Map {
-    let cells = rows.iter().map(|(_, row)| Cell {
-        at: [number(row, 0), number(row, 1)],
-        value: row.number(mean),
-        trusted: row.trusted != Some(false),
+    let cells = rows.iter().map(|(_, row)| {
+        let meaningless = *mean == WHIRL_SPEED && row.error.is_none() && !whirls(row);
+        Cell {
+            at: [number(row, 0), number(row, 1)],
+            value: row.number(mean).filter(|_| !meaningless),
+            meaningless,
+            trusted: row.trusted != Some(false),
+        }
     });
     Map { name, cells: cells.collect() }
 }

@@ -17,11 +17,13 @@ const LINE: f64 = 21.0;
 const HEAD: f64 = 62.0;
 const TOP: f64 = 108.0;
 /// Places of the bars, and of the first column of changes, px; width of a column and of the numbers beside the bars.
-const BARS: [f64; 2] = [310.0, 540.0];
-const COLUMNS: f64 = 626.0;
+const BARS: [f64; 2] = [350.0, 580.0];
+const COLUMNS: f64 = 666.0;
 const COLUMN: f64 = 102.0;
 /// Size of numbers and headings of columns, px.
 const SMALL: f64 = 11.5;
+/// Least saving below zero that is told, as a share.
+const LEAST: f64 = 0.0005;
 /// Distance of the mark of a broken bar from its end, px.
 const BREAK: f64 = 24.0;
 /// Colours of changes from just beyond scatter on to ten times of it.
@@ -123,18 +125,25 @@ fn row(canvas: &Canvas<'_>, report: &Report, i: usize, y: f64) -> Drawn {
                 canvas.draw(&PathElement::new(ends, line(PAPER, 4.0)))?;
             }
         }
-        let number = format!("{:.1} %", 100.0 * cost);
+        let number = if cost < -LEAST {
+            format!("costs {:.1} % more", -100.0 * cost)
+        } else {
+            format!("{:.1} %", 100.0 * cost.max(0.0))
+        };
         label_at(canvas, (left + width + 6.0, y), &number, (SMALL, INK, HPos::Left))?;
     }
+    // What is left of a bearing there has a cost, but a motion that is none of a bearing.
+    let empty = report.study.rows[i - 1].kind == Kind::Reference;
     for k in 0..report.readings.quantities.len() {
         let x = COLUMNS + COLUMN * k as f64;
-        let significance = report.change(i, k).map_or(0.0, |change| change.significance);
+        let change = report.change(i, k).filter(|_| !empty);
+        let significance = change.map_or(0.0, |change| change.significance);
         let shade = SHADES.iter().find(|(from, _)| significance >= *from).map_or(PAPER, |(_, color)| *color);
         let corners = [(px(x), px(y - 0.5 * LINE)), (px(x + COLUMN), px(y + 0.5 * LINE))];
         canvas.draw(&Rectangle::new(corners, shade.filled()))?;
         canvas.draw(&Rectangle::new(corners, line(GRID, 0.8)))?;
         let color = if significance >= 1.0 { INK } else { MUTED };
-        let change = report.change_text(i, k);
+        let change = if empty { "-".to_owned() } else { report.change_text(i, k) };
         label_at(
             canvas,
             (x + 0.5 * COLUMN, y),

@@ -27,6 +27,8 @@ pub struct Cell {
     pub at: [f64; 2],
     /// The quantity; none where the run failed or has none.
     pub value: Option<f64>,
+    /// Whether that is no failure: the speed of a whirl where there is no whirl.
+    pub meaningless: bool,
     /// Whether the run is to be trusted.
     pub trusted: bool,
 }
@@ -39,6 +41,13 @@ pub struct Map {
     pub cells: Vec<Cell>,
 }
 
+impl Map {
+    /// Whether there is anything to see.
+    pub fn has_values(&self) -> bool {
+        self.cells.iter().any(|cell| cell.value.is_some())
+    }
+}
+
 /// The picture.
 ///
 /// # Errors
@@ -46,10 +55,16 @@ pub struct Map {
 pub fn maps(title: &str, axes: [&Abscissa; 2], maps: &[Map]) -> Result<String> {
     let edges = axes.map(Abscissa::edges);
     let ends = |k: usize| (edges[k].first().copied().unwrap_or(0.0), edges[k].last().copied().unwrap_or(1.0));
-    let (x_axis, y_axis) = (axes[0].axis(ends(0), 4), axes[1].axis(ends(1), 5));
+    let (x_axis, y_axis) = (axes[0].axis_of_cells(ends(0), 6), axes[1].axis_of_cells(ends(1), 10));
     let any = |is: fn(&Cell) -> bool| maps.iter().flat_map(|map| &map.cells).any(is);
     let mut subtitle = "Means over the averaging window of every run; SI units".to_owned();
-    if any(|cell| cell.value.is_none()) {
+    if maps.iter().any(|map| map.name.starts_with("max ")) {
+        subtitle += "; max: the largest in it";
+    }
+    if any(|cell| cell.meaningless) {
+        subtitle += "; grey: no whirl";
+    }
+    if any(|cell| cell.value.is_none() && !cell.meaningless) {
         subtitle += "; cross: failed, or none";
     }
     if any(|cell| cell.value.is_some() && !cell.trusted) {
@@ -90,6 +105,7 @@ fn draw(
             // Viewers show gaps between cells that only touch.
             canvas.draw(&Rectangle::new(corners, line(color, 0.5)))?;
             let shape = match (cell.value, cell.trusted) {
+                (None, _) if cell.meaningless => None,
                 (None, _) => Some((Marker::Cross, MUTED)),
                 (Some(_), false) => Some((Marker::Ring, INK)),
                 _ => None,

@@ -10,6 +10,7 @@ pub use maps::{Cell, Map, maps};
 pub use waterfall::{Column, Spectra, waterfall};
 
 use super::axis::Axis;
+use super::units::with_unit;
 
 /// Axes over more than this many powers of ten have a tick at each of them only.
 const LONG: f64 = 3.0;
@@ -23,10 +24,14 @@ pub struct Abscissa {
 }
 
 impl Abscissa {
-    /// Of these values; with their logarithms where they should be and there are any.
-    pub fn new(path: &str, logarithmic: bool, values: &[f64]) -> Self {
+    /// Of values at a path of the scene; with their logarithms where they should be and there are any.
+    pub fn of_path(path: &str, logarithmic: bool, values: &[f64]) -> Self {
+        Self::new(&with_unit(path), logarithmic, values)
+    }
+
+    fn new(name: &str, logarithmic: bool, values: &[f64]) -> Self {
         let logarithmic = logarithmic && values.iter().all(|x| *x > 0.0);
-        let mut axis = Self { name: path.to_owned(), logarithmic, places: Vec::new() };
+        let mut axis = Self { name: name.to_owned(), logarithmic, places: Vec::new() };
         axis.places = values.iter().map(|x| axis.place(*x)).collect();
         axis.places.sort_by(f64::total_cmp);
         axis.places.dedup();
@@ -63,6 +68,11 @@ impl Abscissa {
             true => Axis::logarithms(&self.name, min, max),
             false => Axis::new(&self.name, min, max, ticks).narrow(),
         }
+    }
+
+    /// The same with its ticks at the values, or at some of them where there are more than `most`.
+    fn axis_of_cells(&self, ends: (f64, f64), most: usize) -> Axis {
+        self.axis(ends, most).at(&self.places, most, self.logarithmic)
     }
 
     /// The axis over all values with some room.
