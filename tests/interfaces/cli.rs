@@ -20,7 +20,7 @@ pub fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 
-pub fn json(path: &Path) -> serde_json::Value {
+pub fn json(path: &Path) -> Value {
     let content = std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
     serde_json::from_str(&content).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
 }
@@ -80,7 +80,7 @@ fn runs_that_are_not_to_be_trusted_say_so() {
     };
     let (output, summary) = trusted(&[]);
     assert!(output.status.success());
-    assert_eq!((&summary["trusted"], &summary["doubts"]), (&true.into(), &serde_json::Value::Null));
+    assert_eq!((&summary["trusted"], &summary["doubts"]), (&true.into(), &Value::Null));
     let (output, summary) = trusted(&["--set", solver]);
     assert_eq!(output.status.code(), Some(3));
     assert!(text(&output.stderr).contains("not to be trusted: leapfrog steps of 1.000e-5 s are unstable"));
@@ -300,7 +300,7 @@ fn the_catalogue_is_listed_and_its_entries_run() {
     assert!(page.contains(&format!("```text\n{list}```")), "{list}");
     let entry = text(&run(&["catalogue", "fva_3"]).stdout);
     assert!(entry.contains("pressure_viscosity 2.24e-8") && entry.contains("Lubricants 2023"), "{entry}");
-    let all: serde_json::Value = serde_json::from_slice(&run(&["catalogue", "--json"]).stdout).unwrap();
+    let all: Value = serde_json::from_slice(&run(&["catalogue", "--json"]).stdout).unwrap();
     assert_eq!(all["materials"]["steel_100cr6"]["values"]["young_modulus"], 210e9);
     let unknown = run(&["catalogue", "butter"]);
     assert!(!unknown.status.success() && text(&unknown.stderr).contains("iso_vg_46"));
@@ -355,8 +355,7 @@ fn info_and_schema_print_what_they_promise() {
         assert!(info.contains(expected), "{expected} in {info}");
     }
     for (kind, file) in [("scene", "scene.schema.json"), ("cases", "cases.schema.json")] {
-        let printed: serde_json::Value =
-            serde_json::from_slice(&run(&["schema", kind]).stdout).expect("a JSON Schema");
+        let printed: Value = serde_json::from_slice(&run(&["schema", kind]).stdout).expect("a JSON Schema");
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("schemas").join(file);
         assert_eq!(printed, json(&path));
     }
@@ -377,8 +376,7 @@ fn heat_tells_temperatures_powers_and_flows() {
     assert!(table.starts_with("time_s,film_K,cage_K,") && table.lines().count() == 17, "{table}");
     let picture = std::fs::read_to_string(out.join("heat_flow.svg")).expect("a picture");
     assert!(picture.contains("outer ring") && !picture.contains("NaN"));
-    let steady: serde_json::Value =
-        serde_json::from_slice(&run(&["heat", scene, "--json"]).stdout).expect("JSON");
+    let steady: Value = serde_json::from_slice(&run(&["heat", scene, "--json"]).stdout).expect("JSON");
     let film = &steady["nodes"][0];
     assert_eq!(film["name"], "film");
     assert!((film["temperature_k"].as_f64().expect("a number") - 330.95).abs() < 0.3, "{steady}");
@@ -393,8 +391,7 @@ fn whirl_tells_the_steady_state_and_follows_it() {
     for expected in ["whirl speed", "stable", "yes", "eigenvalues"] {
         assert!(printed.contains(expected), "{expected} in {printed}");
     }
-    let steady: serde_json::Value =
-        serde_json::from_slice(&run(&["whirl", scene, "--json"]).stdout).expect("JSON");
+    let steady: Value = serde_json::from_slice(&run(&["whirl", scene, "--json"]).stdout).expect("JSON");
     assert!((steady["whirl_speed"].as_f64().expect("a number") / -1962.1 - 1.0).abs() < 1e-3, "{steady}");
     assert_eq!(steady["eigenvalues"].as_array().map(Vec::len), Some(5));
     let folder = tempfile::tempdir().expect("a folder");
