@@ -144,10 +144,11 @@ fn a_case_set_has_a_table_from_the_start() {
         .spawn()
         .expect("the program starts");
     let start = Instant::now();
-    while std::fs::read_dir(dir.path())
-        .map_or(0, |entries| entries.flatten().filter(|e| e.path().is_dir()).count())
-        == 0
-    {
+    // The folder of the records begins with a point and is there before.
+    let of_case = |entry: &std::fs::DirEntry| {
+        entry.path().is_dir() && !entry.file_name().as_encoded_bytes().starts_with(b".")
+    };
+    while std::fs::read_dir(dir.path()).map_or(0, |entries| entries.flatten().filter(of_case).count()) == 0 {
         assert!(start.elapsed() < Duration::from_secs(120), "no case begins");
         std::thread::sleep(Duration::from_millis(5));
     }
