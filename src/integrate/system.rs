@@ -88,6 +88,13 @@ pub trait Split<const N: usize>: Structured<N> {
     /// Adds to the accelerations `a` of the hub what the forces between it and the spokes have become since the last
     /// evaluation, at (`q`, `v`), in the `step` of the spokes.
     fn react(&mut self, _q: &[f64], _v: &[f64], _step: &SemiImplicit<'_>, _a: &mut [f64]) {}
+    /// Whether a step may end with these velocities, which nothing evaluates before the next one.
+    ///
+    /// # Errors
+    /// As [`System::accelerations`].
+    fn admit(&self, _v: &[f64]) -> Result<(), Self::Fault> {
+        Ok(())
+    }
 }
 
 /// What the owner of a system wants to know of a run, and says to it. Nothing by default.

@@ -1,8 +1,9 @@
 //! States that are no motion: their rates from the powers of the last evaluated state, and what methods ask of them.
 
 use super::{Input, InputValues, Model, Workspace};
-use crate::bodies::{Damping, Node, OF_ELEMENT};
+use crate::bodies::{Damping, Fault, Node, OF_ELEMENT};
 use crate::integrate::Linearization;
+use crate::scene::TEMPERATURE;
 use std::ops::Range;
 
 impl Model {
@@ -19,6 +20,20 @@ impl Model {
             inputs.values[Input::Temperature as usize] = v[place];
         }
         inputs
+    }
+
+    /// Whether the lubricant has a viscosity at the temperature that these velocities give it, where that is a state: one that
+    /// a scene may give, at which its law has one.
+    ///
+    /// # Errors
+    /// [`Fault::NoViscosity`].
+    #[inline]
+    pub(crate) fn admit(&self, v: &[f64]) -> Result<(), Fault> {
+        let (Some(place), Some(oil)) = (self.lubricant, &self.inputs.oil) else { return Ok(()) };
+        let temperature = v[place];
+        let known = (TEMPERATURE.min..=TEMPERATURE.max).contains(&temperature);
+        let gone = !known || oil.fluid_at(temperature).relative_viscosity.is_nan();
+        if gone { Err(Fault::NoViscosity { temperature }) } else { Ok(()) }
     }
 
     /// Sets their values at the start of a run.

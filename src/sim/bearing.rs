@@ -313,6 +313,10 @@ impl Split<OF_ELEMENT> for Bearing {
     fn react(&mut self, _q: &[f64], v: &[f64], step: &SemiImplicit<'_>, a: &mut [f64]) {
         self.model.react(v, step, &mut self.workspace, a);
     }
+
+    fn admit(&self, v: &[f64]) -> Result<(), Fault> {
+        self.model.admit(v)
+    }
 }
 
 impl Observed for Bearing {

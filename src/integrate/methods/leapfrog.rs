@@ -195,6 +195,7 @@ impl<S: Split<N> + Observed, const N: usize> Stepper<S> for Leapfrog<N> {
                 self.mean_v[i] = v[i] + half * a;
             }
         }
+        system.admit(v_trial)?;
         let step = SemiImplicit { mean: &self.mean_v, end: v_trial, h };
         system.powers(q_trial, &self.predicted, Some(&step), &mut self.works);
         self.works.iter_mut().for_each(|work| *work *= h);
