@@ -43,7 +43,7 @@ pub fn cases() -> Vec<Case> {
         case("ring bent by a fifth of its radius", "it nearly flips through", greased(&free), 2.0).from(bent),
         case(
             "ring like rubber",
-            "bending ten thousand times as soft as that of polyamide",
+            "bending 2600 times as soft as in the scene of the greased guide",
             greased(&[(BENDING, json!(1e-4))]),
             8.0,
         ),
