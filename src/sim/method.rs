@@ -73,7 +73,8 @@ fn first_step(model: &Model, solver: &Solver) -> f64 {
 /// are what can be had at little cost; everything else is smooth between contacts.
 fn aim(model: &Model, solver: &Solver, tuning: Tuning) -> Aim {
     let asked = solver.method.tolerance();
-    let Numbers { statistics, leapfrog_step, auto_tolerance, watched_energy, .. } = numbers(solver.preset);
+    let Numbers { statistics, leapfrog_step, careful_step, auto_tolerance, watched_energy, .. } =
+        numbers(solver.preset);
     let statistics = statistics && model.has_rollers() && asked.is_none();
     let units = model.state_scales();
     Aim {
@@ -82,6 +83,7 @@ fn aim(model: &Model, solver: &Solver, tuning: Tuning) -> Aim {
             frequency: model.highest_frequency(),
             damped: model.damped(),
             share: leapfrog_step,
+            careful_share: careful_step,
             largest_step: MAX_NOMINAL_STEP.min(bound(solver)),
         },
         units,

@@ -136,6 +136,28 @@ fn stretches_that_miss_energy_are_undone() {
     }
 }
 
+/// Steps of `draft` that are too long for the balance are those of `engineering` afterwards, and not made again all the time.
+#[test]
+fn draft_takes_care_once_its_steps_missed_energy() {
+    let layer = ("cage.guide.film.lubricant_layer.thickness", json!(3e-6));
+    let mut scene = scene("scenes/nu2310_grease.json", &[layer]);
+    // Steps of the leapfrog before it missed energy, and after.
+    let mut steps = |preset: &str| {
+        scene["solver"] = json!({ "preset": preset });
+        let mut sim = Sim::new(Arc::new(Model::from_json(&scene.to_string()).unwrap())).unwrap();
+        let mut before = choice(&sim).leapfrog_step;
+        while choice(&sim).reason != Reason::Balance {
+            before = choice(&sim).leapfrog_step;
+            sim.advance_to(sim.time() + 10e-6).unwrap();
+        }
+        [before, choice(&sim).leapfrog_step]
+    };
+    let [before, after] = steps("draft");
+    assert!((before / after - 1.4).abs() < 1e-12, "{before} {after}");
+    let [before, after] = steps("engineering");
+    assert_eq!(before, after);
+}
+
 /// Steps of records, of calls and of single questions are the same, whatever stretch they are in.
 #[test]
 fn stretches_do_not_depend_on_the_questions() {

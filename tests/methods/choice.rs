@@ -47,7 +47,13 @@ fn auto(system: &Stiffening, statistics: bool) -> Driver<Stiffening> {
     let aim = Aim {
         statistics,
         // Damping is expected where there is none.
-        expected: Expectation { frequency: 1.0, damped: true, share: 0.1, largest_step: 1.0 },
+        expected: Expectation {
+            frequency: 1.0,
+            damped: true,
+            share: 0.1,
+            careful_share: 0.1,
+            largest_step: 1.0,
+        },
         units: vec![100.0; 2],
         tolerance: 1e-8,
         first_step: 1e-3,

@@ -16,6 +16,8 @@ pub struct Expectation {
     pub damped: bool,
     /// Step in units of 1/frequency.
     pub share: f64,
+    /// The same once a longer one has missed too much energy.
+    pub careful_share: f64,
     /// Largest step, s.
     pub largest_step: f64,
 }
@@ -23,11 +25,11 @@ pub struct Expectation {
 impl Expectation {
     /// The step to start with, s.
     pub fn step(&self) -> f64 {
-        self.step_at(self.frequency, self.damped)
+        self.step_at(self.share, self.frequency, self.damped)
     }
 
-    fn step_at(&self, frequency: f64, damped: bool) -> f64 {
-        (self.share / frequency).min(self.largest_step) * if damped { 1.0 } else { 0.5 }
+    fn step_at(&self, share: f64, frequency: f64, damped: bool) -> f64 {
+        (share / frequency).min(self.largest_step) * if damped { 1.0 } else { 0.5 }
     }
 }
 
@@ -55,6 +57,8 @@ pub struct StabilityMonitor<const N: usize> {
     /// Highest frequency that the step rests on, rad/s, and whether its vibration is damped.
     frequency: f64,
     damped: bool,
+    /// Whether a step that rested on them missed too much energy.
+    careful: bool,
     /// Highest frequency met, rad/s.
     highest: f64,
 }
@@ -77,6 +81,7 @@ impl<const N: usize> StabilityMonitor<N> {
             due: 0,
             frequency: expected.frequency,
             damped: expected.damped,
+            careful: false,
             highest: 0.0,
         }
     }
@@ -85,6 +90,12 @@ impl<const N: usize> StabilityMonitor<N> {
     pub fn forget(&mut self) {
         (self.due, self.highest) = (0, 0.0);
         (self.frequency, self.damped) = (self.expected.frequency, self.expected.damped);
+        self.careful = false;
+    }
+
+    /// The steps of the leapfrog missed too much energy: from now on they are shorter, where they are longer than careful ones.
+    pub fn take_care(&mut self) {
+        self.careful = true;
     }
 
     /// Highest frequency met, rad/s.
@@ -94,7 +105,9 @@ impl<const N: usize> StabilityMonitor<N> {
 
     /// Step of the leapfrog, s.
     pub fn step(&self) -> f64 {
-        self.expected.step_at(self.frequency, self.damped)
+        let Expectation { share, careful_share, .. } = self.expected;
+        let share = if self.careful { share.min(careful_share) } else { share };
+        self.expected.step_at(share, self.frequency, self.damped)
     }
 
     /// One more step was made.
@@ -163,6 +176,6 @@ impl<const N: usize> StabilityMonitor<N> {
 }
 
 stored! {
-    impl[const N: usize] StabilityMonitor<N> { due, frequency, highest, damped }
+    impl[const N: usize] StabilityMonitor<N> { due, frequency, highest, damped, careful }
     if |monitor| monitor.frequency >= 0.0 && monitor.highest >= 0.0
 }

@@ -95,6 +95,7 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
         self.next_hold = (2 * self.next_hold).min(self.aim.tuning.longest_hold);
         if self.wrong == Kind::Leapfrog {
             self.reason = Reason::Balance;
+            self.monitor.take_care();
         } else {
             self.strictness = (self.strictness + 1).min(self.aim.tuning.strictest);
         }
