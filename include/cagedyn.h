@@ -124,6 +124,9 @@ typedef struct cagedyn_batch cagedyn_batch;
 /* Asks one simulation to stop. May be used by any number of threads at a time. */
 typedef struct cagedyn_canceller cagedyn_canceller;
 
+/* The heat balance of a bearing whose scene has `heat`. May be used by one thread at a time; a second one gets CAGEDYN_ERR_BUSY. */
+typedef struct cagedyn_heat cagedyn_heat;
+
 /* A compiled scene. Immutable; may be used from several threads at a time. */
 typedef struct cagedyn_model cagedyn_model;
 
@@ -296,6 +299,73 @@ int64_t cagedyn_model_find_geometry(const cagedyn_model *model, const char *name
 
 /* Writes one of them to `value`. */
 int32_t cagedyn_model_get_geometry(const cagedyn_model *model, int64_t index, double *value);
+
+/* Creates the heat balance of a model whose scene has `heat`, at the temperatures of the start. Returns NULL on failure, with the
+ * reason in cagedyn_error_message(). Free it with cagedyn_heat_free(). */
+cagedyn_heat *cagedyn_heat_new(const cagedyn_model *model);
+
+/* Frees a heat balance. NULL is ignored, and the stored error stays. */
+void cagedyn_heat_free(cagedyn_heat *heat);
+
+/* Finds the temperatures at which the bearing stays, from bursts of motion; takes seconds, with rolling elements up to a minute. On
+ * failure temperatures stay what they were. */
+int32_t cagedyn_heat_settle(cagedyn_heat *heat);
+
+/* Warms up for `duration` (s, from 1e-6 to 1e9) with the heat of one burst of motion: the longer, the more roughly. On failure
+ * temperatures stay what they were. */
+int32_t cagedyn_heat_step(cagedyn_heat *heat,
+                          double duration);
+
+/* Number of lumps. Negative status code on failure. */
+int64_t cagedyn_heat_lump_count(const cagedyn_heat *heat);
+
+/* Name of a lump, as in the scene; "" on failure. Lives as long as the heat balance. */
+const char *cagedyn_heat_lump_name(const cagedyn_heat *heat, int64_t lump);
+
+/* Writes the temperatures of the lumps, K (length: lump count). */
+int32_t cagedyn_heat_temperatures(const cagedyn_heat *heat, double *out, int64_t length);
+
+/* Sets the temperatures of the lumps, K, from 150 to 1000 (length: lump count). */
+int32_t cagedyn_heat_set_temperatures(cagedyn_heat *heat, const double *temperatures, int64_t length);
+
+/* Writes the heat that went into each lump in the last burst of motion, W (length: lump count). */
+int32_t cagedyn_heat_into_lumps(const cagedyn_heat *heat, double *out, int64_t length);
+
+/* Number of links between lumps and surroundings. Negative status code on failure. */
+int64_t cagedyn_heat_link_count(const cagedyn_heat *heat);
+
+/* Writes which lumps a link joins to `lumps` (length: 2); -1 stands for the surroundings. */
+int32_t cagedyn_heat_link(const cagedyn_heat *heat, int64_t link, int64_t *lumps, int64_t length);
+
+/* Writes the heat that flows through each link after the last burst of motion, from its first lump to its second, W (length: link
+ * count). */
+int32_t cagedyn_heat_flows(const cagedyn_heat *heat,
+                           double *out,
+                           int64_t length);
+
+/* Number of powers of the motion that warm lumps. Negative status code on failure. */
+int64_t cagedyn_heat_source_count(const cagedyn_heat *heat);
+
+/* Name of such a power, as in the power balance; "" on failure. Lives as long as the heat balance. */
+const char *cagedyn_heat_source_name(const cagedyn_heat *heat, int64_t source);
+
+/* Writes the heat of each of these powers in the last burst of motion, W (length: source count). */
+int32_t cagedyn_heat_sources(const cagedyn_heat *heat, double *out, int64_t length);
+
+/* Number of numbers that cagedyn_heat_quantities() writes. */
+int64_t cagedyn_heat_quantity_count(void);
+
+/* Name of one of these numbers; "" for others. Static text.
+ *
+ * - viscosity: of the lubricant, Pa s; radial_clearance: of a roller bearing, m, else NaN.
+ * - whirl_speed: mean of the last burst, rad/s; 0 where the cage does not go round.
+ * - bearing_torque_heat: of the bearing by catalogue values, W; heat_in_no_lump: of powers that no source names, W.
+ * - carried: heat that oil carries away which flows through lumps, W.
+ * - standard_error: largest one of a temperature, K; 0 where powers do not scatter. bursts: that were run. */
+const char *cagedyn_heat_quantity_name(int64_t index);
+
+/* Writes what else the last burst of motion came to (length: quantity count). */
+int32_t cagedyn_heat_quantities(const cagedyn_heat *heat, double *out, int64_t length);
 
 /* Writes the rate of an arbitrary state at time `t` (s) to `rate`, for hosts with their own integrator: the
  * velocities, then the accelerations. Both arrays have the length of the state and may be the same. The

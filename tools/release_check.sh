@@ -78,9 +78,12 @@ c-sanitizers() {
     must_fail "$out/planted-c" undefined
     "$out/planted-c" nothing || { echo "finds what is not there" >&2; exit 1; }
     local test scene
-    for test in model sim limits errors threads integrator batch guide whirl; do
+    for test in model sim limits errors threads integrator batch guide whirl heat; do
         scene=scenes/nu2310.json
-        [ $test != guide ] && [ $test != whirl ] || scene=scenes/grease_guide.json
+        case $test in
+            guide | whirl) scene=scenes/grease_guide.json ;;
+            heat) scene=scenes/grease_guide_heat.json ;;
+        esac
         cc -std=c11 $flags -Iinclude ctests/test_$test.c -o "$out/test_$test" -Ltarget/release -lcagedyn -lm -pthread \
             -Wl,-rpath,"$PWD/target/release"
         "$out/test_$test" $scene

@@ -9,6 +9,7 @@ pub mod batch;
 pub mod forces;
 pub mod geometry;
 mod guard;
+pub mod heat;
 pub mod integrator;
 pub mod interval;
 pub mod limits;

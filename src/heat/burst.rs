@@ -56,6 +56,12 @@ impl Burst {
         place.and_then(|place| self.sim.input(place).ok()).unwrap_or(0.0)
     }
 
+    /// Back to the start of the scene, after a burst that failed.
+    pub(super) fn restart(&mut self) {
+        // A scene that has started starts again.
+        let _ = self.sim.reset();
+    }
+
     /// The bearing at these temperatures (K), which moves on from where it was.
     fn warm(&mut self, temperatures: &[f64]) -> Result<()> {
         let mut scene = self.sim.model().scene().clone();

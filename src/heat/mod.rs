@@ -45,6 +45,11 @@ const MOST_BURSTS: usize = 80;
 const FIRST_STEP: f64 = 5.0;
 const GROWTH: f64 = 1.8;
 const STEPS: usize = 16;
+/// Shortest and longest step that a host may ask for, s.
+const SHORTEST: f64 = 1e-6;
+const LONGEST: f64 = 1e9;
+/// Temperatures that lumps may be set to, K.
+const LUMPS_HOLD: [f64; 2] = [150.0, 1000.0];
 /// Temperatures at which Walther's line of a mineral oil is still one, K.
 const OIL_HOLDS: [f64; 2] = [250.0, 450.0];
 
@@ -125,11 +130,12 @@ impl HeatBalance {
     ///
     /// # Errors
     /// [`Status::BadScene`] for a scene without `heat`, and where its bearing cannot start.
-    pub fn new(model: Model) -> Result<Self> {
+    pub fn new(model: impl Into<Arc<Model>>) -> Result<Self> {
+        let model = model.into();
         let missing =
             || Error::new(Status::BadScene, "heat: missing; the scene has no heat balance".to_owned());
         let heat = model.scene().heat.clone().ok_or_else(missing)?;
-        let sim = Sim::new(Arc::new(model))?;
+        let sim = Sim::new(model)?;
         let burst = Burst::new(sim);
         let budget = HeatBudget::of(burst.model().scene(), burst.ring_speed()).ok_or_else(missing)?;
         Ok(Self { temperatures: budget.start.clone(), burst, heat, budget })
@@ -145,6 +151,40 @@ impl HeatBalance {
         self.heat.nodes.iter().map(|node| node.name.as_str())
     }
 
+    /// Names of the powers of the motion that warm lumps, in the order of [`HeatState::of_motion`].
+    pub fn sources(&self) -> impl Iterator<Item = &'static str> {
+        let sources = self.budget.sources.as_slice();
+        let first = move |i: usize| !sources[..i].iter().any(|source| source.0 == sources[i].0);
+        (0..sources.len()).filter(move |i| first(*i)).map(move |i| sources[i].0.name())
+    }
+
+    /// Temperatures of the lumps now, K.
+    pub fn temperatures(&self) -> &[f64] {
+        &self.temperatures
+    }
+
+    /// Sets the temperatures of all lumps, K.
+    ///
+    /// # Errors
+    /// [`Status::WrongSize`], and [`Status::BadValue`] for a temperature that is none.
+    pub fn set_temperatures(&mut self, temperatures: &[f64]) -> Result<()> {
+        let count = self.temperatures.len();
+        if temperatures.len() != count {
+            let text = format!("temperatures: length {}, must be {count}", temperatures.len());
+            return Err(Error::new(Status::WrongSize, text));
+        }
+        let [coldest, hottest] = LUMPS_HOLD;
+        for (name, temperature) in self.names().zip(temperatures) {
+            if !(coldest..=hottest).contains(temperature) {
+                let text =
+                    format!("temperatures: {temperature} K of {name} is not from {coldest} to {hottest} K");
+                return Err(Error::new(Status::BadValue, text));
+            }
+        }
+        self.temperatures.copy_from_slice(temperatures);
+        Ok(())
+    }
+
     /// Names of both ends of the links.
     pub fn links(&self) -> impl Iterator<Item = [&str; 2]> {
         self.heat.links.iter().map(|link| link.between.each_ref().map(String::as_str))
@@ -154,8 +194,24 @@ impl HeatBalance {
     /// means over bursts, with their standard error in [`HeatState::scatter`].
     ///
     /// # Errors
-    /// [`Status::BadState`] where temperatures do not settle, or leave the range of the oil; as [`Sim::advance_to`].
+    /// [`Status::BadState`] where temperatures do not settle, or leave the range of the oil; as [`Sim::advance_to`]. Temperatures
+    /// are those before then, and the motion starts anew.
     pub fn settle(&mut self) -> Result<HeatState> {
+        self.or_back(Self::find_steady)
+    }
+
+    /// What `moves` the temperatures; where that fails, nothing has moved.
+    fn or_back<T>(&mut self, moves: impl FnOnce(&mut Self) -> Result<T>) -> Result<T> {
+        let before = self.temperatures.clone();
+        let moved = moves(self);
+        if moved.is_err() {
+            self.temperatures = before;
+            self.burst.restart();
+        }
+        moved
+    }
+
+    fn find_steady(&mut self) -> Result<HeatState> {
         let mut before = f64::INFINITY;
         let mut means: Option<Means> = None;
         for bursts in 1..=MOST_BURSTS {
@@ -192,20 +248,39 @@ impl HeatBalance {
     /// # Errors
     /// As [`HeatBalance::settle`], but for settling.
     pub fn warm_up(&mut self, mut tell: impl FnMut(f64, &HeatState)) -> Result<HeatState> {
-        let (mut time, mut step) = (0.0, FIRST_STEP);
-        let mut last = None;
-        for bursts in 1..=STEPS {
-            let heat = self.run_burst()?;
-            let viscosity = self.viscosity();
-            self.budget.network.step(&heat.into_nodes, viscosity, step, &mut self.temperatures)?;
-            self.check_range()?;
-            time += step;
-            step *= GROWTH;
-            let state = self.state(heat, bursts);
-            tell(time, &state);
-            last = Some(state);
+        self.or_back(|heat| {
+            let (mut time, mut step) = (0.0, FIRST_STEP);
+            let mut last = None;
+            for bursts in 1..=STEPS {
+                let state = heat.warm(step, bursts)?;
+                time += step;
+                step *= GROWTH;
+                tell(time, &state);
+                last = Some(state);
+            }
+            last.ok_or_else(|| Error::new(Status::BadState, "no step was made".to_owned()))
+        })
+    }
+
+    /// Warms up for `duration` (s) from the present temperatures, with the heat of one burst of motion: the longer, the more
+    /// roughly. At a speed that does not change, each step may be nearly twice as long as the one before.
+    ///
+    /// # Errors
+    /// [`Status::BadValue`] for a duration that is none; as [`HeatBalance::settle`], but for settling.
+    pub fn step(&mut self, duration: f64) -> Result<HeatState> {
+        if !(SHORTEST..=LONGEST).contains(&duration) {
+            let text = format!("duration: {duration} s is not from {SHORTEST} to {LONGEST} s");
+            return Err(Error::new(Status::BadValue, text));
         }
-        last.ok_or_else(|| Error::new(Status::BadState, "no step was made".to_owned()))
+        self.or_back(|heat| heat.warm(duration, 1))
+    }
+
+    fn warm(&mut self, duration: f64, bursts: usize) -> Result<HeatState> {
+        let heat = self.run_burst()?;
+        let viscosity = self.viscosity();
+        self.budget.network.step(&heat.into_nodes, viscosity, duration, &mut self.temperatures)?;
+        self.check_range()?;
+        Ok(self.state(heat, bursts))
     }
 
     /// Kinematic viscosity of the lubricant, m^2/s.

@@ -62,6 +62,11 @@ fn c_whirl() {
 }
 
 #[test]
+fn c_heat() {
+    run_c_test("ctests/test_heat.c", "scenes/grease_guide_heat.json");
+}
+
+#[test]
 fn c_threads() {
     run_c_test("ctests/test_threads.c", NU2310);
 }

@@ -3,14 +3,16 @@
 //! `CAGEDYN_CALLS` sets another number of calls.
 #![allow(unsafe_code)]
 
+mod steady;
+
 use cagedyn::capi::batch::*;
 use cagedyn::capi::forces::*;
 use cagedyn::capi::geometry::*;
+use cagedyn::capi::heat::*;
 use cagedyn::capi::integrator::*;
 use cagedyn::capi::interval::*;
 use cagedyn::capi::limits::*;
 use cagedyn::capi::model::*;
-use cagedyn::capi::motion::*;
 use cagedyn::capi::sim::*;
 use cagedyn::capi::statistics::*;
 use cagedyn::capi::whirl::*;
@@ -152,6 +154,7 @@ struct Host {
     in_batch: usize,
     monitor: *mut cagedyn_monitor,
     whirl: *mut cagedyn_whirl,
+    heat: *mut cagedyn_heat,
     buffer: Vec<f64>,
     failures: u64,
 }
@@ -161,19 +164,28 @@ impl Host {
         let scenes = [
             include_str!("../../scenes/nu2310.json").to_owned(),
             include_str!("../../scenes/grease_guide.json").to_owned(),
+            include_str!("../../scenes/grease_guide_heat.json").to_owned(),
         ];
-        let models = scenes.map(|text| {
+        let [rollers, balls, warm] = scenes.map(|text| {
             let text = CString::new(text).expect("no NUL");
             // SAFETY: a text.
             unsafe {
                 cagedyn_model_from_json_with(text.as_ptr(), c"record.extremes=[\"guide.moment\"]".as_ptr())
             }
         });
-        assert!(models.iter().all(|model| !model.is_null()));
+        let models = [rollers, balls];
+        assert!(models.iter().chain([&warm]).all(|model| !model.is_null()));
         let batch = cagedyn_batch_new();
         // SAFETY: a live handle.
         let (monitor, whirl) = unsafe { (cagedyn_monitor_new(batch), cagedyn_whirl_steady(models[1])) };
         assert!(!whirl.is_null());
+        // SAFETY: a live handle, freed once.
+        let heat = unsafe {
+            let heat = cagedyn_heat_new(warm);
+            cagedyn_model_free(warm);
+            heat
+        };
+        assert!(!heat.is_null());
         Self {
             rng: Rng::with_seed(seed),
             models: models.to_vec(),
@@ -182,6 +194,7 @@ impl Host {
             in_batch: 0,
             monitor,
             whirl,
+            heat,
             buffer: vec![UNTOUCHED; ROOM],
             failures: 0,
         }
@@ -479,64 +492,6 @@ impl Host {
         }
     }
 
-    fn about_whirl(&mut self) {
-        let whirl = if self.one_of(10) { null_mut() } else { self.whirl };
-        let (point, model, out) = (self.index(1), self.model(), self.out());
-        let text = self.text();
-        let text = text.as_ref().map_or(null(), |text| text.as_ptr());
-        // SAFETY: as above.
-        unsafe {
-            match self.rng.u32(0..7) {
-                0 => {
-                    let n = self.length(cagedyn_whirl_quantity_count());
-                    let status = cagedyn_whirl_point(whirl, point, out, n);
-                    self.check("point", status.into());
-                }
-                1 => {
-                    let n = self.length(0);
-                    let status = cagedyn_whirl_amplitudes(whirl, point, out, n);
-                    self.check("amplitudes", status.into());
-                }
-                2 => {
-                    let n = self.length(cagedyn_whirl_eigenvalue_count(self.whirl));
-                    let mut frequencies = [UNTOUCHED; 32];
-                    let status = cagedyn_whirl_eigenvalues(whirl, point, out, frequencies.as_mut_ptr(), n);
-                    assert_eq!(status == CAGEDYN_OK, frequencies[0].to_bits() != UNTOUCHED.to_bits());
-                    self.check("eigenvalues", status.into());
-                }
-                3 => {
-                    let count = cagedyn_whirl_wave_count(whirl);
-                    self.check("waves", count);
-                }
-                4 => {
-                    let count = cagedyn_whirl_point_count(whirl);
-                    self.check("points", count);
-                }
-                5 if self.one_of(2) => {
-                    let numbers: Vec<f64> = (0..20).map(|i| f64::from(i) + self.number()).collect();
-                    let (x, n) = (numbers.as_ptr(), self.length(20).min(20));
-                    let y = if self.one_of(8) { null() } else { x };
-                    let m = self.length(cagedyn_motion_count());
-                    let (clearance, from) = (self.number(), self.number());
-                    let status = cagedyn_cage_motion(x, y, x, y, x, n, clearance, from, out, m);
-                    self.check("motion", status.into());
-                    let (sectors, m) = (self.index(100), self.length(400));
-                    let status = cagedyn_over_orbit(x, y, n, sectors, out, m);
-                    self.check("over orbit", status.into());
-                }
-                5 => {
-                    assert!(!cagedyn_whirl_end(whirl).is_null() && !cagedyn_whirl_why(whirl).is_null());
-                    assert!(!cagedyn_whirl_quantity_name(point).is_null());
-                }
-                _ => {
-                    // None of these texts is the path of a number.
-                    let made = cagedyn_whirl_follow(model, text, self.number(), self.number());
-                    assert!(made.is_null() && cagedyn_error_status() != CAGEDYN_OK);
-                }
-            }
-        }
-    }
-
     fn about_batches(&mut self) {
         let batch = if self.one_of(10) { null_mut() } else { self.batch };
         let monitor = if self.one_of(10) { null_mut() } else { self.monitor };
@@ -622,6 +577,8 @@ impl Host {
             cagedyn_batch_free(self.batch);
             cagedyn_monitor_free(self.monitor);
             cagedyn_whirl_free(self.whirl);
+            assert_eq!(cagedyn_heat_step(self.heat, 1.0), CAGEDYN_OK);
+            cagedyn_heat_free(self.heat);
             self.models.drain(..).for_each(|model| cagedyn_model_free(model));
         }
     }
@@ -637,6 +594,7 @@ fn random_calls_crash_nothing_and_leave_everything_usable() {
             match host.rng.u32(0..20) {
                 0..6 => host.about_models(),
                 6..17 => host.about_sims(),
+                17 if host.one_of(2) => host.about_heat(),
                 17 => host.about_whirl(),
                 _ => host.about_batches(),
             }
