@@ -128,7 +128,7 @@ impl Balance {
         // Written so that what is not a number is too much.
         Ok(missing.abs() <= self.tuning.energy_rounding * stored
             || missing_share <= self.tuning.energy_share * self.allowed
-            || self.can_spare())
+            || self.can_spare() && missing_share <= self.tuning.gross_share)
     }
 
     /// Whether little enough of all is missing for steps that may miss some more.
