@@ -24,6 +24,16 @@ pub struct Options {
     pub tuning: Tuning,
 }
 
+/// Means of a channel over many starts.
+#[derive(Clone, Debug)]
+pub struct OverStarts {
+    pub preset: &'static str,
+    pub channel: &'static str,
+    pub sample: Sample,
+    /// Mean number of evaluations of a run.
+    pub evaluations: f64,
+}
+
 /// The presets, and the largest share of energy that may be missing in each.
 pub const PRESETS: [(&str, f64); 3] = [("draft", 1e-2), ("engineering", 1e-3), ("reference", 1e-4)];
 /// Records of a run. The second half counts.
@@ -49,6 +59,14 @@ pub struct Apart {
     pub channel: usize,
     /// Whether means over several starts differ, too, by more than their scatter explains.
     pub in_mean: bool,
+}
+
+impl Options {
+    /// The presets that are asked for.
+    fn chosen(&self) -> impl Iterator<Item = (&'static str, f64)> + '_ {
+        let asked = |preset: &str| self.presets.is_empty() || self.presets.iter().any(|p| p == preset);
+        PRESETS.into_iter().filter(move |(preset, _)| asked(preset))
+    }
 }
 
 /// What became of a scene with a preset.
@@ -115,37 +133,37 @@ pub fn judge(number: u64, options: &Options) -> Vec<Outcome> {
         Some([Ok((_, a)), Ok((_, b))]) => Some([*a, *b]),
         _ => None,
     };
-    let asked = |preset: &str| options.presets.is_empty() || options.presets.iter().any(|p| p == preset);
-    let list = PRESETS.into_iter().filter(|(preset, _)| asked(preset));
-    list.map(|(preset, promise)| {
-        let ran = match references.take() {
-            Some([reference, _]) if preset == "reference" => reference,
-            others => {
-                references = others;
-                run(preset, 0.0)
-            }
-        };
-        let verdict = match ran {
-            Err(e) if matches!(e.status, Status::BadScene | Status::BadJson) => Verdict::Refused,
-            Err(e) => Verdict::Failed(e),
-            Ok((mut verdict, here)) => {
-                if let (Verdict::Ran { apart, .. }, Some(means)) = (&mut verdict, &means) {
-                    *apart = compare(&here, means);
-                    if let Some(apart) = apart
-                        && apart.ratio > 1.0
-                    {
-                        let of = |preset| {
-                            starts(|shift| run(preset, shift).ok().map(|(_, means)| means), apart.channel)
-                        };
-                        apart.in_mean = differ(of(preset), of("reference"));
-                    }
+    options
+        .chosen()
+        .map(|(preset, promise)| {
+            let ran = match references.take() {
+                Some([reference, _]) if preset == "reference" => reference,
+                others => {
+                    references = others;
+                    run(preset, 0.0)
                 }
-                verdict
-            }
-        };
-        Outcome { number, preset, promise, verdict }
-    })
-    .collect()
+            };
+            let verdict = match ran {
+                Err(e) if matches!(e.status, Status::BadScene | Status::BadJson) => Verdict::Refused,
+                Err(e) => Verdict::Failed(e),
+                Ok((mut verdict, here)) => {
+                    if let (Verdict::Ran { apart, .. }, Some(means)) = (&mut verdict, &means) {
+                        *apart = compare(&here, means);
+                        if let Some(apart) = apart
+                            && apart.ratio > 1.0
+                        {
+                            let of = |preset| {
+                                starts(|shift| run(preset, shift).ok().map(|(_, means)| means), apart.channel)
+                            };
+                            apart.in_mean = differ(of(preset), of("reference"));
+                        }
+                    }
+                    verdict
+                }
+            };
+            Outcome { number, preset, promise, verdict }
+        })
+        .collect()
 }
 
 /// The largest difference from the references in units of three times their own and three standard errors.
@@ -168,6 +186,33 @@ fn negligible(mean: f64) -> f64 {
 fn starts(run: impl Fn(f64) -> Option<Means>, channel: usize) -> Option<Sample> {
     let mean = |k: u32| Some(run(FURTHER * f64::from(k))?[channel]?.mean);
     Sample::of(&(1..=STARTS).map(mean).collect::<Option<Vec<f64>>>()?)
+}
+
+/// Means of all channels of scene `number` over `count` starts, with the presets.
+///
+/// # Errors
+/// As the first run that fails.
+pub fn over_starts(number: u64, count: u32, options: &Options) -> Result<Vec<OverStarts>, Error> {
+    let scene = scenes::scene(number, options.duration);
+    let mut all = Vec::new();
+    for (preset, _) in options.chosen() {
+        let (mut columns, mut evaluations) = ([const { Vec::new() }; 4], 0.0);
+        for k in 1..=count {
+            let (verdict, means) = run(&scene, preset, FURTHER * f64::from(k), options)?;
+            if let Verdict::Ran { evaluations: of_run, .. } = verdict {
+                evaluations += of_run as f64 / f64::from(count);
+            }
+            columns
+                .iter_mut()
+                .zip(means)
+                .for_each(|(column, mean)| column.extend(mean.map(|mean| mean.mean)));
+        }
+        for (channel, column) in CHANNELS.into_iter().zip(&columns) {
+            let sample = Sample::of(column);
+            all.extend(sample.map(|sample| OverStarts { preset, channel, sample, evaluations }));
+        }
+    }
+    Ok(all)
 }
 
 /// Whether scatter does not explain the difference; so it is where there is nothing to compare.

@@ -1,6 +1,6 @@
 //! What the judged runs amount to.
 
-use super::run::{Apart, CHANNELS, Outcome, PRESETS, Verdict};
+use super::run::{Apart, CHANNELS, Outcome, OverStarts, PRESETS, Verdict};
 
 /// Whether more is missing than promised, or what is no number.
 fn breaks(residual: f64, promise: f64) -> bool {
@@ -30,6 +30,22 @@ pub fn line(outcome: &Outcome) -> Option<String> {
         _ => return None,
     };
     Some(format!("{number} {preset}: {text}"))
+}
+
+/// A table of means over many starts.
+pub fn starts(means: &[OverStarts]) -> String {
+    let mut text = "| preset | mean of | over all starts | standard error | starts | evaluations per run |\n\
+                    |---|---|---:|---:|---:|---:|\n"
+        .to_owned();
+    for OverStarts { preset, channel, sample, evaluations } in means {
+        text.push_str(&format!(
+            "| {preset} | `{channel}` | {:.5} | {:.5} | {} | {evaluations:.0} |\n",
+            sample.mean,
+            sample.variance.sqrt(),
+            sample.count
+        ));
+    }
+    text
 }
 
 /// How far the means of a trusted run are from the reference.

@@ -31,6 +31,9 @@ struct Arguments {
     /// Print what each constant of `auto` does instead.
     #[arg(long)]
     tuning: bool,
+    /// Print the means of the first scene over so many starts instead.
+    #[arg(long)]
+    starts: Option<u32>,
     /// Print the scene instead of running it.
     #[arg(long)]
     print: bool,
@@ -49,6 +52,13 @@ fn main() {
     let options = run::Options { duration, means, presets, wall_time, tuning: Tuning::default() };
     if arguments.tuning {
         print!("{}", tuning::page(seed..seed + n, &options));
+        return;
+    }
+    if let Some(count) = arguments.starts {
+        match run::over_starts(seed, count, &options) {
+            Ok(means) => print!("{}", summary::starts(&means)),
+            Err(e) => println!("{seed}: {e}"),
+        }
         return;
     }
     let outcomes = run::judge_all(seed..seed + n, &options, |outcome| {
