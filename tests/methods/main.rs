@@ -6,7 +6,6 @@ mod common;
 mod adams;
 mod arrowhead;
 mod auto;
-mod balance;
 mod choice;
 mod implicit;
 mod orders;

@@ -113,17 +113,11 @@ impl Balance {
     }
 
     /// Ends the stretch at time `t` (s) and this state, where the next one begins. Whether it missed little enough, or the
-    /// whole run has; steps whose errors nobody `controlled` may not miss much of their own at any time.
+    /// whole run has.
     ///
     /// # Errors
     /// The system's fault at this state; the stretch then goes on.
-    pub fn settle<S: Observed>(
-        &mut self,
-        system: &mut S,
-        t: f64,
-        state: &[f64],
-        controlled: bool,
-    ) -> Result<bool, S::Fault> {
+    pub fn settle<S: Observed>(&mut self, system: &mut S, t: f64, state: &[f64]) -> Result<bool, S::Fault> {
         let energy = self.energy_at(system, t, state)?;
         self.stretch.gains = [0, 1, 2].map(|k| energy[k] - self.energy[k]);
         self.energy = energy;
@@ -134,7 +128,7 @@ impl Balance {
         // Written so that what is not a number is too much.
         Ok(missing.abs() <= self.tuning.energy_rounding * stored
             || missing_share <= self.tuning.energy_share * self.allowed
-            || self.can_spare() && (controlled || missing_share <= self.tuning.gross_share))
+            || self.can_spare())
     }
 
     /// Whether little enough of all is missing for steps that may miss some more.

@@ -60,9 +60,6 @@ tuning! {
     /// Share of what a preset may miss of its energy, `draft` as much as `engineering`, that one stretch and the run so far may
     /// miss: what is left is for the stretches to come.
     energy_share: f64 = 0.2, "1";
-    /// A stretch of the leapfrog that misses more than this share of its own energy is wrong even where the run could spare it: a light cage would
-    /// be driven by errors that are small beside what the rings put through.
-    gross_share: f64 = 0.005, "1";
     /// Less missing energy than this share of the stored one is round-off.
     energy_rounding: f64 = 1e-12, "1";
     /// Stretches with more care after a wrong one; twice as many after the next, as long as fewer right ones lie between.
