@@ -38,6 +38,15 @@ static inline cagedyn_model *load_model(int argc, char **argv)
     return model;
 }
 
+/* Place of a name among `count` of them, or -1. */
+static inline int64_t place_of(const char *name, const char *(*name_at)(int64_t), int64_t count)
+{
+    for (int64_t i = 0; i < count; i++) {
+        if (strcmp(name_at(i), name) == 0) return i;
+    }
+    return -1;
+}
+
 static inline double *numbers(int64_t n)
 {
     double *x = (double *)calloc((size_t)n, sizeof(double));

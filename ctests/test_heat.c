@@ -3,10 +3,7 @@
 
 static int64_t quantity(const char *name)
 {
-    for (int64_t i = 0; i < cagedyn_heat_quantity_count(); i++) {
-        if (strcmp(cagedyn_heat_quantity_name(i), name) == 0) return i;
-    }
-    return -1;
+    return place_of(name, cagedyn_heat_quantity_name, cagedyn_heat_quantity_count());
 }
 
 int main(int argc, char **argv)
@@ -84,9 +81,10 @@ int main(int argc, char **argv)
     cagedyn_heat_free(NULL);
 
     CHECK(cagedyn_heat_new(NULL) == NULL && cagedyn_error_status() == CAGEDYN_ERR_NULL_ARGUMENT);
-    cagedyn_model *cold = cagedyn_model_from_json_with(cagedyn_model_scene_json(model), "heat=null");
-    CHECK(cold == NULL || cagedyn_heat_new(cold) == NULL);
-    CHECK(cagedyn_error_status() == CAGEDYN_ERR_BAD_SCENE || cagedyn_error_status() == CAGEDYN_ERR_BAD_JSON);
+    cagedyn_model *cold = cagedyn_model_from_json_with(
+        cagedyn_model_scene_json(model), "heat=null\nlubricant.viscosity={\"constant\":0.09}");
+    CHECK(cold != NULL && cagedyn_heat_new(cold) == NULL);
+    CHECK(cagedyn_error_status() == CAGEDYN_ERR_BAD_SCENE && strstr(cagedyn_error_message(), "heat: missing") != NULL);
     cagedyn_model_free(cold);
 
     free(start);

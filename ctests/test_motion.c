@@ -6,10 +6,7 @@ enum { RECORDS = 1000, SECTORS = 36 };
 
 static int64_t quantity(const char *name)
 {
-    for (int64_t i = 0; i < cagedyn_motion_count(); i++) {
-        if (strcmp(cagedyn_motion_name(i), name) == 0) return i;
-    }
-    return -1;
+    return place_of(name, cagedyn_motion_name, cagedyn_motion_count());
 }
 
 int main(int argc, char **argv)

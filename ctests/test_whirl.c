@@ -3,10 +3,7 @@
 
 static int64_t quantity(const char *name)
 {
-    for (int64_t i = 0; i < cagedyn_whirl_quantity_count(); i++) {
-        if (strcmp(cagedyn_whirl_quantity_name(i), name) == 0) return i;
-    }
-    return -1;
+    return place_of(name, cagedyn_whirl_quantity_name, cagedyn_whirl_quantity_count());
 }
 
 int main(int argc, char **argv)

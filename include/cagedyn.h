@@ -307,7 +307,7 @@ cagedyn_heat *cagedyn_heat_new(const cagedyn_model *model);
 /* Frees a heat balance. NULL is ignored, and the stored error stays. */
 void cagedyn_heat_free(cagedyn_heat *heat);
 
-/* Finds the temperatures at which the bearing stays, from bursts of motion; takes seconds, with rolling elements up to a minute. On
+/* Finds the temperatures at which the bearing stays, from up to 80 bursts of motion of 30 ms, with rolling elements of 100 ms. On
  * failure temperatures stay what they were. */
 int32_t cagedyn_heat_settle(cagedyn_heat *heat);
 

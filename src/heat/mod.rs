@@ -163,10 +163,10 @@ impl HeatBalance {
         &self.temperatures
     }
 
-    /// Sets the temperatures of all lumps, K.
+    /// Sets the temperatures of all lumps, K, from 150 to 1000: wide enough for any bearing, so that a value in degrees Celsius is seen.
     ///
     /// # Errors
-    /// [`Status::WrongSize`], and [`Status::BadValue`] for a temperature that is none.
+    /// [`Status::WrongSize`], and [`Status::BadValue`] for a temperature out of this range.
     pub fn set_temperatures(&mut self, temperatures: &[f64]) -> Result<()> {
         let count = self.temperatures.len();
         if temperatures.len() != count {
@@ -262,11 +262,11 @@ impl HeatBalance {
         })
     }
 
-    /// Warms up for `duration` (s) from the present temperatures, with the heat of one burst of motion: the longer, the more
+    /// Warms up for `duration` (s, from 1e-6 to 1e9) from the present temperatures, with the heat of one burst of motion: the longer, the more
     /// roughly. At a speed that does not change, each step may be nearly twice as long as the one before.
     ///
     /// # Errors
-    /// [`Status::BadValue`] for a duration that is none; as [`HeatBalance::settle`], but for settling.
+    /// [`Status::BadValue`] for a duration out of this range; as [`HeatBalance::settle`], but for settling.
     pub fn step(&mut self, duration: f64) -> Result<HeatState> {
         if !(SHORTEST..=LONGEST).contains(&duration) {
             let text = format!("duration: {duration} s is not from {SHORTEST} to {LONGEST} s");

@@ -156,8 +156,21 @@ fn the_ends_of_the_viscosity_law_and_what_warms_nothing_are_told() {
         Ok(cold) => assert!(cold.temperatures[0] > 251.0 && cold.temperatures[0] < 320.0, "{cold:?}"),
         Err(error) => assert!(error.message.contains("settled"), "{error}"),
     }
-    let hot = settled(&[("heat.ambient", "449.0"), ("inner_ring.speed.constant", "800.0")]).unwrap_err();
+    let mut burning = balance(&[("heat.ambient", "449.0"), ("inner_ring.speed.constant", "800.0")]);
+    let before = burning.temperatures().to_vec();
+    let hot = burning.settle().unwrap_err();
     assert!(hot.message.contains("Walther") && hot.message.contains("250 to 450 K"), "{hot}");
+    // Nothing has moved, and it goes on from temperatures that the oil bears.
+    assert_eq!(burning.temperatures(), before);
+    let cool = vec![320.0; before.len()];
+    burning.set_temperatures(&cool).unwrap();
+    let warmer = burning.step(1.0).unwrap();
+    assert_eq!(warmer.temperatures, burning.temperatures());
+    assert!(warmer.temperatures[0] > 320.0 && warmer.temperatures[0] < 450.0, "{warmer:?}");
+    let refused = |result: Result<()>| result.unwrap_err().message;
+    assert!(refused(burning.set_temperatures(&cool[1..])).contains("length"));
+    assert!(refused(burning.set_temperatures(&vec![47.0; cool.len()])).contains("47 K of film"));
+    assert!(refused(burning.step(f64::NAN).map(|_| ())).contains("duration: NaN s"));
     let refused = |changes: &[(&str, &str)]| {
         let text = include_str!("../../scenes/grease_guide_heat.json");
         Scene::from_json_with(text, changes.iter().copied()).unwrap_err().message

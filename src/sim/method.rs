@@ -1,7 +1,7 @@
 //! From the scene's choice of a method to a running one, and back to words.
 
 use super::bearing::Bearing;
-use super::preset::{Numbers, UNDAMPED_SHARE, numbers};
+use super::preset::{CAREFUL_STEP, Numbers, UNDAMPED_SHARE, numbers};
 use crate::integrate::auto::stability::Expectation;
 use crate::integrate::auto::{Aim, Auto, Choice, Kind, Reason};
 use crate::integrate::{Adams, DormandPrince, Leapfrog, Limits, Radau, Rosenbrock, Stepper, Tuning};
@@ -73,8 +73,7 @@ fn first_step(model: &Model, solver: &Solver) -> f64 {
 /// are what can be had at little cost; everything else is smooth between contacts.
 fn aim(model: &Model, solver: &Solver, tuning: Tuning) -> Aim {
     let asked = solver.method.tolerance();
-    let Numbers { statistics, leapfrog_step, careful_step, auto_tolerance, watched_energy, .. } =
-        numbers(solver.preset);
+    let Numbers { statistics, leapfrog_step, auto_tolerance, watched_energy, .. } = numbers(solver.preset);
     let statistics = statistics && model.has_rollers() && asked.is_none();
     let units = model.state_scales();
     Aim {
@@ -83,7 +82,7 @@ fn aim(model: &Model, solver: &Solver, tuning: Tuning) -> Aim {
             frequency: model.highest_frequency(),
             damped: model.damped(),
             share: leapfrog_step,
-            careful_share: careful_step,
+            careful_share: leapfrog_step.min(CAREFUL_STEP),
             largest_step: MAX_NOMINAL_STEP.min(bound(solver)),
         },
         units,

@@ -11,8 +11,6 @@ pub(super) struct Numbers {
     pub statistics: bool,
     /// Leapfrog step in units of 1/(highest frequency), with contact damping; without it takes half.
     pub leapfrog_step: f64,
-    /// The same of `auto` once longer steps have missed too much energy.
-    pub careful_step: f64,
     /// Tolerance of a method with error control that the scene names.
     pub tolerance: f64,
     /// Tolerance of `auto`, which promises means; for rollers while nothing vibrates, and where the leapfrog will not do.
@@ -26,10 +24,12 @@ pub(super) struct Numbers {
 /// Leapfrog step without contact damping, relative to that with it.
 pub(super) const UNDAMPED_SHARE: f64 = 0.5;
 
+/// Leapfrog step of `auto` in units of 1/(highest frequency), once a longer one has missed too much energy.
+pub(super) const CAREFUL_STEP: f64 = ENGINEERING.leapfrog_step;
+
 const ENGINEERING: Numbers = Numbers {
     statistics: true,
     leapfrog_step: 1.0,
-    careful_step: 1.0,
     tolerance: 1e-6,
     auto_tolerance: 1e-6,
     missing_energy: 1e-3,
@@ -45,7 +45,6 @@ const DRAFT: Numbers = Numbers { leapfrog_step: 1.4, tolerance: 1e-4, missing_en
 const REFERENCE: Numbers = Numbers {
     statistics: false,
     leapfrog_step: 0.15,
-    careful_step: 0.15,
     tolerance: 1e-8,
     auto_tolerance: 1e-8,
     missing_energy: 1e-4,

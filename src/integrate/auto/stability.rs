@@ -16,7 +16,7 @@ pub struct Expectation {
     pub damped: bool,
     /// Step in units of 1/frequency.
     pub share: f64,
-    /// The same once a longer one has missed too much energy.
+    /// The same once steps have missed too much energy; not more than `share`.
     pub careful_share: f64,
     /// Largest step, s.
     pub largest_step: f64,
@@ -93,7 +93,7 @@ impl<const N: usize> StabilityMonitor<N> {
         self.careful = false;
     }
 
-    /// The steps of the leapfrog missed too much energy: from now on they are shorter, where they are longer than careful ones.
+    /// The steps of the leapfrog missed too much energy: from now on they are careful ones.
     pub fn take_care(&mut self) {
         self.careful = true;
     }
@@ -106,7 +106,7 @@ impl<const N: usize> StabilityMonitor<N> {
     /// Step of the leapfrog, s.
     pub fn step(&self) -> f64 {
         let Expectation { share, careful_share, .. } = self.expected;
-        let share = if self.careful { share.min(careful_share) } else { share };
+        let share = if self.careful { careful_share } else { share };
         self.expected.step_at(share, self.frequency, self.damped)
     }
 

@@ -133,37 +133,36 @@ pub fn judge(number: u64, options: &Options) -> Vec<Outcome> {
         Some([Ok((_, a)), Ok((_, b))]) => Some([*a, *b]),
         _ => None,
     };
-    options
-        .chosen()
-        .map(|(preset, promise)| {
-            let ran = match references.take() {
-                Some([reference, _]) if preset == "reference" => reference,
-                others => {
-                    references = others;
-                    run(preset, 0.0)
-                }
-            };
-            let verdict = match ran {
-                Err(e) if matches!(e.status, Status::BadScene | Status::BadJson) => Verdict::Refused,
-                Err(e) => Verdict::Failed(e),
-                Ok((mut verdict, here)) => {
-                    if let (Verdict::Ran { apart, .. }, Some(means)) = (&mut verdict, &means) {
-                        *apart = compare(&here, means);
-                        if let Some(apart) = apart
-                            && apart.ratio > 1.0
-                        {
-                            let of = |preset| {
-                                starts(|shift| run(preset, shift).ok().map(|(_, means)| means), apart.channel)
-                            };
-                            apart.in_mean = differ(of(preset), of("reference"));
-                        }
+    let list = options.chosen();
+    list.map(|(preset, promise)| {
+        let ran = match references.take() {
+            Some([reference, _]) if preset == "reference" => reference,
+            others => {
+                references = others;
+                run(preset, 0.0)
+            }
+        };
+        let verdict = match ran {
+            Err(e) if matches!(e.status, Status::BadScene | Status::BadJson) => Verdict::Refused,
+            Err(e) => Verdict::Failed(e),
+            Ok((mut verdict, here)) => {
+                if let (Verdict::Ran { apart, .. }, Some(means)) = (&mut verdict, &means) {
+                    *apart = compare(&here, means);
+                    if let Some(apart) = apart
+                        && apart.ratio > 1.0
+                    {
+                        let of = |preset| {
+                            starts(|shift| run(preset, shift).ok().map(|(_, means)| means), apart.channel)
+                        };
+                        apart.in_mean = differ(of(preset), of("reference"));
                     }
-                    verdict
                 }
-            };
-            Outcome { number, preset, promise, verdict }
-        })
-        .collect()
+                verdict
+            }
+        };
+        Outcome { number, preset, promise, verdict }
+    })
+    .collect()
 }
 
 /// The largest difference from the references in units of three times their own and three standard errors.
