@@ -20,6 +20,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let cores = std::thread::available_parallelism()?.get();
     // Wall time in s.
     let run = |jobs: usize| -> Result<f64, Box<dyn Error>> {
+        // Cases that stand there would not be run again.
+        if out.exists() {
+            std::fs::remove_dir_all(&out)?;
+        }
         let started = Instant::now();
         let status = Command::new(env!("CARGO_BIN_EXE_cagedyn"))
             .args(["cases".as_ref(), file.as_os_str(), "--jobs".as_ref(), jobs.to_string().as_ref()])
