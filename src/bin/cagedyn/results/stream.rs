@@ -1,7 +1,8 @@
 //! The time series of a run, written while it goes on.
 //!
-//! Until the run has ended the table has a name that says so. Only whole rows are written, each once: a program that is
-//! killed and a disk that is full leave a table that ends with a record.
+//! Until the run has ended the table has a name that says so. Only whole rows are written, each once: a disk that is full leaves a
+//! table that ends with a record. A program that is killed can leave a part of its last row, without a line's end, where the
+//! system was writing at that moment.
 
 use crate::results::files::{SERIES, UNFINISHED, add_plain, file_error};
 use crate::results::table::rounded;
