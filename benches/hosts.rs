@@ -17,7 +17,10 @@ const TEXT: &str = include_str!("../scenes/nu2310.json");
 const DEVELOPED: f64 = 0.01;
 const CALLS: usize = 500;
 const ROUNDS: usize = 10;
-const PAIRS: usize = 51;
+const PAIRS: usize = 101;
+/// How much further the next pair lies, on the heap and on the stack, bytes.
+const SHIFT: usize = 1344;
+const DEPTHS: usize = 16;
 const RUNS: usize = 24;
 /// Simulated time of each run of the batch, s.
 const DURATION: f64 = 0.1;
@@ -43,38 +46,57 @@ fn time(mut work: impl FnMut()) -> f64 {
     started.elapsed().as_secs_f64()
 }
 
+/// Does `work` so many shifts further down the stack.
+fn deeper(shifts: usize, work: &mut dyn FnMut()) {
+    let room = std::hint::black_box([0u8; SHIFT]);
+    if shifts == 0 {
+        work()
+    } else {
+        deeper(shifts - 1, work)
+    }
+    std::hint::black_box(room);
+}
+
 fn main() -> Result<(), Box<dyn Error>> {
     let model = Arc::new(Model::from_json(TEXT)?);
     let mut sim = Sim::new(model.clone())?;
     sim.advance_to(DEVELOPED)?;
     let (t, state) = (sim.time(), sim.state().to_vec());
-    let (n, mut rate) = (state.len() as i64, vec![0.0; state.len()]);
+    let n = state.len() as i64;
     let text = CString::new(TEXT)?;
     // SAFETY: a text; handles that live until they are freed below, and arrays of the length of the state.
     let handle = unsafe { cagedyn_model_from_json(text.as_ptr()) };
     let [mut in_rust, mut ratios] = [(); 2].map(|()| Vec::new());
-    for _ in 0..PAIRS {
-        // New ones every time: where the memory of a simulation lies makes a per cent.
-        let mut own = Sim::new(model.clone())?;
+    for pair in 0..PAIRS {
+        // Where memory lies makes a simulation some per cent slower or faster, so all of it lies elsewhere every time, and either
+        // simulation is made first half of the times.
+        let _apart = Vec::<u8>::with_capacity(pair * SHIFT);
+        let (state, mut rate) = (state.clone(), vec![0.0; state.len()]);
+        let make = || Sim::new(model.clone()).map(Box::new);
+        let rust_first = pair % 2 == 0;
+        let first = if rust_first { Some(make()?) } else { None };
         // SAFETY: see above.
         let in_c = unsafe { cagedyn_sim_new(handle) };
+        let mut own = first.map_or_else(make, Ok)?;
         let mut best = [f64::INFINITY; 2];
-        for _ in 0..ROUNDS {
-            let rust = time(|| {
-                for _ in 0..CALLS {
-                    own.derivative(t, &state, &mut rate).expect("rates");
-                }
-            });
-            let c = time(|| {
-                for _ in 0..CALLS {
-                    // SAFETY: see above.
-                    let status =
-                        unsafe { cagedyn_sim_derivative(in_c, t, state.as_ptr(), rate.as_mut_ptr(), n) };
-                    assert_eq!(status, 0);
-                }
-            });
-            best = [best[0].min(rust), best[1].min(c)];
-        }
+        deeper(pair % DEPTHS, &mut || {
+            for _ in 0..ROUNDS {
+                let rust = time(|| {
+                    for _ in 0..CALLS {
+                        own.derivative(t, &state, &mut rate).expect("rates");
+                    }
+                });
+                let c = time(|| {
+                    for _ in 0..CALLS {
+                        // SAFETY: see above.
+                        let status =
+                            unsafe { cagedyn_sim_derivative(in_c, t, state.as_ptr(), rate.as_mut_ptr(), n) };
+                        assert_eq!(status, 0);
+                    }
+                });
+                best = [best[0].min(rust), best[1].min(c)];
+            }
+        });
         // SAFETY: it is not used any more.
         unsafe { cagedyn_sim_free(in_c) };
         in_rust.push(best[0] / CALLS as f64);

@@ -50,6 +50,12 @@ static void check_own_state(const cagedyn_model *m)
     CHECK(cagedyn_sim_save(sim, after, save) == CAGEDYN_OK);
     CHECK(memcmp(before, after, (size_t)save * sizeof(double)) == 0);
 
+    /* Rates may take the place of their state. */
+    double *rate = numbers(n);
+    CHECK(cagedyn_sim_derivative(sim, 1e-3, moved, rate, n) == CAGEDYN_OK);
+    CHECK(cagedyn_sim_derivative(sim, 1e-3, moved, moved, n) == CAGEDYN_OK);
+    CHECK(memcmp(rate, moved, (size_t)n * sizeof(double)) == 0);
+
     CHECK_FAILS(cagedyn_sim_outputs_at(sim, 0.0, state, n - 1, own, outputs), CAGEDYN_ERR_WRONG_SIZE, "state");
     CHECK_FAILS(cagedyn_sim_outputs_at(sim, 0.0, state, n, own, 1), CAGEDYN_ERR_WRONG_SIZE, "out");
     CHECK_FAILS(cagedyn_sim_contact_forces_at(sim, NAN, state, n, of_contacts, contacts),
@@ -58,7 +64,7 @@ static void check_own_state(const cagedyn_model *m)
                 "state");
     cagedyn_sim_free(sim);
     free(state), free(shared), free(own), free(of_contacts), free(contacts_at), free(on_bodies), free(bodies_at);
-    free(before), free(after), free(moved);
+    free(before), free(after), free(moved), free(rate);
 }
 
 /* Forces drawn from points, normals and the parts of each contact are those on the rollers. */

@@ -1,14 +1,16 @@
 //! What every entry of the C ABI passes through: error memory, panic guard, argument checks.
 
 use crate::error::{Error, Result, Status};
-use std::cell::{RefCell, UnsafeCell};
+use std::cell::{Cell, RefCell, UnsafeCell};
 use std::ffi::{CStr, CString, c_char};
 use std::ops::{Deref, DerefMut};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 thread_local! {
-    static LAST_ERROR: RefCell<(i32, CString)> = RefCell::new((0, CString::default()));
+    /// Status of the last call; apart from its text, so that a call after a success has one number to look at.
+    static LAST_STATUS: Cell<i32> = const { Cell::new(0) };
+    static LAST_MESSAGE: RefCell<CString> = RefCell::new(CString::default());
 }
 
 /// Clears the error, runs `entry`, and returns its value, or `on_failure` after storing the error. A panic becomes
@@ -64,12 +66,12 @@ pub fn count(entry: impl FnOnce() -> Result<usize>) -> i64 {
 
 /// Text of the last error of this thread, empty after a success.
 pub fn last_message() -> *const c_char {
-    LAST_ERROR.try_with(|e| e.try_borrow().map_or(EMPTY.as_ptr(), |e| e.1.as_ptr())).unwrap_or(EMPTY.as_ptr())
+    LAST_MESSAGE.try_with(|e| e.try_borrow().map_or(EMPTY.as_ptr(), |e| e.as_ptr())).unwrap_or(EMPTY.as_ptr())
 }
 
 /// Status of the last call in this thread.
 pub fn last_status() -> i32 {
-    LAST_ERROR.try_with(|e| e.try_borrow().map_or(0, |e| e.0)).unwrap_or(0)
+    LAST_STATUS.get()
 }
 
 /// The empty string that stands for "no name".
@@ -95,8 +97,9 @@ pub fn static_name(names: &'static [&'static CStr], index: i64) -> *const c_char
 }
 
 fn store(status: i32, message: CString) {
-    // A thread that is being torn down has no error memory left; its calls still return their status.
-    let _ = LAST_ERROR.try_with(|e| e.try_borrow_mut().map(|mut e| *e = (status, message)));
+    LAST_STATUS.set(status);
+    // A thread that is being torn down has no memory for texts left; its calls still return their status.
+    let _ = LAST_MESSAGE.try_with(|e| e.try_borrow_mut().map(|mut e| *e = message));
 }
 
 /// A C string of `text`; NUL bytes inside become spaces.
@@ -216,6 +219,42 @@ pub unsafe fn write_array<T: Copy>(name: &str, from: &[T], to: *mut T, length: i
     Ok(())
 }
 
+/// A caller's array where it lies, or a copy in `room` if it does not lie as numbers should; `room` has the length it must have.
+///
+/// # Safety
+/// As [`read_array`]; the array must not change while what is lent is in use.
+pub unsafe fn lend_array<'a>(
+    name: &str,
+    from: *const f64,
+    length: i64,
+    room: &'a mut [f64],
+) -> Result<&'a [f64]> {
+    check_array(name, from.is_null(), length, room.len())?;
+    if from.is_aligned() {
+        // SAFETY: it holds room.len() numbers.
+        return Ok(unsafe { std::slice::from_raw_parts(from, room.len()) });
+    }
+    // SAFETY: as the caller's.
+    unsafe { read_array(name, from, length, room) }?;
+    Ok(room)
+}
+
+/// Copies these, one behind the other, into a caller's array; the first may lie in that array.
+///
+/// # Safety
+/// As [`write_array`], of as many numbers as both have.
+pub unsafe fn write_parts(name: &str, parts: [*const [f64]; 2], to: *mut f64, length: i64) -> Result<()> {
+    let [first, second] = parts;
+    check_array(name, to.is_null(), length, first.len() + second.len())?;
+    // SAFETY: it holds both; bytes may be copied whatever the alignment of `to`.
+    unsafe {
+        std::ptr::copy(first.cast::<u8>(), to.cast::<u8>(), size_of::<f64>() * first.len());
+        let to = to.wrapping_add(first.len());
+        std::ptr::copy(second.cast::<u8>(), to.cast::<u8>(), size_of::<f64>() * second.len());
+    }
+    Ok(())
+}
+
 /// Checks a caller's array before anything is computed for it.
 pub fn check_array(name: &str, is_null: bool, length: i64, expected: usize) -> Result<()> {
     if is_null {
@@ -279,5 +318,22 @@ mod tests {
         assert!(check_array("a", false, 3, 3).is_ok());
         assert!(index("i", -1, 3).is_err() && index("i", 3, 3).is_err());
         assert_eq!(index("i", 2, 3), Ok(2));
+    }
+
+    #[test]
+    fn arrays_are_lent_where_they_lie_or_copied_if_they_lie_between_numbers() {
+        let mut caller = [1.0, 2.0, 3.0, 0.0];
+        let (place, mut room) = (caller.as_mut_ptr(), [0.0; 3]);
+        // SAFETY: three numbers of four, moved by three bytes there and back.
+        unsafe {
+            assert_eq!(lend_array("a", place, 3, &mut room).map(<[f64]>::as_ptr), Ok(place.cast_const()));
+            let between = place.byte_add(3);
+            std::ptr::copy(place.cast::<u8>(), between.cast::<u8>(), size_of_val(&room));
+            assert_eq!(lend_array("a", between, 3, &mut room), Ok(&[1.0, 2.0, 3.0][..]));
+            assert!(lend_array("a", between, 2, &mut room).is_err());
+            write_parts("a", [&raw const room[1..], &raw const room[..1]], between, 3).expect("as many");
+            assert_eq!(lend_array("a", between, 3, &mut room), Ok(&[2.0, 3.0, 1.0][..]));
+            assert!(write_parts("a", [&raw const room[..], &raw const room[..]], place, 5).is_err());
+        }
     }
 }

@@ -2,7 +2,9 @@
 //!
 //! None of these functions touches the simulation's own state, or what it counts.
 
-use super::guard::{check_array, count, read_array, shared, static_name, status, write_array};
+use super::guard::{
+    check_array, count, lend_array, read_array, shared, static_name, status, write_array, write_parts,
+};
 use super::model::cagedyn_model;
 use super::sim::{cagedyn_sim, with};
 use std::ffi::{CStr, c_char};
@@ -24,11 +26,11 @@ pub unsafe extern "C" fn cagedyn_sim_derivative(
     // SAFETY: see above.
     unsafe {
         with(sim, |s| {
-            read_array("state", state, length, &mut s.state)?;
-            check_array("rate", rate.is_null(), length, s.state.len())?;
-            let n = s.state.len();
-            s.sim.derivative(t, &s.state, &mut s.result[..n])?;
-            write_array("rate", &s.result[..n], rate, length)
+            // A host calls this as often as it can: nothing is copied that needs not be.
+            let state = lend_array("state", state, length, &mut s.state)?;
+            check_array("rate", rate.is_null(), length, state.len())?;
+            let [velocities, accelerations] = s.sim.derivative_parts(t, state)?;
+            write_parts("rate", [velocities, accelerations], rate, length)
         })
     }
 }

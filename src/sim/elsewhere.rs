@@ -16,11 +16,18 @@ impl Sim {
         if rate.len() != state.len() {
             return Err(wrong_size("rate", rate.len(), state.len()));
         }
+        let [velocities, accelerations] = self.derivative_parts(t, state)?;
+        let (of_positions, of_velocities) = rate.split_at_mut(velocities.len());
+        of_positions.copy_from_slice(velocities);
+        of_velocities.copy_from_slice(accelerations);
+        Ok(())
+    }
+
+    /// What [`Sim::derivative`] gives, where it lies: the velocities in `state`, and all behind them.
+    pub(crate) fn derivative_parts<'a>(&'a mut self, t: f64, state: &'a [f64]) -> Result<[&'a [f64]; 2]> {
         self.evaluate_at(t, state)?;
         let nq = self.model().layout().positions();
-        rate[..nq].copy_from_slice(&state[nq..2 * nq]);
-        rate[nq..].copy_from_slice(&self.accelerations);
-        Ok(())
+        Ok([&state[nq..2 * nq], &self.accelerations])
     }
 
     /// All forces at an arbitrary state and time `t` (s).
