@@ -6,6 +6,7 @@ mod common;
 mod adams;
 mod arrowhead;
 mod auto;
+mod balance;
 mod choice;
 mod implicit;
 mod orders;

@@ -29,6 +29,11 @@ impl Turnover {
         self.gains = [0.0; 3];
     }
 
+    /// Counts only this share of what passed so far.
+    fn fade(&mut self, kept: f64) {
+        self.works.iter_mut().chain(&mut self.gains).for_each(|energy| *energy *= kept);
+    }
+
     fn add(&mut self, other: &Self) {
         add_weighted(&mut self.works, 1.0, &other.works);
         for (sum, gain) in self.gains.iter_mut().zip(other.gains) {
@@ -60,6 +65,8 @@ pub struct Balance {
     stretch: Turnover,
     /// All before the stretch.
     before: Turnover,
+    /// The last stretches; the further back, the less.
+    latest: Turnover,
     a: Vec<f64>,
 }
 
@@ -74,7 +81,8 @@ impl Balance {
             open: false,
             energy: [0.0; 3],
             stretch: nothing.clone(),
-            before: nothing,
+            before: nothing.clone(),
+            latest: nothing,
             a: vec![0.0; system.velocities()],
         }
     }
@@ -83,6 +91,7 @@ impl Balance {
     pub fn forget(&mut self) {
         self.close();
         self.before.clear();
+        self.latest.clear();
     }
 
     /// Ends the stretch without a judgement, as the state may jump.
@@ -113,22 +122,30 @@ impl Balance {
     }
 
     /// Ends the stretch at time `t` (s) and this state, where the next one begins. Whether it missed little enough, or the
-    /// whole run has.
+    /// whole run has and, of steps whose errors nobody `controlled`, the latest stretches, too.
     ///
     /// # Errors
     /// The system's fault at this state; the stretch then goes on.
-    pub fn settle<S: Observed>(&mut self, system: &mut S, t: f64, state: &[f64]) -> Result<bool, S::Fault> {
+    pub fn settle<S: Observed>(
+        &mut self,
+        system: &mut S,
+        t: f64,
+        state: &[f64],
+        controlled: bool,
+    ) -> Result<bool, S::Fault> {
         let energy = self.energy_at(system, t, state)?;
         self.stretch.gains = [0, 1, 2].map(|k| energy[k] - self.energy[k]);
         self.energy = energy;
         self.before.add(&self.stretch);
+        self.latest.fade(self.tuning.latest_memory);
+        self.latest.add(&self.stretch);
         let (missing, missing_share) = (self.stretch.missing(), self.stretch.missing_share());
         self.stretch.clear();
         let stored: f64 = energy.iter().map(|x| x.abs()).sum();
         // Written so that what is not a number is too much.
         Ok(missing.abs() <= self.tuning.energy_rounding * stored
             || missing_share <= self.tuning.energy_share * self.allowed
-            || self.can_spare())
+            || self.can_spare() && (controlled || self.latest.missing_share() <= self.tuning.latest_share))
     }
 
     /// Whether little enough of all is missing for steps that may miss some more.
@@ -149,7 +166,7 @@ impl Balance {
 }
 
 stored! {
-    impl[] Balance { open, energy, stretch, before }
+    impl[] Balance { open, energy, stretch, before, latest }
 }
 
 stored! {

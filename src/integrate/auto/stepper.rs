@@ -82,11 +82,12 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
 
     fn judge(&mut self, system: &mut S, t: f64) -> bool {
         // The leapfrog does not evaluate where it arrives; with error control a failure is the run's own in a moment.
-        let settled = self.balance.settle(system, t, active!(self, ref S, state()));
-        let right = settled.unwrap_or(self.active != Kind::Leapfrog);
+        let controlled = self.active != Kind::Leapfrog;
+        let settled = self.balance.settle(system, t, active!(self, ref S, state()), controlled);
+        let right = settled.unwrap_or(controlled);
         self.judged = true;
         self.wrong = self.active;
-        right || self.active != Kind::Leapfrog && self.strictness == self.aim.tuning.strictest
+        right || controlled && self.strictness == self.aim.tuning.strictest
     }
 
     /// The stretch may have begun with a change of method or strictness, which is undone, too.
