@@ -47,7 +47,7 @@ ln -s libcagedyn.so.0 "$tree$LIBDIR/libcagedyn.so"
 put 644 "$BUILT/libcagedyn.a" "$LIBDIR/libcagedyn.a"
 put 755 "$BUILT/cagedyn" "$PREFIX/bin/cagedyn"
 ${STRIP:-strip} "$tree$PREFIX/bin/cagedyn"
-for file in cagedyn.h cagedyn.hpp; do put 644 "include/$file" "$PREFIX/include/$file"; done
+for file in cagedyn.h cagedyn.hpp cagedyn_analysis.hpp; do put 644 "include/$file" "$PREFIX/include/$file"; done
 # The tool knows its commands itself.
 "$BUILT/cagedyn" man --out "$tree/man"
 for page in "$tree"/man/*.1; do put 644 "$page" "$PREFIX/share/man/man1/$(basename "$page")"; done
@@ -70,7 +70,7 @@ done
 # Pages refer to these as in the source tree.
 for folder in scenes schemas matlab; do ln -s "../../cagedyn/$folder" "$tree$doc/$folder"; done
 mkdir "$tree$doc/include"
-for file in cagedyn.h cagedyn.hpp; do ln -s "../../../../include/$file" "$tree$doc/include/$file"; done
+for file in cagedyn.h cagedyn.hpp cagedyn_analysis.hpp; do ln -s "../../../../include/$file" "$tree$doc/include/$file"; done
 # Texts with the folders and the version in them.
 fill() {
     mkdir -p "$(dirname "$tree$2")"

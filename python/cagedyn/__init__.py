@@ -8,6 +8,7 @@ SI units everywhere, angles in rad. y points right, z up, rotation is counter-cl
 >>> sim.outputs()["cage.y_ratio"]
 """
 
+from ._analysis import HeatBalance, Motion, WhirlBranch, cage_motion, over_orbit
 from ._batch import Batch, BatchError, Progress
 from ._model import Model, Names, SparsePattern
 from ._native import Error, version
@@ -17,13 +18,18 @@ __all__ = [
     "Batch",
     "BatchError",
     "Error",
+    "HeatBalance",
     "Inputs",
     "Interval",
     "Model",
+    "Motion",
     "Names",
     "Progress",
     "Sim",
     "SparsePattern",
+    "WhirlBranch",
+    "cage_motion",
+    "over_orbit",
     "version",
 ]
 __version__ = version()

@@ -230,7 +230,7 @@ pub unsafe fn lend_array<'a>(
     room: &'a mut [f64],
 ) -> Result<&'a [f64]> {
     check_array(name, from.is_null(), length, room.len())?;
-    if from.is_aligned() {
+    if from.is_aligned() && !from.is_null() {
         // SAFETY: it holds room.len() numbers.
         return Ok(unsafe { std::slice::from_raw_parts(from, room.len()) });
     }
@@ -255,9 +255,9 @@ pub unsafe fn write_parts(name: &str, parts: [*const [f64]; 2], to: *mut f64, le
     Ok(())
 }
 
-/// Checks a caller's array before anything is computed for it.
+/// Checks a caller's array before anything is computed for it. One without numbers may be NULL.
 pub fn check_array(name: &str, is_null: bool, length: i64, expected: usize) -> Result<()> {
-    if is_null {
+    if is_null && (length, expected) != (0, 0) {
         return Err(null(name));
     }
     if usize::try_from(length) != Ok(expected) {
@@ -316,6 +316,7 @@ mod tests {
         assert!(check_array("a", false, -1, 3).is_err());
         assert!(check_array("a", true, 3, 3).is_err());
         assert!(check_array("a", false, 3, 3).is_ok());
+        assert!(check_array("a", true, 0, 0).is_ok() && check_array("a", true, 0, 3).is_err());
         assert!(index("i", -1, 3).is_err() && index("i", 3, 3).is_err());
         assert_eq!(index("i", 2, 3), Ok(2));
     }

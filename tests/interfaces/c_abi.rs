@@ -16,6 +16,18 @@ fn run_c_test(source: &str, scene: &str) {
     run_under_valgrind(&program, &[&scene]);
 }
 
+/// The same in both standards, and without exceptions; with `more` arguments where Valgrind does not slow it down.
+fn run_cpp_test(source: &str, scene: &str, more: &[&str]) {
+    let library = library();
+    let scene = root().join(scene);
+    let quiet = ["-fno-exceptions".as_ref()];
+    for (standard, switches) in [("c++17", &[][..]), ("c++20", &[]), ("c++17", &quiet)] {
+        let program = compile(Path::new(source), standard, library.path(), switches);
+        succeed(Command::new(&program).arg(&scene).args(more));
+        run_under_valgrind(&program, &[&scene]);
+    }
+}
+
 #[test]
 fn c_model() {
     run_c_test("ctests/test_model.c", NU2310);
@@ -73,14 +85,12 @@ fn c_threads() {
 
 #[test]
 fn cpp_with_and_without_exceptions() {
-    let library = library();
-    let scene = root().join(NU2310);
-    let quiet = ["-fno-exceptions".as_ref()];
-    for (standard, more) in [("c++17", &[][..]), ("c++20", &[]), ("c++17", &quiet)] {
-        let program = compile(Path::new("ctests/test_cpp.cpp"), standard, library.path(), more);
-        succeed(Command::new(&program).arg(&scene));
-        run_under_valgrind(&program, &[&scene]);
-    }
+    run_cpp_test("ctests/test_cpp.cpp", NU2310, &[]);
+}
+
+#[test]
+fn cpp_analysis() {
+    run_cpp_test("ctests/test_cpp_analysis.cpp", "scenes/grease_guide_heat.json", &["all"]);
 }
 
 #[test]

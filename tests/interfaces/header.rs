@@ -113,5 +113,6 @@ fn strict_compilers_take_the_header() {
     }
     for standard in ["c++17", "c++20"] {
         check("c++", standard, "c++", "cagedyn.hpp");
+        check("c++", standard, "c++", "cagedyn_analysis.hpp");
     }
 }

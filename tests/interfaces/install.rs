@@ -57,6 +57,7 @@ fn installing_puts_everything_in_place_and_removing_takes_it_away() {
         "bin/cagedyn",
         "include/cagedyn.h",
         "include/cagedyn.hpp",
+        "include/cagedyn_analysis.hpp",
         "lib64/cmake/cagedyn/cagedynConfig.cmake",
         "lib64/cmake/cagedyn/cagedynConfigVersion.cmake",
         "share/bash-completion/completions/cagedyn",

@@ -1,0 +1,200 @@
+"""Without simulating: steady whirl, temperatures, and what records say of a motion."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ._model import Model
+from ._native import Array, check, counted, ffi, filled, lib, made, numbers, text
+
+_MOTIONS = ("resting", "stable", "forward whirl", "backward whirl", "irregular")
+
+
+def _names(count: int, name: Any) -> list[str]:
+    return [text(name(i)) for i in range(count)]
+
+
+class WhirlBranch:
+    """Steady whirls of a model's scene without its gravity, found without time stepping: one, or a branch over a number of the scene.
+
+    path: of that number, as in overrides, for example "inner_ring.speed.constant"; it goes from `start` to `stop`, around folds.
+
+    Raises Error where there is no whirl at the start. Where the branch ends later, `end` and `why` tell. An elastic cage can take
+    minutes.
+    """
+
+    def __init__(self, model: Model, path: str | None = None, start: float = 0.0, stop: float = 0.0) -> None:
+        if path is None:
+            handle = lib.cagedyn_whirl_steady(model._handle)
+        else:
+            handle = lib.cagedyn_whirl_follow(model._handle, path.encode(), start, stop)
+        handle = made(handle, lib.cagedyn_whirl_free)
+        count = counted(lib.cagedyn_whirl_point_count(handle))
+        columns = _names(lib.cagedyn_whirl_quantity_count(), lib.cagedyn_whirl_quantity_name)
+        rows = [filled(len(columns), lambda p, n, i=i: lib.cagedyn_whirl_point(handle, i, p, n)) for i in range(count)]
+        #: One record per point: parameter, whirl_speed (rad/s), eccentricity (m), lead (rad), leading_rate (1/s), leading_frequency
+        #: (rad/s), arcs; stable, fold, hopf and grazed are 1 or 0.
+        self.points: NDArray[np.void] = np.array(
+            [tuple(row) for row in rows], dtype=[(name, np.float64) for name in columns]
+        )
+        waves = counted(lib.cagedyn_whirl_wave_count(handle))
+        #: Amplitudes of the waves of an elastic cage from order 2 on, m; shape (points, waves).
+        self.amplitudes: Array = np.array(
+            [filled(waves, lambda p, n, i=i: lib.cagedyn_whirl_amplitudes(handle, i, p, n)) for i in range(count)]
+        ).reshape(count, waves)
+        #: Rate in 1/s plus i times frequency in rad/s, the largest rate first; shape (points, eigenvalues).
+        self.eigenvalues: NDArray[np.complex128] = np.array([_eigenvalues(handle, i) for i in range(count)])
+        #: "range", "length" or "lost".
+        self.end: str = text(lib.cagedyn_whirl_end(handle))
+        #: Why it ends before its range does; empty where it does not.
+        self.why: str = text(lib.cagedyn_whirl_why(handle))
+
+
+def _eigenvalues(handle: Any, point: int) -> NDArray[np.complex128]:
+    count = counted(lib.cagedyn_whirl_eigenvalue_count(handle))
+    rates, frequencies = np.zeros(count), np.zeros(count)
+    pointers = [ffi.cast("double *", array.ctypes.data) for array in (rates, frequencies)]
+    check(lib.cagedyn_whirl_eigenvalues(handle, point, *pointers, count))
+    return rates + 1j * frequencies
+
+
+class HeatBalance:
+    """Temperatures of a bearing whose scene has `heat`. May be used by one thread at a time.
+
+    Raises Error for a scene without.
+    """
+
+    def __init__(self, model: Model) -> None:
+        handle = made(lib.cagedyn_heat_new(model._handle), lib.cagedyn_heat_free)
+        self._handle = handle
+        #: Names of the lumps, as in the scene.
+        self.lumps = _names(
+            counted(lib.cagedyn_heat_lump_count(handle)), lambda i: lib.cagedyn_heat_lump_name(handle, i)
+        )
+        #: Names of the powers of the motion that warm lumps.
+        self.sources = _names(
+            counted(lib.cagedyn_heat_source_count(handle)), lambda i: lib.cagedyn_heat_source_name(handle, i)
+        )
+        ends = ffi.new("int64_t[2]")
+        #: Lumps that each link joins; None stands for the surroundings.
+        self.links: list[tuple[str | None, str | None]] = []
+        for i in range(counted(lib.cagedyn_heat_link_count(handle))):
+            check(lib.cagedyn_heat_link(handle, i, ends, 2))
+            first, second = (None if lump < 0 else self.lumps[lump] for lump in ends)
+            self.links.append((first, second))
+
+    def settle(self) -> None:
+        """Finds the temperatures at which the bearing stays, from bursts of motion. On failure nothing changes."""
+        check(lib.cagedyn_heat_settle(self._handle))
+
+    def step(self, duration: float) -> None:
+        """Warms up for `duration` in s with the heat of one burst of motion: the longer, the more roughly."""
+        check(lib.cagedyn_heat_step(self._handle, duration))
+
+    def _by(self, names: list[str], call: Any) -> dict[str, float]:
+        values = filled(len(names), lambda p, n: call(self._handle, p, n))
+        return dict(zip(names, values.tolist(), strict=True))
+
+    @property
+    def temperatures(self) -> dict[str, float]:
+        """Temperature of each lump, K. Some or all of them can be set."""
+        return self._by(self.lumps, lib.cagedyn_heat_temperatures)
+
+    @temperatures.setter
+    def temperatures(self, values: dict[str, float]) -> None:
+        unknown = [name for name in values if name not in self.lumps]
+        if unknown:
+            raise KeyError(f"there is no lump {unknown[0]!r} among {', '.join(self.lumps)}")
+        pointer, length, _keep = numbers(list((self.temperatures | values).values()))
+        check(lib.cagedyn_heat_set_temperatures(self._handle, pointer, length))
+
+    @property
+    def into_lumps(self) -> dict[str, float]:
+        """Heat that went into each lump in the last burst of motion, W. Raises Error before the first."""
+        return self._by(self.lumps, lib.cagedyn_heat_into_lumps)
+
+    @property
+    def flows(self) -> Array:
+        """Heat through each of the `links` after the last burst, from its first lump to its second, W; shape (links,)."""
+        return filled(len(self.links), lambda p, n: lib.cagedyn_heat_flows(self._handle, p, n))
+
+    @property
+    def source_heat(self) -> dict[str, float]:
+        """Heat of each of the `sources` in the last burst, W."""
+        return self._by(self.sources, lib.cagedyn_heat_sources)
+
+    @property
+    def quantities(self) -> dict[str, float]:
+        """What else the last burst came to: viscosity (Pa s), radial_clearance (m), whirl_speed (rad/s), heat in W, standard_error (K)."""
+        names = _names(lib.cagedyn_heat_quantity_count(), lib.cagedyn_heat_quantity_name)
+        return self._by(names, lib.cagedyn_heat_quantities)
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Class and statistics of the motion of a cage. What is not known is NaN."""
+
+    #: "resting", "stable", "forward whirl" (in the sense of the cage's rotation), "backward whirl" or "irregular".
+    motion: str
+    #: Mean and percentiles, rad/s; not of a centre next to that of the guide.
+    mean_whirl_speed: float
+    p05_whirl_speed: float
+    p95_whirl_speed: float
+    #: Mean distance from the centre of the guide, m.
+    mean_radius: float
+    #: Net turns about it, counter-clockwise positive.
+    turns: float
+    #: From which on the whirl speed stays within 15 % of its mean, s.
+    settling_time: float
+    #: Standard deviation of the speed of the centre over its mean, from one record to the next.
+    velocity_deviation: float
+
+
+def cage_motion(
+    times: ArrayLike,
+    y: ArrayLike,
+    z: ArrayLike,
+    whirl_speed: ArrayLike,
+    cage_speed: ArrayLike,
+    *,
+    clearance: float,
+    begin: float = 0.0,
+) -> Motion:
+    """Class and statistics of the motion of a cage from time `begin` in s on.
+
+    Arrays of one shape (records,): times in s, centre of the cage relative to that of its guide in m, its angular speed about that
+    centre and the rotation speed of the cage in rad/s. `clearance` is the radial guide clearance in m; 0 for a cage without a guide.
+    """
+    rows = [numbers(row) for row in (times, y, z, whirl_speed, cage_speed)]
+    count = _one_length([length for _, length, _ in rows])
+    pointers = [pointer for pointer, _, _ in rows]
+    x = filled(
+        lib.cagedyn_motion_count(),
+        lambda p, n: lib.cagedyn_cage_motion(*pointers, count, clearance, begin, p, n),
+    )
+    return Motion(_MOTIONS[int(x[0])], *x[1:].tolist())
+
+
+def over_orbit(angles: ArrayLike, values: ArrayLike, sectors: int) -> dict[str, Array]:
+    """What samples of elements are in each of so many equal sectors of their orbit: mean, p95, peak and positive_share by name.
+
+    `angles` in rad, of any number of turns, counter-clockwise from y, and `values` have one shape (samples,); results have shape
+    (sectors,), NaN where there is no sample.
+    """
+    (at, count, _angles), (of, other, _values) = numbers(angles), numbers(values)
+    count = _one_length([count, other])
+    names = _names(lib.cagedyn_over_orbit_count(), lib.cagedyn_over_orbit_name)
+    # A wrong number of sectors is refused by the library before it looks at the array.
+    width = sectors if 0 < sectors <= 1 << 20 else 0
+    out = filled(len(names) * width, lambda p, n: lib.cagedyn_over_orbit(at, of, count, sectors, p, n))
+    return dict(zip(names, out.reshape(len(names), width), strict=True))
+
+
+def _one_length(lengths: list[int]) -> int:
+    if len(set(lengths)) != 1:
+        raise ValueError(f"arrays of one length are needed, not of {', '.join(map(str, lengths))}")
+    return lengths[0]
