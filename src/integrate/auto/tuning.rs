@@ -63,9 +63,9 @@ tuning! {
     /// Share of their own energy that the latest stretches may miss where they end with the leapfrog, whatever the run could
     /// spare: a light cage would be driven by errors that are small beside what the rings put through. Of them together, as the
     /// leapfrog gives back what it misses of a vibration.
-    latest_share: f64 = 0.005, "1";
+    latest_share: f64 = 0.002, "1";
     /// Weight of a stretch in these, over that of the stretch behind it.
-    latest_memory: f64 = 0.75, "1";
+    latest_memory: f64 = 0.9, "1";
     /// Less missing energy than this share of the stored one is round-off.
     energy_rounding: f64 = 1e-12, "1";
     /// Stretches with more care after a wrong one; twice as many after the next, as long as fewer right ones lie between.
