@@ -78,7 +78,7 @@ c-sanitizers() {
     must_fail "$out/planted-c" undefined
     "$out/planted-c" nothing || { echo "finds what is not there" >&2; exit 1; }
     local test scene
-    for test in model sim limits errors threads integrator batch guide whirl heat; do
+    for test in model sim limits errors threads integrator batch guide motion whirl heat; do
         scene=scenes/nu2310.json
         case $test in
             guide | whirl) scene=scenes/grease_guide.json ;;
@@ -88,9 +88,12 @@ c-sanitizers() {
             -Wl,-rpath,"$PWD/target/release"
         "$out/test_$test" $scene
     done
-    c++ -std=c++17 $flags -Iinclude ctests/test_cpp.cpp -o "$out/test_cpp" -Ltarget/release -lcagedyn -pthread \
-        -Wl,-rpath,"$PWD/target/release"
+    for test in cpp cpp_analysis; do
+        c++ -std=c++17 $flags -Iinclude ctests/test_$test.cpp -o "$out/test_$test" -Ltarget/release -lcagedyn -pthread \
+            -Wl,-rpath,"$PWD/target/release"
+    done
     "$out/test_cpp" scenes/nu2310.json
+    "$out/test_cpp_analysis" scenes/grease_guide_heat.json all
 }
 
 # The library itself, compiled with sanitizers: random calls for addresses and leaks, batches and threads for races.
