@@ -9,7 +9,7 @@
 #include <span>
 #endif
 
-#include "check.h"
+#include "check.hpp"
 
 using namespace cagedyn;
 
@@ -118,17 +118,6 @@ static void check_errors(const Model &model)
     CHECK(model.outputs().find("wheel") == CAGEDYN_ERR_UNKNOWN_NAME);
 }
 #else
-template <class F> static std::int32_t status_of(F &&call)
-{
-    try {
-        call();
-        return CAGEDYN_OK;
-    } catch (const Error &error) {
-        CHECK(error.what()[0] != '\0' && error.name().substr(0, 4) == "ERR_");
-        return error.status();
-    }
-}
-
 static void check_errors(const Model &model)
 {
     Sim sim(model);

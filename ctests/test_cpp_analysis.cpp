@@ -6,30 +6,12 @@
 #include <cmath>
 #include <cstdio>
 
-#include "check.h"
+#include "check.hpp"
 
 using namespace cagedyn;
 
 static_assert(!std::is_copy_constructible_v<WhirlBranch> && std::is_nothrow_move_constructible_v<WhirlBranch>);
 static_assert(!std::is_copy_constructible_v<HeatBalance> && std::is_nothrow_move_assignable_v<HeatBalance>);
-
-#ifdef CAGEDYN_NO_EXCEPTIONS
-template <class F> static std::int32_t status_of(F &&call)
-{
-    call();
-    return last_status();
-}
-#else
-template <class F> static std::int32_t status_of(F &&call)
-{
-    try {
-        call();
-        return CAGEDYN_OK;
-    } catch (const Error &error) {
-        return error.status();
-    }
-}
-#endif
 
 static void check_whirl(const Model &warm, bool all)
 {
