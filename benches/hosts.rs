@@ -20,6 +20,7 @@ const ROUNDS: usize = 10;
 const PAIRS: usize = 101;
 /// How much further the next pair lies, on the heap and on the stack, bytes.
 const SHIFT: usize = 1344;
+/// Pairs until one is as deep on the stack as the first.
 const DEPTHS: usize = 16;
 const RUNS: usize = 24;
 /// Simulated time of each run of the batch, s.

@@ -198,10 +198,11 @@ fn halved(outcome: &Outcome) -> Value {
 }
 
 /// Evaluations per simulated ms that are enough for every case with `auto` at `engineering`, but for the named one: a force of
-/// tons throws a roller within steps of nanoseconds, and what the run could spare of that energy the stretches that follow may not
-/// miss of theirs.
+/// tons throws a roller within steps of nanoseconds.
 const BUDGET: f64 = 10e3;
-const LARGER_BUDGET: (&str, f64) = ("roller 1 mm deep", 30e3);
+const LARGER_BUDGET: (&str, f64) = ("roller 1 mm deep", 20e3);
+/// What that one takes of its budget since the stretches after the throw may not miss what the throw could spare: it falls short.
+const OVERDRAWN: f64 = 1.35;
 /// Largest share of energy that may be missing there.
 const RESIDUAL: f64 = 1e-3;
 /// Round-off of the sum of some hundred forces.
@@ -216,7 +217,7 @@ fn auto_runs_every_case() {
             case.name, o.steps, o.evaluations, o.residual, o.unexplained, o.class
         );
         assert!(o.error.is_none(), "{}: {:?}", case.name, o.error);
-        let budget = if case.name == LARGER_BUDGET.0 { LARGER_BUDGET.1 } else { BUDGET };
+        let budget = if case.name == LARGER_BUDGET.0 { OVERDRAWN * LARGER_BUDGET.1 } else { BUDGET };
         assert!((o.evaluations as f64) < budget * 1e3 * case.duration, "{}: {}", case.name, o.evaluations);
         assert!(o.residual.abs() < RESIDUAL, "{}: {}", case.name, o.residual);
         assert!(o.unexplained < UNEXPLAINED, "{}: {}", case.name, o.unexplained);
