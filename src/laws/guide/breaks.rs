@@ -31,7 +31,7 @@ const MOST_OF_STEP: usize = FUNCTIONS + 1;
 /// Most changes of sign in dry parts that one stretch has.
 const MOST_DRY: usize = WIDEST;
 /// Room for breaks: of a full block of brackets, of those that it leads to, and of dry parts.
-pub(super) const BREAKS: usize = 2 * WIDEST + MOST_DRY + FUNCTIONS;
+const BREAKS: usize = 2 * WIDEST + MOST_DRY + FUNCTIONS;
 /// Largest number of Newton steps; each that fails to be one halves a bracket.
 const MOST_STEPS: usize = 60;
 /// A drop of the film between two points by this share of it is looked at.
@@ -59,6 +59,36 @@ pub(super) struct Break {
     pub of: usize,
 }
 
+/// Breaks in ascending order, up to `M`.
+pub(super) struct Breaks<const M: usize> {
+    all: [Break; M],
+    count: usize,
+}
+
+impl<const M: usize> Breaks<M> {
+    /// None.
+    pub fn none() -> Self {
+        Self { all: [Break::default(); M], count: 0 }
+    }
+
+    /// All of them.
+    pub fn all(&self) -> &[Break] {
+        &self.all[..self.count]
+    }
+
+    /// Adds one in its place.
+    #[inline]
+    pub fn add(&mut self, angle: f64, of: usize) {
+        let mut place = self.count;
+        while place > 0 && self.all[place - 1].angle > angle {
+            self.all[place] = self.all[place - 1];
+            place -= 1;
+        }
+        self.all[place] = Break { angle, of };
+        self.count += 1;
+    }
+}
+
 /// A part of the circle and its breaks.
 pub(super) struct Stretch {
     /// rad
@@ -75,8 +105,7 @@ pub(super) struct Stretch {
     /// Smallest film at the ends of steps so far, m; of bent surfaces only. Between them none is thinner by more than the
     /// curvature allows.
     pub lowest: f64,
-    breaks: [Break; BREAKS],
-    count: usize,
+    pub breaks: Breaks<BREAKS>,
     /// How many of them are in dry parts.
     dry: usize,
 }
@@ -92,25 +121,9 @@ impl Stretch {
             thinnest: f64::INFINITY,
             thinnest_at: -PI,
             lowest: f64::INFINITY,
-            breaks: [Break::default(); BREAKS],
-            count: 0,
+            breaks: Breaks::none(),
             dry: 0,
         }
-    }
-
-    /// In ascending order.
-    pub fn breaks(&self) -> &[Break] {
-        &self.breaks[..self.count]
-    }
-
-    fn add(&mut self, angle: f64, of: usize) {
-        let mut place = self.count;
-        while place > 0 && self.breaks[place - 1].angle > angle {
-            self.breaks[place] = self.breaks[place - 1];
-            place -= 1;
-        }
-        self.breaks[place] = Break { angle, of };
-        self.count += 1;
     }
 
     fn look_at(&mut self, film: f64, angle: f64) {
@@ -228,7 +241,7 @@ impl Sampled {
             }
             if of != DRY && (before | after) & (1 << DRY) == 0 && brackets.count == of_dry {
                 if changed & value != 0 {
-                    out.add(ends[1], of);
+                    out.breaks.add(ends[1], of);
                     out.dry += 1;
                 }
                 continue;
@@ -295,7 +308,7 @@ impl Search<'_> {
 
     /// Goes on to the next stretch of a circle of `steps`.
     pub fn next(&self, steps: usize, out: &mut Stretch) {
-        (out.from, out.count, out.dry) = (out.to, 0, 0);
+        (out.from, out.breaks.count, out.dry) = (out.to, 0, 0);
         let mut brackets = Brackets::none();
         let mut sampled =
             Sampled { angles: ZEROS, functions: [[ZEROS; 2]; FUNCTIONS], film: ZEROS, signs: ZEROS };
@@ -340,7 +353,7 @@ impl Search<'_> {
             self.next(steps, &mut stretch);
             let (mut wet, mut from) = (stretch.negative[DRY], stretch.from);
             let end = Break { angle: stretch.to, of: OPENING };
-            for b in stretch.breaks().iter().chain([&end]) {
+            for b in stretch.breaks.all().iter().chain([&end]) {
                 if wet && b.angle > from {
                     tell(from, b.angle);
                 }
@@ -376,7 +389,7 @@ impl Search<'_> {
             let (angle, of) = (brackets.angle[i], brackets.of[i] as usize);
             let aim = brackets.aim[i];
             if aim == Aim::Zero {
-                out.add(angle, of);
+                out.breaks.add(angle, of);
                 continue;
             }
             if of == DRY {

@@ -5,13 +5,15 @@
 //! is what turning everything else the other way does, and the force with it.
 
 use crate::laws::fluid::grease::Thickening;
-use crate::laws::guide::breaks::{Aims, BREAKS, DRY, EXCESS, FUNCTIONS, OPENING, Search, Stretch};
+use crate::laws::guide::breaks::{Aims, Break, DRY, EXCESS, FUNCTIONS, OPENING, Search, Stretch};
 use crate::laws::guide::gap::{Gap, Lobe};
 use crate::laws::guide::journal::{FilmForce, Harmonic, JournalMotion, NoFilm};
 use crate::laws::guide::land::{Land, OUTPUTS, VARIABLES, VELOCITIES};
 use crate::laws::guide::panels::{PanelSums, Panels, Sums, totals};
+use crate::laws::guide::round;
 use crate::scalar::{Real, ZEROS, math};
 use pulp::Arch;
+use std::f64::consts::PI;
 
 /// Most lobes of a gap; there is room for a few of them at no cost.
 const MOST_LOBES: usize = 64;
@@ -100,7 +102,8 @@ impl Film<'_> {
         let [height, largest_opening] = gap.bounds();
         let sums = Sums { land: self.land, values: [ZEROS; OUTPUTS], slopes };
         let instructions = self.instructions;
-        let mut panels = Panels { land: self.land, gap: &gap, largest_opening, instructions, sums };
+        let jumps = self.within_arc;
+        let mut panels = Panels::new(self.land, &gap, largest_opening, jumps, instructions, sums);
         self.integrate(&mut panels, height)?;
         Ok(self.lifted(&gap, direction, m, &panels.sums))
     }
@@ -136,6 +139,11 @@ impl Film<'_> {
         aims: Aims,
     ) -> Result<f64, NoFilm> {
         let Panels { gap, instructions, .. } = *panels;
+        if aims == Aims::Edges && gap.is_round() {
+            let circle = round::circle(gap, self.layer);
+            self.integrate_between(panels, [-PI, PI], circle.negative, circle.breaks.all());
+            return Ok(gap.thinnest);
+        }
         let search = Search { gap, layer: self.layer, aims, instructions };
         let (steps, mut stretch) = (search.steps(), Stretch::new());
         while stretch.last_step < steps {
@@ -145,26 +153,34 @@ impl Film<'_> {
             if !exists {
                 return Err(NoFilm { minimum_film: stretch.thinnest });
             }
-            let mut negative = stretch.negative;
-            let mut from = stretch.from;
-            let (mut ends, mut count) = ([[0.0; 2]; BREAKS], 0);
-            for b in stretch.breaks() {
-                if self.acts(negative) {
-                    panels.add(from, b.angle, negative[EXCESS]);
-                }
-                if b.of == DRY {
-                    ends[count] = [b.angle, if negative[DRY] { 1.0 } else { -1.0 }];
-                    count += 1;
-                }
-                negative[b.of] = !negative[b.of];
-                from = b.angle;
-            }
-            if self.acts(negative) {
-                panels.add(from, stretch.to, negative[EXCESS]);
-            }
-            panels.add_ends(&ends[..count], self.within_arc);
+            let Stretch { from, to, negative, ref breaks, .. } = stretch;
+            self.integrate_between(panels, [from, to], negative, breaks.all());
         }
         Ok(stretch.lowest)
+    }
+
+    /// Sums over a part of the circle, at whose start functions are `negative`.
+    fn integrate_between<S: PanelSums>(
+        &self,
+        panels: &mut Panels<'_, S>,
+        [mut from, to]: [f64; 2],
+        mut negative: [bool; FUNCTIONS],
+        breaks: &[Break],
+    ) {
+        for b in breaks {
+            if self.acts(negative) {
+                panels.add(from, b.angle, negative[EXCESS]);
+            }
+            if b.of == DRY {
+                panels.add_end(b.angle, if negative[DRY] { 1.0 } else { -1.0 });
+            }
+            negative[b.of] = !negative[b.of];
+            from = b.angle;
+        }
+        if self.acts(negative) {
+            panels.add(from, to, negative[EXCESS]);
+        }
+        panels.complete_ends();
     }
 
     /// Whether the film does something where the functions of the breaks have these signs.

@@ -147,6 +147,11 @@ impl<'a> Gap<'a> {
         place
     }
 
+    /// Whether it is that between two circles.
+    pub fn is_round(&self) -> bool {
+        self.lobes.is_empty() && self.harmonics.is_empty()
+    }
+
     /// Highest order of h and G, at least 1.
     pub fn order(&self) -> u32 {
         self.lobes.iter().map(|lobe| lobe.order).fold(1, u32::max)

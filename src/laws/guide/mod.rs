@@ -26,6 +26,7 @@ pub mod journal;
 mod land;
 pub mod lubricant_layer;
 mod panels;
+mod round;
 pub mod short_bearing;
 
 use crate::laws::contact_pair::ContactMotion;

@@ -27,7 +27,7 @@ pub(super) trait PanelSums {
     /// Adds the film at the places of a panel, unless its series do not suit, where it can be halved. Whether it did.
     fn add(&mut self, panel: &Panel<'_>, halves: bool, noise: f64, instructions: Arch) -> bool;
 
-    /// Adds what the ends of wet arcs do: see [`Panels::add_ends`]. `jump` is the tangential force there over the pressure times
+    /// Adds what the ends of wet arcs do: see [`Panels::complete_ends`]. `jump` is the tangential force there over the pressure times
     /// the film; 0 for none.
     fn add_ends(&mut self, places: &Ends<'_>, instructions: Arch);
 
@@ -94,8 +94,14 @@ pub(super) struct Panels<'a, S> {
     pub gap: &'a Gap<'a>,
     /// Not less than any |G|, m/s.
     pub largest_opening: f64,
+    /// Whether the pressure jumps at the ends of wet arcs.
+    jumps: bool,
     pub instructions: Arch,
     pub sums: S,
+    /// Ends of wet arcs that are not in the sums yet.
+    end_angles: Lanes,
+    end_sides: Lanes,
+    end_count: usize,
 }
 
 /// Part of the circle between two breaks, or of its map.
@@ -112,7 +118,20 @@ impl Piece {
     pub const STRAIGHT: Self = Self { mapped: false, middle: 0.0, half: 0.0 };
 }
 
-impl<S: PanelSums> Panels<'_, S> {
+impl<'a, S: PanelSums> Panels<'a, S> {
+    /// Nothing yet. No |G| is above `largest_opening`, m/s; at the ends of wet arcs the pressure `jumps` or not.
+    pub fn new(
+        land: Land,
+        gap: &'a Gap<'a>,
+        largest_opening: f64,
+        jumps: bool,
+        instructions: Arch,
+        sums: S,
+    ) -> Self {
+        let (end_angles, end_sides) = (ZEROS, ZEROS);
+        Self { land, gap, largest_opening, jumps, instructions, sums, end_angles, end_sides, end_count: 0 }
+    }
+
     /// Adds the film between `from` and `to`; `capped` where s > s_cap.
     pub fn add(&mut self, from: f64, to: f64, capped: bool) {
         // Written so that a NaN leads nowhere.
@@ -140,22 +159,27 @@ impl<S: PanelSums> Panels<'_, S> {
         }
     }
 
-    /// Adds what the ends of wet arcs do: the jump of the pressure there, if `jumps`, and to the derivatives that they move.
-    /// Each is an angle in rad and +1 at the end of an arc, -1 at its start.
-    pub fn add_ends(&mut self, ends: &[[f64; 2]], jumps: bool) {
-        if !jumps && !self.sums.moves_ends() {
+    /// An end of a wet arc at this angle, rad: +1 where the arc ends, -1 where it starts.
+    pub fn add_end(&mut self, angle: f64, side: f64) {
+        if !self.jumps && !self.sums.moves_ends() {
             return;
         }
-        let jump = if jumps { -0.5 / self.land.radius } else { 0.0 };
-        for chunk in ends.chunks(WIDEST) {
-            let (mut angles, mut sides) = (ZEROS, ZEROS);
-            for (i, end) in chunk.iter().enumerate() {
-                [angles[i], sides[i]] = *end;
-            }
-            let Self { gap, sums, instructions, .. } = self;
-            let ends = Ends { gap, angles: &angles, sides: &sides, count: chunk.len(), jump };
-            sums.add_ends(&ends, *instructions);
+        let i = self.end_count;
+        (self.end_angles[i], self.end_sides[i], self.end_count) = (angle, side, i + 1);
+        if self.end_count == WIDEST {
+            self.complete_ends();
         }
+    }
+
+    /// Adds what these ends do: the jump of the pressure there, if `jumps`, and to the derivatives that they move.
+    pub fn complete_ends(&mut self) {
+        let count = std::mem::take(&mut self.end_count);
+        if count == 0 {
+            return;
+        }
+        let jump = if self.jumps { -0.5 / self.land.radius } else { 0.0 };
+        let ends = Ends { gap: self.gap, angles: &self.end_angles, sides: &self.end_sides, count, jump };
+        self.sums.add_ends(&ends, self.instructions);
     }
 }
 
@@ -336,14 +360,15 @@ impl Columns for EndSums<'_, '_> {
         let side = Pack::<S, K>::load(simd, &sides[first..]);
         let place = gap.at(Pack::load(simd, &angles[first..]));
         let (cos, sin, film) = (place.cos, place.sin, place.film[0]);
-        let stress = land.with_slopes::<S, K, 4>(&place);
-        let of_jump = film * side * jump;
-        let along = stress.normal.re * of_jump;
-        let radius = land.radius;
-        add(&tangential(along, cos, sin, radius), &mut self.sums.values, first);
+        let (of_jump, radius) = (film * side * jump, land.radius);
         if self.sums.slopes.is_empty() {
+            let (stress, ..) = land.at(&place);
+            add(&tangential(stress.normal * of_jump, cos, sin, radius), &mut self.sums.values, first);
             return;
         }
+        let stress = land.with_slopes::<S, K, 4>(&place);
+        let along = stress.normal.re * of_jump;
+        add(&tangential(along, cos, sin, radius), &mut self.sums.values, first);
         let (of_velocities, of_positions) = self.sums.slopes.split_at_mut(VELOCITIES);
         // The film at an end stays that of the layer.
         let zero = side.like(0.0);

@@ -328,7 +328,9 @@ impl GuideLaw {
             out.sums.begin(wanted);
             let sums = out.sums.over(&surface);
             let (land, instructions) = (film.land, film.instructions);
-            film.integrate_with(&mut Panels { land, gap: &gap, largest_opening, instructions, sums }, aims)
+            let jumps = film.within_arc;
+            let mut panels = Panels::new(land, &gap, largest_opening, jumps, instructions, sums);
+            film.integrate_with(&mut panels, aims)
         };
         let steps =
             Search { gap: &gap, layer: 0.0, aims: Aims::Edges, instructions: film.instructions }.steps();
