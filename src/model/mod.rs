@@ -36,6 +36,7 @@ pub(crate) use crate::pairs::Law;
 pub use crate::pairs::{LAWS, LawCounts};
 #[doc(hidden)]
 pub use integration::costs::{PARTS, PartTimes};
+pub(crate) use report::Reading;
 pub use report::{
     CONTACT_QUANTITIES, Channel, ContactForces, FORCE_COMPONENTS, Forces, GuideReport, Quantity, StateInfo,
 };

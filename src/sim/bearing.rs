@@ -7,8 +7,8 @@ use crate::integrate::{
     Structured, System, Tuning, Vibration,
 };
 use crate::model::{
-    Channel, Energy, Fault, FaultCounts, Forces, HostInputs, Input, LawCounts, Model, OF_ELEMENT, POWERS,
-    PartTimes, RATES, Workspace,
+    Energy, Fault, FaultCounts, Forces, HostInputs, Input, LawCounts, Model, OF_ELEMENT, POWERS, PartTimes,
+    RATES, Reading, Workspace,
 };
 use std::sync::Arc;
 
@@ -226,10 +226,11 @@ impl Bearing {
         evaluated
     }
 
-    pub(super) fn channel_value(&self, channel: &Channel, t: f64, state: &[f64], forces: &Forces) -> f64 {
+    /// The state at time `t` (s) with `forces` that were found last.
+    pub(super) fn reading<'a>(&'a self, t: f64, state: &'a [f64], forces: &'a Forces) -> Reading<'a> {
         let inputs = self.model.inputs_at(t, &self.host);
         let (q, v) = state.split_at(self.model.layout().positions());
-        self.model.channel_value(channel, q, v, &inputs, &self.workspace, forces)
+        Reading::new(&self.model, [q, v], inputs, &self.workspace, forces)
     }
 }
 

@@ -49,8 +49,9 @@ impl Sim {
             return Err(wrong_size("outputs", out.len(), self.channels().len()));
         }
         self.forces_at(t, state)?;
+        let reading = self.bearing.reading(t, state, &self.forces);
         for (out, channel) in out.iter_mut().zip(self.bearing.model().channels()) {
-            *out = self.bearing.channel_value(channel, t, state, &self.forces);
+            *out = reading.value(channel);
         }
         Ok(())
     }

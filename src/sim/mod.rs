@@ -27,7 +27,7 @@ pub use results::whirl::{CageMotion, SMALLEST_WHIRL_RADIUS, WhirlRecord, WhirlSu
 
 use crate::error::{Error, Result, Status};
 use crate::integrate::{Driver, Failure, Tuning};
-use crate::model::{Channel, FAULTS, Forces, Input, Model, PartTimes};
+use crate::model::{Channel, FAULTS, Forces, Input, Model, PartTimes, Reading};
 use crate::scene::{Preset, Solver};
 use bearing::Bearing;
 pub(crate) use errors::check_time;
@@ -317,17 +317,18 @@ impl Sim {
             return Err(wrong_size("outputs", out.len(), self.channels().len()));
         }
         self.find_output_forces()?;
+        let reading = self.reading();
         for (out, channel) in out.iter_mut().zip(self.channels()) {
-            *out = self.channel_value(channel);
+            *out = reading.value(channel);
         }
         Ok(())
     }
 
-    /// Value of a channel with the forces that were found for outputs.
-    fn channel_value(&self, channel: &Channel) -> f64 {
+    /// The present state with the forces that were found for outputs.
+    fn reading(&self) -> Reading<'_> {
         let of_step = self.evaluated == Evaluated::Step;
         let forces = if of_step { &self.output_forces } else { &self.forces };
-        self.bearing.channel_value(channel, self.time, &self.state, forces)
+        self.bearing.reading(self.time, &self.state, forces)
     }
 
     /// Finds the forces for outputs at the present time.
@@ -352,7 +353,7 @@ impl Sim {
             return Err(bad_index("output", index, count));
         }
         self.find_output_forces()?;
-        Ok(self.channel_value(&self.channels()[index]))
+        Ok(self.reading().value(&self.channels()[index]))
     }
 
     /// Step that runs start with, s; a method without error control keeps it.

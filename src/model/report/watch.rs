@@ -3,7 +3,8 @@
 //! With a semi-implicit step the forces are those that moved the bodies in it, also where damping pulls for a moment. That of
 //! the guide is what is left of the momentum of the cage after all others.
 
-use super::channels::{Channel, GuidePart, Source, along, radius};
+use super::channels::{Channel, GuidePart, Source};
+use super::reading::{along, radius};
 use crate::bodies::{CAGE, ForceSource, INNER_RING, OUTER_RING, SHARED};
 use crate::integrate::SemiImplicit;
 use crate::model::Model;
