@@ -180,6 +180,8 @@ impl<'a, S: PanelSums> Panels<'a, S> {
         let jump = if self.jumps { -0.5 / self.land.radius } else { 0.0 };
         let ends = Ends { gap: self.gap, angles: &self.end_angles, sides: &self.end_sides, count, jump };
         self.sums.add_ends(&ends, self.instructions);
+        // Lanes that the next ends leave must add nothing.
+        self.end_sides = ZEROS;
     }
 }
 
