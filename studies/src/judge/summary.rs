@@ -56,7 +56,7 @@ fn apart(verdict: &Verdict) -> Option<Apart> {
 /// Counts by preset.
 pub fn table(outcomes: &[Outcome]) -> String {
     let mut text = "\n| preset | scenes | refused | failed | not trusted | trusted, balance broken | trusted, means of one run apart | of eight starts | \
-                    largest missing share of the trusted | median evaluations per run |\n|---|---|---|---|---|---|---|---|---|---|\n"
+                    largest missing share of the trusted | median evaluations per run | most, of scene |\n|---|---|---|---|---|---|---|---|---|---|---|\n"
         .to_owned();
     for (preset, promise) in PRESETS {
         let list: Vec<&Outcome> = outcomes.iter().filter(|o| o.preset == preset).collect();
@@ -64,19 +64,22 @@ pub fn table(outcomes: &[Outcome]) -> String {
             continue;
         }
         let count = |f: &dyn Fn(&Verdict) -> bool| list.iter().filter(|o| f(&o.verdict)).count();
-        let mut evaluations: Vec<u64> = list
+        let mut evaluations: Vec<(u64, u64)> = list
             .iter()
-            .filter_map(|o| {
-                if let Verdict::Ran { evaluations, .. } = o.verdict { Some(evaluations) } else { None }
+            .filter_map(|o| match o.verdict {
+                Verdict::Ran { evaluations, .. } => Some((evaluations, o.number)),
+                _ => None,
             })
             .collect();
         evaluations.sort_unstable();
+        let (median, _) = evaluations.get(evaluations.len() / 2).copied().unwrap_or_default();
+        let (most, scene) = evaluations.last().copied().unwrap_or_default();
         let largest = list.iter().fold(0.0f64, |most, o| match o.verdict {
             Verdict::Ran { residual, trusted: true, .. } => most.max(residual.abs()),
             _ => most,
         });
         text += &format!(
-            "| {preset} | {} | {} | {} | {} | {} | {} | {} | {largest:.1e} | {} |\n",
+            "| {preset} | {} | {} | {} | {} | {} | {} | {} | {largest:.1e} | {median} | {most}, {scene} |\n",
             list.len(),
             count(&|v| matches!(v, Verdict::Refused)),
             count(&|v| matches!(v, Verdict::Failed(_))),
@@ -86,7 +89,6 @@ pub fn table(outcomes: &[Outcome]) -> String {
             ),
             count(&|v| matches!(apart(v), Some(apart) if apart.ratio > 1.0)),
             count(&|v| matches!(apart(v), Some(apart) if apart.in_mean)),
-            evaluations.get(evaluations.len() / 2).copied().unwrap_or(0),
         );
     }
     text

@@ -9,6 +9,7 @@ mod tuning;
 use cagedyn::integrate::Tuning;
 use cagedyn_studies::judge::{run, scenes, summary};
 use clap::Parser;
+use std::process::ExitCode;
 
 #[derive(Parser)]
 #[command(about)]
@@ -42,24 +43,29 @@ struct Arguments {
     wall_time: f64,
 }
 
-fn main() {
+fn main() -> ExitCode {
     let arguments = Arguments::parse();
     if arguments.print {
         println!("{:#}", scenes::scene(arguments.seed, arguments.duration));
-        return;
+        return ExitCode::SUCCESS;
     }
     let Arguments { seed, n, duration, means, preset: presets, wall_time, .. } = arguments;
     let options = run::Options { duration, means, presets, wall_time, tuning: Tuning::default() };
     if arguments.tuning {
         print!("{}", tuning::page(seed..seed + n, &options));
-        return;
+        return ExitCode::SUCCESS;
     }
     if let Some(count) = arguments.starts {
-        match run::over_starts(seed, count, &options) {
-            Ok(means) => print!("{}", summary::starts(&means)),
-            Err(e) => println!("{seed}: {e}"),
-        }
-        return;
+        return match run::over_starts(seed, count, &options) {
+            Ok(means) => {
+                print!("{}", summary::starts(&means));
+                ExitCode::SUCCESS
+            }
+            Err(e) => {
+                eprintln!("{seed}: {e}");
+                ExitCode::FAILURE
+            }
+        };
     }
     let outcomes = run::judge_all(seed..seed + n, &options, |outcome| {
         if let Some(line) = summary::line(outcome) {
@@ -67,4 +73,5 @@ fn main() {
         }
     });
     println!("{}", summary::table(&outcomes));
+    ExitCode::SUCCESS
 }
