@@ -37,11 +37,13 @@ pub(crate) use nodes::{Node, NodeState, nodes};
 pub(crate) use states::{State, layout_of, states_of};
 
 use crate::registry::registry;
+use crate::scalar::Lanes;
 use crate::scene::Scene;
 use crate::space::{Motion, Wrench};
 use cage::Cage;
 use elements::{KinematicElements, Rollers};
 use nalgebra::DMatrixViewMut;
+use pulp::Arch;
 use ring::Ring;
 use std::fmt::Debug;
 
@@ -204,6 +206,10 @@ pub(crate) trait SharedBody: Debug + Send + Sync {
     fn displacements(&self, _j: usize) -> &[[f64; 2]] {
         &[]
     }
+
+    /// Displacements of the places that it has for the elements of a block, outwards and counter-clockwise, by amplitudes (m) of
+    /// these coordinates; or their rates. Those of a rigid body stay.
+    fn displace(&self, _block: usize, _amplitudes: &[f64], _out: &mut [Lanes; 2], _instructions: Arch) {}
 
     /// The input that prescribes its rotation, if one does.
     fn turned_by(&self) -> Option<Input> {

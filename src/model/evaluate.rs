@@ -5,10 +5,10 @@
 
 use super::workspace::Workspace;
 use super::{Fault, Input, InputValues, Model};
-use crate::bodies::{BodyState, CAGE, CAGE_MOTION, OF_ELEMENT, OnBody, SHARED, WrenchLanes, displaced};
+use crate::bodies::{BodyState, CAGE, CAGE_MOTION, OF_ELEMENT, OnBody, SHARED, WrenchLanes};
 use crate::laws::contact_pair::ContactForce;
 use crate::pairs::{ContactBlock, Law};
-use crate::scalar::{ZEROS, math, place_of};
+use crate::scalar::{ZEROS, math};
 use crate::space::Wrench;
 
 /// A ring or cage this far from the centre, in pitch radii, has left the bearing.
@@ -218,11 +218,9 @@ impl Model {
             modes.copy_from_slice(&x[at.clone()][CAGE_MOTION..]);
         }
         let Some(cage) = &self.shared[CAGE] else { return };
-        for j in 0..motions.count {
-            let (block, lane) = place_of(j);
-            for (part, amplitudes) in motions.displaced[block].iter_mut().zip(&motions.modes) {
-                let moved = displaced(cage.displacements(j), amplitudes);
-                part.iter_mut().zip(moved).for_each(|(column, x)| column[lane] = x);
+        for (block, parts) in motions.displaced.iter_mut().enumerate() {
+            for (part, amplitudes) in parts.iter_mut().zip(&motions.modes) {
+                cage.displace(block, amplitudes, part, motions.instructions);
             }
         }
     }

@@ -7,6 +7,7 @@
 //! Coordinates are those of the geometric centre, which turns about s, and those of the modes of an elastic ring (`ring_modes`).
 
 mod names;
+mod pocket_waves;
 mod ring_modes;
 
 pub(crate) use ring_modes::along_factor;
@@ -15,10 +16,11 @@ use super::{
     BodyEnergy, BodyForces, BodyState, CENTRE, Coordinate, ElementSet, Fault, ForceSource, Input,
     InputValues, Moves, OnBody, Power, SharedBody, weight,
 };
-use crate::scalar::math;
+use crate::scalar::{Lanes, math};
 use crate::scene::Scene;
 use crate::space::{Motion, Wrench, rotate};
 use nalgebra::DMatrixViewMut;
+use pulp::Arch;
 use ring_modes::{Over, ROOM, RingModes};
 
 /// The cage.
@@ -123,6 +125,12 @@ impl SharedBody for Cage {
 
     fn displacements(&self, j: usize) -> &[[f64; 2]] {
         self.modes.as_ref().map_or(&[], |modes| modes.displacements(j))
+    }
+
+    fn displace(&self, block: usize, amplitudes: &[f64], out: &mut [Lanes; 2], instructions: Arch) {
+        if let Some(modes) = &self.modes {
+            modes.displace(block, amplitudes, out, instructions);
+        }
     }
 
     #[inline]

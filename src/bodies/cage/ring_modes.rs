@@ -16,8 +16,10 @@
 //! Source: Hoppe 1871, Love, Bryan 1890 for the linear vibration; the terms of second order are derived from the same
 //! displacements.
 
-use crate::scalar::{Dual, Real, math};
+use crate::bodies::cage::pocket_waves::PocketWaves;
+use crate::scalar::{Dual, Lanes, Real, math};
 use crate::scene::{ElasticRing, MOST_RING_ORDERS, RingStiffness};
+use pulp::Arch;
 use std::f64::consts::PI;
 
 /// Room for the coordinates of all modes.
@@ -46,6 +48,7 @@ pub(super) struct RingModes {
     modes: Vec<Mode>,
     /// How each coordinate displaces each pocket, outwards and counter-clockwise, per unit.
     of_pockets: Vec<Vec<[f64; 2]>>,
+    waves: PocketWaves,
 }
 
 impl RingModes {
@@ -80,13 +83,14 @@ impl RingModes {
             })
             .collect();
         let height = pitch_radius - a;
-        let of_pockets = pockets
+        let of_pockets: Vec<Vec<_>> = pockets
             .iter()
             .map(|angle| {
                 modes.iter().flat_map(|mode| displacements(mode.order, height / a, *angle)).collect()
             })
             .collect();
-        Self { modes, of_pockets }
+        let waves = PocketWaves::new(&of_pockets);
+        Self { modes, of_pockets, waves }
     }
 
     /// Orders in turn.
@@ -97,6 +101,11 @@ impl RingModes {
     /// How the coordinates displace pocket `j`, outwards and counter-clockwise, per unit.
     pub(super) fn displacements(&self, j: usize) -> &[[f64; 2]] {
         self.of_pockets.get(j).map_or(&[], Vec::as_slice)
+    }
+
+    /// How far these amplitudes (m) displace the pockets of a block, or rates.
+    pub(super) fn displace(&self, block: usize, amplitudes: &[f64], out: &mut [Lanes; 2], instructions: Arch) {
+        self.waves.displace(block, amplitudes, out, instructions);
     }
 
     /// Accelerations of the modes by forces `on` them, at these coordinates and their rates, and the angular acceleration of the

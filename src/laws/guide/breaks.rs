@@ -198,22 +198,23 @@ struct Sampled {
     angles: Lanes,
     functions: [[Lanes; 2]; FUNCTIONS],
     film: Lanes,
+    /// The smallest film of all blocks so far at the points of each number, m.
+    lowest: Lanes,
     /// Signs of functions and slopes as a number with a bit for each.
     signs: Lanes,
 }
 
 impl Sampled {
-    /// The smallest film of the block and this one, m; a NaN is kept.
-    fn lowest(&self, other: f64) -> f64 {
-        let lower = |a: f64, b: f64| if b >= a || a.is_nan() { a } else { b };
-        let mut low = self.film;
+    /// The smallest film of all blocks so far, m. A film that is not a number is so everywhere.
+    fn lowest(&self) -> f64 {
+        let mut low = self.lowest;
         // Halves, so that neighbours are compared at a time.
         for half in [8, 4, 2, 1] {
             for i in 0..half {
-                low[i] = lower(low[i], low[i + half]);
+                low[i] = low[i].min(low[i + half]);
             }
         }
-        lower(other, low[0])
+        low[0]
     }
 
     /// A bit for each step of the block at whose ends signs differ.
@@ -310,17 +311,15 @@ impl Search<'_> {
     pub fn next(&self, steps: usize, out: &mut Stretch) {
         (out.from, out.breaks.count, out.dry) = (out.to, 0, 0);
         let mut brackets = Brackets::none();
-        let mut sampled =
-            Sampled { angles: ZEROS, functions: [[ZEROS; 2]; FUNCTIONS], film: ZEROS, signs: ZEROS };
+        let functions = [[ZEROS; 2]; FUNCTIONS];
+        let lowest = [f64::INFINITY; WIDEST];
+        let mut sampled = Sampled { angles: ZEROS, functions, film: ZEROS, lowest, signs: ZEROS };
         'blocks: for block in 0..LONGEST {
             let start = out.last_step;
             if start == steps {
                 break;
             }
             dispatch(self.instructions, Scan { search: self, start, steps, sampled: &mut sampled });
-            if !self.gap.harmonics.is_empty() {
-                out.lowest = sampled.lowest(out.lowest);
-            }
             if block == 0 {
                 let signs = sampled.signs[0] as u32;
                 out.negative = std::array::from_fn(|of| signs >> of & 1 == 1);
@@ -340,6 +339,12 @@ impl Search<'_> {
                 changes &= changes - 1;
             }
             (out.last_step, out.to) = (start + count, sampled.angles[count]);
+        }
+        if !self.gap.harmonics.is_empty() {
+            // A NaN is kept.
+            let lowest = sampled.lowest();
+            let higher = lowest >= out.lowest || out.lowest.is_nan();
+            out.lowest = if higher { out.lowest } else { lowest };
         }
         if brackets.count > 0 {
             self.refine(&mut brackets, out);
@@ -473,6 +478,9 @@ impl Columns for Scan<'_> {
             slope.store(&mut slopes[first..]);
         }
         place.film[0].store(&mut self.sampled.film[first..]);
+        let lowest = Pack::load(simd, &self.sampled.lowest[first..]);
+        Pack::select(lowest.less_or_equal(place.film[0]), lowest, place.film[0])
+            .store(&mut self.sampled.lowest[first..]);
         signs.store(&mut self.sampled.signs[first..]);
     }
 }

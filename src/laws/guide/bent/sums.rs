@@ -266,7 +266,8 @@ impl<L: SurfaceLaw> PanelSums for SumsOver<'_, L> {
         if sums.wanted != Wanted::Forces {
             sums.points.of.fill(ZEROS);
         }
-        dispatch(instructions, AtEnds { law: *law, ends, points: &mut sums.points });
+        let slopes = sums.wanted != Wanted::Forces;
+        dispatch(instructions, AtEnds { law: *law, ends, points: &mut sums.points, slopes });
         sums.add_points(instructions, ends.count);
     }
 
@@ -367,6 +368,8 @@ struct AtEnds<'a, L> {
     law: &'a L,
     ends: &'a Ends<'a>,
     points: &'a mut Points,
+    /// Whether derivatives are found, too.
+    slopes: bool,
 }
 
 impl<L: SurfaceLaw> Columns for AtEnds<'_, L> {
@@ -381,11 +384,21 @@ impl<L: SurfaceLaw> Columns for AtEnds<'_, L> {
         let Ends { gap, angles, sides, jump, .. } = self.ends;
         let side = Pack::<S, K>::load(simd, &sides[first..]);
         let place = gap.at(Pack::load(simd, &angles[first..]));
+        let (of_jump, radius) = (place.film[0] * side * *jump, self.law.shape().radius);
+        if !self.slopes {
+            let (surface, _) = self.law.values(&place);
+            let jumped = surface.normal * of_jump;
+            let points = &mut *self.points;
+            place.cos.store(&mut points.cos[first..]);
+            place.sin.store(&mut points.sin[first..]);
+            jumped.store(&mut points.along[first..]);
+            (jumped * radius).store(&mut points.moment[first..]);
+            return;
+        }
         let surface = self.law.slopes::<S, K, 4>(&place);
         let turned = -place.lobe_slope;
         let on_waves = if self.law.shape().turns_waves() { turned } else { turned.like(0.0) };
         let Surface { normal: n, along: t, inward: e, moment: m } = surface;
-        let (of_jump, radius) = (place.film[0] * side * *jump, self.law.shape().radius);
         let (jumped, jumped_g) = (n.re * of_jump, n.eps[0] * of_jump);
         // How far an end moves with the film; where the arc is about to open or close, it has no derivative.
         let inverse = side.like(1.0) / place.film[1];
