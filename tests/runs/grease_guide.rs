@@ -243,3 +243,24 @@ fn an_unbalanced_free_cage_turns_about_its_centre_of_mass() {
         assert!((mass[0] - centre[0]).hypot(mass[1] - centre[1]) < 1e-9, "at {t} s: {mass:?} {centre:?}");
     }
 }
+
+/// Between samples of the profile its solid contact must not begin later than its film ends: forces are defined at every place that
+/// the cage can take.
+#[test]
+fn a_profile_touches_before_its_film_is_gone() {
+    let amplitude = 14.327e-6;
+    let profile = format!(r#"[{{"order": 5, "amplitude": {amplitude:e}, "phase": 2.3797}}]"#);
+    let scene =
+        Scene::from_json_with(&read("scenes/grease_guide.json"), [("cage.guide.roundness", &*profile)]);
+    let mut sim = Sim::new(Arc::new(Model::new(scene.unwrap()).unwrap())).unwrap();
+    let mut state = sim.state().to_vec();
+    let mut rate = vec![0.0; state.len()];
+    for direction in 0..40 {
+        let (sin, cos) = (f64::from(direction) * PI / 20.0).sin_cos();
+        for depth in -100..=100 {
+            let e = CLEARANCE - amplitude * (1.0 - 5e-6 * f64::from(depth));
+            (state[0], state[1]) = (e * cos, e * sin);
+            sim.derivative(0.0, &state, &mut rate).unwrap_or_else(|e| panic!("{depth}: {e}"));
+        }
+    }
+}

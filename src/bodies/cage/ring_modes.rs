@@ -104,7 +104,13 @@ impl RingModes {
     }
 
     /// How far these amplitudes (m) displace the pockets of a block, or rates.
-    pub(super) fn displace(&self, block: usize, amplitudes: &[f64], out: &mut [Lanes; 2], instructions: Arch) {
+    pub(super) fn displace(
+        &self,
+        block: usize,
+        amplitudes: &[f64],
+        out: &mut [Lanes; 2],
+        instructions: Arch,
+    ) {
         self.waves.displace(block, amplitudes, out, instructions);
     }
 
