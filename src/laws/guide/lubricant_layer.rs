@@ -31,8 +31,8 @@ use crate::laws::fluid::grease::Thickener;
 use crate::laws::guide::barus_film::BarusFilm;
 use crate::laws::guide::bent::BentFilm;
 use crate::laws::guide::circumference::Film;
+use crate::laws::guide::circumference::land::Land;
 use crate::laws::guide::journal::{FilmForce, Harmonic, JournalMotion, NoFilm};
-use crate::laws::guide::land::Land;
 use crate::scalar::Real;
 use pulp::Arch;
 

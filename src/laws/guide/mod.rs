@@ -18,15 +18,10 @@
 
 pub mod barus_film;
 pub mod bent;
-mod breaks;
 mod circumference;
 pub mod dry_whirl;
-mod gap;
 pub mod journal;
-mod land;
 pub mod lubricant_layer;
-mod panels;
-mod round;
 pub mod short_bearing;
 
 use crate::laws::contact_pair::ContactMotion;

@@ -24,11 +24,12 @@ mod surface;
 
 use crate::laws::elastic::solid::SolidContact;
 use crate::laws::fluid::Fluid;
-use crate::laws::guide::breaks::{Aims, Search, Stretch};
 use crate::laws::guide::circumference::Film;
-use crate::laws::guide::gap::{Gap, Harmonics, Lobe};
+use crate::laws::guide::circumference::breaks::{Aims, Search};
+use crate::laws::guide::circumference::gap::{Gap, Harmonics, Lobe};
+use crate::laws::guide::circumference::panels::Panels;
+use crate::laws::guide::circumference::stretch::Stretch;
 use crate::laws::guide::journal::{Harmonic, NoFilm};
-use crate::laws::guide::panels::Panels;
 use crate::laws::guide::{GuideFilm, GuideForce, GuideLaw, GuideSolid};
 use crate::scalar::{Dual, Real};
 use moments::Shape;

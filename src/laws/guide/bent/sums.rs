@@ -2,8 +2,8 @@
 
 use super::surface::{Surface, SurfaceLaw};
 use super::{BentSurface, Wanted};
-use crate::laws::guide::gap::Gap;
-use crate::laws::guide::panels::{Ends, Panel, PanelSums, Piece, suits, total};
+use crate::laws::guide::circumference::gap::Gap;
+use crate::laws::guide::circumference::panels::{Ends, Panel, PanelSums, Piece, suits, total};
 use crate::scalar::{Columns, Lanes, Numeric, Pack, WIDEST, ZEROS, dispatch};
 use pulp::{Arch, Simd};
 

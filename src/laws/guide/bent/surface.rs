@@ -3,8 +3,8 @@
 use super::moments::Shape;
 use crate::laws::contact_pair::ContactMotion;
 use crate::laws::elastic::solid::SolidContact;
-use crate::laws::guide::gap::Place;
-use crate::laws::guide::land::Land;
+use crate::laws::guide::circumference::gap::Place;
+use crate::laws::guide::circumference::land::Land;
 use crate::scalar::{Base, Duals, Numeric, Pack};
 use pulp::Simd;
 

@@ -194,7 +194,7 @@ fn by_hand(film: &BentFilm<'_>, surface: &BentSurface, state: &State, profile: &
         let rolling = s * RADIUS * (cage - ring);
         let moving = s * (along - state.velocity[0] * sin + state.velocity[1] * cos);
         let sliding = if film.drags { rolling + moving } else { rolling };
-        let place = crate::laws::guide::gap::Place {
+        let place = crate::laws::guide::circumference::gap::Place {
             cos,
             sin,
             film: [h, h1, 0.0, 0.0],
@@ -345,7 +345,7 @@ fn pressure_on_a_lobe_turns_it_by_virtual_work() {
             let d = TAU * (f64::from(i) + 0.5) / f64::from(n);
             let [h, h1, h_t] = gap(d, 0.3);
             if h < film.layer {
-                let place = crate::laws::guide::gap::Place {
+                let place = crate::laws::guide::circumference::gap::Place {
                     cos: d.cos(),
                     sin: d.sin(),
                     film: [h, h1, 0.0, 0.0],

@@ -6,19 +6,11 @@
 //! towards zero in between, the place where it turns is found first: that tells whether there are two. So nothing is
 //! missed but what a function does by turning twice within one step.
 
-use crate::laws::guide::gap::{Gap, Place};
+use super::gap::{Gap, Place};
+use super::stretch::{Break, DRY, EXCESS, FUNCTIONS, MOST_DRY, OPENING, Stretch};
 use crate::scalar::{Base, Columns, Lanes, Numeric, Pack, WIDEST, ZEROS, dispatch};
 use pulp::{Arch, Simd};
 use std::f64::consts::{PI, TAU};
-
-/// h - h_L.
-pub(super) const DRY: usize = 0;
-/// G.
-pub(super) const OPENING: usize = 1;
-/// K.
-pub(super) const EXCESS: usize = 2;
-/// Functions that change their sign at breaks.
-pub(super) const FUNCTIONS: usize = 3;
 
 /// Steps of a block: each shares its ends with its neighbours.
 const STEPS: usize = WIDEST - 1;
@@ -28,10 +20,6 @@ const FEWEST_BLOCKS: usize = 2;
 const LONGEST: usize = 4;
 /// Largest number of brackets that one step needs.
 const MOST_OF_STEP: usize = FUNCTIONS + 1;
-/// Most changes of sign in dry parts that one stretch has.
-const MOST_DRY: usize = WIDEST;
-/// Room for breaks: of a full block of brackets, of those that it leads to, and of dry parts.
-const BREAKS: usize = 2 * WIDEST + MOST_DRY + FUNCTIONS;
 /// Largest number of Newton steps; each that fails to be one halves a bracket.
 const MOST_STEPS: usize = 60;
 /// A drop of the film between two points by this share of it is looked at.
@@ -49,91 +37,6 @@ const COUNTED: Lanes = {
     }
     all
 };
-
-/// One place where a function changes its sign.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Break {
-    /// rad
-    pub angle: f64,
-    /// Which of the functions.
-    pub of: usize,
-}
-
-/// Breaks in ascending order, up to `M`.
-pub(super) struct Breaks<const M: usize> {
-    all: [Break; M],
-    count: usize,
-}
-
-impl<const M: usize> Breaks<M> {
-    /// None.
-    pub fn none() -> Self {
-        Self { all: [Break::default(); M], count: 0 }
-    }
-
-    /// All of them.
-    pub fn all(&self) -> &[Break] {
-        &self.all[..self.count]
-    }
-
-    /// Adds one in its place.
-    #[inline]
-    pub fn add(&mut self, angle: f64, of: usize) {
-        let mut place = self.count;
-        while place > 0 && self.all[place - 1].angle > angle {
-            self.all[place] = self.all[place - 1];
-            place -= 1;
-        }
-        self.all[place] = Break { angle, of };
-        self.count += 1;
-    }
-}
-
-/// A part of the circle and its breaks.
-pub(super) struct Stretch {
-    /// rad
-    pub from: f64,
-    /// rad
-    pub to: f64,
-    /// Number of the step that it ends with.
-    pub last_step: usize,
-    /// Whether each of the functions is negative at its start.
-    pub negative: [bool; FUNCTIONS],
-    /// Smallest film of those looked at, m, and where it is, rad.
-    pub thinnest: f64,
-    pub thinnest_at: f64,
-    /// Smallest film at the ends of steps so far, m; of bent surfaces only. Between them none is thinner by more than the
-    /// curvature allows.
-    pub lowest: f64,
-    pub breaks: Breaks<BREAKS>,
-    /// How many of them are in dry parts.
-    dry: usize,
-}
-
-impl Stretch {
-    /// Nothing, where the circle begins.
-    pub fn new() -> Self {
-        Self {
-            from: 0.0,
-            to: -PI,
-            last_step: 0,
-            negative: [false; FUNCTIONS],
-            thinnest: f64::INFINITY,
-            thinnest_at: -PI,
-            lowest: f64::INFINITY,
-            breaks: Breaks::none(),
-            dry: 0,
-        }
-    }
-
-    fn look_at(&mut self, film: f64, angle: f64) {
-        // A NaN is kept.
-        let thicker = film >= self.thinnest || self.thinnest.is_nan();
-        if !thicker {
-            (self.thinnest, self.thinnest_at) = (film, angle);
-        }
-    }
-}
 
 /// What is looked for.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -274,7 +177,7 @@ impl Sampled {
 
 /// What is looked for on a circle.
 #[derive(Clone, Copy, PartialEq)]
-pub(super) enum Aims {
+pub(in crate::laws::guide) enum Aims {
     /// The smallest film.
     Minima,
     /// Where h = h_L and where G = 0.
@@ -293,7 +196,7 @@ fn zero([a, b]: [f64; 2], [da, db]: [f64; 2]) -> f64 {
 }
 
 /// Search over the circle.
-pub(super) struct Search<'a> {
+pub(in crate::laws::guide) struct Search<'a> {
     pub gap: &'a Gap<'a>,
     /// h_L, m; infinite where everything is wet.
     pub layer: f64,
@@ -309,7 +212,7 @@ impl Search<'_> {
 
     /// Goes on to the next stretch of a circle of `steps`.
     pub fn next(&self, steps: usize, out: &mut Stretch) {
-        (out.from, out.breaks.count, out.dry) = (out.to, 0, 0);
+        out.go_on();
         let mut brackets = Brackets::none();
         let functions = [[ZEROS; 2]; FUNCTIONS];
         let lowest = [f64::INFINITY; WIDEST];

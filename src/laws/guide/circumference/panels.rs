@@ -5,8 +5,8 @@
 //! pressure and of the stress through its places are small; those of a smooth function fall as a geometric series, and the
 //! error of the sum is about the square of the last. Force and derivatives are sums over the same places.
 
-use crate::laws::guide::gap::Gap;
-use crate::laws::guide::land::{Land, OUTPUTS, VELOCITIES, over_positions, over_velocities, tangential};
+use super::gap::Gap;
+use super::land::{Land, OUTPUTS, VELOCITIES, over_positions, over_velocities, tangential};
 use crate::scalar::{Columns, Lanes, Numeric, Pack, WIDEST, ZEROS, dispatch, elementary};
 use pulp::{Arch, Simd};
 use std::f64::consts::PI;
@@ -23,7 +23,7 @@ const PANELS_PER_PERIOD: f64 = 1.0;
 const ROUND_OFF: f64 = 1e-11;
 
 /// What is summed over the places of panels.
-pub(super) trait PanelSums {
+pub(in crate::laws::guide) trait PanelSums {
     /// Adds the film at the places of a panel, unless its series do not suit, where it can be halved. Whether it did.
     fn add(&mut self, panel: &Panel<'_>, halves: bool, noise: f64, instructions: Arch) -> bool;
 
@@ -36,7 +36,7 @@ pub(super) trait PanelSums {
 }
 
 /// Sums over the places of all panels, lane by lane.
-pub(super) struct Sums<'a> {
+pub(in crate::laws::guide) struct Sums<'a> {
     pub land: Land,
     /// Outputs.
     pub values: [Lanes; OUTPUTS],
@@ -45,13 +45,13 @@ pub(super) struct Sums<'a> {
 }
 
 /// Each output.
-pub(super) fn totals(lanes: &[Lanes; OUTPUTS]) -> [f64; OUTPUTS] {
+pub(in crate::laws::guide) fn totals(lanes: &[Lanes; OUTPUTS]) -> [f64; OUTPUTS] {
     lanes.each_ref().map(total)
 }
 
 /// Sum of all lanes, in an order that lets neighbours be added at a time.
 #[inline]
-pub(super) fn total(lanes: &Lanes) -> f64 {
+pub(in crate::laws::guide) fn total(lanes: &Lanes) -> f64 {
     let mut sums = *lanes;
     for half in [8, 4, 2, 1] {
         for i in 0..half {
@@ -89,7 +89,7 @@ impl PanelSums for Sums<'_> {
 }
 
 /// Integrator over the panels of one state.
-pub(super) struct Panels<'a, S> {
+pub(in crate::laws::guide) struct Panels<'a, S> {
     pub land: Land,
     pub gap: &'a Gap<'a>,
     /// Not less than any |G|, m/s.
@@ -106,7 +106,7 @@ pub(super) struct Panels<'a, S> {
 
 /// Part of the circle between two breaks, or of its map.
 #[derive(Clone, Copy)]
-pub(super) struct Piece {
+pub(in crate::laws::guide) struct Piece {
     /// Whether d = middle - half cos(x); else d = x.
     mapped: bool,
     middle: f64,
@@ -186,7 +186,7 @@ impl<'a, S: PanelSums> Panels<'a, S> {
 }
 
 /// Places of a panel.
-pub(super) struct Panel<'a> {
+pub(in crate::laws::guide) struct Panel<'a> {
     pub gap: &'a Gap<'a>,
     piece: &'a Piece,
     middle: f64,
@@ -224,7 +224,7 @@ struct Found {
 }
 
 /// Whether the last terms of the series of pressure and stress are small, or at least of round-off. A NaN suits, or nothing would.
-pub(super) fn suits([pressure, stress, cubes]: [&Lanes; 3], noise: f64) -> bool {
+pub(in crate::laws::guide) fn suits([pressure, stress, cubes]: [&Lanes; 3], noise: f64) -> bool {
     // Round-off is asked for only where it may matter.
     let rough = |parts: &Lanes, allowed: &dyn Fn() -> f64| {
         let (tail, whole) = (tail(parts), TAIL * total(parts));
@@ -331,7 +331,7 @@ fn add<S: Simd, const K: usize>(more: &[Pack<S, K>; OUTPUTS], sums: &mut [Lanes;
 }
 
 /// Some ends of wet arcs.
-pub(super) struct Ends<'a> {
+pub(in crate::laws::guide) struct Ends<'a> {
     pub gap: &'a Gap<'a>,
     /// rad
     pub angles: &'a Lanes,

@@ -8,20 +8,20 @@
 //! s is 2, or 0 for a film that is not squeezed. Without lobes h and G are of order one: there are at most two places of either, and
 //! nothing has to be searched for.
 
-use crate::laws::guide::breaks::{Breaks, DRY, FUNCTIONS, OPENING};
-use crate::laws::guide::gap::Gap;
+use super::gap::Gap;
+use super::stretch::{Breaks, DRY, FUNCTIONS, OPENING};
 use crate::scalar::math;
 use std::f64::consts::PI;
 
 /// The whole circle.
-pub(super) struct Circle {
+pub(in crate::laws::guide) struct Circle {
     /// Whether each of the functions is negative at its start, -pi.
     pub negative: [bool; FUNCTIONS],
     pub breaks: Breaks<4>,
 }
 
 /// The circle of a gap that has no lobes; h_L in m.
-pub(super) fn circle(gap: &Gap<'_>, layer: f64) -> Circle {
+pub(in crate::laws::guide) fn circle(gap: &Gap<'_>, layer: f64) -> Circle {
     let mut out = Circle { negative: [false; FUNCTIONS], breaks: Breaks::none() };
     let e = gap.eccentricity;
     // Infinite in a clearance full of oil, and where the journal is centred.
@@ -50,8 +50,9 @@ pub(super) fn circle(gap: &Gap<'_>, layer: f64) -> Circle {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laws::guide::breaks::{Aims, Search, Stretch};
-    use crate::laws::guide::gap::Lobe;
+    use crate::laws::guide::circumference::breaks::{Aims, Search};
+    use crate::laws::guide::circumference::gap::Lobe;
+    use crate::laws::guide::circumference::stretch::Stretch;
     use crate::laws::guide::journal::tests::motion;
     use pulp::Arch;
 

@@ -8,22 +8,22 @@
 //! by parts, leaves h'/2R and h/2R. All of it depends on h, h', G and u; these are linear in the motion, so derivatives are
 //! those over these four, and the rows below.
 
+use super::gap::{Gap, Place};
 use crate::laws::fluid::grease::Thickening;
 use crate::laws::guide::barus_film::{BarusFilm, WidthMean};
-use crate::laws::guide::gap::{Gap, Place};
 use crate::scalar::{Base, Duals, Numeric, Of, Pack};
 use pulp::Simd;
 
 /// Pressure (along, across), shear (along, across) and moment.
-pub(super) const OUTPUTS: usize = 5;
+pub(in crate::laws::guide) const OUTPUTS: usize = 5;
 /// Their derivatives are over the rates of y and z, w_1 + w_2, R (w_1 - w_2), the speed of the lobes, y and z.
-pub(super) const VARIABLES: usize = 7;
+pub(in crate::laws::guide) const VARIABLES: usize = 7;
 /// The first of them are velocities.
-pub(super) const VELOCITIES: usize = 5;
+pub(in crate::laws::guide) const VELOCITIES: usize = 5;
 
 /// Oil and surfaces.
 #[derive(Clone, Copy)]
-pub(super) struct Land {
+pub(in crate::laws::guide) struct Land {
     pub barus: BarusFilm,
     /// q_0 = -peak_scale G/h^3, Pa s m^2.
     pub peak_scale: f64,
@@ -45,7 +45,7 @@ pub(super) struct Land {
 
 /// What a film does per angle at one place.
 #[derive(Clone, Copy)]
-pub(super) struct Stress<T> {
+pub(in crate::laws::guide) struct Stress<T> {
     /// Pressure on the journal, N.
     pub normal: T,
     /// Part of the gradient of the pressure, along the normal, N.
@@ -158,7 +158,7 @@ impl Land {
 
 /// Derivatives over velocities of what has these over opening and sliding.
 #[inline(always)]
-pub(super) fn over_velocities<B: Base>(
+pub(in crate::laws::guide) fn over_velocities<B: Base>(
     gap: &Gap<'_>,
     p: &Place<B>,
     opening: B,
@@ -176,14 +176,20 @@ pub(super) fn over_velocities<B: Base>(
 
 /// Derivatives over y and z of what has these over opening, film and slope.
 #[inline(always)]
-pub(super) fn over_positions<B: Base>(gap: &Gap<'_>, p: &Place<B>, opening: B, film: B, slope: B) -> [B; 2] {
+pub(in crate::laws::guide) fn over_positions<B: Base>(
+    gap: &Gap<'_>,
+    p: &Place<B>,
+    opening: B,
+    film: B,
+    slope: B,
+) -> [B; 2] {
     let turning = slope + opening * gap.turning;
     [turning * p.sin - film * p.cos, -(turning * p.cos + film * p.sin)]
 }
 
 /// Outputs of a force along the surface.
 #[inline(always)]
-pub(super) fn tangential<B: Base>(along: B, cos: B, sin: B, radius: f64) -> [B; OUTPUTS] {
+pub(in crate::laws::guide) fn tangential<B: Base>(along: B, cos: B, sin: B, radius: f64) -> [B; OUTPUTS] {
     let zero = along.splat(0.0);
     [zero, zero, -(along * sin), along * cos, along * radius]
 }

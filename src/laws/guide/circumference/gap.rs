@@ -16,7 +16,7 @@ use crate::scalar::{Base, elementary, math};
 
 /// A wave of the surface, which thins the film by `height[0] cos(n d) + height[1] sin(n d)`.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Lobe {
+pub(in crate::laws::guide) struct Lobe {
     /// n >= 2.
     pub order: u32,
     /// A_n and B_n, m.
@@ -27,7 +27,7 @@ pub(super) struct Lobe {
 
 /// Waves of one order of all that a bent surface does to its gap: the factors of cos(n d) and sin(n d).
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Harmonics {
+pub(in crate::laws::guide) struct Harmonics {
     /// Of h, m.
     pub film: [f64; 2],
     /// Of G, m/s.
@@ -39,7 +39,7 @@ pub(super) struct Harmonics {
 }
 
 /// The gap at one state, in axes along the eccentricity and across it.
-pub(super) struct Gap<'a> {
+pub(in crate::laws::guide) struct Gap<'a> {
     /// e, m.
     pub eccentricity: f64,
     /// C - e, m.
@@ -62,7 +62,7 @@ pub(super) struct Gap<'a> {
 
 /// The gap at one place, or at several.
 #[derive(Clone, Copy)]
-pub(super) struct Place<B> {
+pub(in crate::laws::guide) struct Place<B> {
     /// Direction from the journal to the bush.
     pub cos: B,
     pub sin: B,

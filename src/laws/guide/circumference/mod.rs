@@ -4,16 +4,23 @@
 //! integral over the motion in axes of the eccentricity, and these turn with the journal: what the angle of the lobes does
 //! is what turning everything else the other way does, and the force with it.
 
+pub(super) mod breaks;
+pub(super) mod gap;
+pub(super) mod land;
+pub(super) mod panels;
+mod round;
+pub(super) mod stretch;
+
 use crate::laws::fluid::grease::Thickening;
-use crate::laws::guide::breaks::{Aims, Break, DRY, EXCESS, FUNCTIONS, OPENING, Search, Stretch};
-use crate::laws::guide::gap::{Gap, Lobe};
 use crate::laws::guide::journal::{FilmForce, Harmonic, JournalMotion, NoFilm};
-use crate::laws::guide::land::{Land, OUTPUTS, VARIABLES, VELOCITIES};
-use crate::laws::guide::panels::{PanelSums, Panels, Sums, totals};
-use crate::laws::guide::round;
 use crate::scalar::{Real, ZEROS, math};
+use breaks::{Aims, Search};
+use gap::{Gap, Lobe};
+use land::{Land, OUTPUTS, VARIABLES, VELOCITIES};
+use panels::{PanelSums, Panels, Sums, totals};
 use pulp::Arch;
 use std::f64::consts::PI;
+use stretch::{Break, DRY, EXCESS, FUNCTIONS, OPENING, Stretch};
 
 /// Most lobes of a gap; there is room for a few of them at no cost.
 const MOST_LOBES: usize = 64;
@@ -50,7 +57,7 @@ impl Room {
 }
 
 /// A film between journal and bush.
-pub(super) struct Film<'a> {
+pub(in crate::laws::guide) struct Film<'a> {
     pub land: Land,
     /// C, m.
     pub clearance: f64,
