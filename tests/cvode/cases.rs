@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// Largest step of methods with error control in the library, s; CVODE gets the same where it is compared with them.
 pub const MAX_STEP: f64 = 1e-4;
 /// The same where a bounce is shorter than that.
-const SHORT_STEP: f64 = 2e-6;
+pub const SHORT_STEP: f64 = 2e-6;
 
 /// A scene and how long it is followed.
 pub struct Case {
@@ -108,6 +108,7 @@ pub fn scene(file: &str, changes: &[(&str, Value)]) -> Value {
 
 const BALL: &str = "scenes/ball_short_bearing.json";
 pub const DRY: &str = "dry guide";
+pub const GREASED: &str = "grease guide";
 pub const GREASE: &str = "scenes/grease_guide.json";
 
 /// The cage alone in a short bearing of thick oil: smooth, and stiff.
@@ -187,7 +188,8 @@ pub fn contacts() -> Vec<Case> {
     };
     vec![
         case("NU2310", example(), 1e-3),
-        case("grease guide", scene(GREASE, &[]), 10e-3),
+        // From 8.01 ms on the cage meets a pocket at 12 um/s: whether a step passes that is a matter of chance, with CVODE, too.
+        case(GREASED, scene(GREASE, &[]), 8e-3),
         case(DRY, scene(GREASE, &dry), 2e-3),
         case("plane pockets", scene(BALL, &[("initial", fast)]), 3e-3),
         case("cylinder pockets", cylinder, 3e-3),

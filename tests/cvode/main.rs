@@ -11,7 +11,7 @@ mod tables;
 mod whirl;
 
 use cagedyn_studies::cvode::Method;
-use cases::{DRY, contacts, pressed, smooth, thick};
+use cases::{DRY, GREASED, SHORT_STEP, contacts, pressed, smooth, thick};
 use serde_json::json;
 
 /// Tolerances at which methods with error control are compared.
@@ -132,24 +132,31 @@ fn errors_through_contacts_are_like_those_of_cvode() {
     }
 }
 
-/// The cage on the dry guide bounces, and its second contact lasts 7 us. Error control that looks at a few places of a step can
-/// miss it; CVODE does, too.
+/// The cage on the dry guide bounces, and its second contact lasts 7 us; on the greased guide it meets a pocket at 12 um/s for 9 us
+/// at 8.01 ms. Error control that looks at a few places of a step can miss them; CVODE does, too.
 #[test]
 fn only_the_length_of_a_step_bounds_what_it_jumps_over() {
-    let limited = contacts().into_iter().find(|case| case.name == DRY).expect("a dry guide");
-    let free = cases::Case { max_step: cases::MAX_STEP, scene: limited.scene.clone(), ..limited };
+    let named = |name: &str| contacts().into_iter().find(|case| case.name == name).expect("such a case");
+    jumps_over(&named(DRY), [2e-6, 1e-8]);
+    let soft = cases::Case { duration: 8.5e-3, max_step: SHORT_STEP, ..named(GREASED) };
+    jumps_over(&soft, [2e-5, 1e-7]);
+}
+
+/// With short steps errors are at most `allowed`, at any tolerance from 1e-8 on and at 1e-12.
+fn jumps_over(limited: &cases::Case, allowed: [f64; 2]) {
+    let free = cases::Case { max_step: cases::MAX_STEP, scene: limited.scene.clone(), ..*limited };
     let reference = limited.reference().end;
     let theirs = free.distance(&free.cvode(Method::Adams, 0.0, 1e-8, free.max_step), &reference);
-    println!("CVODE, Adams, 1e-8: {theirs:.1e}");
+    println!("{}: CVODE, Adams, 1e-8: {theirs:.1e}", limited.name);
     assert!(theirs > 1e-5, "the bounce is met: {theirs:e}");
     for (method, _) in METHODS {
         let mut worst: f64 = 0.0;
         for tolerance in [1e-8, 1e-9, 1e-10, 1e-11, 1e-12] {
             let [free, limited] =
-                [&free, &limited].map(|case| case.distance(&case.controlled(method, tolerance), &reference));
+                [&free, limited].map(|case| case.distance(&case.controlled(method, tolerance), &reference));
             println!("{method}, {tolerance:e}: {free:.1e}, with short steps {limited:.1e}");
-            assert!(limited < 2e-6, "{method}, {tolerance:e}: {limited:e}");
-            assert!(tolerance > 1e-12 || limited < 1e-8, "{method}, {tolerance:e}: {limited:e}");
+            assert!(limited < allowed[0], "{method}, {tolerance:e}: {limited:e}");
+            assert!(tolerance > 1e-12 || limited < allowed[1], "{method}, {tolerance:e}: {limited:e}");
             worst = worst.max(free);
         }
         assert!(worst < 1e-3, "{method}: {worst:e}");
