@@ -3,7 +3,8 @@
 use super::surface::{Surface, SurfaceLaw};
 use super::{BentSurface, Wanted};
 use crate::laws::guide::circumference::gap::Gap;
-use crate::laws::guide::circumference::panels::{Ends, Panel, PanelSums, Piece, suits, total};
+use crate::laws::guide::circumference::panels::{Ends, Panel, PanelSums, Piece};
+use crate::laws::guide::circumference::rule::total;
 use crate::scalar::{Columns, Lanes, Numeric, Pack, WIDEST, ZEROS, dispatch};
 use pulp::{Arch, Simd};
 
@@ -216,9 +217,10 @@ impl Sums {
         halvings: u32,
         instructions: Arch,
     ) {
-        let middle = 0.5 * (from + to);
-        let panel = Panel::new(gap, &Piece::STRAIGHT, middle, 0.5 * (to - from));
-        if !self.over(law).add(&panel, halvings > 0, 0.0, instructions) {
+        let panel = Panel::new(gap, &Piece::STRAIGHT, [from, to]);
+        let checked = (halvings > 0).then_some(0.0);
+        if self.over(law).add(&panel, checked, instructions) != [true; 2] {
+            let middle = 0.5 * (from + to);
             self.add_panel(law, gap, [from, middle], halvings - 1, instructions);
             self.add_panel(law, gap, [middle, to], halvings - 1, instructions);
         }
@@ -243,21 +245,24 @@ pub(super) struct SumsOver<'a, L> {
 }
 
 impl<L: SurfaceLaw> PanelSums for SumsOver<'_, L> {
-    fn add(&mut self, panel: &Panel<'_>, halves: bool, noise: f64, instructions: Arch) -> bool {
+    fn add(&mut self, panel: &Panel<'_>, checked: Option<f64>, instructions: Arch) -> [bool; 2] {
         let Self { sums, law } = self;
         let points = &mut *sums.points;
         dispatch(instructions, Values { law: *law, panel, points });
         let [normal, stress, cubes] = &points.series;
-        if halves && !suits([normal, stress, cubes], noise) {
-            return false;
+        let suits = panel.suit([normal, stress, cubes], checked);
+        if suits == [false; 2] {
+            return suits;
         }
+        let Points { normal, along, inward, moment, .. } = points;
+        let panel = &panel.only(suits, [normal, along, inward, moment]);
         match sums.wanted {
             Wanted::Forces => {}
             Wanted::Damping => dispatch(instructions, Slopes::<_, 2> { law: *law, panel, points }),
             Wanted::Slopes => dispatch(instructions, Slopes::<_, 4> { law: *law, panel, points }),
         }
         sums.add_points(instructions, WIDEST);
-        true
+        suits
     }
 
     fn add_ends(&mut self, ends: &Ends<'_>, instructions: Arch) {

@@ -9,6 +9,7 @@ pub(super) mod gap;
 pub(super) mod land;
 pub(super) mod panels;
 mod round;
+pub(super) mod rule;
 pub(super) mod stretch;
 
 use crate::laws::fluid::grease::Thickening;
@@ -187,7 +188,7 @@ impl Film<'_> {
         if self.acts(negative) {
             panels.add(from, to, negative[EXCESS]);
         }
-        panels.complete_ends();
+        panels.complete();
     }
 
     /// Whether the film does something where the functions of the breaks have these signs.

@@ -4,30 +4,46 @@
 //! the distance from the place where s = s_cap. A panel is halved until the last two terms of the Legendre series of the
 //! pressure and of the stress through its places are small; those of a smooth function fall as a geometric series, and the
 //! error of the sum is about the square of the last. Force and derivatives are sums over the same places.
+//!
+//! Lobes cut wet arcs into many short pieces. Two of them share a block, with eight places each; where that does not do,
+//! each gets its sixteen.
 
 use super::gap::Gap;
 use super::land::{Land, OUTPUTS, VELOCITIES, over_positions, over_velocities, tangential};
+use super::rule::{Rule, SIXTEEN, TWICE_EIGHT, total};
 use crate::scalar::{Columns, Lanes, Numeric, Pack, WIDEST, ZEROS, dispatch, elementary};
 use pulp::{Arch, Simd};
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 /// Halvings of a panel; reached only by states that are not finite.
 const DEEPEST: u32 = 14;
-/// Largest share that the last terms of the series of a panel may have.
-const TAIL: f64 = 1e-6;
 /// Widest panel, rad.
 const WIDEST_PANEL: f64 = 1.6;
 /// Panels per period of the highest order of the gap, at least.
 const PANELS_PER_PERIOD: f64 = 1.0;
+/// Widest piece that shares a block with another, over the period of the highest order; there is none without lobes.
+const NARROW: f64 = 0.5;
 /// Round-off of G relative to its largest part.
 const ROUND_OFF: f64 = 1e-11;
 
+/// Which half of a block a lane is in.
+const BLOCK_HALF: Lanes = {
+    let mut all = ZEROS;
+    let mut i = WIDEST / 2;
+    while i < WIDEST {
+        all[i] = 1.0;
+        i += 1;
+    }
+    all
+};
+
 /// What is summed over the places of panels.
 pub(in crate::laws::guide) trait PanelSums {
-    /// Adds the film at the places of a panel, unless its series do not suit, where it can be halved. Whether it did.
-    fn add(&mut self, panel: &Panel<'_>, halves: bool, noise: f64, instructions: Arch) -> bool;
+    /// Adds the film at the places of those parts of a block whose series suit, or of all where `checked` has no noise for them.
+    /// Which did.
+    fn add(&mut self, panel: &Panel<'_>, checked: Option<f64>, instructions: Arch) -> [bool; 2];
 
-    /// Adds what the ends of wet arcs do: see [`Panels::complete_ends`]. `jump` is the tangential force there over the pressure times
+    /// Adds what the ends of wet arcs do: see [`Panels::complete`]. `jump` is the tangential force there over the pressure times
     /// the film; 0 for none.
     fn add_ends(&mut self, places: &Ends<'_>, instructions: Arch);
 
@@ -49,25 +65,15 @@ pub(in crate::laws::guide) fn totals(lanes: &[Lanes; OUTPUTS]) -> [f64; OUTPUTS]
     lanes.each_ref().map(total)
 }
 
-/// Sum of all lanes, in an order that lets neighbours be added at a time.
-#[inline]
-pub(in crate::laws::guide) fn total(lanes: &Lanes) -> f64 {
-    let mut sums = *lanes;
-    for half in [8, 4, 2, 1] {
-        for i in 0..half {
-            sums[i] += sums[i + half];
-        }
-    }
-    sums[0]
-}
-
 impl PanelSums for Sums<'_> {
-    fn add(&mut self, panel: &Panel<'_>, halves: bool, noise: f64, instructions: Arch) -> bool {
+    fn add(&mut self, panel: &Panel<'_>, checked: Option<f64>, instructions: Arch) -> [bool; 2] {
         let mut found = Found { outputs: [ZEROS; OUTPUTS], pressure: ZEROS, stress: ZEROS, cubes: ZEROS };
         dispatch(instructions, Values { land: &self.land, panel, found: &mut found });
-        if halves && !suits([&found.pressure, &found.stress, &found.cubes], noise) {
-            return false;
+        let suits = panel.suit([&found.pressure, &found.stress, &found.cubes], checked);
+        if suits == [false; 2] {
+            return suits;
         }
+        let panel = &panel.only(suits, found.outputs.each_mut());
         for (sum, output) in self.values.iter_mut().zip(&found.outputs) {
             for (sum, output) in sum.iter_mut().zip(output) {
                 *sum += output;
@@ -76,7 +82,7 @@ impl PanelSums for Sums<'_> {
         if !self.slopes.is_empty() {
             dispatch(instructions, Slopes { land: &self.land, panel, slopes: self.slopes });
         }
-        true
+        suits
     }
 
     fn add_ends(&mut self, ends: &Ends<'_>, instructions: Arch) {
@@ -98,6 +104,9 @@ pub(in crate::laws::guide) struct Panels<'a, S> {
     jumps: bool,
     pub instructions: Arch,
     pub sums: S,
+    order: f64,
+    /// A narrow piece that waits for another one, rad.
+    waiting: Option<[f64; 2]>,
     /// Ends of wet arcs that are not in the sums yet.
     end_angles: Lanes,
     end_sides: Lanes,
@@ -128,8 +137,19 @@ impl<'a, S: PanelSums> Panels<'a, S> {
         instructions: Arch,
         sums: S,
     ) -> Self {
-        let (end_angles, end_sides) = (ZEROS, ZEROS);
-        Self { land, gap, largest_opening, jumps, instructions, sums, end_angles, end_sides, end_count: 0 }
+        Self {
+            land,
+            gap,
+            largest_opening,
+            jumps,
+            instructions,
+            sums,
+            order: f64::from(gap.order()),
+            waiting: None,
+            end_angles: ZEROS,
+            end_sides: ZEROS,
+            end_count: 0,
+        }
     }
 
     /// Adds the film between `from` and `to`; `capped` where s > s_cap.
@@ -139,24 +159,48 @@ impl<'a, S: PanelSums> Panels<'a, S> {
         if !exists {
             return;
         }
+        let period = TAU / self.order;
+        if !capped && self.order > 1.0 && to - from < NARROW * period {
+            match self.waiting.take() {
+                Some(other) => self.two([other, [from, to]]),
+                None => self.waiting = Some([from, to]),
+            }
+            return;
+        }
         let piece = Piece { mapped: capped, middle: 0.5 * (from + to), half: 0.5 * (to - from) };
-        let widest = WIDEST_PANEL.min(2.0 * PI / (PANELS_PER_PERIOD * f64::from(self.gap.order())));
+        let widest = WIDEST_PANEL.min(period / PANELS_PER_PERIOD);
         let panels = ((to - from) / widest).ceil().max(if capped { 2.0 } else { 1.0 });
         let (start, width) = if capped { (0.0, PI / panels) } else { (from, (to - from) / panels) };
         for i in 0..panels as usize {
             let a = start + i as f64 * width;
-            self.panel(&piece, a, a + width, 0);
+            self.panel(&piece, [a, a + width], 0);
         }
     }
 
-    fn panel(&mut self, piece: &Piece, from: f64, to: f64, depth: u32) {
-        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-        let panel = Panel { gap: self.gap, piece, middle, half };
-        let noise = ROUND_OFF * self.land.area * self.land.peak_scale * self.largest_opening;
-        if !self.sums.add(&panel, depth < DEEPEST, noise, self.instructions) {
-            self.panel(piece, from, middle, depth + 1);
-            self.panel(piece, middle, to, depth + 1);
+    /// Two narrow pieces.
+    fn two(&mut self, pieces: [[f64; 2]; 2]) {
+        let panel = Panel::two(self.gap, pieces);
+        let suits = self.sums.add(&panel, Some(self.noise()), self.instructions);
+        for (piece, suits) in pieces.into_iter().zip(suits) {
+            if !suits {
+                self.panel(&Piece::STRAIGHT, piece, 0);
+            }
         }
+    }
+
+    fn panel(&mut self, piece: &Piece, [from, to]: [f64; 2], depth: u32) {
+        let panel = Panel::new(self.gap, piece, [from, to]);
+        let checked = (depth < DEEPEST).then(|| self.noise());
+        if self.sums.add(&panel, checked, self.instructions) != [true; 2] {
+            let middle = 0.5 * (from + to);
+            self.panel(piece, [from, middle], depth + 1);
+            self.panel(piece, [middle, to], depth + 1);
+        }
+    }
+
+    /// Round-off of the pressure times the cube of the film, N m^3.
+    fn noise(&self) -> f64 {
+        ROUND_OFF * self.land.area * self.land.peak_scale * self.largest_opening
     }
 
     /// An end of a wet arc at this angle, rad: +1 where the arc ends, -1 where it starts.
@@ -171,8 +215,16 @@ impl<'a, S: PanelSums> Panels<'a, S> {
         }
     }
 
+    /// Adds what still waits.
+    pub fn complete(&mut self) {
+        if let Some(piece) = self.waiting.take() {
+            self.panel(&Piece::STRAIGHT, piece, 0);
+        }
+        self.complete_ends();
+    }
+
     /// Adds what these ends do: the jump of the pressure there, if `jumps`, and to the derivatives that they move.
-    pub fn complete_ends(&mut self) {
+    fn complete_ends(&mut self) {
         let count = std::mem::take(&mut self.end_count);
         if count == 0 {
             return;
@@ -185,31 +237,69 @@ impl<'a, S: PanelSums> Panels<'a, S> {
     }
 }
 
-/// Places of a panel.
+/// Places of one panel or of two.
 pub(in crate::laws::guide) struct Panel<'a> {
     pub gap: &'a Gap<'a>,
-    piece: &'a Piece,
-    middle: f64,
-    half: f64,
+    piece: Piece,
+    rule: &'static Rule,
+    /// Middle and half of the width of the panel in each half of the block.
+    middle: [f64; 2],
+    half: [f64; 2],
 }
 
 impl<'a> Panel<'a> {
-    /// The places at most `half` from `middle`, rad.
-    pub fn new(gap: &'a Gap<'a>, piece: &'a Piece, middle: f64, half: f64) -> Self {
-        Self { gap, piece, middle, half }
+    /// One with sixteen places.
+    pub fn new(gap: &'a Gap<'a>, piece: &Piece, [from, to]: [f64; 2]) -> Self {
+        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+        Self { gap, piece: *piece, rule: &SIXTEEN, middle: [middle; 2], half: [half; 2] }
+    }
+
+    /// Two with eight places each.
+    fn two(gap: &'a Gap<'a>, pieces: [[f64; 2]; 2]) -> Self {
+        let middle = pieces.map(|[from, to]| 0.5 * (from + to));
+        let half = pieces.map(|[from, to]| 0.5 * (to - from));
+        Self { gap, piece: Piece::STRAIGHT, rule: &TWICE_EIGHT, middle, half }
     }
 
     /// Places (rad) and their weights (rad) in the sums, of a group.
     #[inline(always)]
     pub fn places<S: Simd, const K: usize>(&self, simd: S, first: usize) -> [Pack<S, K>; 2] {
-        let x = Pack::load(simd, &NODES[first..]) * self.half + self.middle;
-        let weight = Pack::load(simd, &WEIGHTS[first..]) * self.half;
+        let of_block = Pack::<S, K>::load(simd, &BLOCK_HALF[first..]).above(0.5);
+        let lanes = |[a, b]: [f64; 2]| Pack::select(of_block, Pack::all(simd, b), Pack::all(simd, a));
+        let half = lanes(self.half);
+        let x = Pack::load(simd, &self.rule.nodes[first..]) * half + lanes(self.middle);
+        let weight = Pack::load(simd, &self.rule.weights[first..]) * half;
         if !self.piece.mapped {
             return [x, weight];
         }
         let (sin, cos) = elementary::sin_cos(x);
-        let Piece { middle, half, .. } = *self.piece;
+        let Piece { middle, half, .. } = self.piece;
         [-(cos * half) + middle, weight * sin * half]
+    }
+
+    /// Whether the series of each part suit; with no noise all do.
+    #[inline]
+    pub fn suit(&self, series: [&Lanes; 3], noise: Option<f64>) -> [bool; 2] {
+        noise.map_or([true; 2], |noise| self.rule.suits(series, noise))
+    }
+
+    /// The same, where parts that do not suit have no width, and without what was found at their places.
+    #[inline]
+    pub fn only<const N: usize>(&self, suits: [bool; 2], found: [&mut Lanes; N]) -> Self {
+        let mut out = Self { ..*self };
+        if suits != [true; 2] {
+            for (part, _) in suits.iter().enumerate().filter(|(_, suits)| !**suits) {
+                out.half[part] = 0.0;
+            }
+            for lanes in found {
+                for (part, lanes) in lanes.chunks_mut(WIDEST / 2).enumerate() {
+                    if !suits[part] {
+                        lanes.fill(0.0);
+                    }
+                }
+            }
+        }
+        out
     }
 }
 
@@ -221,26 +311,6 @@ struct Found {
     pressure: Lanes,
     stress: Lanes,
     cubes: Lanes,
-}
-
-/// Whether the last terms of the series of pressure and stress are small, or at least of round-off. A NaN suits, or nothing would.
-pub(in crate::laws::guide) fn suits([pressure, stress, cubes]: [&Lanes; 3], noise: f64) -> bool {
-    // Round-off is asked for only where it may matter.
-    let rough = |parts: &Lanes, allowed: &dyn Fn() -> f64| {
-        let (tail, whole) = (tail(parts), TAIL * total(parts));
-        tail > whole && tail > whole + allowed()
-    };
-    !(rough(pressure, &|| noise * total(cubes)) || rough(stress, &|| 0.0))
-}
-
-/// Size of the last two terms of the series.
-#[inline]
-fn tail(parts: &Lanes) -> f64 {
-    let mut products = *parts;
-    for (product, term) in products.iter_mut().zip(&LAST_TERMS) {
-        *product *= term;
-    }
-    total(&products).abs()
 }
 
 struct Values<'a> {
@@ -397,60 +467,4 @@ impl Columns for EndSums<'_, '_> {
             add(&more, sums, first);
         }
     }
-}
-
-/// Nodes of the Gauss-Legendre rule on [-1, 1].
-const NODES: Lanes = mirrored(&POSITIVE_NODES, -1.0);
-/// Their weights.
-const WEIGHTS: Lanes = mirrored(&POSITIVE_WEIGHTS, 1.0);
-/// 29 P_14 + 31 P_15 at the nodes: with weights, the size of the last two terms of the Legendre series of what stands there.
-const LAST_TERMS: Lanes = last_terms();
-
-const POSITIVE_NODES: [f64; WIDEST / 2] = [
-    0.095_012_509_837_637_44,
-    0.281_603_550_779_258_9,
-    0.458_016_777_657_227_37,
-    0.617_876_244_402_643_8,
-    0.755_404_408_355_003,
-    0.865_631_202_387_831_8,
-    0.944_575_023_073_232_6,
-    0.989_400_934_991_649_9,
-];
-const POSITIVE_WEIGHTS: [f64; WIDEST / 2] = [
-    0.189_450_610_455_068_5,
-    0.182_603_415_044_923_58,
-    0.169_156_519_395_002_54,
-    0.149_595_988_816_576_73,
-    0.124_628_971_255_533_88,
-    0.095_158_511_682_492_79,
-    0.062_253_523_938_647_894,
-    0.027_152_459_411_754_096,
-];
-
-const fn mirrored(positive: &[f64; WIDEST / 2], sign: f64) -> Lanes {
-    let mut all = ZEROS;
-    let mut i = 0;
-    while i < WIDEST / 2 {
-        all[WIDEST / 2 + i] = positive[i];
-        all[WIDEST / 2 - 1 - i] = sign * positive[i];
-        i += 1;
-    }
-    all
-}
-
-const fn last_terms() -> Lanes {
-    let mut all = ZEROS;
-    let mut i = 0;
-    while i < WIDEST {
-        let x = NODES[i];
-        let (mut before, mut now, mut k) = (1.0, x, 1.0);
-        while k < 14.0 {
-            (before, now) = (now, ((2.0 * k + 1.0) * x * now - k * before) / (k + 1.0));
-            k += 1.0;
-        }
-        let next = (29.0 * x * now - 14.0 * before) / 15.0;
-        all[i] = 29.0 * now + 31.0 * next;
-        i += 1;
-    }
-    all
 }
