@@ -80,6 +80,22 @@ pub struct PackMask<S: Simd, const K: usize> {
     m: [S::m64s; K],
 }
 
+/// Does `work` with `i` for each of the `K` registers, written out: a loop in every operation would take most of the time of
+/// a build, and closures would not always be inlined.
+macro_rules! each_register {
+    ($i:ident: $work:expr) => {{
+        const { assert!(0 < K && K <= LARGEST_GROUP) };
+        {
+            let $i = 0;
+            $work;
+        }
+        if K > 1 {
+            let $i = 1;
+            $work;
+        }
+    }};
+}
+
 impl<S: Simd, const K: usize> Pack<S, K> {
     /// The first of these numbers.
     ///
@@ -108,6 +124,14 @@ impl<S: Simd, const K: usize> Pack<S, K> {
         (Self::load(self.simd, numbers) + self).store(numbers);
     }
 
+    /// Sum of the numbers, in any order.
+    #[inline(always)]
+    pub fn sum(self) -> f64 {
+        let mut sum = 0.0;
+        each_register!(i: sum += self.simd.reduce_sum_f64s(self.v[i]));
+        sum
+    }
+
     /// Writes the numbers to the first of these.
     ///
     /// # Panics
@@ -117,22 +141,6 @@ impl<S: Simd, const K: usize> Pack<S, K> {
         let (registers, _) = S::as_mut_simd_f64s(&mut numbers[..K * S::F64_LANES]);
         registers.copy_from_slice(&self.v);
     }
-}
-
-/// Does `work` with `i` for each of the `K` registers, written out: a loop in every operation would take most of the time of
-/// a build, and closures would not always be inlined.
-macro_rules! each_register {
-    ($i:ident: $work:expr) => {{
-        const { assert!(0 < K && K <= LARGEST_GROUP) };
-        {
-            let $i = 0;
-            $work;
-        }
-        if K > 1 {
-            let $i = 1;
-            $work;
-        }
-    }};
 }
 
 /// Applies an operation of the instruction set to each register.

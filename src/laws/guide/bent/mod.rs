@@ -28,7 +28,7 @@ use crate::laws::guide::circumference::Film;
 use crate::laws::guide::circumference::breaks::{Aims, Search};
 use crate::laws::guide::circumference::gap::{Gap, Harmonics, Lobe};
 use crate::laws::guide::circumference::panels::Panels;
-use crate::laws::guide::circumference::stretch::Stretch;
+use crate::laws::guide::circumference::samples::{Memory, Row, Table, with_memory};
 use crate::laws::guide::journal::{Harmonic, NoFilm};
 use crate::laws::guide::{GuideFilm, GuideForce, GuideLaw, GuideSolid};
 use crate::scalar::{Dual, Real};
@@ -99,6 +99,8 @@ pub struct BentForces {
     pub over_ring_speed: DVector<f64>,
     lobes: Vec<Lobe>,
     harmonics: Vec<Harmonics>,
+    table: Table,
+    rows: Vec<Row>,
     sums: Sums,
 }
 
@@ -110,21 +112,15 @@ impl BentSurface {
 
     /// What `gap` is by its lobes, in orders: the first of them is the place of the cage, the others turn with it.
     fn find_harmonics(&self, gap: &Gap<'_>, motion: &BentMotion<'_>, out: &mut Vec<Harmonics>) {
-        let Gap { turning, squeeze, lobe_speed, velocity: [v_1, v_2], .. } = *gap;
         out.clear();
         out.resize(gap.order() as usize, Harmonics::default());
-        let first = &mut out[0];
-        first.opening = [-squeeze * v_1, -squeeze * v_2];
-        first.sliding = [v_2, -v_1];
-        for (i, lobe) in gap.lobes.iter().enumerate() {
-            let (n, [a, b], [a_rate, b_rate]) = (f64::from(lobe.order), lobe.height, lobe.rate);
-            let of = &mut out[lobe.order as usize - 1];
-            let slope = [-n * b, n * a];
-            let closing = [a_rate - lobe_speed * n * b, b_rate + lobe_speed * n * a];
+        // The place of the cage is a lobe here.
+        out[0] = gap.first_harmonic();
+        for lobe in gap.lobes {
+            let (of, more) = (&mut out[lobe.order as usize - 1], gap.harmonic_of(lobe));
             for k in 0..2 {
-                of.film[k] -= [a, b][k];
-                of.opening[k] += turning * slope[k] - squeeze * closing[k];
-                of.lobe_slope[k] += if i > 0 { slope[k] } else { 0.0 };
+                of.film[k] += more.film[k];
+                of.opening[k] += more.opening[k];
             }
         }
         let s = self.sign();
@@ -142,6 +138,8 @@ impl BentForces {
     pub fn new(surface: &BentSurface, profile: &[Harmonic]) -> Self {
         let width = OF_MOTION + 2 * surface.waves.len();
         let order = surface.waves.iter().map(|(order, _)| *order).max().unwrap_or(1);
+        let order = profile.iter().map(|lobe| lobe.order).fold(order, u32::max);
+        let table = Table::new(order);
         Self {
             all: vec![0.0; width],
             film: vec![0.0; width],
@@ -150,9 +148,9 @@ impl BentForces {
             over: [DMatrix::zeros(width, width), DMatrix::zeros(width, width)],
             over_ring_speed: DVector::zeros(width),
             lobes: Vec::with_capacity(1 + surface.waves.len() + profile.len()),
-            harmonics: Vec::with_capacity(
-                profile.iter().map(|lobe| lobe.order).fold(order, u32::max) as usize
-            ),
+            harmonics: Vec::with_capacity(order as usize),
+            rows: table.rows(),
+            table,
             sums: Sums::new(surface),
         }
     }
@@ -223,9 +221,9 @@ impl GuideLaw {
         let mut lobes = Vec::with_capacity(surface.waves.len() + 8);
         self.find_lobes(surface, motion, &mut lobes);
         let gap = self.gap(surface, motion, &lobes);
-        let search =
-            Search { gap: &gap, layer: layer.thickness, aims: Aims::Edges, instructions: Arch::new() };
-        search.wet_arcs()
+        with_memory(gap.order(), |memory| {
+            Search::new(&gap, layer.thickness, Aims::Edges, Arch::new(), memory).wet_arcs()
+        })
     }
 
     /// Lobes of the gap: the place of the cage, its waves, its fixed profile.
@@ -325,17 +323,15 @@ impl GuideLaw {
         let shape = Shape { squeeze, ..*shape };
         let [_, largest_opening] = gap.bounds();
         let surface = FilmSurface { land: film.land, drags: *drags, rolling: gap.rolling, shape: &shape };
+        let step = out.table.step();
         let mut sum = |aims: Aims| {
             out.sums.begin(wanted);
             let sums = out.sums.over(&surface);
             let (land, instructions) = (film.land, film.instructions);
             let jumps = film.within_arc;
             let mut panels = Panels::new(land, &gap, largest_opening, jumps, instructions, sums);
-            film.integrate_with(&mut panels, aims)
+            film.integrate_with(&mut panels, aims, Memory { rows: &mut out.rows, table: Some(&out.table) })
         };
-        let steps =
-            Search { gap: &gap, layer: 0.0, aims: Aims::Edges, instructions: film.instructions }.steps();
-        let step = TAU / steps as f64;
         let curvature: f64 = gap.lobes.iter().map(Lobe::curvature).sum();
         let least = sum(Aims::Edges).map(|lowest| lowest - 0.125 * curvature * step * step);
         // Pressures above the cap are rare: most films are summed once.
@@ -387,7 +383,8 @@ impl GuideLaw {
             shape: &shape,
         };
         let instructions = Arch::new();
-        let search = Search { gap: &gap, layer: solid.asperity_height, aims: Aims::Edges, instructions };
+        let memory = Memory { rows: &mut out.rows, table: Some(&out.table) };
+        let search = Search::new(&gap, solid.asperity_height, Aims::Edges, instructions, memory);
         out.sums.begin(wanted);
         search.over_wet(|from, to| out.sums.add_pieces(&surface, &gap, from, to, instructions));
         out.harmonics = harmonics;
@@ -411,12 +408,8 @@ pub(super) struct BentFilm<'a> {
 
 /// The smallest gap.
 fn thinnest(gap: &Gap<'_>, instructions: Arch) -> Thinnest {
-    let search = Search { gap, layer: 0.0, aims: Aims::Minima, instructions };
-    let (steps, mut stretch) = (search.steps(), Stretch::new());
-    while stretch.last_step < steps {
-        search.next(steps, &mut stretch);
-    }
-    Thinnest { gap: stretch.thinnest, angle: stretch.thinnest_at }
+    let [gap, angle] = gap.smallest(instructions);
+    Thinnest { gap, angle }
 }
 
 #[cfg(test)]

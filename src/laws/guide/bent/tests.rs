@@ -199,7 +199,7 @@ fn by_hand(film: &BentFilm<'_>, surface: &BentSurface, state: &State, profile: &
             sin,
             film: [h, h1, 0.0, 0.0],
             lobe_slope: 0.0,
-            opening: [(cage + ring) * h1 + 2.0 * h_t, 0.0, 0.0],
+            opening: [(cage + ring) * h1 + 2.0 * h_t, 0.0, 0.0, 0.0],
             sliding,
         };
         let (stress, _, _) = land.at(&place);
@@ -350,7 +350,7 @@ fn pressure_on_a_lobe_turns_it_by_virtual_work() {
                     sin: d.sin(),
                     film: [h, h1, 0.0, 0.0],
                     lobe_slope: 0.0,
-                    opening: [140.0 * h1 + 2.0 * h_t, 0.0, 0.0],
+                    opening: [140.0 * h1 + 2.0 * h_t, 0.0, 0.0, 0.0],
                     sliding: 0.0,
                 };
                 let (stress, _, _) = film.land.at(&place);

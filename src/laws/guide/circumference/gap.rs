@@ -34,8 +34,6 @@ pub(in crate::laws::guide) struct Harmonics {
     pub opening: [f64; 2],
     /// Of u_1 - u_2, m/s.
     pub sliding: [f64; 2],
-    /// Of the part of dh/dd that turns with the surface, m.
-    pub lobe_slope: [f64; 2],
 }
 
 /// The gap at one state, in axes along the eccentricity and across it.
@@ -56,7 +54,8 @@ pub(in crate::laws::guide) struct Gap<'a> {
     pub squeeze: f64,
     /// Lobes in any order; those in ascending order take least time.
     pub lobes: &'a [Lobe],
-    /// All of the gap but its mean by order, from one on, where the surface is bent; lobes do not count then.
+    /// All of the gap but its mean by order, from one on, where the surface is bent; lobes do not count then. All but the first
+    /// turn with the surface.
     pub harmonics: &'a [Harmonics],
 }
 
@@ -71,7 +70,7 @@ pub(in crate::laws::guide) struct Place<B> {
     /// The part of dh/dd that the lobes make, m.
     pub lobe_slope: B,
     /// G and its derivatives over d, m/s.
-    pub opening: [B; 3],
+    pub opening: [B; 4],
     /// u_1 - u_2, m/s.
     pub sliding: B,
 }
@@ -124,13 +123,13 @@ impl<'a> Gap<'a> {
             sin,
             film: [d.splat(self.thinnest), zero, zero, zero],
             lobe_slope: zero,
-            opening: [zero; 3],
+            opening: [zero; 4],
             sliding: d.splat(self.rolling),
         };
         let (mut n, mut wave) = (1.0, [cos, sin]);
         for of in self.harmonics {
             let [film, slope, bend, turn] = derivatives_of(wave, n, of.film);
-            let [opening, opening_slope, opening_bend, _] = derivatives_of(wave, n, of.opening);
+            let [opening, opening_slope, opening_bend, opening_turn] = derivatives_of(wave, n, of.opening);
             place.film[0] += film;
             place.film[1] += slope;
             place.film[2] += bend;
@@ -138,13 +137,38 @@ impl<'a> Gap<'a> {
             place.opening[0] += opening;
             place.opening[1] += opening_slope;
             place.opening[2] += opening_bend;
+            place.opening[3] += opening_turn;
             let [c, s] = wave;
             place.sliding += c * of.sliding[0] + s * of.sliding[1];
-            place.lobe_slope += c * of.lobe_slope[0] + s * of.lobe_slope[1];
+            if n > 1.0 {
+                place.lobe_slope += slope;
+            }
             wave = [c * cos - s * sin, s * cos + c * sin];
             n += 1.0;
         }
         place
+    }
+
+    /// What the place of the journal does, unless a surface is bent: the wave of order one.
+    pub fn first_harmonic(&self) -> Harmonics {
+        let ([v_1, v_2], e) = (self.velocity, self.eccentricity);
+        let opening = [-self.squeeze * v_1, self.turning * e - self.squeeze * v_2];
+        Harmonics { film: [-e, 0.0], opening, sliding: [v_2, -v_1] }
+    }
+
+    /// What a lobe does, but for the sliding of a bent surface.
+    #[inline]
+    pub fn harmonic_of(&self, lobe: &Lobe) -> Harmonics {
+        let (n, [a, b], [a_rate, b_rate]) = (f64::from(lobe.order), lobe.height, lobe.rate);
+        let slope = [-n * b, n * a];
+        let closing = [a_rate + self.lobe_speed * slope[0], b_rate + self.lobe_speed * slope[1]];
+        let opening = [0, 1].map(|k| self.turning * slope[k] - self.squeeze * closing[k]);
+        Harmonics { film: [-a, -b], opening, sliding: [0.0; 2] }
+    }
+
+    /// Mean of the film around the circle, m.
+    pub fn mean(&self) -> f64 {
+        self.thinnest + self.eccentricity
     }
 
     /// Whether it is that between two circles.
@@ -181,10 +205,11 @@ impl<'a> Gap<'a> {
         let square = sin_half * sin_half;
         let (sin, cos) = (sin_half * cos_half * 2.0, -(square * 2.0) + 1.0);
         let e = self.eccentricity;
-        let mut film = [square * (2.0 * e) + self.thinnest, sin * e, cos * e, -(sin * e)];
+        let mut film = [square * (2.0 * e) + self.thinnest, sin * e, cos * e, -(sin * e), -(cos * e)];
         let [v_1, v_2] = self.velocity;
         let closing = cos * v_1 + sin * v_2;
-        let mut rate = [-closing, sin * v_1 - cos * v_2, closing];
+        let across = sin * v_1 - cos * v_2;
+        let mut rate = [-closing, across, closing, -across];
         let zero = d.splat(0.0);
         let mut lobe_slope = zero;
         // Cosine and sine of n d.
@@ -199,17 +224,20 @@ impl<'a> Gap<'a> {
             }
             let (w, w_dot) = (derivatives(wave, n, lobe.height), derivatives(wave, n, lobe.rate));
             lobe_slope -= w[1];
-            for (film, w) in film.iter_mut().zip(w) {
-                *film -= w;
+            let square = f64::from(n) * f64::from(n);
+            let w = [w[0], w[1], w[2], w[3], -(w[2] * square)];
+            for k in 0..5 {
+                film[k] -= w[k];
             }
-            for k in 0..3 {
+            for k in 0..4 {
                 rate[k] += w[k + 1] * self.lobe_speed - w_dot[k];
             }
         }
-        let mut opening = [zero; 3];
-        for k in 0..3 {
+        let mut opening = [zero; 4];
+        for k in 0..4 {
             opening[k] = film[k + 1] * self.turning + rate[k] * self.squeeze;
         }
+        let film = [film[0], film[1], film[2], film[3]];
         Place { cos, sin, film, lobe_slope, opening, sliding: cos * v_2 - sin * v_1 + self.rolling }
     }
 }
@@ -223,7 +251,7 @@ fn derivatives<B: Base>(wave: [B; 2], n: u32, factors: [f64; 2]) -> [B; 4] {
 /// The same, with the order as a number.
 #[inline(always)]
 fn derivatives_of<B: Base>([cos, sin]: [B; 2], n: f64, [a, b]: [f64; 2]) -> [B; 4] {
-    let (even, odd) = (cos * a + sin * b, (cos * b - sin * a) * n);
+    let (even, odd) = (cos * a + sin * b, cos * (n * b) - sin * (n * a));
     [even, odd, -(even * (n * n)), -(odd * (n * n))]
 }
 
@@ -259,7 +287,7 @@ mod tests {
             for k in 0..3 {
                 check("film", at.film[k + 1], [low.film[k], high.film[k]], 2e-3);
             }
-            for k in 0..2 {
+            for k in 0..3 {
                 check("opening", at.opening[k + 1], [low.opening[k], high.opening[k]], 1.0);
             }
         }

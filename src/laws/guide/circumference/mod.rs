@@ -8,8 +8,10 @@ pub(super) mod breaks;
 pub(super) mod gap;
 pub(super) mod land;
 pub(super) mod panels;
+mod roots;
 mod round;
 pub(super) mod rule;
+pub(super) mod samples;
 pub(super) mod stretch;
 
 use crate::laws::fluid::grease::Thickening;
@@ -20,6 +22,7 @@ use gap::{Gap, Lobe};
 use land::{Land, OUTPUTS, VARIABLES, VELOCITIES};
 use panels::{PanelSums, Panels, Sums, totals};
 use pulp::Arch;
+use samples::{Memory, with_memory};
 use std::f64::consts::PI;
 use stretch::{Break, DRY, EXCESS, FUNCTIONS, OPENING, Stretch};
 
@@ -125,37 +128,33 @@ impl Film<'_> {
         let mut room = Room::new();
         let lobes = room.lobes(self.roundness, direction, m.profile_angle);
         let gap = Gap::new([self.land.radius, self.clearance], m, e, direction, lobes);
-        let search = Search { gap: &gap, layer: 0.0, aims: Aims::Minima, instructions: self.instructions };
-        let (steps, mut stretch) = (search.steps(), Stretch::new());
-        while stretch.last_step < steps {
-            search.next(steps, &mut stretch);
-        }
-        stretch.thinnest
+        gap.smallest(self.instructions)[0]
     }
 
     /// Sums over the circle. Lobes have this height, m.
     fn integrate<S: PanelSums>(&self, panels: &mut Panels<'_, S>, height: f64) -> Result<(), NoFilm> {
         let Panels { gap, largest_opening, .. } = *panels;
         let excess = self.excess(gap.thinnest - height, largest_opening);
-        self.integrate_with(panels, excess.map_or(Aims::Edges, Aims::EdgesAndExcess)).map(|_| ())
+        let aims = excess.map_or(Aims::Edges, Aims::EdgesAndExcess);
+        if aims == Aims::Edges && gap.is_round() {
+            let circle = round::circle(gap, self.layer);
+            self.integrate_between(panels, [-PI, PI], circle.negative, circle.breaks.all());
+            return Ok(());
+        }
+        with_memory(gap.order(), |memory| self.integrate_with(panels, aims, memory)).map(|_| ())
     }
 
-    /// Sums over the circle with these breaks; the smallest film of those looked at, m.
+    /// Sums over the circle with these breaks; what no film is less than but by the curvature within half a step, m, of bent
+    /// surfaces only.
     pub fn integrate_with<S: PanelSums>(
         &self,
         panels: &mut Panels<'_, S>,
         aims: Aims,
+        memory: Memory<'_>,
     ) -> Result<f64, NoFilm> {
-        let Panels { gap, instructions, .. } = *panels;
-        if aims == Aims::Edges && gap.is_round() {
-            let circle = round::circle(gap, self.layer);
-            self.integrate_between(panels, [-PI, PI], circle.negative, circle.breaks.all());
-            return Ok(gap.thinnest);
-        }
-        let search = Search { gap, layer: self.layer, aims, instructions };
-        let (steps, mut stretch) = (search.steps(), Stretch::new());
-        while stretch.last_step < steps {
-            search.next(steps, &mut stretch);
+        let mut search = Search::new(panels.gap, self.layer, aims, panels.instructions, memory);
+        let mut stretch = Stretch::new();
+        while search.next(&mut stretch) {
             // Written so that a NaN counts as no film.
             let exists = stretch.thinnest > 0.0;
             if !exists {
@@ -164,7 +163,7 @@ impl Film<'_> {
             let Stretch { from, to, negative, ref breaks, .. } = stretch;
             self.integrate_between(panels, [from, to], negative, breaks.all());
         }
-        Ok(stretch.lowest)
+        Ok(if panels.gap.harmonics.is_empty() { stretch.thinnest } else { search.lowest() })
     }
 
     /// Sums over a part of the circle, at whose start functions are `negative`.
@@ -275,3 +274,6 @@ fn eccentricity([y, z]: [f64; 2]) -> (f64, [f64; 2]) {
     let r = r2.sqrt();
     (r, [y / r, z / r])
 }
+
+#[cfg(test)]
+mod tests;

@@ -52,6 +52,7 @@ mod tests {
     use super::*;
     use crate::laws::guide::circumference::breaks::{Aims, Search};
     use crate::laws::guide::circumference::gap::Lobe;
+    use crate::laws::guide::circumference::samples::with_memory;
     use crate::laws::guide::circumference::stretch::Stretch;
     use crate::laws::guide::journal::tests::motion;
     use pulp::Arch;
@@ -60,14 +61,20 @@ mod tests {
     fn searched(gap: &Gap<'_>, layer: f64) -> (Vec<(usize, f64)>, [bool; 2]) {
         let lobes = [Lobe { order: 2, ..Lobe::default() }];
         let gap = Gap { lobes: &lobes, ..*gap };
-        let search = Search { gap: &gap, layer, aims: Aims::Edges, instructions: Arch::new() };
-        let (steps, mut stretch) = (search.steps(), Stretch::new());
         let (mut found, mut start) = (Vec::new(), None);
-        while stretch.last_step < steps {
-            search.next(steps, &mut stretch);
-            start.get_or_insert([stretch.negative[DRY], stretch.negative[OPENING]]);
-            found.extend(stretch.breaks.all().iter().map(|b| (b.of, b.angle)));
+        with_memory(gap.order(), |memory| {
+            let mut search = Search::new(&gap, layer, Aims::Edges, Arch::new(), memory);
+            let mut stretch = Stretch::new();
+            while search.next(&mut stretch) {
+                start.get_or_insert([stretch.negative[DRY], stretch.negative[OPENING]]);
+                found.extend(stretch.breaks.all().iter().map(|b| (b.of, b.angle)));
+            }
+        });
+        // It ends where it started, within the first step.
+        for (_, angle) in found.iter_mut().filter(|(_, angle)| *angle > PI) {
+            *angle -= 2.0 * PI;
         }
+        found.sort_by(|a, b| a.1.total_cmp(&b.1));
         (found, start.unwrap_or_default())
     }
 
@@ -103,7 +110,7 @@ mod tests {
                     assert!((a - b).abs() < 1e-7, "{i}: {a} {b}");
                 }
             }
-            if all_of_it.iter().all(|b| b.1.abs() < PI - 1e-9) {
+            if all_of_it.iter().all(|b| b.1.abs() < PI - 0.1) {
                 assert_eq!([found.negative[DRY], found.negative[OPENING]], negative, "{i}");
             }
         }

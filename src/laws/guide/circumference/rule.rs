@@ -43,25 +43,14 @@ pub(super) const SIXTEEN: Rule = Rule::of(
 /// Two panels, one in each half of the block.
 pub(super) const TWICE_EIGHT: Rule = Rule::of(
     1e-5,
-    [
-        0.183_434_642_495_649_8,
-        0.525_532_409_916_329,
-        0.796_666_477_413_626_7,
-        0.960_289_856_497_536_3,
-    ],
-    [
-        0.362_683_783_378_362,
-        0.313_706_645_877_887_3,
-        0.222_381_034_453_374_48,
-        0.101_228_536_290_376_26,
-    ],
+    [0.183_434_642_495_649_8, 0.525_532_409_916_329, 0.796_666_477_413_626_7, 0.960_289_856_497_536_3],
+    [0.362_683_783_378_362, 0.313_706_645_877_887_3, 0.222_381_034_453_374_48, 0.101_228_536_290_376_26],
 );
 
 impl Rule {
     /// That of these positive nodes, repeated until the block is full.
     const fn of<const N: usize>(tail: f64, nodes: [f64; N], weights: [f64; N]) -> Self {
-        let mut rule =
-            Self { nodes: ZEROS, weights: ZEROS, last_terms: ZEROS, tail, of_two: 2 * N < WIDEST };
+        let mut rule = Self { nodes: ZEROS, weights: ZEROS, last_terms: ZEROS, tail, of_two: 2 * N < WIDEST };
         let mut i = 0;
         while i < WIDEST {
             let place = i % (2 * N);
@@ -82,48 +71,43 @@ impl Rule {
     /// block. A NaN suits, or nothing would.
     #[inline]
     pub fn suits(&self, [pressure, stress, cubes]: [&Lanes; 3], noise: f64) -> [bool; 2] {
-        if !self.of_two {
-            let suits = !(self.rough(pressure, total, || noise * total(cubes)) || self.rough(stress, total, || 0.0));
-            return [suits; 2];
-        }
-        let [a, b] = [first_half as fn(&Lanes) -> f64, second_half];
-        [a, b].map(|sum| {
-            !(self.rough(pressure, sum, || noise * sum(cubes)) || self.rough(stress, sum, || 0.0))
-        })
+        let [first, second] = self.excess(pressure);
+        let [pressure, other_pressure] = if first > 0.0 || second > 0.0 {
+            // Round-off is asked for only where it may matter.
+            let [noisy, other_noisy] = self.totals(cubes);
+            [first - noise * noisy, second - noise * other_noisy]
+        } else {
+            [first, second]
+        };
+        let [stress, other_stress] = self.excess(stress);
+        [!(pressure > 0.0 || stress > 0.0), !(other_pressure > 0.0 || other_stress > 0.0)]
     }
 
-    /// Whether the last terms of a series are not small. Round-off is asked for only where it may matter.
+    /// By how much the last terms of each part are larger than they may be.
     #[inline(always)]
-    fn rough(&self, parts: &Lanes, sum: impl Fn(&Lanes) -> f64, noise: impl Fn() -> f64) -> bool {
+    fn excess(&self, parts: &Lanes) -> [f64; 2] {
         let mut products = *parts;
         for (product, term) in products.iter_mut().zip(&self.last_terms) {
             *product *= term;
         }
-        let (tail, whole) = (sum(&products).abs(), self.tail * sum(parts));
-        tail > whole && tail > whole + noise()
+        let ([tail, other_tail], [whole, other_whole]) = (self.totals(&products), self.totals(parts));
+        [tail.abs() - self.tail * whole, other_tail.abs() - self.tail * other_whole]
     }
-}
 
-#[inline(always)]
-fn first_half(lanes: &Lanes) -> f64 {
-    half(&lanes[..WIDEST / 2])
-}
-
-#[inline(always)]
-fn second_half(lanes: &Lanes) -> f64 {
-    half(&lanes[WIDEST / 2..])
-}
-
-#[inline(always)]
-fn half(lanes: &[f64]) -> f64 {
-    let mut sums = [0.0; WIDEST / 2];
-    sums.copy_from_slice(lanes);
-    for half in [4, 2, 1] {
-        for i in 0..half {
-            sums[i] += sums[i + half];
+    /// Sum of each part of the block.
+    #[inline(always)]
+    fn totals(&self, lanes: &Lanes) -> [f64; 2] {
+        if !self.of_two {
+            return [total(lanes); 2];
         }
+        let mut sums = [0.0; WIDEST / 2];
+        for i in 0..4 {
+            sums[i] = lanes[i] + lanes[i + 4];
+            sums[4 + i] = lanes[8 + i] + lanes[12 + i];
+        }
+        let [a, b, c, d, e, f, g, h] = sums;
+        [(a + c) + (b + d), (e + g) + (f + h)]
     }
-    sums[0]
 }
 
 /// Sum of all lanes, in an order that lets neighbours be added at a time.

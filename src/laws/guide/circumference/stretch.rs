@@ -12,7 +12,7 @@ pub(in crate::laws::guide) const EXCESS: usize = 2;
 /// Functions that change their sign at breaks.
 pub(in crate::laws::guide) const FUNCTIONS: usize = 3;
 
-/// Most changes of sign in dry parts that one stretch has.
+/// Most of those breaks that stand for what changed in dry parts.
 pub(super) const MOST_DRY: usize = WIDEST;
 /// Room for breaks: of a full block of brackets, of those that it leads to, and of dry parts.
 const BREAKS: usize = 2 * WIDEST + MOST_DRY + FUNCTIONS;
@@ -68,11 +68,8 @@ pub(in crate::laws::guide) struct Stretch {
     /// Smallest film of those looked at, m, and where it is, rad.
     pub thinnest: f64,
     pub thinnest_at: f64,
-    /// Smallest film at the ends of steps so far, m; of bent surfaces only. Between them none is thinner by more than the
-    /// curvature allows.
-    pub lowest: f64,
     pub breaks: Breaks<BREAKS>,
-    /// How many of them are in dry parts.
+    /// How many of them stand for what changed in dry parts.
     pub(super) dry: usize,
 }
 
@@ -86,7 +83,6 @@ impl Stretch {
             negative: [false; FUNCTIONS],
             thinnest: f64::INFINITY,
             thinnest_at: -PI,
-            lowest: f64::INFINITY,
             breaks: Breaks::none(),
             dry: 0,
         }
@@ -94,7 +90,12 @@ impl Stretch {
 
     /// Starts the next one where this one ends.
     pub(super) fn go_on(&mut self) {
-        (self.from, self.breaks.count, self.dry) = (self.to, 0, 0);
+        (self.breaks.count, self.dry) = (0, 0);
+    }
+
+    /// Begins it at this angle, rad, where these functions are negative.
+    pub(super) fn begin(&mut self, from: f64, negative: [bool; FUNCTIONS]) {
+        (self.from, self.negative) = (from, negative);
     }
 
     /// Keeps the smallest film (m) and where it is (rad).
