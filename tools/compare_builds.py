@@ -102,7 +102,8 @@ def everything(lib, scene, states):
 
 
 def bits(x):
-    return struct.pack("d", x)
+    """Of a number; a text is itself."""
+    return struct.pack("d", x) if isinstance(x, float) else x
 
 
 def difference(before, after):
