@@ -52,8 +52,19 @@ const SHORT: usize = Of::Normal as usize + 1;
 const SHORT_OF_VELOCITIES: usize = Of::MomentByWaveSlope as usize + 1;
 const OF_VELOCITIES: usize = Of::InwardOverOpening as usize + 1;
 
-/// Cosine and sine coefficients of a function times two pi (times pi for the mean's cosine), lane by lane.
-type Coefficients = [Lanes; 2];
+/// Cosine and sine coefficients of a function times two pi (times pi for the mean's cosine), lane by lane. Registers do not cross cache
+/// lines.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+struct Coefficients([Lanes; 2]);
+
+impl Coefficients {
+    const NONE: Self = Self([ZEROS; 2]);
+
+    fn totals(&self) -> [f64; 2] {
+        self.0.each_ref().map(total)
+    }
+}
 
 /// The sums of one state.
 #[derive(Clone, Debug)]
@@ -83,6 +94,7 @@ struct Forces {
 
 /// Functions at the places of a panel, times their weights.
 #[derive(Clone, Debug)]
+#[repr(align(64))]
 struct Points {
     normal: Lanes,
     along: Lanes,
@@ -111,7 +123,12 @@ impl Sums {
         for (order, tau) in &surface.waves {
             along[*order as usize - 1] = [f64::from(*order) * tau, *tau];
         }
-        let forces = Forces { along, on_waves: vec![[ZEROS; 2]; order], pressure: [ZEROS; 2], moment: ZEROS };
+        let forces = Forces {
+            along,
+            on_waves: vec![Coefficients::NONE; order],
+            pressure: Coefficients::NONE,
+            moment: ZEROS,
+        };
         let count = SHORT * (order + 1) + (FUNCTIONS - SHORT) * (2 * order + 1);
         let points = Points {
             normal: ZEROS,
@@ -127,7 +144,7 @@ impl Sums {
             order,
             wanted: Wanted::Forces,
             forces: Box::new(forces),
-            lanes: vec![[ZEROS; 2]; count],
+            lanes: vec![Coefficients::NONE; count],
             totals: vec![[0.0; 2]; count],
             points: Box::new(points),
         }
@@ -137,10 +154,10 @@ impl Sums {
     pub(super) fn begin(&mut self, wanted: Wanted) {
         self.wanted = wanted;
         let Forces { on_waves, pressure, moment, .. } = &mut *self.forces;
-        on_waves.fill([ZEROS; 2]);
-        (*pressure, *moment) = ([ZEROS; 2], ZEROS);
+        on_waves.fill(Coefficients::NONE);
+        (*pressure, *moment) = (Coefficients::NONE, ZEROS);
         for range in self.used() {
-            self.lanes[range].fill([ZEROS; 2]);
+            self.lanes[range].fill(Coefficients::NONE);
         }
     }
 
@@ -174,19 +191,19 @@ impl Sums {
     pub(super) fn forces(&mut self, mut tell: impl FnMut(usize, [f64; 2])) -> Found {
         for range in self.used() {
             for (totals, lanes) in self.totals[range.clone()].iter_mut().zip(&self.lanes[range]) {
-                *totals = lanes.each_ref().map(total);
+                *totals = lanes.totals();
             }
         }
         let Forces { on_waves, pressure, moment, .. } = &*self.forces;
         let mut on_centre = [0.0; 2];
         for (i, lanes) in on_waves.iter().enumerate() {
-            let force = lanes.each_ref().map(total);
+            let force = lanes.totals();
             if i == 0 {
                 on_centre = force;
             }
             tell(i + 1, force);
         }
-        let pressure = pressure.each_ref().map(|lanes| -total(lanes));
+        let pressure = pressure.totals().map(|x| -x);
         let shear = [on_centre[0] - pressure[0], on_centre[1] - pressure[1]];
         Found { pressure, shear, moment: total(moment) }
     }
@@ -448,15 +465,15 @@ impl Columns for ForceWaves<'_> {
         let [normal, along, inward, cos, sin] = [of(normal), of(along), of(inward), of(cos), of(sin)];
         let Forces { along: factors, on_waves, pressure, moment: sum } = &mut *self.forces;
         of(moment).add_to(&mut sum[first..]);
-        (normal * cos).add_to(&mut pressure[0][first..]);
-        (normal * sin).add_to(&mut pressure[1][first..]);
+        (normal * cos).add_to(&mut pressure.0[0][first..]);
+        (normal * sin).add_to(&mut pressure.0[1][first..]);
         let mut wave = [cos, sin];
         for i in 0..factors.len() {
             let [of_inward, of_along] = factors[i];
             let (own, other) = (inward * of_inward - normal, along * of_along);
             let [c, s] = wave;
-            (c * own + s * other).add_to(&mut on_waves[i][0][first..]);
-            (s * own - c * other).add_to(&mut on_waves[i][1][first..]);
+            (c * own + s * other).add_to(&mut on_waves[i].0[0][first..]);
+            (s * own - c * other).add_to(&mut on_waves[i].0[1][first..]);
             wave = [c * cos - s * sin, s * cos + c * sin];
         }
     }
@@ -503,14 +520,14 @@ impl Columns for Waves<'_> {
             if order <= self.order {
                 for function in 0..short {
                     let value = Pack::<S, K>::load(simd, &of[function][first..]);
-                    let [c, s] = &mut self.lanes[function * (self.order + 1) + order];
+                    let [c, s] = &mut self.lanes[function * (self.order + 1) + order].0;
                     (value * wave[0]).add_to(&mut c[first..]);
                     (value * wave[1]).add_to(&mut s[first..]);
                 }
             }
             for function in SHORT..long {
                 let value = Pack::<S, K>::load(simd, &of[function][first..]);
-                let [c, s] = &mut self.lanes[of_long + (function - SHORT) * each + order];
+                let [c, s] = &mut self.lanes[of_long + (function - SHORT) * each + order].0;
                 (value * wave[0]).add_to(&mut c[first..]);
                 (value * wave[1]).add_to(&mut s[first..]);
             }

@@ -31,6 +31,7 @@ pub(super) enum Aim {
 }
 
 /// A block of brackets, in each of which a place is looked for.
+#[repr(align(64))]
 pub(super) struct Brackets {
     pub count: usize,
     /// How many of them may lead to two more.

@@ -21,8 +21,9 @@ const MOST_ROWS: usize = 24;
 
 type Eight = [f64; GROUP];
 
-/// The gap at the places of four groups.
+/// The gap at the places of four groups. Registers do not cross cache lines.
 #[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
 pub(in crate::laws::guide) struct Row {
     /// h and dh/dd, m.
     film: [[Eight; 2]; GROUPS],
@@ -74,12 +75,17 @@ pub(super) fn rows_for(order: u32) -> usize {
     order.max(1).div_ceil(2) as usize
 }
 
+/// Cosine and sine at the places of a group.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+struct Wave([Eight; 2]);
+
 /// Waves at the places of the first quarter, in ascending order.
 #[derive(Clone, Debug)]
 pub(in crate::laws::guide) struct Table {
     order: usize,
-    /// Cosine and sine of each order from one on, row by row.
-    waves: Vec<[Eight; 2]>,
+    /// Those of each order from one on, row by row.
+    waves: Vec<Wave>,
 }
 
 impl Table {
@@ -92,7 +98,7 @@ impl Table {
             for n in 1..=order {
                 let at = |i: usize| f64::from(n) * ((row * GROUP + i) as f64 + 0.5) * step;
                 let sines: [_; GROUP] = std::array::from_fn(|i| math::sin_cos(at(i)));
-                waves.push([sines.map(|(_, cos)| cos), sines.map(|(sin, _)| sin)]);
+                waves.push(Wave([sines.map(|(_, cos)| cos), sines.map(|(sin, _)| sin)]));
             }
         }
         Self { order: order as usize, waves }
@@ -413,8 +419,8 @@ const fn byte(i: usize) -> f64 {
 
 /// Cosine and sine of a wave, from `i` on.
 #[inline(always)]
-fn load<S: Simd, const K: usize>(simd: S, wave: &[Eight; 2], i: usize) -> [Pack<S, K>; 2] {
-    [Pack::load(simd, &wave[0][i..]), Pack::load(simd, &wave[1][i..])]
+fn load<S: Simd, const K: usize>(simd: S, wave: &Wave, i: usize) -> [Pack<S, K>; 2] {
+    [Pack::load(simd, &wave.0[0][i..]), Pack::load(simd, &wave.0[1][i..])]
 }
 
 /// Adds the waves of one order to cosine and sine parts.
