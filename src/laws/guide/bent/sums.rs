@@ -104,7 +104,8 @@ struct Points {
     /// Direction of each place.
     cos: Lanes,
     sin: Lanes,
-    series: [Lanes; 3],
+    /// Parts of integrals that tell whether panels are fine enough, beside the pressure.
+    series: [Lanes; 2],
 }
 
 /// Forces of the sums on the journal.
@@ -138,7 +139,7 @@ impl Sums {
             of: [ZEROS; FUNCTIONS],
             cos: ZEROS,
             sin: ZEROS,
-            series: [ZEROS; 3],
+            series: [ZEROS; 2],
         };
         Self {
             order,
@@ -266,8 +267,8 @@ impl<L: SurfaceLaw> PanelSums for SumsOver<'_, L> {
         let Self { sums, law } = self;
         let points = &mut *sums.points;
         dispatch(instructions, Values { law: *law, panel, points });
-        let [normal, stress, cubes] = &points.series;
-        let suits = panel.suit([normal, stress, cubes], checked);
+        let [stress, cubes] = &points.series;
+        let suits = panel.suit([&points.normal, stress, cubes], checked);
         if suits == [false; 2] {
             return suits;
         }
@@ -467,14 +468,15 @@ impl Columns for ForceWaves<'_> {
         of(moment).add_to(&mut sum[first..]);
         (normal * cos).add_to(&mut pressure.0[0][first..]);
         (normal * sin).add_to(&mut pressure.0[1][first..]);
-        let mut wave = [cos, sin];
+        let (mut wave, mut before) = ([cos, sin], [cos.like(1.0), cos.like(0.0)]);
+        let twice = cos * 2.0;
         for i in 0..factors.len() {
             let [of_inward, of_along] = factors[i];
             let (own, other) = (inward * of_inward - normal, along * of_along);
             let [c, s] = wave;
             (c * own + s * other).add_to(&mut on_waves[i].0[0][first..]);
             (s * own - c * other).add_to(&mut on_waves[i].0[1][first..]);
-            wave = [c * cos - s * sin, s * cos + c * sin];
+            (wave, before) = ([twice * c - before[0], twice * s - before[1]], wave);
         }
     }
 }

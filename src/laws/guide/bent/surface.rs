@@ -23,11 +23,12 @@ pub(super) struct Surface<T> {
 
 /// A law of the gap that acts at every place by itself.
 pub(super) trait SurfaceLaw {
-    /// What it does at these places, and the parts of series that tell whether panels are fine enough.
+    /// What it does at these places, and what tells beside the pressure whether panels are fine enough: the stress, and the cube
+    /// of the inverse of the film, which round-off of the pressure goes with.
     fn values<S: Simd, const K: usize>(
         &self,
         place: &Place<Pack<S, K>>,
-    ) -> (Surface<Pack<S, K>>, [Pack<S, K>; 3]);
+    ) -> (Surface<Pack<S, K>>, [Pack<S, K>; 2]);
 
     /// The same with derivatives over G and the sliding speed and, if there are four, h and h'.
     fn slopes<S: Simd, const K: usize, const N: usize>(
@@ -62,11 +63,11 @@ impl SurfaceLaw for FilmSurface<'_> {
     fn values<S: Simd, const K: usize>(
         &self,
         place: &Place<Pack<S, K>>,
-    ) -> (Surface<Pack<S, K>>, [Pack<S, K>; 3]) {
+    ) -> (Surface<Pack<S, K>>, [Pack<S, K>; 2]) {
         let (stress, mean, inverse) = self.land.at(&self.seen(place));
         let along = if self.drags { stress.along } else { place.cos.like(0.0) };
         let surface = Surface { normal: stress.normal, along, inward: stress.inward, moment: stress.moment };
-        (surface, [stress.normal, mean.viscosity * inverse, inverse * inverse * inverse])
+        (surface, [mean.viscosity * inverse, inverse * inverse * inverse])
     }
 
     #[inline(always)]
@@ -98,7 +99,7 @@ impl SurfaceLaw for SolidSurface<'_> {
     fn values<S: Simd, const K: usize>(
         &self,
         place: &Place<Pack<S, K>>,
-    ) -> (Surface<Pack<S, K>>, [Pack<S, K>; 3]) {
+    ) -> (Surface<Pack<S, K>>, [Pack<S, K>; 2]) {
         let force = self.contact.force(&ContactMotion {
             delta: -place.film[0] + self.asperity_height,
             delta_dot: -place.opening[0],
@@ -107,7 +108,7 @@ impl SurfaceLaw for SolidSurface<'_> {
         });
         let zero = force.normal.like(0.0);
         let moment = force.friction * self.radius;
-        let series = [force.normal, force.normal, zero];
+        let series = [force.normal, zero];
         (Surface { normal: force.normal, along: force.friction, inward: zero, moment }, series)
     }
 

@@ -126,7 +126,9 @@ impl<'a> Gap<'a> {
             opening: [zero; 4],
             sliding: d.splat(self.rolling),
         };
-        let (mut n, mut wave) = (1.0, [cos, sin]);
+        let (mut n, mut wave, mut before) = (1.0, [cos, sin], [zero + 1.0, zero]);
+        // The error of this recurrence grows with the square of the order, and stays that of the last bits of a wave.
+        let twice = cos * 2.0;
         for of in self.harmonics {
             let [film, slope, bend, turn] = derivatives_of(wave, n, of.film);
             let [opening, opening_slope, opening_bend, opening_turn] = derivatives_of(wave, n, of.opening);
@@ -143,7 +145,7 @@ impl<'a> Gap<'a> {
             if n > 1.0 {
                 place.lobe_slope += slope;
             }
-            wave = [c * cos - s * sin, s * cos + c * sin];
+            (wave, before) = ([twice * c - before[0], twice * s - before[1]], wave);
             n += 1.0;
         }
         place

@@ -7,7 +7,7 @@
 use super::breaks::Aims;
 use super::gap::{Gap, Harmonics};
 use super::stretch::{DRY, EXCESS, FUNCTIONS, OPENING};
-use crate::scalar::{Columns, Numeric, Pack, dispatch, elementary, math};
+use crate::scalar::{Base, Columns, Numeric, Pack, dispatch, elementary, math};
 use pulp::Simd;
 use std::f64::consts::{PI, TAU};
 
@@ -31,6 +31,8 @@ pub(in crate::laws::guide) struct Row {
     opening: [[Eight; 2]; GROUPS],
     /// A bit for each place at which a function or its slope is negative, in the order of the circle; see [`Signs`].
     signs: [f64; GROUPS],
+    /// Smallest film of each place of the groups, m; one that is not a number is the smallest.
+    lowest: Eight,
 }
 
 impl Row {
@@ -38,6 +40,7 @@ impl Row {
         film: [[[0.0; GROUP]; 2]; GROUPS],
         opening: [[[0.0; GROUP]; 2]; GROUPS],
         signs: [0.0; GROUPS],
+        lowest: [0.0; GROUP],
     };
 }
 
@@ -253,13 +256,8 @@ impl<'m> Samples<'m> {
 
     /// Smallest film at all places, m. One that is not a number is the smallest.
     pub fn lowest(&self) -> f64 {
-        let mut lowest = [f64::INFINITY; GROUP];
-        for [film, _] in self.memory.rows.iter().flat_map(|row| &row.film) {
-            for (lowest, film) in lowest.iter_mut().zip(film) {
-                *lowest = if *lowest <= *film { *lowest } else { *film };
-            }
-        }
-        lowest.into_iter().fold(f64::INFINITY, |low, film| if low <= film { low } else { film })
+        let all = self.memory.rows.iter().flat_map(|row| row.lowest);
+        all.fold(f64::INFINITY, |low, film| if low <= film { low } else { film })
     }
 }
 
@@ -321,6 +319,9 @@ impl Fill<'_> {
         let row = &mut self.rows[row];
         let before = if i == 0 { 0.0 } else { row.signs[group] };
         row.signs[group] = before + signs.sum();
+        let lowest = Pack::load(simd, &row.lowest[i..]);
+        let lowest = if group == 0 { h } else { Pack::select(lowest.less_or_equal(h), lowest, h) };
+        lowest.store(&mut row.lowest[i..]);
         let [films, openings] = [&mut row.film[group], &mut row.opening[group]];
         h.store(&mut films[0][i..]);
         h1.store(&mut films[1][i..]);
