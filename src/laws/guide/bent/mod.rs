@@ -130,6 +130,9 @@ impl BentSurface {
             of.sliding[0] -= s * along * b_rate;
             of.sliding[1] += s * along * a_rate;
         }
+        for of in out {
+            of.still = [of.film, of.opening, of.sliding] == [[0.0; 2]; 3];
+        }
     }
 }
 

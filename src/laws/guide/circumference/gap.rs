@@ -34,6 +34,8 @@ pub(in crate::laws::guide) struct Harmonics {
     pub opening: [f64; 2],
     /// Of u_1 - u_2, m/s.
     pub sliding: [f64; 2],
+    /// Whether all of them are zero: between the waves of a ring and a profile of high order there are many.
+    pub still: bool,
 }
 
 /// The gap at one state, in axes along the eccentricity and across it.
@@ -130,21 +132,24 @@ impl<'a> Gap<'a> {
         // The error of this recurrence grows with the square of the order, and stays that of the last bits of a wave.
         let twice = cos * 2.0;
         for of in self.harmonics {
-            let [film, slope, bend, turn] = derivatives_of(wave, n, of.film);
-            let [opening, opening_slope, opening_bend, opening_turn] = derivatives_of(wave, n, of.opening);
-            place.film[0] += film;
-            place.film[1] += slope;
-            place.film[2] += bend;
-            place.film[3] += turn;
-            place.opening[0] += opening;
-            place.opening[1] += opening_slope;
-            place.opening[2] += opening_bend;
-            place.opening[3] += opening_turn;
-            let [c, s] = wave;
-            place.sliding += c * of.sliding[0] + s * of.sliding[1];
-            if n > 1.0 {
-                place.lobe_slope += slope;
+            if !of.still {
+                let [film, slope, bend, turn] = derivatives_of(wave, n, of.film);
+                let [opening, opening_slope, opening_bend, opening_turn] =
+                    derivatives_of(wave, n, of.opening);
+                place.film[0] += film;
+                place.film[1] += slope;
+                place.film[2] += bend;
+                place.film[3] += turn;
+                place.opening[0] += opening;
+                place.opening[1] += opening_slope;
+                place.opening[2] += opening_bend;
+                place.opening[3] += opening_turn;
+                place.sliding += wave[0] * of.sliding[0] + wave[1] * of.sliding[1];
+                if n > 1.0 {
+                    place.lobe_slope += slope;
+                }
             }
+            let [c, s] = wave;
             (wave, before) = ([twice * c - before[0], twice * s - before[1]], wave);
             n += 1.0;
         }
@@ -155,7 +160,7 @@ impl<'a> Gap<'a> {
     pub fn first_harmonic(&self) -> Harmonics {
         let ([v_1, v_2], e) = (self.velocity, self.eccentricity);
         let opening = [-self.squeeze * v_1, self.turning * e - self.squeeze * v_2];
-        Harmonics { film: [-e, 0.0], opening, sliding: [v_2, -v_1] }
+        Harmonics { film: [-e, 0.0], opening, sliding: [v_2, -v_1], still: false }
     }
 
     /// What a lobe does, but for the sliding of a bent surface.
@@ -165,7 +170,7 @@ impl<'a> Gap<'a> {
         let slope = [-n * b, n * a];
         let closing = [a_rate + self.lobe_speed * slope[0], b_rate + self.lobe_speed * slope[1]];
         let opening = [0, 1].map(|k| self.turning * slope[k] - self.squeeze * closing[k]);
-        Harmonics { film: [-a, -b], opening, sliding: [0.0; 2] }
+        Harmonics { film: [-a, -b], opening, sliding: [0.0; 2], still: false }
     }
 
     /// Mean of the film around the circle, m.

@@ -169,7 +169,7 @@ pub(super) struct Sample<'a> {
 impl<'a> Group<'a> {
     #[inline(always)]
     pub fn signs(self) -> Signs {
-        Signs(whole(self.row.signs[self.group]))
+        Signs(integer(self.row.signs[self.group]))
     }
 
     /// Place `i` in the order of the circle.
@@ -263,7 +263,7 @@ impl<'m> Samples<'m> {
 
 /// A whole number from 0 to 2^52: it stands in the lower bits of a sum of that magnitude.
 #[inline(always)]
-fn whole(x: f64) -> u64 {
+fn integer(x: f64) -> u64 {
     const MAGNITUDE: u64 = 1 << 52;
     (x + MAGNITUDE as f64).to_bits() & (MAGNITUDE - 1)
 }

@@ -15,7 +15,7 @@ fn harmonics(order: u32, rng: &mut fastrand::Rng) -> Vec<Harmonics> {
     let mut wave = |size: f64| [size * (rng.f64() - 0.5), size * (rng.f64() - 0.5)];
     let all = (1..=order).map(|n| {
         let n = f64::from(n);
-        Harmonics { film: wave(250e-6 / (n * n)), opening: wave(0.1 / n), sliding: wave(0.1) }
+        Harmonics { film: wave(250e-6 / (n * n)), opening: wave(0.1 / n), sliding: wave(0.1), still: false }
     });
     all.collect()
 }
