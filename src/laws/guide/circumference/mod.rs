@@ -23,7 +23,7 @@ use land::{Land, OUTPUTS, VARIABLES, VELOCITIES};
 use panels::{PanelSums, Panels, Sums, totals};
 use pulp::Arch;
 use samples::{Memory, with_memory};
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 use stretch::{Break, DRY, EXCESS, FUNCTIONS, OPENING, Stretch};
 
 /// Most lobes of a gap; there is room for a few of them at no cost.
@@ -138,7 +138,9 @@ impl Film<'_> {
         let aims = excess.map_or(Aims::Edges, Aims::EdgesAndExcess);
         if aims == Aims::Edges && gap.is_round() {
             let circle = round::circle(gap, self.layer);
-            self.integrate_between(panels, [-PI, PI], circle.negative, circle.breaks.all());
+            let mut walk = Walk::from(-PI);
+            walk.pass(self, panels, circle.negative, circle.breaks.all());
+            walk.end(self, panels, PI);
             return Ok(());
         }
         with_memory(gap.order(), |memory| self.integrate_with(panels, aims, memory)).map(|_| ())
@@ -153,41 +155,17 @@ impl Film<'_> {
         memory: Memory<'_>,
     ) -> Result<f64, NoFilm> {
         let mut search = Search::new(panels.gap, self.layer, aims, panels.instructions, memory);
-        let mut stretch = Stretch::new();
+        let (mut stretch, mut walk) = (Stretch::new(), Walk::from_first_break());
         while search.next(&mut stretch) {
             // Written so that a NaN counts as no film.
             let exists = stretch.thinnest > 0.0;
             if !exists {
                 return Err(NoFilm { minimum_film: stretch.thinnest });
             }
-            let Stretch { from, to, negative, ref breaks, .. } = stretch;
-            self.integrate_between(panels, [from, to], negative, breaks.all());
+            walk.pass(self, panels, stretch.negative, stretch.breaks.all());
         }
+        walk.end(self, panels, stretch.to);
         Ok(if panels.gap.harmonics.is_empty() { stretch.thinnest } else { search.lowest() })
-    }
-
-    /// Sums over a part of the circle, at whose start functions are `negative`.
-    fn integrate_between<S: PanelSums>(
-        &self,
-        panels: &mut Panels<'_, S>,
-        [mut from, to]: [f64; 2],
-        mut negative: [bool; FUNCTIONS],
-        breaks: &[Break],
-    ) {
-        for b in breaks {
-            if self.acts(negative) {
-                panels.add(from, b.angle, negative[EXCESS]);
-            }
-            if b.of == DRY {
-                panels.add_end(b.angle, if negative[DRY] { 1.0 } else { -1.0 });
-            }
-            negative[b.of] = !negative[b.of];
-            from = b.angle;
-        }
-        if self.acts(negative) {
-            panels.add(from, to, negative[EXCESS]);
-        }
-        panels.complete();
     }
 
     /// Whether the film does something where the functions of the breaks have these signs.
@@ -246,6 +224,62 @@ impl Film<'_> {
         }
         let [p_1, p_2, s_1, s_2, moment]: [T; OUTPUTS] = out;
         FilmForce { pressure: turn([p_1, p_2]), shear: turn([s_1, s_2]), moment }
+    }
+}
+
+/// A way around the circle from break to break. Pieces go on where stretches end.
+struct Walk {
+    /// Where the present piece starts, rad; unknown before the first break if it starts there.
+    from: Option<f64>,
+    /// Where the circle ends that started at its first break, rad.
+    end: Option<f64>,
+    negative: [bool; FUNCTIONS],
+}
+
+impl Walk {
+    /// From this angle on, rad.
+    fn from(angle: f64) -> Self {
+        Self { from: Some(angle), end: None, negative: [false; FUNCTIONS] }
+    }
+
+    /// From the first break on: no piece is cut but by breaks.
+    fn from_first_break() -> Self {
+        Self { from: None, end: None, negative: [false; FUNCTIONS] }
+    }
+
+    /// Passes a stretch with these breaks, at whose start functions are `negative`.
+    fn pass<S: PanelSums>(
+        &mut self,
+        film: &Film<'_>,
+        panels: &mut Panels<'_, S>,
+        negative: [bool; FUNCTIONS],
+        breaks: &[Break],
+    ) {
+        self.negative = negative;
+        for b in breaks {
+            match self.from {
+                Some(from) => self.add_piece(film, panels, from, b.angle),
+                None => self.end = Some(b.angle + TAU),
+            }
+            if b.of == DRY {
+                panels.add_end(b.angle, if self.negative[DRY] { 1.0 } else { -1.0 });
+            }
+            self.negative[b.of] = !self.negative[b.of];
+            self.from = Some(b.angle);
+        }
+    }
+
+    /// Ends at this angle, rad, or where it started.
+    fn end<S: PanelSums>(self, film: &Film<'_>, panels: &mut Panels<'_, S>, angle: f64) {
+        let end = self.end.unwrap_or(angle);
+        self.add_piece(film, panels, self.from.unwrap_or(end - TAU), end);
+        panels.complete();
+    }
+
+    fn add_piece<S: PanelSums>(&self, film: &Film<'_>, panels: &mut Panels<'_, S>, from: f64, to: f64) {
+        if film.acts(self.negative) {
+            panels.add(from, to, self.negative[EXCESS]);
+        }
     }
 }
 

@@ -134,7 +134,8 @@ pub(in crate::laws::guide) fn with_memory<R>(order: u32, work: impl FnOnce(Memor
     let memory = |rows| Memory { rows, table: None };
     match rows_for(order) {
         1 => work(memory(&mut [Row::ZERO])),
-        2..=FEW_ROWS => work(memory(&mut [Row::ZERO; FEW_ROWS])),
+        2 => work(memory(&mut [Row::ZERO; 2])),
+        3..=FEW_ROWS => work(memory(&mut [Row::ZERO; FEW_ROWS])),
         _ => work(memory(&mut [Row::ZERO; MOST_ROWS])),
     }
 }
