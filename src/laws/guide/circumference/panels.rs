@@ -22,7 +22,7 @@ const WIDEST_PANEL: f64 = 1.6;
 /// Panels per period of the highest order of the gap, at least.
 const PANELS_PER_PERIOD: f64 = 1.0;
 /// Widest piece that shares a block with another, over the period of the highest order; there is none without lobes.
-const NARROW: f64 = 0.5;
+const NARROW: f64 = 0.2;
 /// Round-off of G relative to its largest part.
 const ROUND_OFF: f64 = 1e-11;
 
