@@ -110,6 +110,7 @@ figures: tools
 		--set 'title=NU2310, 5 µm, 4900 N, 3000 rev/min (Figs. 10 and 11)' --out $(FIGURES)/nu2310_5um
 	$(TOOL) cases scenes/nu2310_fig9.cases.json --out $(FIGURES)/fig9
 	$(TOOL) cases scenes/nu2310_unknowns.cases.json --out $(FIGURES)/unknowns
+	$(TOOL) cases scenes/nu2310_inlet.cases.json --out $(FIGURES)/inlet
 	$(TOOL) run scenes/grease_guide.json --starts 24 --out $(FIGURES)/grease
 	$(TOOL) cases scenes/grease_guide_speed.cases.json --starts 24 --out $(FIGURES)/grease_speed
 	$(TOOL) cases scenes/grease_guide_dry.cases.json --starts 24 --out $(FIGURES)/grease_dry

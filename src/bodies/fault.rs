@@ -2,6 +2,9 @@
 
 use crate::registry::registry;
 
+/// Speed of sound in a steel bar, m/s. Nothing in a bearing moves as fast.
+pub(crate) const SOUND: f64 = 5e3;
+
 /// Why forces cannot be computed at a state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Fault {
@@ -30,9 +33,37 @@ pub enum Fault {
         lead: f64,
     },
     /// The inner ring has left the bearing.
-    LostRing,
+    LostRing {
+        /// Distance of its centre from that of the bearing, and the most that rollers could let it have, m.
+        distance: f64,
+        /// See `distance`.
+        reach: f64,
+    },
     /// The cage has left the bearing.
     LostCage,
+    /// Rollers that nothing keeps apart go through each other.
+    Overlap {
+        /// Number of the roller; the other is the next one.
+        roller: usize,
+        /// Number of the next one.
+        next: usize,
+        /// By how much they overlap, m.
+        depth: f64,
+    },
+    /// The film of the guide has given more energy than came in and was there: its law is not passive.
+    EnergyCreated {
+        /// Work of the film, and all that loads, drives and the start could give, J.
+        given: f64,
+        /// See `given`.
+        available: f64,
+    },
+    /// Something moves faster than sound does in steel.
+    TooFast {
+        /// Index of its velocity.
+        velocity: usize,
+        /// m/s; of a rotation that of its surface, of an orbit that of its centre.
+        speed: f64,
+    },
     /// An acceleration is not a finite number.
     NotFinite {
         /// Index of the velocity whose rate it is.
@@ -60,6 +91,9 @@ registry! {
         NotFinite = "not_finite",
         NoSlope = "no_slope",
         OutOfPocket = "out_of_pocket",
+        Overlap = "overlap",
+        TooFast = "too_fast",
+        EnergyCreated = "energy_created",
     }
 }
 
@@ -73,11 +107,14 @@ impl Fault {
             Self::NoGuideFilm { .. } => FaultKind::NoGuideFilm,
             Self::NoViscosity { .. } => FaultKind::NoViscosity,
             Self::LostRoller { .. } => FaultKind::LostRoller,
-            Self::LostRing => FaultKind::LostRing,
+            Self::LostRing { .. } => FaultKind::LostRing,
             Self::LostCage => FaultKind::LostCage,
             Self::NotFinite { .. } => FaultKind::NotFinite,
             Self::NoSlope { .. } => FaultKind::NoSlope,
             Self::OutOfPocket { .. } => FaultKind::OutOfPocket,
+            Self::Overlap { .. } => FaultKind::Overlap,
+            Self::TooFast { .. } => FaultKind::TooFast,
+            Self::EnergyCreated { .. } => FaultKind::EnergyCreated,
         };
         kind as usize
     }

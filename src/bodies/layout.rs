@@ -31,19 +31,22 @@ pub struct Layout {
     pub(in crate::bodies) elements: usize,
     /// Number of elements that move freely.
     pub count: usize,
+    /// Whether elements touch their neighbours.
+    touching: bool,
     /// Number of states of each node.
     nodes: Vec<usize>,
 }
 
 impl Layout {
-    /// The layout of shared bodies with so many coordinates each, so many free elements and nodes with so many states each.
-    pub(crate) fn new(widths: [usize; SHARED], count: usize, nodes: Vec<usize>) -> Self {
+    /// The layout of shared bodies with so many coordinates each, so many free elements, which may touch their neighbours, and
+    /// nodes with so many states each.
+    pub(crate) fn new(widths: [usize; SHARED], count: usize, touching: bool, nodes: Vec<usize>) -> Self {
         let mut next = 0;
         let shared = widths.map(|width| {
             next += width;
             (next - width, width)
         });
-        Self { shared, elements: next, count, nodes }
+        Self { shared, elements: next, count, touching, nodes }
     }
 
     /// First coordinate of the inner ring, if it is free.
@@ -56,17 +59,17 @@ impl Layout {
         self.shared(CAGE)
     }
 
-    /// First coordinate of a shared body, and its first place in the hub, if it is free.
+    /// First coordinate of a shared body, and its first place in the hub, if it is free; that of no body is none.
     #[inline]
     pub(crate) fn shared(&self, body: usize) -> Option<usize> {
-        let (first, width) = self.shared[body];
+        let (first, width) = self.shared.get(body).copied().unwrap_or_default();
         (width > 0).then_some(first)
     }
 
     /// Coordinates of a shared body; none if it is not free.
     #[inline]
     pub(crate) fn range(&self, body: usize) -> Range<usize> {
-        let (first, width) = self.shared[body];
+        let (first, width) = self.shared.get(body).copied().unwrap_or_default();
         first..first + width
     }
 
@@ -150,6 +153,7 @@ impl Layout {
             hub: (0..self.elements).chain(self.first_of_nodes()..self.velocities()).collect(),
             bodies: self.free().map(|body| self.range(body)).chain(of_nodes).collect(),
             spokes: (0..self.count).map(|j| self.of_element(j)).collect(),
+            rim: self.touching,
         }
     }
 

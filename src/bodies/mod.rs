@@ -23,8 +23,8 @@ mod nodes;
 mod ring;
 mod states;
 
-pub(crate) use fault::FaultKind;
 pub use fault::{FAULTS, Fault, FaultCounts};
+pub(crate) use fault::{FaultKind, SOUND};
 pub use inputs::{HostInputs, INPUTS, Input, InputValues};
 pub use layout::Layout;
 
@@ -120,6 +120,7 @@ registry! {
         Gravity = "gravity",
         Load = "load",
         Support = "support",
+        Neighbour = "neighbour",
     }
 }
 
@@ -145,6 +146,8 @@ registry! {
         GuideFilm = "guide_film",
         GuideSolid = "guide_solid",
         CageBending = "cage_bending",
+        NeighbourDamping = "neighbour_damping",
+        NeighbourFriction = "neighbour_friction",
     }
 }
 
@@ -216,8 +219,11 @@ pub(crate) trait SharedBody: Debug + Send + Sync {
         None
     }
 
-    /// What it is when it is further than the pitch radius from the centre.
-    fn lost(&self) -> Fault;
+    /// The most that its centre may be off that of the bearing, m.
+    fn reach(&self) -> f64;
+
+    /// What it is when it is `distance` (m) off, further than that.
+    fn lost(&self, distance: f64) -> Fault;
 
     /// Mass in kg, if it moves freely.
     fn mass(&self) -> Option<f64>;

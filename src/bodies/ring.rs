@@ -13,6 +13,9 @@ use super::{
 use crate::scene::{RingMotion, Scene};
 use crate::space::{Motion, Wrench};
 
+/// A free ring further off than clearance and this share of the radius of its rollers has left the bearing.
+const LOST_RING: f64 = 0.1;
+
 /// A ring.
 #[derive(Debug)]
 pub(super) struct Ring {
@@ -20,6 +23,8 @@ pub(super) struct Ring {
     held: Held,
     /// Input that prescribes its speed; without one it does not turn.
     speed: Option<Input>,
+    /// Clearance and a tenth of a roller's radius, which no elastic approach comes near, m.
+    reach: f64,
 }
 
 #[derive(Debug)]
@@ -34,7 +39,8 @@ impl Ring {
     /// The outer ring of a scene, held in the centre: it stands still unless the scene gives it a speed.
     pub(super) fn outer(scene: &Scene) -> Self {
         let speed = scene.outer_ring.as_ref().and_then(|ring| ring.speed.as_ref());
-        Self { name: "outer_ring", held: Held::At([0.0; 2]), speed: speed.map(|_| Input::OuterRingSpeed) }
+        let speed = speed.map(|_| Input::OuterRingSpeed);
+        Self { name: "outer_ring", held: Held::At([0.0; 2]), speed, reach: f64::INFINITY }
     }
 
     /// Of its support, N s/m.
@@ -54,7 +60,9 @@ impl Ring {
                 Held::Free { mass: free.mass, damping: free.support_damping.unwrap_or(0.0) }
             }
         };
-        Self { name: "inner_ring", held, speed: Some(Input::RingSpeed) }
+        let clearance = scene.radial_clearance().max(0.0);
+        let reach = clearance + scene.largest_deviation() + LOST_RING * scene.element_radius();
+        Self { name: "inner_ring", held, speed: Some(Input::RingSpeed), reach }
     }
 }
 
@@ -83,8 +91,12 @@ impl SharedBody for Ring {
         self.speed
     }
 
-    fn lost(&self) -> Fault {
-        Fault::LostRing
+    fn reach(&self) -> f64 {
+        self.reach
+    }
+
+    fn lost(&self, distance: f64) -> Fault {
+        Fault::LostRing { distance, reach: self.reach }
     }
 
     fn mass(&self) -> Option<f64> {

@@ -11,7 +11,8 @@ pub(crate) fn layout_of(bodies: &SharedBodies, elements: &dyn Elements, nodes: &
         bodies.iter().flatten().all(|body| body.coordinates().iter().all(|c| c.position.is_some()))
     );
     let nodes = nodes.iter().map(|node| node.states().len()).collect();
-    Layout::new(widths, if free { elements.set().count } else { 0 }, nodes)
+    let set = elements.set();
+    Layout::new(widths, if free { set.count } else { 0 }, set.touching, nodes)
 }
 
 /// What a state of a coordinate is.

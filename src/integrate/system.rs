@@ -126,6 +126,11 @@ pub trait Observed: System {
     }
     /// Told of every attempt from time `t` (s) that failed with `fault`.
     fn failed(&mut self, _t: f64, _fault: Self::Fault) {}
+    /// The fault of a run whose works since it began, up to its last step and in it (J), are such as no system can have. Asked
+    /// after every step.
+    fn overdrawn(&self, _works: [&[f64]; 2]) -> Option<Self::Fault> {
+        None
+    }
     /// Told of every attempt whose error in this group was too large.
     fn rejected(&mut self, _group: usize) {}
 }
@@ -185,8 +190,8 @@ impl Vibration {
     }
 }
 
-/// Velocities by their coupling: a hub, coupled to all, and spokes of `N` velocities each, coupled to the hub only. Every
-/// velocity has one place.
+/// Velocities by their coupling: a hub, coupled to all, and spokes of `N` velocities each, coupled to the hub and, with a rim,
+/// to the spokes before and behind them in a circle. Every velocity has one place.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Structure<const N: usize> {
     /// Velocity index of each place of the hub.
@@ -195,12 +200,14 @@ pub struct Structure<const N: usize> {
     pub bodies: Vec<Range<usize>>,
     /// Velocity indices of each spoke.
     pub spokes: Vec<[usize; N]>,
+    /// Whether spokes touch their neighbours.
+    pub rim: bool,
 }
 
 impl<const N: usize> Structure<N> {
     /// One body of the first `n` velocities as the hub, with these spokes.
     pub fn around(n: usize, spokes: Vec<[usize; N]>) -> Self {
-        Self { hub: (0..n).collect(), bodies: std::iter::once(0..n).collect(), spokes }
+        Self { hub: (0..n).collect(), bodies: std::iter::once(0..n).collect(), spokes, rim: false }
     }
 
     /// Velocities of each spoke, then of each body of the hub.
@@ -224,7 +231,7 @@ pub struct Linearization<const N: usize> {
 impl<const N: usize> Linearization<N> {
     /// Memory for a system of this structure with `velocities` velocities.
     pub fn new(structure: &Structure<N>, velocities: usize) -> Self {
-        let zero = Arrowhead::new(structure.hub.len(), structure.spokes.len());
+        let zero = Arrowhead::of(structure);
         Self { over_positions: zero.clone(), over_velocities: zero, over_time: vec![0.0; velocities] }
     }
 

@@ -2,11 +2,11 @@
 //!
 //! ```text
 //! normal force Q -> Hertz b, P_mean -> film h_c -> regime Lambda -> traction, self-heating -> mu, F_T
-//!                                                                                          -> F_EHLr
+//!                                                                                          -> F_EHLr, F_S
 //! ```
 //!
 //! Each part is optional and costs one predictable branch when absent. Friction is F_T = mu Q against the slip (NTN
-//! Eq. 10). There are no branches on numbers, so that one call can serve a group of contacts. The logarithms of load,
+//! Eq. 10), with the drag F_S of the inlet where it is asked for. There are no branches on numbers, so that one call can serve a group of contacts. The logarithms of load,
 //! rolling speed and slip are taken once and serve all power laws.
 
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
@@ -256,7 +256,7 @@ impl<B: Base> LineContact<B> {
         // A NaN counts as contact and is passed on.
         let apart = normal.force.at_most(0.0);
 
-        let mut mu = zero;
+        let (mut mu, mut inlet) = (zero, None);
         if self.film.is_some() || self.rolling_resistance.is_some() {
             let load = T::select(apart, zero.like(1.0), normal.force);
             let half_width = self.elastic.half_width(load);
@@ -268,6 +268,7 @@ impl<B: Base> LineContact<B> {
             if let Some(law) = &self.rolling_resistance {
                 let force = law.force(load, pressed.ln_load, mean_pressure, rolling);
                 out.rolling_resistance = T::select(apart, zero, zero - force * rolling.direction);
+                inlet = law.sliding_secant(force, pressed.ln_load, rolling);
             }
         }
         let mut without_film = apart;
@@ -279,8 +280,15 @@ impl<B: Base> LineContact<B> {
             mu = T::select(on_edge, dry, mu + (dry - mu) * edge_share);
             without_film = apart | on_edge;
             out.rolling_resistance = T::select(on_edge, zero, out.rolling_resistance);
+            if let Some(drag) = &mut inlet {
+                *drag = T::select(on_edge, zero, *drag);
+            }
         }
-        let secant = mu * out.normal / rolling.slip;
+        let mut secant = mu * out.normal / rolling.slip;
+        if let Some(drag) = inlet {
+            secant += drag;
+            mu = secant * rolling.slip / out.normal;
+        }
         out.friction_coefficient = T::select(apart, zero, mu);
         out.friction_secant = T::select(apart, zero, secant);
         out.friction = T::select(apart, zero, -(secant * (motion.u1 - motion.u2)));
@@ -338,7 +346,9 @@ pub(crate) mod tests {
     use super::*;
     use crate::laws::elastic::line::effective_modulus;
     use crate::laws::film::thickness::{ThermalCorrection, ThermalLoad};
-    use crate::laws::rolling::{Extent, Isothermal, RollingFilm, ZhouHoeprich};
+    use crate::laws::rolling::{
+        ELASTIC_RATIO, Extent, InletSliding, Isothermal, RIGID_RATIO, RollingFilm, ZhouHoeprich,
+    };
     use crate::scalar::{Dual, Real};
 
     /// The inner raceway contact of the NU2310 example.
@@ -379,13 +389,42 @@ pub(crate) mod tests {
         }
     }
 
+    /// The same with the drag of the inlet on surfaces that slip.
+    fn with_inlet_sliding() -> LineContact {
+        let law = raceway();
+        let film = RollingFilm { line: &law.elastic, viscosity: 0.06, pressure_viscosity: 2e-8 };
+        let sliding = Some(InletSliding::new(&film, RIGID_RATIO, ELASTIC_RATIO));
+        let rolling_resistance = law.rolling_resistance.map(|of| RollingResistance { sliding, ..of });
+        LineContact { rolling_resistance, ..law }
+    }
+
+    #[test]
+    fn what_drags_in_the_inlet_is_a_share_of_rolling_resistance() {
+        let (law, without) = (with_inlet_sliding(), raceway());
+        for (delta, u1, u2) in [(1e-8, 6.0, 5.0), (3e-6, -6.0, -6.3), (1e-9, -0.2, 6.0)] {
+            let motion = ContactMotion { delta, delta_dot: 0.0, u1, u2 };
+            let [a, b] = [law, without].map(|law| law.force(&motion, 0.1, 0.0));
+            let drag = a.friction - b.friction;
+            let sliding = law.rolling_resistance.unwrap().sliding.unwrap();
+            let share = sliding.ratio(math::ln(b.normal), &Entrainment::new(u1, u2, 0.1));
+            let expected = share * b.rolling_resistance.abs() * (u2 - u1) / (0.5 * (u1 + u2)).abs();
+            assert!((drag / expected - 1.0).abs() < 1e-9, "{drag} {expected}");
+            assert_eq!((a.normal, a.rolling_resistance), (b.normal, b.rolling_resistance));
+            assert!((a.friction_coefficient * a.normal / a.friction.abs() - 1.0).abs() < 1e-9);
+        }
+    }
+
     fn components<T: Real>(f: &ContactForce<T>) -> [T; 3] {
         [f.normal, f.friction, f.rolling_resistance]
     }
 
     #[test]
     fn exact_derivatives_match_central_differences() {
-        let law = raceway();
+        exact_derivatives(&raceway());
+        exact_derivatives(&with_inlet_sliding());
+    }
+
+    fn exact_derivatives(law: &LineContact) {
         for x in [
             [2e-6, 1e-3, 6.0, 5.9],
             [1e-8, -1e-4, 6.0, 6.3],
@@ -421,7 +460,11 @@ pub(crate) mod tests {
     fn forces_are_continuous_through_every_switch() {
         // A fine scan finds the steepest interval; halving it again and again must make the change vanish, which
         // it does for any power law but not for a jump.
-        let law = raceway();
+        scan_switches(&raceway());
+        scan_switches(&with_inlet_sliding());
+    }
+
+    fn scan_switches(law: &LineContact) {
         let scan = |name: &str, at: &dyn Fn(f64) -> ContactMotion<f64>| {
             let value = |x: f64| components(&law.force(&at(x), 0.0, 0.0));
             let n = 4000;

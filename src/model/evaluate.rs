@@ -5,14 +5,11 @@
 
 use super::workspace::Workspace;
 use super::{Fault, Input, InputValues, Model};
-use crate::bodies::{BodyState, CAGE, CAGE_MOTION, OF_ELEMENT, OnBody, SHARED, WrenchLanes};
+use crate::bodies::{BodyState, CAGE, CAGE_MOTION, OF_ELEMENT, OnBody, SHARED, SOUND, WrenchLanes};
 use crate::laws::contact_pair::ContactForce;
 use crate::pairs::{ContactBlock, Law};
 use crate::scalar::{ZEROS, math};
-use crate::space::Wrench;
-
-/// A ring or cage this far from the centre, in pitch radii, has left the bearing.
-const LOST_BODY: f64 = 1.0;
+use crate::space::{Motion, Wrench};
 
 impl Model {
     /// Accelerations `a` (shape: velocities; m/s^2 or rad/s^2) at positions `q` and velocities `v`.
@@ -66,14 +63,20 @@ impl Model {
         shared_v.copy_from_slice(&v[..self.layout.of_shared()]);
         contacts.clear();
         step.forget();
-        let reach = LOST_BODY * self.pitch_radius();
         self.find_motions(q, v, inputs, &mut motions.shared);
         self.find_deformation(ws);
         let Workspace { motions, contacts, inputs, .. } = ws;
-        for (place, body, _) in self.free_bodies() {
-            let [y, z] = motions.shared[place].position;
-            if math::hypot(y, z) > reach {
-                return Err(body.lost());
+        for (place, body, at) in self.free_bodies() {
+            let Motion { position: [y, z], velocity: [vy, vz], speed, .. } = motions.shared[place];
+            let distance = math::hypot(y, z);
+            if distance > body.reach() {
+                return Err(body.lost(distance));
+            }
+            // The rotation of rings is prescribed.
+            let turning = if place == CAGE { speed.abs() * self.pitch_radius() } else { 0.0 };
+            let speeds = [vy.abs(), vz.abs(), turning];
+            if let Some(k) = speeds.iter().position(|speed| *speed > SOUND) {
+                return Err(Fault::TooFast { velocity: at.start + k, speed: speeds[k] });
             }
         }
         // Elements of prescribed motion that nothing touches are nobody's concern.

@@ -90,7 +90,7 @@ impl Model {
         }
         inverse.multiply(&mut over_time[..of_shared], of_shared);
         for part in [&mut *over_positions, &mut *over_velocities] {
-            let [hub, _, to_hub, _] = part.blocks_mut();
+            let [hub, _, to_hub, ..] = part.blocks_mut();
             inverse.multiply(hub, width);
             inverse.multiply(to_hub, width);
         }
@@ -106,9 +106,12 @@ impl Model {
             let on_element = &Wrench { force: [radial, across], moment };
             let element = ws.motions.element(j);
             let [k, d] = [&mut *over_positions, &mut *over_velocities].map(|part| {
-                let [_, own, _, over_hub] = part.blocks_mut();
-                let own = &mut own.as_chunks_mut().0[j * OF_ELEMENT..(j + 1) * OF_ELEMENT];
-                ElementSlopes { own, over_hub: &mut over_hub.as_chunks_mut().0[j * width..(j + 1) * width] }
+                let [_, own, _, over_hub, rim] = part.blocks_mut();
+                ElementSlopes {
+                    own: of_element(own, j, OF_ELEMENT),
+                    over_hub: of_element(over_hub, j, width),
+                    over_neighbours: of_element(rim, j, 2 * OF_ELEMENT),
+                }
             });
             let inverse = self.elements.slopes(&element, on_element, self.gravity, k, d);
             for (place, factor) in self.layout.of_element(j).into_iter().zip(inverse) {
@@ -116,4 +119,11 @@ impl Model {
             }
         }
     }
+}
+
+/// The `n` columns of element `j` in a block of them; none where the block has none.
+#[inline]
+fn of_element(block: &mut [f64], j: usize, n: usize) -> &mut [[f64; OF_ELEMENT]] {
+    let columns = block.as_chunks_mut().0;
+    columns.get_mut(j * n..(j + 1) * n).unwrap_or_default()
 }

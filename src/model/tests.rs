@@ -35,8 +35,12 @@ impl SharedBody for VibratingCage {
         self.cage.motion(q, v, inputs)
     }
 
-    fn lost(&self) -> Fault {
-        self.cage.lost()
+    fn reach(&self) -> f64 {
+        self.cage.reach()
+    }
+
+    fn lost(&self, distance: f64) -> Fault {
+        self.cage.lost(distance)
     }
 
     fn mass(&self) -> Option<f64> {

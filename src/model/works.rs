@@ -55,13 +55,13 @@ impl Model {
         let mut on_rings = [0.0; RINGS.len()];
         let driven = |body: usize| RINGS.iter().position(|ring| *ring == body && self.is_driven(body));
         for (batch, info, contacts) in ws.contacts.by_pair(&self.infos) {
-            let [of_damping, of_friction] = info.powers;
+            let ([of_damping, of_friction], share) = (info.powers, info.share);
             let mut moment = 0.0;
             for i in contacts {
                 let (ContactBlock { step, .. }, lane) = batch.at(i);
                 let [damping, friction, rolling] = &step.powers;
-                p[of_damping as usize] += damping[lane];
-                p[of_friction as usize] += friction[lane];
+                p[of_damping as usize] += share * damping[lane];
+                p[of_friction as usize] += share * friction[lane];
                 if info.rolls {
                     p[Power::RollingResistance as usize] += rolling[lane];
                     if self.is_at_floor(batch, i, ws.fluid.ln_viscosity) {
@@ -153,8 +153,9 @@ impl Model {
             elastic += energy.elastic;
             e.potential += energy.potential;
         }
-        e.elastic = ws.contacts.iter().map(|c| self.laws[c.site.pair].spring(c.motion.delta)[1]).sum::<f64>()
-            + elastic;
+        let spring =
+            |c: Loaded<'_>| self.infos[c.site.pair].share * self.laws[c.site.pair].spring(c.motion.delta)[1];
+        e.elastic = ws.contacts.iter().map(spring).sum::<f64>() + elastic;
         e
     }
 }

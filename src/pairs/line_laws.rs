@@ -8,7 +8,10 @@ use crate::laws::film::regime::LubricationRegime;
 use crate::laws::film::thickness::{FilmThickness, ThermalCorrection, ThermalLoad};
 use crate::laws::fluid::grease::{Polymer, Soap, Thickener};
 use crate::laws::line_contact::LineContact;
-use crate::laws::rolling::{Extent, Isothermal, RigidLimit, RollingFilm, RollingResistance, ZhouHoeprich};
+use crate::laws::rolling::{
+    ELASTIC_RATIO, Extent, InletSliding, Isothermal, RIGID_RATIO, RigidLimit, RollingFilm, RollingResistance,
+    ZhouHoeprich,
+};
 use crate::laws::traction::muraki_kimura::Traction;
 use crate::laws::traction::self_heating::SelfHeating;
 use crate::laws::traction::solid_friction::SolidFriction;
@@ -258,8 +261,13 @@ impl<'a> LawBuilder<'a> {
                 scene::RollingLaw::ZhouHoeprich => Isothermal::ZhouHoeprich(ZhouHoeprich::new(&film)),
                 scene::RollingLaw::RigidLimit => Isothermal::RigidLimit(RigidLimit::new(&film)),
             };
+            let sliding = rolling.inlet_sliding.as_ref().map(|of| {
+                let (rigid, elastic) = (of.rigid_ratio, of.elastic_ratio);
+                InletSliding::new(&film, rigid.unwrap_or(RIGID_RATIO), elastic.unwrap_or(ELASTIC_RATIO))
+            });
             let thermal = builder.thermal_load(by)?;
-            law.rolling_resistance = Some(RollingResistance::new(isothermal, &law.elastic, thermal, extent));
+            let resistance = RollingResistance::new(isothermal, &law.elastic, thermal, extent);
+            law.rolling_resistance = Some(RollingResistance { sliding, ..resistance });
         }
         Ok(law)
     }

@@ -5,6 +5,7 @@
 //! | raceway | `raceway` | roller, outer or inner ring | line contact |
 //! | cylindrical pocket | `pocket/cylinder` | element, cage | line contact, edge |
 //! | plane pocket | `pocket/plane` | element, cage | spring, damper, friction |
+//! | neighbours | `neighbours` | roller, the next roller | line contact |
 //! | guide | `guide` | cage, outer or inner ring | films, solid contact |
 //!
 //! A pair of elements finds its touching contacts and hands motion and `Grip` of each to `Contacts`. Wrenches, powers,
@@ -17,6 +18,7 @@ mod contacts;
 pub(crate) mod grip;
 pub mod guide;
 pub(crate) mod line_laws;
+mod neighbours;
 mod passage;
 mod pocket;
 pub(crate) mod raceway;
@@ -51,8 +53,13 @@ use std::ops::Range;
 /// The pairs of elements of a checked scene, with the lubricant at `viscosity` in Pa s, in the order of force reports.
 pub(crate) fn element_pairs(scene: &Scene, viscosity: Option<f64>) -> Result<Vec<Box<dyn ElementPair>>> {
     let laws = LawBuilder::new(scene, viscosity);
-    let list =
-        [raceway::outer(&laws)?, raceway::inner(&laws)?, pocket::cylinder(&laws)?, pocket::plane(&laws)?];
+    let list = [
+        raceway::outer(&laws)?,
+        raceway::inner(&laws)?,
+        pocket::cylinder(&laws)?,
+        pocket::plane(&laws)?,
+        neighbours::new(&laws)?,
+    ];
     Ok(list.into_iter().flatten().collect())
 }
 
@@ -80,16 +87,20 @@ registry! {
         GuideFilm = "guide_film",
         GuideSolid = "guide_solid",
         ViscosityTemperature = "viscosity_temperature",
+        Neighbours = "neighbours",
     }
 }
 
 /// Counts by law, in the order of [`LAWS`].
 pub type LawCounts = [u64; LAWS.len()];
 
+/// The mate of elements that touch each other: no shared body.
+pub(crate) const NEIGHBOUR: usize = SHARED;
+
 /// What a pair is called and where its forces count.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PairInfo {
-    /// Shared body that elements touch.
+    /// Shared body that elements touch, or [`NEIGHBOUR`].
     pub(crate) mate: usize,
     /// Under which its forces are reported.
     pub(crate) source: ForceSource,
@@ -102,6 +113,8 @@ pub(crate) struct PairInfo {
     /// Whether elements roll on it under load. Then its vibration is that of the bearing, rolling resistance has a power of its
     /// own, and floors of its laws are watched.
     pub(crate) rolls: bool,
+    /// What energy and powers of a contact count by: 1, or 1/2 where it stands once for each of two elements.
+    pub(crate) share: f64,
 }
 
 /// Force law of the contacts of a pair.

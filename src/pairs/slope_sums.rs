@@ -109,6 +109,31 @@ impl SlopeSums<'_> {
         }
     }
 
+    /// Adds the derivatives of the wrench on element `j`, in its axes, over its own coordinates and those of its neighbour on a
+    /// side (0 ahead, 1 behind), each two positions and three velocities, and its rate at constant state.
+    pub(crate) fn add_neighbours(
+        &mut self,
+        j: usize,
+        side: usize,
+        slopes: [[f64; 10]; OF_ELEMENT],
+        rates: [f64; OF_ELEMENT],
+    ) {
+        use ContactColumns as C;
+        for (part, by, _) in self.parts() {
+            let own = &mut chunks(part.own.as_mut_slice())[j * OF_ELEMENT..];
+            let rim = &mut chunks(part.rim.as_mut_slice())[(2 * j + side) * OF_ELEMENT..];
+            for ((own, rim), c) in own.iter_mut().zip(rim).zip(by) {
+                for i in 0..OF_ELEMENT {
+                    own[i] += slopes[i][c];
+                    rim[i] += slopes[i][c + C::PLACE];
+                }
+            }
+        }
+        for (place, rate) in self.layout.of_element(j).into_iter().zip(rates) {
+            self.out.over_time[place] += rate;
+        }
+    }
+
     /// Of the element over the first `N` coordinates of the mate, and the other way round.
     #[inline(always)]
     fn add_across<const N: usize>(&mut self, j: usize, mate: usize, columns: &ContactColumns, lane: usize) {

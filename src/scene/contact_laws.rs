@@ -127,6 +127,24 @@ pub struct RollingResistance {
     pub law: RollingLaw,
     /// Contacts in which it acts.
     pub extent: Extent,
+    /// Drag of the inlet on surfaces that slip. Absent: off, as in the first paper.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inlet_sliding: Option<InletSliding>,
+}
+
+/// Drag of the inlet on surfaces that slip, as a share of the rolling resistance times slip over rolling speed.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct InletSliding {
+    /// Share at no load, where surfaces are rigid. Absent: 0.62, from Reynolds' equation.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 2.0)))]
+    pub rigid_ratio: Option<f64>,
+    /// Share under load, where they are elastic. Absent: 0.25.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 2.0)))]
+    pub elastic_ratio: Option<f64>,
 }
 
 /// Law of the rolling resistance.

@@ -1,6 +1,6 @@
 //! Rolling elements of a scene: rollers that move freely, or elements whose motion is prescribed.
 
-use super::Signal;
+use super::{ContactLaws, Signal};
 use serde::{Deserialize, Serialize};
 
 /// A set of equally spaced cylindrical rollers that move in the plane under the forces of their contacts.
@@ -31,6 +31,19 @@ pub struct Rollers {
     /// How much the radii of single rollers deviate from `radius`. Absent: they are equal.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius_deviations: Option<RadiusDeviations>,
+    /// Contact of each roller with those beside it. Absent: rollers must not touch each other.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub neighbours: Option<Neighbours>,
+}
+
+/// Contact of neighbouring rollers.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Neighbours {
+    /// Laws besides elasticity.
+    #[serde(default)]
+    pub contact: ContactLaws,
 }
 
 /// Deviations of the radii of rollers, which are numbered from 0 on counter-clockwise from the first.

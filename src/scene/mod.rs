@@ -28,14 +28,14 @@ pub use cases::{CASES_SCHEMA, Case, CaseSet};
 pub use catalogue::catalogue;
 pub(crate) use check::{bad as bad_scene, needed};
 pub use contact_laws::{
-    BoundaryFriction, ContactDamping, ContactLaws, Extent, FilmLaw, Raceways, RollingLaw, RollingResistance,
-    SelfHeating, ThermalCorrection, TractionLaw,
+    BoundaryFriction, ContactDamping, ContactLaws, Extent, FilmLaw, InletSliding, Raceways, RollingLaw,
+    RollingResistance, SelfHeating, ThermalCorrection, TractionLaw,
 };
 pub(crate) use elastic_ring::MOST_RING_ORDERS;
 pub use elastic_ring::{ElasticRing, FiniteElementModes, RingSection, RingStiffness};
 pub use elements::{
-    ElementMotion, KinematicElements, LogarithmicProfile, RadiusDeviations, RollerGroup, RollerProfile,
-    Rollers,
+    ElementMotion, KinematicElements, LogarithmicProfile, Neighbours, RadiusDeviations, RollerGroup,
+    RollerProfile, Rollers,
 };
 pub use grease::{Grease, PolymerGrease, SoapGrease};
 pub use heat::{

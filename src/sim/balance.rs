@@ -132,6 +132,7 @@ impl Sim {
     /// Starts the balance at the last evaluated state, which must be the present one.
     pub(super) fn start_balance(&mut self) {
         self.balance = Start { time: self.time, energy: self.bearing.energy() };
+        self.bearing.begin_works(&self.balance.energy);
         self.driver.forget_works();
     }
 }

@@ -2,6 +2,7 @@
 
 use super::limits::RunLimits;
 use super::linear::jacobian::Slopes;
+use crate::bodies::Power;
 use crate::integrate::{
     Applied, GroupDamping, Interruption, Linearization, Linearized, Observed, SemiImplicit, Split, Structure,
     Structured, System, Tuning, Vibration,
@@ -26,6 +27,8 @@ pub(super) struct Bearing {
     limits: RunLimits,
     memory: StepMemory,
     tuning: Tuning,
+    /// Energy at the start of the balance where a film can create some, J.
+    start_energy: Option<f64>,
 }
 
 /// Memory for the forces of a step: the state it was evaluated at, mean velocities, accelerations.
@@ -50,6 +53,7 @@ impl Bearing {
             rejections: vec![0; model.structure().groups().len()],
             limits: RunLimits::default(),
             tuning,
+            start_energy: model.energy_giving_film().map(|_| 0.0),
             memory: StepMemory {
                 middle: Vec::with_capacity(layout.states()),
                 mean: Vec::with_capacity(layout.velocities()),
@@ -169,6 +173,12 @@ impl Bearing {
     /// Energy of the last evaluated state.
     pub(super) fn energy(&self) -> Energy {
         self.model.energy(&self.workspace)
+    }
+
+    /// Says what was stored when the works of the run began, J.
+    pub(super) fn begin_works(&mut self, energy: &Energy) {
+        let stored = energy.kinetic + energy.elastic + energy.potential.abs();
+        self.start_energy = self.start_energy.map(|_| stored);
     }
 
     pub(super) fn limits(&self) -> &RunLimits {
@@ -321,6 +331,15 @@ impl Split<OF_ELEMENT> for Bearing {
 }
 
 impl Observed for Bearing {
+    fn overdrawn(&self, [before, last]: [&[f64]; 2]) -> Option<Fault> {
+        let stored = self.start_energy?;
+        let work = |power: Power| before[power as usize] + last[power as usize];
+        let given = work(Power::GuideFilm);
+        let came = Power::ALL.into_iter().filter(|power| !power.is_lost()).map(|power| work(power).max(0.0));
+        let available = stored + came.sum::<f64>();
+        (given > available).then_some(Fault::EnergyCreated { given, available })
+    }
+
     fn vibration(&self) -> Vibration {
         self.workspace.vibration()
     }

@@ -13,7 +13,9 @@ impl Sim {
 
     pub(in crate::sim) fn failure(&self, failure: Failure<Fault>) -> Error {
         match failure {
-            Failure::AtStart { time, fault } => self.bad_state(time, fault),
+            Failure::AtStart { time, fault } | Failure::Overdrawn { time, fault } => {
+                self.bad_state(time, fault)
+            }
             Failure::StepTooSmall { time, step, fault, group } => {
                 let why = match (fault, group.and_then(|group| self.bearing.group_name(group))) {
                     (Some(fault), _) => self.model().describe(fault),

@@ -104,6 +104,7 @@ impl Sim {
         from.finished().then_some(())?;
         let Content { time, counts, laws, faults, rejections, host, state, balance } = content;
         *self.bearing.host_mut() = host;
+        self.bearing.begin_works(&balance.energy);
         // The stretch that covers this time is made again, whatever the wall time; the state must be the one that it gives.
         let limits = std::mem::take(self.bearing.limits_mut());
         let made = self.driver.advance(&mut self.bearing, time);

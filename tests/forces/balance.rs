@@ -9,7 +9,8 @@ use serde_json::Value;
 
 #[test]
 fn sources_have_the_expected_names() {
-    let names = ["outer_raceway", "inner_raceway", "pocket", "guide", "gravity", "load", "support"];
+    let names =
+        ["outer_raceway", "inner_raceway", "pocket", "guide", "gravity", "load", "support", "neighbour"];
     assert_eq!(FORCE_SOURCES, names);
 }
 

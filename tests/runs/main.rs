@@ -6,6 +6,7 @@ mod common;
 mod elastic_cage;
 mod extremes;
 mod grease_guide;
+mod impossible;
 mod limits;
 mod nu2310;
 mod outer_ring;

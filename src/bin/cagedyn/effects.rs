@@ -32,6 +32,14 @@ pub fn effects(scene: &Scene) -> Vec<Effect> {
             }
         });
         list.add("raceways.rolling_resistance", resistance);
+        if let Some(resistance) = &raceways.rolling_resistance {
+            let path = "raceways.rolling_resistance.inlet_sliding";
+            list.flag(
+                path,
+                resistance.inlet_sliding.is_some(),
+                "law: drag of the inlet on surfaces that slip",
+            );
+        }
     }
     lubricant(scene, &mut list);
     cage(scene, &mut list);

@@ -35,6 +35,8 @@ pub(super) struct Cage {
     /// Bending of its ring, if it is elastic.
     modes: Option<RingModes>,
     coordinates: Vec<Coordinate>,
+    /// Pitch radius: further off it is outside of the bearing, m.
+    reach: f64,
 }
 
 /// Number of coordinates of the motion of the whole body; those of modes follow.
@@ -68,6 +70,7 @@ impl Cage {
             mass_eccentricity: cage.mass_eccentricity.map(|u| [u.y, u.z]),
             loaded: cage.load.is_some(),
             coordinates: COORDINATES.into_iter().chain(of_modes).collect(),
+            reach: elements.pitch_radius,
             modes,
         }))
     }
@@ -138,7 +141,11 @@ impl SharedBody for Cage {
         Motion { position: [q[0], q[1]], velocity: [v[0], v[1]], angle: q[2], speed: v[2] }
     }
 
-    fn lost(&self) -> Fault {
+    fn reach(&self) -> f64 {
+        self.reach
+    }
+
+    fn lost(&self, _distance: f64) -> Fault {
         Fault::LostCage
     }
 

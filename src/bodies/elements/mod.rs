@@ -15,11 +15,12 @@ use crate::scalar::math;
 use crate::space::{Frame, Wrench};
 use std::fmt::Debug;
 
-/// Derivatives of the wrench on one element, or of its accelerations, by columns: over its own coordinates and over those of
-/// the hub.
+/// Derivatives of the wrench on one element, or of its accelerations, by columns: over its own coordinates, over those of the
+/// hub, and over those of its neighbours where these touch it.
 pub(crate) struct ElementSlopes<'a> {
     pub(crate) own: &'a mut [[f64; OF_ELEMENT]],
     pub(crate) over_hub: &'a mut [[f64; OF_ELEMENT]],
+    pub(crate) over_neighbours: &'a mut [[f64; OF_ELEMENT]],
 }
 
 /// Damping of all elements, shared bodies and nodes.

@@ -9,13 +9,33 @@
 use super::{Damping, ElementSlopes, UPPER, scale_rows};
 use crate::bodies::{
     BodyEnergy, BodyForces, Coordinate, Element, ElementSet, Elements, Fault, ForceSource, Input,
-    InputValues, Layout, Motions, Moves, OF_ELEMENT, WrenchLanes, weight,
+    InputValues, Layout, Motions, Moves, OF_ELEMENT, SOUND, WrenchLanes, weight,
 };
 use crate::integrate::SpokeDamping;
-use crate::scalar::{Columns, Lanes, Pack, WIDEST, ZEROS, dispatch, place_of};
-use crate::scene::Scene;
+use crate::scalar::{Columns, Lanes, Pack, WIDEST, ZEROS, dispatch, math, place_of};
+use crate::scene::{Pocket, Scene};
 use crate::space::Wrench;
 use pulp::Simd;
+use std::f64::consts::TAU;
+
+/// Pockets whose play, doubled by this, is less than that between rollers keep these apart, also where they yield.
+const HELD: f64 = 1.5;
+
+/// Angle in rad by which neighbouring rollers of a scene can come closer, if that is for them to see to.
+fn play(scene: &Scene) -> Option<f64> {
+    let rollers =
+        scene.rollers.as_ref().filter(|rollers| rollers.neighbours.is_none() && rollers.count > 1)?;
+    let spacing = TAU / f64::from(rollers.count);
+    let radius = scene.pitch_radius();
+    let play = spacing - 2.0 * math::asin((rollers.radius + scene.largest_deviation()) / radius);
+    let pocket = match scene.cage.as_ref().and_then(|cage| cage.pocket.as_ref()) {
+        Some(Pocket::LubricatedCylinder(pocket)) => Some(pocket.radial_clearance),
+        Some(Pocket::SolidPlane(pocket)) => Some(0.5 * pocket.diametral_clearance),
+        None => None,
+    };
+    let held = pocket.is_some_and(|clearance| HELD * 2.0 * clearance < play * radius);
+    (!held).then_some(play.max(0.0))
+}
 
 /// A roller this far from the pitch circle, in pitch radii, has left the bearing.
 const LOST_ROLLER: f64 = 0.25;
@@ -34,6 +54,9 @@ pub(in crate::bodies) struct Rollers {
     inertia: Inertia,
     /// Gap of a roller on the pitch circle to either raceway with the inner ring centred, m.
     gap: f64,
+    /// How far the angle between neighbours may shrink before it is looked at whether they overlap, rad; `None` where they
+    /// have a contact or are kept apart.
+    play: Option<f64>,
 }
 
 const COORDINATES: [Coordinate; OF_ELEMENT] = [
@@ -66,7 +89,36 @@ impl Rollers {
             set: ElementSet::new(scene),
             inertia: Inertia { mass: rollers.mass, moment: rollers.inertia },
             gap: scene.radial_clearance() / 4.0,
+            play: play(scene),
         })
+    }
+
+    /// The fault of the first rollers that overlap, by radial offset and travel of each.
+    fn overlap(&self, places: &[[f64; 2]]) -> Option<Fault> {
+        let play = self.play?;
+        let ElementSet { radius, pitch_radius, radius_excess, count, .. } = &self.set;
+        (0..*count).find_map(|j| {
+            let k = (j + 1) % count;
+            let ([rho, travel], [rho_k, travel_k]) = (places[j], places[k]);
+            // Most are far apart.
+            if travel_k - travel > -0.5 * play {
+                return None;
+            }
+            let across = math::sin(0.5 * (TAU / *count as f64 + travel_k - travel));
+            let chord = 4.0 * (pitch_radius + rho) * (pitch_radius + rho_k) * across * across;
+            let distance = ((rho_k - rho) * (rho_k - rho) + chord).sqrt();
+            let depth = 2.0 * radius + radius_excess[j] + radius_excess[k] - distance;
+            (depth > 0.0).then_some(Fault::Overlap { roller: j, next: k, depth })
+        })
+    }
+
+    /// The fault of the roller with the largest of these velocities.
+    fn too_fast(&self, layout: &Layout, v: &[f64]) -> Fault {
+        let lever = [1.0, self.set.pitch_radius, self.set.radius];
+        let all = (0..layout.count).flat_map(|j| layout.of_element(j).into_iter().zip(lever));
+        let speeds = all.map(|(velocity, lever)| (velocity, v[velocity].abs() * lever));
+        let (velocity, speed) = speeds.fold((0, 0.0), |a, b| if b.1 > a.1 { b } else { a });
+        Fault::TooFast { velocity, speed }
     }
 
     /// Radius of the circle of the centres of rollers that touch the outer raceway, m.
@@ -135,7 +187,7 @@ impl Elements for Rollers {
         let (places, _) = q[layout.elements..].as_chunks::<2>();
         let (rates, spins) = v[layout.elements..].split_at(2 * n);
         let (rates, _) = rates.as_chunks::<2>();
-        let mut largest: f64 = 0.0;
+        let [mut largest, mut fastest] = [0.0_f64; 2];
         let rows = places.chunks(WIDEST).zip(rates.chunks(WIDEST)).zip(spins.chunks(WIDEST));
         for ((block, reference), ((places, rates), spins)) in
             out.blocks.iter_mut().zip(self.set.reference_angles.chunks(WIDEST)).zip(rows)
@@ -148,13 +200,21 @@ impl Elements for Rollers {
             }
             for (i, rates) in rates.iter().enumerate().take(WIDEST) {
                 [motion.radial_speed[i], motion.orbit_speed[i]] = *rates;
+                fastest = fastest.max(rates[0].abs()).max(rates[1].abs() * self.set.pitch_radius);
             }
             motion.spin_speed[..reference.len()].copy_from_slice(&spins[..reference.len()]);
+            fastest = spins.iter().fold(fastest, |fastest, spin| fastest.max(spin.abs() * self.set.radius));
         }
         let limit = LOST_ROLLER * self.set.pitch_radius;
         if largest > limit {
             let roller = places.iter().position(|place| place[0].abs() > limit).unwrap_or_default();
             return Err(Fault::LostRoller { roller, radial_offset: places[roller][0] });
+        }
+        if fastest > SOUND {
+            return Err(self.too_fast(layout, v));
+        }
+        if let Some(overlap) = self.overlap(places) {
+            return Err(overlap);
         }
         out.find_directions();
         Ok(())
@@ -189,7 +249,9 @@ impl Elements for Rollers {
     ) -> [f64; OF_ELEMENT] {
         let (Inertia { mass, moment }, r) = (self.inertia, element.radius);
         let inverse = [1.0 / mass, 1.0 / (mass * r), 1.0 / moment];
-        for columns in [&mut *k.own, k.over_hub, &mut *d.own, d.over_hub] {
+        for columns in
+            [&mut *k.own, k.over_hub, k.over_neighbours, &mut *d.own, d.over_hub, d.over_neighbours]
+        {
             scale_rows(columns, &inverse);
         }
         let [weight_r, weight_c] = element.frame.to_local(gravity);

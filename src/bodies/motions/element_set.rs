@@ -8,6 +8,8 @@ use std::f64::consts::TAU;
 #[derive(Clone, Debug)]
 pub(crate) struct ElementSet {
     pub(crate) count: usize,
+    /// Whether each touches those beside it.
+    pub(crate) touching: bool,
     /// Nominal radius R_b of one, m.
     pub(crate) radius: f64,
     /// How much larger each is, m.
@@ -35,6 +37,7 @@ impl ElementSet {
         let deviations = scene.rollers.as_ref().and_then(|rollers| rollers.radius_deviations.as_ref());
         let radius_excess = deviations.map_or_else(|| vec![0.0; count], |list| list.of_each(count));
         let (radius, pitch_radius) = (scene.element_radius(), scene.pitch_radius());
-        Self { count, radius, radius_excess, pitch_radius, reference_angles, directions }
+        let touching = scene.rollers.as_ref().is_some_and(|rollers| rollers.neighbours.is_some());
+        Self { count, touching, radius, radius_excess, pitch_radius, reference_angles, directions }
     }
 }

@@ -351,13 +351,11 @@ impl<S: Observed> Driver<S> {
                     // A step cut by an event says little about the size of the next one: do not shrink for it.
                     let floor = if plan.cut { self.next_step } else { 0.0 };
                     self.next_step = (plan.h * factor).max(floor).min(self.limits.max_step);
-                    self.accept(system, &plan);
-                    return Ok(());
+                    return self.accept(system, &plan);
                 }
                 Ok(None) => {
                     self.next_step = (self.next_step * RECOVERY_GROWTH).min(self.nominal_step);
-                    self.accept(system, &plan);
-                    return Ok(());
+                    return self.accept(system, &plan);
                 }
                 Ok(Some(Estimate { error, group })) => {
                     self.statistics.rejected += 1;
@@ -386,7 +384,7 @@ impl<S: Observed> Driver<S> {
         }
     }
 
-    fn accept(&mut self, system: &S, plan: &Plan) {
+    fn accept(&mut self, system: &S, plan: &Plan) -> Result<(), Failure<S::Fault>> {
         let [sum, last] = &mut self.works;
         add_weighted(sum, 1.0, last);
         last.copy_from_slice(self.stepper.works());
@@ -401,6 +399,8 @@ impl<S: Observed> Driver<S> {
         if !plan.cut && (s.smallest_step == 0.0 || plan.h < s.smallest_step) {
             s.smallest_step = plan.h;
         }
+        let overdrawn = system.overdrawn(self.works.each_ref().map(Vec::as_slice));
+        overdrawn.map_or(Ok(()), |fault| Err(Failure::Overdrawn { time: self.to, fault }))
     }
 
     /// The next step: never across an event or longer than the system can see, and not leaving a tiny rest before an event.

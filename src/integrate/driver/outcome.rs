@@ -46,6 +46,13 @@ pub enum Failure<F> {
         /// What is wrong.
         fault: F,
     },
+    /// The works of all forces are such as no system can have.
+    Overdrawn {
+        /// Time reached, s.
+        time: f64,
+        /// What is wrong.
+        fault: F,
+    },
     /// The step size fell below its minimum.
     StepTooSmall {
         /// Time, s.
@@ -77,6 +84,7 @@ impl<F> Failure<F> {
     /// The same at another time (s).
     pub(super) fn at(mut self, now: f64) -> Self {
         let (Self::AtStart { time, .. }
+        | Self::Overdrawn { time, .. }
         | Self::StepTooSmall { time, .. }
         | Self::TooManySteps { time, .. }
         | Self::Interrupted { time, .. }) = &mut self;

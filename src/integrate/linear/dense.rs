@@ -1,5 +1,5 @@
-//! Dense elimination with row exchanges over the whole matrix, for the arrowheads that elimination by blocks fails on: a
-//! singular spoke in a regular matrix. Rare, so it takes its memory when it is needed.
+//! Dense elimination with row exchanges over the whole matrix, for the arrowheads that elimination by blocks does not do: a
+//! singular spoke in a regular matrix, spokes that touch each other. It takes its memory when it is needed.
 
 use crate::integrate::linear::{Arrowhead, Number};
 use nalgebra::{DMatrix, DVector, Dyn, LU, SVector};
@@ -24,6 +24,13 @@ impl<T: Number> DenseFactors<T> {
             let first = hub + N * j;
             matrix.view_mut((first, first), (N, N)).copy_from(&a.own.columns(N * j, N));
             matrix.view_mut((first, 0), (N, hub)).copy_from(&a.from_hub.columns(hub * j, hub));
+            for (k, columns) in a.rim_of(j) {
+                for (c, column) in columns.iter().enumerate() {
+                    for (i, x) in column.iter().enumerate() {
+                        matrix[(first + i, hub + N * k + c)] += *x;
+                    }
+                }
+            }
         }
         let size = |i: usize, j: usize| matrix[(i, j)].norm1();
         let columns: Vec<f64> = (0..n).map(|j| 1.0 / (0..n).map(|i| size(i, j)).sum::<f64>()).collect();

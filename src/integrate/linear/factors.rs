@@ -14,7 +14,8 @@
 //! chosen as if both were scaled to one. Inverses are never formed: with stiff, nearly singular groups they would
 //! lose what cancels between hub and spokes.
 //!
-//! A singular spoke in a matrix that is not singular stops this elimination; such a matrix is solved as a dense one.
+//! A singular spoke in a matrix that is not singular stops this elimination; such a matrix is solved as a dense one, and so is
+//! one whose spokes touch each other.
 
 use super::dense::DenseFactors;
 use super::lu::{Scales, decompose, substitute, subtract, with_width};
@@ -80,7 +81,7 @@ impl<T: Number, const N: usize> Factors<T, N> {
     pub fn factorize(&mut self, a: &Arrowhead<T, N>) -> bool {
         assert!(a.spokes() == self.spokes.len() && a.width() == self.width);
         self.dense = None;
-        if with_width!(self.width, width => self.eliminate(a, width)) {
+        if !a.has_rim() && with_width!(self.width, width => self.eliminate(a, width)) {
             return true;
         }
         self.dense = DenseFactors::new(a);

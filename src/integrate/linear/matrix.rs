@@ -1,5 +1,7 @@
-//! A matrix of one shared group of unknowns, the hub, and small groups, the spokes, that touch only the hub.
+//! A matrix of one shared group of unknowns, the hub, and small groups, the spokes, that touch the hub and, where there is a
+//! rim, the spokes before and behind them.
 
+use crate::integrate::Structure;
 use nalgebra::{ComplexField, Const, DMatrix, Dyn, OMatrix, SVector};
 
 /// Real and complex numbers.
@@ -18,6 +20,9 @@ pub struct Arrowhead<T: Number, const N: usize> {
     pub to_hub: DMatrix<T>,
     /// V_j: rows of the spoke, columns of the hub. That of spoke j begins at column j times the size of the hub.
     pub from_hub: OMatrix<T, Const<N>, Dyn>,
+    /// Rows of the spoke, columns of the next one and then of the one before: those of spoke j begin at column 2 j N. Nothing
+    /// without a rim.
+    pub rim: OMatrix<T, Const<N>, Dyn>,
 }
 
 impl<T: Number, const N: usize> Arrowhead<T, N> {
@@ -28,9 +33,18 @@ impl<T: Number, const N: usize> Arrowhead<T, N> {
             own: OMatrix::zeros_generic(Const, Dyn(N * spokes)),
             to_hub: DMatrix::zeros(hub, N * spokes),
             from_hub: OMatrix::zeros_generic(Const, Dyn(hub * spokes)),
+            rim: OMatrix::zeros_generic(Const, Dyn(0)),
         };
         identity.fill_identity();
         identity
+    }
+
+    /// The identity of a structure.
+    pub fn of(structure: &Structure<N>) -> Self {
+        let spokes = structure.spokes.len();
+        let rim = if structure.rim { 2 * N * spokes } else { 0 };
+        let rim = OMatrix::zeros_generic(Const, Dyn(rim));
+        Self { rim, ..Self::new(structure.hub.len(), spokes) }
     }
 
     /// Number of unknowns of the hub.
@@ -45,17 +59,24 @@ impl<T: Number, const N: usize> Arrowhead<T, N> {
         self.own.ncols() / N
     }
 
-    /// All blocks, each by its columns: hub, own, to the hub, from the hub.
+    /// All blocks, each by its columns: hub, own, to the hub, from the hub, rim.
     #[inline]
-    pub fn blocks(&self) -> [&[T]; 4] {
-        [self.hub.as_slice(), self.own.as_slice(), self.to_hub.as_slice(), self.from_hub.as_slice()]
+    pub fn blocks(&self) -> [&[T]; 5] {
+        let Self { hub, own, to_hub, from_hub, rim } = self;
+        [hub.as_slice(), own.as_slice(), to_hub.as_slice(), from_hub.as_slice(), rim.as_slice()]
     }
 
     /// The same, to be written.
     #[inline]
-    pub fn blocks_mut(&mut self) -> [&mut [T]; 4] {
-        let Self { hub, own, to_hub, from_hub } = self;
-        [hub.as_mut_slice(), own.as_mut_slice(), to_hub.as_mut_slice(), from_hub.as_mut_slice()]
+    pub fn blocks_mut(&mut self) -> [&mut [T]; 5] {
+        let Self { hub, own, to_hub, from_hub, rim } = self;
+        [
+            hub.as_mut_slice(),
+            own.as_mut_slice(),
+            to_hub.as_mut_slice(),
+            from_hub.as_mut_slice(),
+            rim.as_mut_slice(),
+        ]
     }
 
     /// Makes the matrix the identity.
@@ -98,6 +119,19 @@ impl<T: Number, const N: usize> Arrowhead<T, N> {
         &self.from_hub.as_slice().as_chunks().0[j * width..(j + 1) * width]
     }
 
+    /// Whether a spoke touches another one.
+    pub fn has_rim(&self) -> bool {
+        self.rim.iter().any(|x| !x.is_zero())
+    }
+
+    /// The spokes that spoke j touches, the next and the one before, with the columns of their blocks; none without a rim.
+    #[inline]
+    pub fn rim_of(&self, j: usize) -> impl Iterator<Item = (usize, &[[T; N]])> {
+        let n = self.spokes();
+        let columns = self.rim.as_slice().as_chunks().0.chunks_exact(N).skip(2 * j);
+        [(j + 1) % n.max(1), (j + n.max(1) - 1) % n.max(1)].into_iter().zip(columns)
+    }
+
     /// Product of the matrix with (`hub`, `spokes`).
     ///
     /// # Panics
@@ -114,7 +148,7 @@ impl<T: Number, const N: usize> Arrowhead<T, N> {
         assert!(hub.len() == width && hub_out.len() == width);
         hub_out.fill(T::zero());
         add_product(self.hub.as_slice(), hub, hub_out);
-        for (j, (x, out)) in spokes.iter().zip(spokes_out).enumerate() {
+        for (j, (x, out)) in spokes.iter().zip(&mut *spokes_out).enumerate() {
             for (i, sum) in hub_out.iter_mut().enumerate() {
                 let row = self.to_hub_of(j)[i..].iter().step_by(width).zip(x);
                 *sum += row.fold(T::zero(), |sum, (a, x)| sum + *a * *x);
@@ -122,6 +156,9 @@ impl<T: Number, const N: usize> Arrowhead<T, N> {
             let [mut own, mut across] = [[T::zero(); N]; 2];
             add_product(self.own_of(j).as_flattened(), x.as_slice(), &mut own);
             add_product(self.from_hub_of(j).as_flattened(), hub, &mut across);
+            for (k, columns) in self.rim_of(j) {
+                add_product(columns.as_flattened(), spokes[k].as_slice(), &mut across);
+            }
             *out = SVector::from_fn(|i, _| own[i] + across[i]);
         }
     }

@@ -29,7 +29,7 @@ impl<T: Number, const N: usize> Shifted<T, N> {
         let (width, spokes) = (structure.hub.len(), structure.spokes.len());
         Self {
             shift: T::one(),
-            matrix: Arrowhead::new(width, spokes),
+            matrix: Arrowhead::of(structure),
             factors: Factors::new(width, spokes),
             hub: vec![T::zero(); width],
             spokes: vec![SVector::zeros(); spokes],
@@ -100,7 +100,8 @@ impl<T: Number, const N: usize> Shifted<T, N> {
         let k = &slope.over_positions;
         pushed.fill(T::zero());
         add_scaled(k.hub.as_slice(), hub_q, pushed);
-        for (j, (x, places)) in self.spokes.iter_mut().zip(&structure.spokes).enumerate() {
+        let spokes = &structure.spokes;
+        for (j, (x, places)) in self.spokes.iter_mut().zip(spokes).enumerate() {
             let mut own_q = [T::zero(); N];
             for (x, index) in own_q.iter_mut().zip(places) {
                 *x = at(r_q, *index);
@@ -111,6 +112,10 @@ impl<T: Number, const N: usize> Shifted<T, N> {
             let [mut own, mut across] = [[T::zero(); N]; 2];
             add_scaled(k.own_of(j)[..N].as_flattened(), &own_q, &mut own);
             add_scaled(k.from_hub_of(j)[..width].as_flattened(), hub_q, &mut across);
+            for (other, columns) in k.rim_of(j) {
+                let other_q = spokes[other].map(|index| at(r_q, index));
+                add_scaled(columns.as_flattened(), &other_q, &mut across);
+            }
             *x = SVector::from_fn(|k, _| r_v[places[k]] + inverse * (own[k] + across[k]));
         }
         for ((x, pushed), index) in self.hub.iter_mut().zip(pushed).zip(&structure.hub) {

@@ -269,6 +269,7 @@ mod tests {
         let structure = Structure::<N> {
             hub: (0..20).collect(),
             bodies: vec![0..1, 1..3, 3..6, 6..12, 12..20],
+            rim: false,
             spokes: vec![[0; N]; n],
         };
         let mut damping = GroupDamping::new(&structure);

@@ -14,15 +14,17 @@
 //!
 //! A new law is a file with `new`, `none`, `map` and `force`, and its name in `rolling_laws!`.
 
+mod inlet_sliding;
 mod rigid_limit;
 mod zhou_hoeprich;
 
+pub use inlet_sliding::{ELASTIC_RATIO, InletSliding, RIGID_RATIO};
 pub use rigid_limit::RigidLimit;
 pub use zhou_hoeprich::ZhouHoeprich;
 
 use crate::laws::elastic::line::ElasticLine;
 use crate::laws::film::thickness::{ENTRAINMENT_FLOOR, Entrainment, ThermalLoad};
-use crate::scalar::{Base, Of, smoothstep};
+use crate::scalar::{Base, Of, math, smoothstep};
 use std::f64::consts::PI;
 
 /// What a law is made from.
@@ -34,6 +36,19 @@ pub struct RollingFilm<'a> {
     pub viscosity: f64,
     /// alpha, 1/Pa.
     pub pressure_viscosity: f64,
+}
+
+/// Q_t over l (2 eta0 u)^(1/3) (R_e/alpha)^(2/3): 2.45/1.05.
+const PASSAGE: f64 = 2.333;
+
+/// ln of the load Q_t in N from which pressure thickens the oil, at |u| = 1 m/s: see [`RigidLimit`].
+fn ln_passage(film: &RollingFilm<'_>) -> f64 {
+    let RollingFilm { line, viscosity, pressure_viscosity } = *film;
+    let passage = PASSAGE
+        * line.length
+        * math::powf(2.0 * viscosity, 1.0 / 3.0)
+        * math::powf(line.equivalent_radius / pressure_viscosity, 2.0 / 3.0);
+    math::ln(passage)
 }
 
 /// Defines the choice among the laws, each of which has `none` (the same law without force anywhere), `map` over its constants
@@ -93,12 +108,14 @@ pub struct RollingResistance<B = f64> {
     pub thermal: ThermalLoad,
     /// Contacts in which the law acts.
     pub extent: Extent,
+    /// Drag of the same film on surfaces that slip.
+    pub sliding: Option<InletSliding<B>>,
 }
 
 impl RollingResistance {
-    /// From the law, the elastic contact and the thermal load constant.
+    /// From the law, the elastic contact and the thermal load constant; without drag by slip.
     pub fn new(law: Isothermal, line: &ElasticLine, thermal: ThermalLoad, extent: Extent) -> Self {
-        Self { law, pressure_factor: 4.0 / PI / line.effective_modulus, thermal, extent }
+        Self { law, pressure_factor: 4.0 / PI / line.effective_modulus, thermal, extent, sliding: None }
     }
 
     /// The same, but without force anywhere.
@@ -116,6 +133,10 @@ impl<B> RollingResistance<B> {
             pressure_factor: f(&self.pressure_factor),
             thermal: self.thermal,
             extent: self.extent,
+            sliding: match &self.sliding {
+                None => None,
+                Some(sliding) => Some(sliding.map(f)),
+            },
         }
     }
 }
@@ -129,6 +150,14 @@ impl<B: Base> RollingResistance<B> {
             Extent::Loaded { threshold } => smoothstep((q - threshold) / threshold),
         };
         self.law.force(ln_q, e) * self.thermal_factor(mean_pressure, e) * share
+    }
+
+    /// F_S over |u_1 - u_2| in N s/m where the rolling resistance is `force` (N), under the load of which ln is `ln_q`; `None`
+    /// without this drag.
+    #[inline(always)]
+    pub fn sliding_secant<T: Of<B>>(&self, force: T, ln_q: T, e: &Entrainment<T>) -> Option<T> {
+        let sliding = self.sliding.as_ref()?;
+        Some(force * sliding.ratio(ln_q, e) / e.speed)
     }
 
     /// T_R under the mean pressure in Pa.

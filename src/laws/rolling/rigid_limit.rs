@@ -14,15 +14,12 @@
 //! own constants for line contacts are not used here; its exponent 2 is an assumption. Valid from no load on, below the speeds
 //! at which the film is starved.
 
-use super::{RollingFilm, ZhouHoeprich};
+use super::{RollingFilm, ZhouHoeprich, ln_passage};
 use crate::laws::film::thickness::Entrainment;
-use crate::scalar::{Base, Of, math};
+use crate::scalar::{Base, Of};
 
 /// F_I over sqrt(eta0 u Q l).
 const RIGID: f64 = 2.0796;
-/// Q_t over l (2 eta0 u)^(1/3) (R_e/alpha)^(2/3): 2.45/1.05.
-const PASSAGE: f64 = 2.333;
-
 /// Constants of the law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RigidLimit<B = f64> {
@@ -36,16 +33,8 @@ pub struct RigidLimit<B = f64> {
 impl RigidLimit {
     /// From film and surfaces.
     pub fn new(film: &RollingFilm<'_>) -> Self {
-        let RollingFilm { line, viscosity, pressure_viscosity } = *film;
-        let passage = PASSAGE
-            * line.length
-            * math::powf(2.0 * viscosity, 1.0 / 3.0)
-            * math::powf(line.equivalent_radius / pressure_viscosity, 2.0 / 3.0);
-        Self {
-            loaded: ZhouHoeprich::new(film),
-            rigid: RIGID * (viscosity * line.length).sqrt(),
-            ln_passage: math::ln(passage),
-        }
+        let rigid = RIGID * (film.viscosity * film.line.length).sqrt();
+        Self { loaded: ZhouHoeprich::new(film), rigid, ln_passage: ln_passage(film) }
     }
 
     /// The same law without force anywhere.

@@ -3,7 +3,7 @@
 
 use crate::bodies::{CAGE, ForceSource, INNER_RING, Moves, states_of};
 use crate::model::{Input, Model};
-use crate::pairs::ContactLaw;
+use crate::pairs::{ContactLaw, NEIGHBOUR};
 use crate::scalar::math;
 
 /// Ratio of velocity to position scale in the error control, 1/s: slow against contact vibration (2e5 1/s), fast
@@ -75,7 +75,9 @@ impl Model {
         let load = math::hypot(largest(Input::LoadY), largest(Input::LoadZ)) + weight;
         let q = per_roller * load + centrifugal + preload + 1.0;
         let stiffness: f64 = rolling().map(|law| law.stiffness_at_load(q)).sum();
-        let roller = stiffness / mass;
+        // A roller between two that move the other way.
+        let neighbours = self.laws_on(NEIGHBOUR).map(|law| 4.0 * law.stiffness_at_load(q)).sum();
+        let roller = stiffness.max(neighbours) / mass;
         let ring = ring_mass.map_or(0.0, |mass| inner.stiffness_at_load(q) * 0.5 * count.max(2.0) / mass);
         Some((roller.max(ring), q))
     }

@@ -137,7 +137,7 @@ impl Model {
         }
         list.add("cage.angle", "rad", "rotation angle of the cage since the start", Source::CageAngle);
         list.add("cage.speed", "rad/s", "rotation speed of the cage", Source::CageSpeed);
-        let text = "1 - cage speed over the speed without slip";
+        let text = "speed without slip less cage speed, over the larger of both";
         list.add("cage.slip", "1", text, Source::CageSlip);
         let text = "speed of the cage centre about the guide centre, positive counter-clockwise";
         list.add("cage.whirl_speed", "rad/s", text, Source::WhirlSpeed);
@@ -205,7 +205,12 @@ impl Model {
         };
         add("orbit_angle", "rad", "angle of the element about the bearing", Source::OrbitAngle(j));
         if self.has_rollers() {
-            add("slip", "1", "1 - spin speed over the spin without slip", Source::RollerSlip(j));
+            add(
+                "slip",
+                "1",
+                "spin without slip less spin speed, over the larger of both",
+                Source::RollerSlip(j),
+            );
         }
         if self.has_pockets() {
             let text = "distance ahead of the pocket centre in the direction of rotation";

@@ -1,6 +1,6 @@
 //! Faults in words.
 
-use crate::bodies::Fault;
+use crate::bodies::{Fault, SOUND};
 use crate::model::Model;
 
 impl Model {
@@ -21,7 +21,24 @@ impl Model {
                 let kind = self.element_kind();
                 format!("{kind}[{element}] is out of its pocket (ahead of it by {lead:e} rad)")
             }
-            Fault::LostRing => "the inner ring has left the bearing".to_owned(),
+            Fault::LostRing { distance, reach } => format!(
+                "the inner ring has left the bearing (its centre is {distance:e} m off, rollers allow {reach:e} m)"
+            ),
+            Fault::Overlap { roller, next, depth } => format!(
+                "roller[{roller}] and roller[{next}] go through each other (by {depth:e} m); a cage with pockets keeps \
+                 rollers apart, or their contact, rollers.neighbours"
+            ),
+            Fault::EnergyCreated { given, available } => {
+                let field = self.energy_giving_film().unwrap_or_default();
+                format!(
+                    "the film of the guide has given {given:e} J, more than the {available:e} J that loads, drives and the start \
+                     could give: its law can make energy ({field})"
+                )
+            }
+            Fault::TooFast { velocity, speed } => {
+                let name = self.velocity_name(velocity);
+                format!("{name} is too fast: {speed:e} m/s is more than sound in steel, {SOUND:e} m/s")
+            }
             Fault::LostCage => "the cage has left the bearing".to_owned(),
             Fault::NotFinite { contact: Some(contact), .. } => {
                 let names = self.contact_names();

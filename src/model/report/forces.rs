@@ -5,7 +5,7 @@ use crate::laws::guide::GuideForce;
 use crate::laws::line_contact::Loading;
 use crate::model::Model;
 use crate::model::Workspace;
-use crate::pairs::Loaded;
+use crate::pairs::{Loaded, NEIGHBOUR};
 use crate::space::Wrench;
 
 /// Name, unit and meaning of a reported quantity.
@@ -35,7 +35,7 @@ pub const CONTACT_QUANTITIES: [Quantity; 23] = [
     quantity("film_thickness", "m", "central film thickness h_c"),
     quantity("film_ratio", "1", "film ratio Lambda"),
     quantity("temperature_rise", "K", "temperature rise of the traction film"),
-    quantity("friction_coefficient", "1", "traction coefficient mu"),
+    quantity("friction_coefficient", "1", "friction coefficient mu = |F_T|/Q"),
     quantity("friction", "N", "friction F_T on the roller along t"),
     quantity(
         "rolling_resistance",
@@ -143,10 +143,9 @@ impl Model {
             out.contacts[self.contact_place(site)] =
                 quantities(&contact, &element, &loading.unwrap_or_default());
             let source = self.infos[site.pair].source as usize;
-            for (body, on_body) in [self.element_body(site.element), site.mate]
-                .into_iter()
-                .zip(contact.grip.wrenches(&contact.force))
-            {
+            let bodies = [Some(self.element_body(site.element)), Some(site.mate).filter(|m| *m != NEIGHBOUR)];
+            let on_bodies = bodies.into_iter().zip(contact.grip.wrenches(&contact.force));
+            for (body, on_body) in on_bodies.filter_map(|(body, on_body)| Some((body?, on_body))) {
                 let force = frame.to_global(on_body.force);
                 add(&mut out.bodies[body][source], &Wrench { force, ..on_body });
             }

@@ -50,11 +50,15 @@ impl<'a> Reading<'a> {
         Self { model, q, v, inputs, ws, forces, without_slip, turning, cage }
     }
 
-    /// Speed over that without slip, as a share that is missing. Without rotation there is no kinematic speed to compare with, and
-    /// slip is zero. Rings that turn against each other can leave one that is round-off.
+    /// What of the speed without slip is missing, as a share of the larger of both speeds: positive of what lags, above one of what
+    /// turns backwards, never beyond two. Without rotation there is no speed to compare with, and slip is zero; rings that turn
+    /// against each other can leave one that is round-off.
     fn slip(&self, speed: f64, without_slip: f64) -> f64 {
-        let none = self.turning < STANDSTILL || without_slip.abs() < NO_SPEED * self.turning;
-        if none { 0.0 } else { 1.0 - speed / without_slip }
+        if self.turning < STANDSTILL || without_slip.abs() < NO_SPEED * self.turning {
+            return 0.0;
+        }
+        let ratio = speed / without_slip;
+        if ratio.abs() <= 1.0 { 1.0 - ratio } else { (1.0 - ratio) / ratio.abs() }
     }
 
     /// Force and moment on a body of this source.

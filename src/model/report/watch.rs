@@ -9,7 +9,7 @@ use crate::bodies::{CAGE, ForceSource, INNER_RING, OUTER_RING, SHARED};
 use crate::integrate::SemiImplicit;
 use crate::model::Model;
 use crate::model::Workspace;
-use crate::pairs::{ContactBlock, PairInfo};
+use crate::pairs::{ContactBlock, NEIGHBOUR, PairInfo};
 use crate::space::Wrench;
 
 /// What is followed.
@@ -113,7 +113,7 @@ impl Model {
         let mut on = [Wrench::default(); SHARED];
         for (pair, (batch, info, contacts)) in ws.contacts.by_pair(&self.infos).enumerate() {
             let on_cage = info.mate == CAGE;
-            if !on_cage && !watch.raceways {
+            if info.mate == NEIGHBOUR || !on_cage && !watch.raceways {
                 continue;
             }
             for i in contacts {

@@ -57,7 +57,6 @@ impl LawSlopes {
     }
 
     /// Derivatives of the forces of contact `i`.
-    #[cfg(test)]
     pub(in crate::pairs) fn of(&self, i: usize) -> [[f64; DIRECTIONS]; FORCES] {
         let (block, lane) = place_of(i);
         self.0[block].map(|row| row.map(|column| column[lane]))

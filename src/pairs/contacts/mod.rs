@@ -11,6 +11,7 @@ mod step;
 mod wrenches;
 
 use law_slopes::contact_force;
+pub(super) use law_slopes::{DIRECTIONS, FORCES};
 pub(crate) use relative::RelativeSlopes;
 pub(super) use relative::{Beside, Kinematics, Varied, VariedContact, add_slopes};
 pub(crate) use step::SpeedChanges;
@@ -188,6 +189,13 @@ impl Batch {
             self.slopes.find(laws, rows, &mut self.blocks, ln_viscosity, instructions);
         }
         self.differentiated = true;
+    }
+
+    /// Normal force, friction and rolling resistance of contact `i`, N, and their derivatives over what its law sees, after
+    /// [`Batch::differentiate`].
+    pub(super) fn forces_and_slopes(&self, i: usize) -> ([f64; FORCES], [[f64; DIRECTIONS]; FORCES]) {
+        let force = self.loaded(i).force;
+        ([force.normal, force.friction, force.rolling_resistance], self.slopes.of(i))
     }
 
     /// The contacts of each block, with their places in it.

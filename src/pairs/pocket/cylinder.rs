@@ -122,6 +122,7 @@ static INFO: PairInfo = PairInfo {
     laws: [Some(Law::PocketWall), Some(Law::PocketEdge)],
     powers: [Power::PocketDamping, Power::PocketFriction],
     rolls: false,
+    share: 1.0,
 };
 
 /// The cylindrical pockets of a scene, if it has any.

@@ -60,6 +60,7 @@ static INFO: PairInfo = PairInfo {
     laws: [Some(Law::PocketPlane), None],
     powers: [Power::PocketDamping, Power::PocketFriction],
     rolls: false,
+    share: 1.0,
 };
 
 /// The plane pockets of a scene, if it has any.

@@ -34,6 +34,7 @@ static OUTER: PairInfo = PairInfo {
     laws: [Some(Law::OuterRaceway), None],
     powers: [Power::RacewayDamping, Power::RacewayFriction],
     rolls: true,
+    share: 1.0,
 };
 
 static INNER: PairInfo = PairInfo {
@@ -43,6 +44,7 @@ static INNER: PairInfo = PairInfo {
     laws: [Some(Law::InnerRaceway), None],
     powers: [Power::RacewayDamping, Power::RacewayFriction],
     rolls: true,
+    share: 1.0,
 };
 
 /// Geometry and laws of the raceways of outer and inner ring of a scene, if its rollers have laws.

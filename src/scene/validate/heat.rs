@@ -180,6 +180,8 @@ const HEATING_POWERS: &[&str] = &[
     "guide_film",
     "guide_solid",
     "cage_bending",
+    "neighbour_damping",
+    "neighbour_friction",
 ];
 
 impl Scene {

@@ -170,6 +170,13 @@ impl Scene {
         fitting_mass(judge, "rollers.mass", r.mass, r.inertia, [0.2 * ring, 1.1 * ring])?;
         judge.number("rollers.inertia", r.inertia, range(0.2 * ring, 1.1 * ring, "kg m^2"))?;
         self.validate_sizes(judge, r)?;
+        if let Some(neighbours) = &r.neighbours {
+            contact(judge, "rollers.neighbours.contact", &neighbours.contact)?;
+            if r.count < 3 {
+                let text = format!("{} rollers have no neighbour on either side; 3 at least", r.count);
+                judge.refuse("rollers.neighbours", text)?;
+            }
+        }
         self.material_exists(judge, "rollers.material", &r.material)?;
         let missing = |path: &str| bad(path, "missing; 'rollers' need it");
         let outer = self.outer_ring.as_ref().ok_or_else(|| missing("outer_ring"))?;
@@ -196,11 +203,8 @@ impl Scene {
         }
         let raceways = self.raceways.as_ref().ok_or_else(|| missing("raceways"))?;
         contact(judge, "raceways.contact", &raceways.contact)?;
-        if let Some(RollingResistance { extent: Extent::Loaded { threshold }, .. }) =
-            raceways.rolling_resistance
-        {
-            let path = "raceways.rolling_resistance.extent.loaded.threshold";
-            judge.number(path, threshold, range(1e-6, 1e9, "N"))?;
+        if let Some(resistance) = &raceways.rolling_resistance {
+            rolling_resistance(judge, resistance)?;
         }
         self.validate_profile(judge, r, outer, inner, raceways)?;
         self.neighbours_apart(judge, "rollers.count", r.radius + self.largest_deviation(), "rollers")
@@ -423,6 +427,24 @@ impl Material {
 pub(in crate::scene) fn vector(judge: Judge<'_>, path: &str, v: &PlaneVector, allowed: Range) -> Result<()> {
     judge.number(&format!("{path}.y"), v.y, allowed)?;
     judge.number(&format!("{path}.z"), v.z, allowed)
+}
+
+fn rolling_resistance(judge: Judge<'_>, law: &RollingResistance) -> Result<()> {
+    if let Extent::Loaded { threshold } = law.extent {
+        let path = "raceways.rolling_resistance.extent.loaded.threshold";
+        judge.number(path, threshold, range(1e-6, 1e9, "N"))?;
+    }
+    let Some(InletSliding { rigid_ratio, elastic_ratio }) = &law.inlet_sliding else { return Ok(()) };
+    for (ratio, name) in [(rigid_ratio, "rigid_ratio"), (elastic_ratio, "elastic_ratio")] {
+        if let Some(ratio) = *ratio {
+            judge.number(
+                &format!("raceways.rolling_resistance.inlet_sliding.{name}"),
+                ratio,
+                range(0.0, 2.0, ""),
+            )?;
+        }
+    }
+    Ok(())
 }
 
 fn count(judge: Judge<'_>, path: &str, n: u32) -> Result<()> {

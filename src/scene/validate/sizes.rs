@@ -52,7 +52,7 @@ impl Scene {
     }
 
     /// How much larger than nominal the largest roller is, m; at least 0.
-    pub(in crate::scene) fn largest_deviation(&self) -> f64 {
+    pub(crate) fn largest_deviation(&self) -> f64 {
         let deviations = self.rollers.as_ref().and_then(|rollers| rollers.radius_deviations.as_ref());
         let each = deviations.map_or_else(Vec::new, |list| list.of_each(self.element_count() as usize));
         each.into_iter().fold(0.0, f64::max)

@@ -72,7 +72,11 @@ fn entries<'a>(
             let across = hub().flat_map(move |(k, shared)| {
                 [(row, shared, from_hub[k][i]), (shared, row, to_hub[i * matrix.width() + k])]
             });
-            within.chain(across)
+            let beside = matrix.rim_of(j).flat_map(move |(other, columns)| {
+                let neighbour = structure.spokes[other].iter().zip(columns);
+                neighbour.map(move |(&column, slopes)| (row, column, slopes[i]))
+            });
+            within.chain(across).chain(beside)
         })
     });
     within_hub.chain(with_spokes)

@@ -50,6 +50,9 @@ registry! {
         Jacobians = "jacobians",
         UndoneSteps = "undone_steps",
         FailedOutOfPocket = "failed_out_of_pocket",
+        FailedOverlap = "failed_overlap",
+        FailedTooFast = "failed_too_fast",
+        FailedEnergyCreated = "failed_energy_created",
     }
 }
 
@@ -88,6 +91,9 @@ impl RunStatistics {
             Statistic::Jacobians => self.jacobians as f64,
             Statistic::UndoneSteps => d.undone as f64,
             Statistic::FailedOutOfPocket => failed(FaultKind::OutOfPocket),
+            Statistic::FailedOverlap => failed(FaultKind::Overlap),
+            Statistic::FailedTooFast => failed(FaultKind::TooFast),
+            Statistic::FailedEnergyCreated => failed(FaultKind::EnergyCreated),
         }
     }
 }

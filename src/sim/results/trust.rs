@@ -1,5 +1,6 @@
 //! Whether a run kept what its preset promises, and if not, why.
 
+use crate::bodies::Power;
 use crate::error::{Error, Result, Status};
 use crate::scene::Method;
 use crate::sim::preset::numbers;
@@ -23,6 +24,15 @@ pub enum Doubt {
     },
     /// The balance cannot be closed, because forces are undefined at the end.
     NoBalance(String),
+    /// A film that is not passive gave energy.
+    CreatedEnergy {
+        /// The field by which it can.
+        field: String,
+        /// What it gave as a share of what passed through.
+        share: f64,
+        /// The largest share that a run may miss.
+        allowed: f64,
+    },
     /// A law was outside of where it holds, at a floor that keeps it defined.
     Floor {
         /// Share of the time in which it was so in at least one contact.
@@ -48,6 +58,14 @@ impl fmt::Display for Doubt {
                 )
             }
             Doubt::NoBalance(why) => write!(f, "the power balance cannot be closed: {why}"),
+            Doubt::CreatedEnergy { field, share, allowed } => {
+                let (share, allowed) = (100.0 * share, 100.0 * allowed);
+                write!(
+                    f,
+                    "{share:.2} % of the energy that passed through was made by the film of the guide ({field}), allowed are \
+                     {allowed} %"
+                )
+            }
             Doubt::Floor { share } => {
                 let share = 100.0 * share;
                 write!(
@@ -98,13 +116,20 @@ impl Sim {
             Ok(balance) if !balance.closes(promised) => {
                 doubts.push(Doubt::MissingEnergy { share: balance.relative_residual(), promised });
             }
-            Ok(_) => {}
+            Ok(balance) => doubts.extend(self.created_energy(&balance, promised)),
         }
         let share = self.share_at_floor();
         if share > 0.0 {
             doubts.push(Doubt::Floor { share });
         }
         doubts
+    }
+
+    /// The doubt about a film that is not passive and gave more than this share of what passed through.
+    fn created_energy(&self, balance: &PowerBalance, allowed: f64) -> Option<Doubt> {
+        let field = self.model().energy_giving_film()?;
+        let share = balance.work[Power::GuideFilm as usize] / balance.throughput();
+        (share > allowed).then_some(Doubt::CreatedEnergy { field, share, allowed })
     }
 
     /// Whether the run is to be trusted.

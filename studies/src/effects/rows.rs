@@ -76,7 +76,7 @@ const fn added(effect: &'static str, set: &'static [(&'static str, &'static str)
 pub const STUDIES: [Study; 2] =
     [Study { name: "nu2310", rows: &NU2310 }, Study { name: "grease_guide", rows: &GREASE_GUIDE }];
 
-const NU2310: [Row; 23] = [
+const NU2310: [Row; 24] = [
     removed("gravity", &[("gravity", "null")], &[]),
     removed("raceway damping", &[("raceways.contact.damping", "null")], &[]),
     removed("raceway thermal correction", &[("raceways.contact.thermal_correction", "null")], &[]),
@@ -100,6 +100,13 @@ const NU2310: [Row; 23] = [
         effect: "rolling resistance with the limit of rigid surfaces",
         kind: Kind::Replaced,
         set: &[("raceways.rolling_resistance.law", "rigid_limit")],
+        gone: &[],
+        states: &[],
+    },
+    Row {
+        effect: "drag of the inlet on surfaces that slip",
+        kind: Kind::Added,
+        set: &[("raceways.rolling_resistance.inlet_sliding", "{}")],
         gone: &[],
         states: &[],
     },

@@ -23,6 +23,7 @@ pub fn tables(folder: &Path) -> Result<Vec<Table>> {
         fig6(&settled)?,
         fig9(folder)?,
         unknowns(folder)?,
+        inlet(folder)?,
         fig10(&close)?,
         fig11(&close)?,
     ])
@@ -156,6 +157,37 @@ fn unknowns(folder: &Path) -> Result<Table> {
             format!("{:.1}", run.number("/pocket_forces/driving_n")?),
             format!("{:.3}", run.mean("inner_ring.drag_torque")?),
         ]);
+    }
+    Ok(table)
+}
+
+/// What the drag of the inlet does to slip, which neither paper has.
+fn inlet(folder: &Path) -> Result<Table> {
+    let head = [
+        "4900 N",
+        "largest slip without, %",
+        "with, %",
+        "z of the cage without",
+        "with",
+        "power loss without, W",
+        "with, W",
+    ];
+    let mut table = Table::new("inlet", &head);
+    for clearance in ["40um", "5um"] {
+        for speed in ["1000rpm", "3000rpm", "5000rpm"] {
+            let run =
+                |with: &str| Folder::new(&folder.join("inlet").join(format!("{clearance}-{speed}-{with}")));
+            let runs = [run("without")?, run("with")?];
+            let [slips, heights, losses] = [
+                |run: &Folder| run.number("/max_roller_slip/value").map(|x| format!("{:.1}", 100.0 * x)),
+                |run: &Folder| run.mean("cage.z_ratio").map(|x| format!("{x:+.2}")),
+                |run: &Folder| run.number("/power_loss/total_w").map(|x| format!("{x:.0}")),
+            ]
+            .map(|cell| runs.each_ref().map(cell));
+            let what = format!("{clearance}, {speed}").replace("um", " um").replace("rpm", " rev/min");
+            let ([slip, slip_with], [z, z_with], [loss, loss_with]) = (slips, heights, losses);
+            table.add([what, slip?, slip_with?, z?, z_with?, loss?, loss_with?]);
+        }
     }
     Ok(table)
 }
