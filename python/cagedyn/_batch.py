@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from typing import Any
 
 from ._native import Error, check, counted, ffi, filled, lib, made, text
 from ._sim import Sim
@@ -32,6 +33,9 @@ class BatchError(Error):
         #: The failure of each simulation, or None.
         self.failures = failures
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self.failures,), self.__dict__
+
 
 class Batch:
     """Simulations that advance together, each with the results that it has alone.
@@ -50,6 +54,12 @@ class Batch:
             ffi.gc(sim._handle, None)
             sim._owner = self._handle  # type: ignore[attr-defined]
             self.sims.append(sim)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self.sims,)
+
+    def __repr__(self) -> str:
+        return f"Batch({self.sims!r})"
 
     def __len__(self) -> int:
         return len(self.sims)
@@ -101,7 +111,9 @@ class Batch:
                 if progress is not None:
                     progress(self.progress)
         except BaseException:
-            self.cancel()
+            # What has ended would keep the request for its next advance.
+            if not done.is_set():
+                self.cancel()
             done.wait()
             raise
         worker.join()

@@ -71,8 +71,15 @@ class SparsePattern:
     indices: NDArray[np.int64]
 
 
+def _plain(value: Any) -> Any:
+    """NumPy's numbers and arrays as JSON has them."""
+    if isinstance(value, (np.generic, np.ndarray)):
+        return value.tolist()
+    raise TypeError(f"{value!r} is nothing that JSON has")
+
+
 class Model:
-    """A compiled scene. It can be shared by simulations and threads."""
+    """A compiled scene. It can be shared by simulations and threads, and pickled: as the text of its scene."""
 
     def __init__(self, handle: Any) -> None:
         self._handle = handle
@@ -98,12 +105,13 @@ class Model:
     def from_json(cls, scene: str | Mapping[str, Any], overrides: Mapping[str, Any] | None = None) -> Model:
         """A model of a scene, given as JSON text or as what that holds, with some values replaced.
 
-        `overrides` maps paths such as "inner_ring.radial_clearance" to values; None removes an optional block.
+        `overrides` maps paths such as "inner_ring.radial_clearance" to values, also NumPy's numbers and arrays; None removes an
+        optional block.
 
         Raises Error for a scene that is not well-formed or cannot be.
         """
-        source = scene if isinstance(scene, str) else json.dumps(scene)
-        lines = "\n".join(f"{path}={json.dumps(value)}" for path, value in (overrides or {}).items())
+        source = scene if isinstance(scene, str) else json.dumps(scene, default=_plain)
+        lines = "\n".join(f"{path}={json.dumps(value, default=_plain)}" for path, value in (overrides or {}).items())
         made_of = lib.cagedyn_model_from_json_with(source.encode(), lines.encode())
         return cls(made(made_of, lib.cagedyn_model_free))
 
@@ -114,6 +122,20 @@ class Model:
         Raises OSError for a file that cannot be read, Error as `from_json`.
         """
         return cls.from_json(Path(path).read_text(encoding="utf-8"), overrides)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self).from_json, (text(lib.cagedyn_model_scene_json(self._handle)),)
+
+    def __copy__(self) -> Model:
+        return self  # It never changes.
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Model:
+        return self
+
+    def __repr__(self) -> str:
+        lists = ("states", "inputs", "outputs", "contacts")
+        counts = ", ".join(f"{len(getattr(self, name))} {name}" for name in lists)
+        return f"Model({self.scene.get('title', '')!r}: {counts})"
 
     @property
     def scene(self) -> dict[str, Any]:

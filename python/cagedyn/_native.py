@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import os
 import re
 from pathlib import Path
@@ -29,10 +28,10 @@ def _path() -> str:
     chosen = os.environ.get("CAGEDYN_LIBRARY")
     if chosen:
         return chosen
-    spec = importlib.util.find_spec("cagedyn._library")
-    if spec is None or spec.origin is None:
-        raise ImportError("the library of cagedyn is not installed: pip install ./python, or set CAGEDYN_LIBRARY")
-    return spec.origin
+    # Its ending is that of the system, whatever the Python that built it.
+    for path in Path(__file__).parent.glob("_library.*"):
+        return str(path)
+    raise ImportError("the library of cagedyn is not installed: pip install ./python, or set CAGEDYN_LIBRARY")
 
 
 ffi = cffi.FFI()
@@ -59,6 +58,12 @@ class Error(Exception):
         self.status = status
         #: Its name, for example "ERR_BAD_SCENE".
         self.name = text(lib.cagedyn_status_name(status))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self.status, str(self)), self.__dict__
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.name}, {str(self)!r})"
 
 
 def last_error() -> Error:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time as clock
-from collections.abc import Iterator, MutableMapping, Sequence
+from collections.abc import Callable, Iterator, MutableMapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,11 +12,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._model import Model, SparsePattern
-from ._native import Array, check, counted, ffi, filled, last_error, lib, made, numbers, text
+from ._native import Array, Error, check, counted, ffi, filled, last_error, lib, made, numbers, text
 
 _PRESETS = ("draft", "engineering", "reference")
 
-#: Wall time in s after which a running call looks whether Ctrl-C was pressed.
+#: Wall time in s after which a running call looks whether Ctrl-C was pressed, and tells how far it is.
 _PATIENCE = 0.1
 
 
@@ -61,9 +61,39 @@ class Inputs(MutableMapping[str, float]):
     def __len__(self) -> int:
         return len(self._sim.model.inputs)
 
+    def __repr__(self) -> str:
+        return f"Inputs({dict(self)!r})"
+
+
+class _Teller:
+    """Calls `progress`, if there is one, where its time has come."""
+
+    def __init__(self, sim: Sim, progress: Callable[[Sim], object] | None) -> None:
+        self._sim, self._progress = sim, progress
+        self._due = clock.monotonic() + _PATIENCE
+
+    def __call__(self) -> None:
+        if clock.monotonic() >= self._due:
+            self.arrived()
+            self._due = clock.monotonic() + _PATIENCE
+
+    def arrived(self) -> None:
+        if self._progress is not None:
+            self._progress(self._sim)
+
+
+def _continued(kind: type[Sim], model: Model, preset: str | None, saved: Array) -> Sim:
+    """The simulation that was saved."""
+    sim = kind(model, preset)
+    sim.restore(saved)
+    return sim
+
 
 class Sim:
     """A simulation of one model. May be used by one thread at a time.
+
+    A copy, also one that was pickled for another process with the same build of the library, goes on with the same bits, without
+    limit of wall time and with an interval that begins there.
 
     preset: "draft", "engineering" or "reference" instead of what the scene says: how accurate it is to be where the scene's
     method leaves that open.
@@ -78,10 +108,20 @@ class Sim:
             handle = lib.cagedyn_sim_new_with_preset(model._handle, _PRESETS.index(preset))
         #: What it simulates.
         self.model = model
+        self._preset = preset
         #: Inputs by name.
         self.inputs = Inputs(self)
         self._handle = made(handle, lib.cagedyn_sim_free)
         self._deadline = math.inf
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _continued, (type(self), self.model, self._preset, self.save())
+
+    def __repr__(self) -> str:
+        try:
+            return f"Sim({self.model!r} at {self.time:.9g} s)"
+        except Error as busy:
+            return f"Sim({self.model!r}: {busy.name})"
 
     @property
     def time(self) -> float:
@@ -104,18 +144,25 @@ class Sim:
         """Back to the start of the scene; inputs follow it again, statistics start at zero."""
         check(lib.cagedyn_sim_reset(self._handle))
 
-    def advance_to(self, t: float) -> None:
+    def advance_to(self, t: float, progress: Callable[[Sim], object] | None = None) -> None:
         """Advances to time `t` in s.
 
-        Ctrl-C stops it after a step, as KeyboardInterrupt; it can then go on. Raises Error when it cannot go on; it is then at
+        `progress` is called with this simulation ten times a second while it runs and once it is there, to ask it for time or
+        outputs; what it raises stops the run after a step. Ctrl-C stops it after a step, as KeyboardInterrupt; it can then go on. Raises Error when it cannot go on; it is then at
         the last step that could be made.
         """
+        tell = _Teller(self, progress)
+        self._advance(t, tell)
+        tell.arrived()
+
+    def _advance(self, t: float, tell: _Teller) -> None:
         while True:
             left = self._deadline - clock.monotonic()
             check(lib.cagedyn_sim_set_wall_time_limit(self._handle, max(0.0, min(_PATIENCE, left))))
             status = lib.cagedyn_sim_advance_to(self._handle, t)
             # Here Python sees to signals. What stopped for that goes on with the same bits.
             if status == lib.CAGEDYN_ERR_OUT_OF_TIME and left > _PATIENCE:
+                tell()
                 continue
             check(status)
             return
@@ -149,23 +196,30 @@ class Sim:
         return float(value[0])
 
     def record(
-        self, until: float, interval: float, outputs: Sequence[str] | None = None
+        self,
+        until: float,
+        interval: float,
+        outputs: Sequence[str] | None = None,
+        progress: Callable[[Sim], object] | None = None,
     ) -> NDArray[np.void]:
         """Runs to `until` in s and records outputs, now, every `interval` s after, and at the end.
 
-        Returns a structured array with the field "time" and one per output, all of them unless some are named. After a failure
-        or Ctrl-C the exception has what was recorded as its attribute `records`.
+        Returns a structured array with the field "time" and one per output, all of them unless some are named. `progress` is
+        called as by `advance_to`. After a failure, an exception in `progress` or Ctrl-C the exception has what was recorded as
+        its attribute `records`.
         """
         chosen = list(self.model.outputs if outputs is None else outputs)
         places = [self.model.outputs.index(name) for name in chosen]
         dtype = np.dtype([("time", float)] + [(name, float) for name in chosen])
         if not (interval > 0.0 and math.isfinite(until)):
             raise ValueError(f"until {until}, interval {interval}: must be a time and above zero")
-        start, rows = self.time, []
+        start, rows, tell = self.time, [], _Teller(self, progress)
         try:
             for i in range(max(0, math.ceil((until - start) / interval - 1e-9)) + 1):
-                self.advance_to(min(start + i * interval, until))
+                self._advance(min(start + i * interval, until), tell)
                 rows.append((self.time, *self._outputs()[places].tolist()))
+                tell()
+            tell.arrived()
         except BaseException as failure:
             failure.records = np.array(rows, dtype=dtype)  # type: ignore[attr-defined]
             raise

@@ -53,6 +53,31 @@ def test_scenes_and_overrides(model):
         cagedyn.Model.from_file("no such file")
 
 
+def test_numpy_in_scenes_and_overrides(model):
+    scene = model.scene
+    plain = cagedyn.Model.from_json(
+        scene, {"rollers.count": 6, "rollers.radius_deviations": {"each": [0.0, 1e-6, 0.0, 0.0, 0.0, 0.0]}}
+    )
+    scene["rollers"]["count"] = np.array(6)
+    for each in (np.eye(6)[1] * 1e-6, [0, np.float64(1e-6), np.int8(0), np.uint16(0), 0, np.array(0)]):
+        for count in (np.int64(6), np.float32(6).astype(int)):
+            made = cagedyn.Model.from_json(
+                scene, {"rollers.count": count, "rollers.radius_deviations": {"each": each}}
+            )
+            assert made.scene == plain.scene
+    with pytest.raises(TypeError, match="nothing that JSON has"):
+        cagedyn.Model.from_json(scene, {"rollers.count": {6}})
+
+
+def test_what_is_shown(model, sim):
+    assert repr(model) == f"Model({model.scene['title']!r}: 70 states, 3 inputs, {len(model.outputs)} outputs, 48 contacts)"
+    sim.advance_to(0.25e-3)
+    assert repr(sim) == f"Sim({model!r} at 0.00025 s)" and "'load.z': -4900.0" in repr(sim.inputs)
+    with pytest.raises(cagedyn.Error) as failure:
+        sim.step(-1.0)
+    assert repr(failure.value) == f"Error(ERR_BAD_VALUE, {str(failure.value)!r})"
+
+
 def test_running_and_recording(model, sim):
     records = sim.record(until=2e-3, interval=0.5e-3)
     assert records.shape == (5,) and records["time"].tolist() == [0.0, 0.5e-3, 1e-3, 1.5e-3, 2e-3]
@@ -158,6 +183,35 @@ def test_errors(model, sim):
         sim.step(1e-4)
     sim.set_wall_time_limit(math.inf)
     sim.step(1e-4)
+
+
+def test_progress(model, sim):
+    seen = []
+    sim.advance_to(0.2, lambda running: seen.append((running is sim, running.time, running.output("cage.y"))))
+    times = [time for same, time, _ in seen if same]
+    assert len(times) == len(seen) > 1 and times == sorted(times) and 0.0 < times[0] < times[-1] == 0.2
+    whole = cagedyn.Sim(model)
+    whole.advance_to(0.2)
+    assert np.array_equal(whole.state, sim.state)
+    seen.clear()
+    records = sim.record(0.4, 1e-3, ["cage.y"], progress=lambda running: seen.append(running.time))
+    assert 1 < len(seen) < 100 and seen[-1] == 0.4 and len(records) == 201
+
+
+def test_what_progress_raises_stops_and_it_goes_on(model, sim):
+    def enough(running):
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        sim.advance_to(1e3, enough)
+    with pytest.raises(RuntimeError, match="enough") as failure:
+        sim.record(1e3, 1e-4, ["cage.y"], enough)
+    records = failure.value.records
+    assert records.dtype.names == ("time", "cage.y") and 0 < len(records) and records["time"][-1] <= sim.time < 1e3
+    sim.step(1e-4)
+    other = cagedyn.Sim(model)
+    other.advance_to(sim.time)
+    assert np.array_equal(sim.state, other.state)
 
 
 def test_ctrl_c_stops_after_a_step_and_it_goes_on(model, sim):
