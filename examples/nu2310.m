@@ -1,5 +1,5 @@
 % A cylindrical roller bearing in MATLAB or Octave: by the library's own method, and by ode15s with derivative and sparse Jacobian.
-% Needs matlab/ in the path with the compiled gateway; see matlab/cagedyn_mex.c.
+% Needs matlab/ in the path with the compiled gateway; see matlab/build_cagedyn.m.
 scene = getenv('CAGEDYN_SCENE');
 if isempty(scene)
     scene = 'scenes/nu2310.json';

@@ -7,13 +7,15 @@ classdef Cagedyn < handle
     %
     % SI units, angles in rad. Names, units and meanings: b.states, b.inputs, b.outputs, b.contacts, b.contact_quantities,
     % b.bodies, b.force_sources, b.force_components; b.units('output'), b.descriptions('output'). Failures of the library are
-    % errors with the identifier cagedyn:ERR_... . It needs the compiled gateway cagedyn_mex, see cagedyn_mex.c.
+    % errors with the identifier cagedyn:ERR_... . CagedynBatch runs several at once, CagedynHeat finds temperatures. They need the
+    % compiled gateway cagedyn_mex: see build_cagedyn.
 
     properties (SetAccess = private)
         states, inputs, outputs, contacts, contact_quantities, bodies, force_sources, force_components
     end
 
-    properties (Access = private)
+    properties (SetAccess = private, Hidden)
+        % Handles of the gateway.
         model, sim
     end
 
@@ -94,10 +96,26 @@ classdef Cagedyn < handle
         end
 
         function advance_to(b, t)
-            % To time t in s. Ctrl-C stops it after a step; it can then go on.
+            % To time t in s. Ctrl-C stops it after a step, and so does cancel; it can then go on.
             while ~cagedyn_mex('advance', b.sim, t, 0.2)
                 drawnow;
             end
+        end
+
+        function cancel(b)
+            % From a callback of a timer or a figure, which drawnow calls: ends the running advance_to, or else the next one, with
+            % the error cagedyn:ERR_CANCELLED.
+            cagedyn_mex('cancel', b.sim);
+        end
+
+        function saved = save(b)
+            % Everything that its future depends on, for restore.
+            saved = cagedyn_mex('save', b.sim);
+        end
+
+        function restore(b, saved)
+            % Goes on from what save gave, with the same bits; of the same scene and preset, by the same build of the library.
+            cagedyn_mex('restore', b.sim, saved);
         end
 
         function step(b, dt)
@@ -170,6 +188,40 @@ classdef Cagedyn < handle
 
         function text = report(b)
             text = cagedyn_mex('report', b.sim);
+        end
+
+        function counts = statistics(b)
+            % Counts since creation or reset, as a struct.
+            counts = cagedyn_mex('statistics', b.sim);
+        end
+
+        function counts = law_evaluations(b)
+            % How often each force law was evaluated, as a struct.
+            counts = cagedyn_mex('law_evaluations', b.sim);
+        end
+
+        function works = power_balance(b)
+            % Works and gains of energy in J, and what is missing, as a struct.
+            works = cagedyn_mex('power_balance', b.sim);
+        end
+
+        function branch = whirl(b, path, first, last)
+            % Steady whirls of the scene without its gravity: whirl() finds one, whirl(PATH, FIRST, LAST) follows it over a number
+            % of the scene, such as 'inner_ring.speed.constant', around folds. A struct: points has a column per quantity with a
+            % row per point (parameter, whirl_speed in rad/s, eccentricity in m, lead, stable, ...); amplitudes of the waves of an
+            % elastic cage in m and eigenvalues (1/s, plus i times rad/s) have a row per point; ending is 'range', 'length' or
+            % 'lost', why says more.
+            if nargin > 1
+                branch = cagedyn_mex('whirl', b.model, path, first, last);
+            else
+                branch = cagedyn_mex('whirl', b.model);
+            end
+            for i = 1:numel(branch.quantities)
+                branch.points.(branch.quantities{i}) = branch.values(i, :)';
+            end
+            branch.amplitudes = branch.amplitudes';
+            branch.eigenvalues = complex(branch.rates, branch.frequencies).';
+            branch = rmfield(branch, {'quantities', 'values', 'rates', 'frequencies'});
         end
     end
 

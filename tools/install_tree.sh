@@ -61,7 +61,7 @@ complete bash bash-completion/completions/cagedyn
 complete zsh zsh/site-functions/_cagedyn
 complete fish fish/vendor_completions.d/cagedyn.fish
 for file in scenes/*.json schemas/*.json; do put 644 "$file" "$share/$file"; done
-for file in matlab/cagedyn_mex.c matlab/Cagedyn.m; do put 644 "$file" "$share/$file"; done
+for file in matlab/cagedyn_mex.c matlab/Cagedyn*.m matlab/build_cagedyn.m; do put 644 "$file" "$share/$file"; done
 doc=$PREFIX/share/doc/cagedyn
 for file in LICENSE-MIT LICENSE-APACHE ./*.md docs/*.md docs/*/*.md docs/images/* docs/results/accuracy/* python/README.md \
     python/examples/*.py examples/*.c examples/*.h examples/*.cpp examples/*.py examples/*.m examples/*.jl; do

@@ -3,6 +3,7 @@
 
 use crate::common::repository;
 use crate::docs::links;
+use crate::hosts::present;
 use std::path::Path;
 use std::process::Command;
 
@@ -62,6 +63,9 @@ fn installing_puts_everything_in_place_and_removing_takes_it_away() {
         "lib64/cmake/cagedyn/cagedynConfigVersion.cmake",
         "share/bash-completion/completions/cagedyn",
         "share/cagedyn/matlab/Cagedyn.m",
+        "share/cagedyn/matlab/CagedynBatch.m",
+        "share/cagedyn/matlab/CagedynHeat.m",
+        "share/cagedyn/matlab/build_cagedyn.m",
         "share/doc/cagedyn/examples/nu2310.c",
         "share/doc/cagedyn/docs/scene.md",
         "lib64/libcagedyn.a",
@@ -202,4 +206,28 @@ END
         ! cmake -S project -B newer -DCMAKE_PREFIX_PATH=$PREFIX > newer.txt 2>&1"#,
     );
     assert!(text.contains(places), "{text}");
+}
+
+/// The gateway of MATLAB and Octave, compiled from the installed tree into a folder of the user.
+#[test]
+fn octave_builds_its_gateway_from_the_installed_tree() {
+    if !present(Path::new("mkoctfile"), &["--version"], &["CAGEDYN_REQUIRE_ALL_HOSTS"]) {
+        return;
+    }
+    let [root, user] = [(); 2].map(|()| tempfile::tempdir().expect("a directory"));
+    let built = built();
+    // DESTDIR stands in for a tree that was moved.
+    assert!(make("install", root.path(), built.path()).status.success());
+    let share = root.path().join("opt/bearing/share/cagedyn");
+    let code = "build_cagedyn(); b = Cagedyn(getenv('SCENE')); b.advance_to(1e-3); disp(b.time())";
+    let output = Command::new("octave-cli")
+        .arg("--path")
+        .arg(share.join("matlab"))
+        .args(["--eval", code])
+        .env("SCENE", share.join("scenes/nu2310.json"))
+        .current_dir(user.path())
+        .output()
+        .expect("Octave runs");
+    let [out, err] = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text).into_owned());
+    assert!(output.status.success() && out.trim() == "1.0000e-03", "{out}\n{err}");
 }
