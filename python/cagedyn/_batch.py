@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from ._native import Error, check, counted, ffi, filled, lib, made, text
+from ._native import Error, check, counted, ffi, filled, last_error, lib, made, text
 from ._sim import Sim
 
 
@@ -88,18 +88,20 @@ class Batch:
         """Advances all to time `t` in s, on so many threads, on all cores for 0.
 
         Raises BatchError when some of them failed, after all others have arrived; with `check=False` returns the failure of each
-        instead, or None. `progress` is called ten times a second while it runs. Ctrl-C stops all after a step, as
-        KeyboardInterrupt; they can then go on.
+        instead, or None. Raises Error when none may begin, as for a time that is not finite or a simulation in use. `progress` is
+        called ten times a second while it runs. Ctrl-C stops all after a step, as KeyboardInterrupt; they can then go on.
         """
         if threads < 0:
             raise ValueError(f"threads: {threads} is not 0 or more")
         for sim in self.sims:
             sim._renew_wall_time_limit()
         done = threading.Event()
+        ended: list[Error] = []
 
         def run() -> None:
             try:
-                lib.cagedyn_batch_advance_to(self._handle, t, threads)
+                if lib.cagedyn_batch_advance_to(self._handle, t, threads) != 0:
+                    ended.append(last_error())
             finally:
                 done.set()
 
@@ -122,6 +124,8 @@ class Batch:
             status = lib.cagedyn_batch_status(self._handle, place)
             message = text(lib.cagedyn_batch_message(self._handle, place))
             failures.append(Error(status, message) if status != 0 else None)
-        if check and any(failure is not None for failure in failures):
+        if ended and all(failure is None for failure in failures):
+            raise ended[0]  # The call itself was refused.
+        if check and ended:
             raise BatchError(failures)
         return failures

@@ -253,6 +253,10 @@ def test_batch(model):
         cagedyn.Batch([batch[0]])
     with pytest.raises(ValueError):
         batch.advance_to(0.12, threads=-1)
+    for refused in (math.nan, math.inf, 1e7):
+        with pytest.raises(cagedyn.Error, match="t: ") as failure:
+            batch.advance_to(refused, check=False)
+        assert failure.value.name == "ERR_BAD_VALUE"
     kept = batch[2]
     del batch
     assert kept.time == 0.11
