@@ -25,11 +25,14 @@ calls() { CAGEDYN_CALLS=1000000 $CARGO test --release --locked --test interfaces
 # The crate builds from what would be published.
 package() { $CARGO package --locked; }
 
-# A clean Python, the package from this folder, its tests and the ten lines of its page.
+# A clean Python, the wheel from this folder, which is for every Python 3, its tests and the ten lines of its page.
 python() {
-    rm -rf "$out/venv"
+    rm -rf "$out/venv" "$out/wheel" python/build
     python3 -m venv "$out/venv"
-    "$out/venv/bin/python" -m pip install -q --disable-pip-version-check './python[test,examples]'
+    "$out/venv/bin/python" -m pip wheel -q --disable-pip-version-check --no-deps -w "$out/wheel" ./python
+    local wheel=("$out"/wheel/cagedyn-*-py3-none-*.whl)
+    ! "$out/venv/bin/python" -m zipfile -l "$wheel" | grep cpython || { echo "$wheel has what is for one Python" >&2; exit 1; }
+    "$out/venv/bin/python" -m pip install -q --disable-pip-version-check "$wheel[test,examples]"
     "$out/venv/bin/python" -m pytest -q -p no:cacheprovider python/tests
     sed -n '/^```python$/,/^```$/{/^```/d;p}' python/README.md > "$out/page.py"
     "$out/venv/bin/python" "$out/page.py"
@@ -40,7 +43,7 @@ octave() {
     have mkoctfile octave-dev
     have octave-cli octave
     "$PYTHON" -m pip install -q --disable-pip-version-check -r python/requirements-formats.txt
-    CAGEDYN_REQUIRE_ALL_HOSTS=1 CAGEDYN_PYTHON=$PYTHON $CARGO test --release --locked --test interfaces -- hosts:: formats::
+    CAGEDYN_REQUIRE_ALL_HOSTS=1 CAGEDYN_PYTHON=$PYTHON $CARGO test --release --locked --test interfaces -- hosts:: formats:: octave
 }
 
 # Reports in a browser.
