@@ -36,6 +36,15 @@ python() {
     "$out/venv/bin/python" -m pytest -q -p no:cacheprovider python/tests
     sed -n '/^```python$/,/^```$/{/^```/d;p}' python/README.md > "$out/page.py"
     "$out/venv/bin/python" "$out/page.py"
+    # The same wheel in the other Pythons that are here.
+    local other
+    for other in python3.{10..15}; do
+        "$other" -c '' 2> /dev/null || continue
+        rm -rf "$out/other"
+        "$other" -m venv "$out/other"
+        "$out/other/bin/python" -m pip install -q --disable-pip-version-check "$wheel[test]"
+        "$out/other/bin/python" -m pytest -q -p no:cacheprovider python/tests
+    done
 }
 
 # Octave by way of the gateway for MATLAB, and what reads the tables of the tool.
