@@ -11,6 +11,7 @@ use crate::points::{Records, Row};
 use crate::results::files::UNFINISHED;
 use crate::results::formats::TableFormat;
 use crate::results::output;
+use crate::results::summary::few_turns;
 use crate::results::table::{self, Align};
 use crate::run::{self, Request, in_file};
 use crate::terminal::{self, INTERRUPTED, Part, Together};
@@ -234,7 +235,10 @@ impl<'a> Tally<'a> {
         let state = match &done.record.row.error {
             Some((_, message)) if done.record.interrupted() => message.clone(),
             Some(_) => "failed".to_owned(),
-            None => done.record.starts.clone().unwrap_or_default(),
+            None => {
+                let few = done.record.row.few_turns().map(few_turns);
+                few.into_iter().chain(done.record.starts.clone()).collect::<Vec<_>>().join("; ")
+            }
         };
         self.print_row(&done.case.name, cells.into_iter().chain([wall, state]))
     }

@@ -2,7 +2,7 @@
 
 use crate::plots::heat_flow;
 use crate::results::files::{write_csv, write_json, write_text};
-use crate::results::table::{self, Align, number};
+use crate::results::table::{self, Align, celsius, number};
 use crate::results::{facts, files};
 use crate::run::{in_file, read, stem};
 use crate::{HeatArgs, terminal};
@@ -64,7 +64,7 @@ pub fn command(args: &HeatArgs) -> Result<ExitCode> {
     }
     section(&mut text, "flows", flows(&links, &state));
     if !history.is_empty() {
-        section(&mut text, "temperatures over time, K", over_time(&names, &history));
+        section(&mut text, "temperatures over time, K and °C", over_time(&names, &history));
     }
     if state.carried != 0.0 {
         text.push_str(&format!("  oil that flows through carries {} W away\n", number(state.carried)));
@@ -114,7 +114,7 @@ fn temperatures(names: &[String], state: &HeatState) -> Vec<Vec<String>> {
         vec![
             name.clone(),
             format!("{temperature:.2} K"),
-            format!("{:.2} C", temperature - 273.15),
+            format!("{:.2} °C", celsius(*temperature)),
             format!("{} W", number(*heat)),
         ]
     });
@@ -146,7 +146,7 @@ fn flows(links: &[[String; 2]], state: &HeatState) -> Vec<Vec<String>> {
 fn over_time(names: &[String], history: &[(f64, HeatState)]) -> Vec<Vec<String>> {
     let head = std::iter::once("s".to_owned()).chain(names.iter().cloned()).collect();
     let rows = history.iter().map(|(time, state)| {
-        let temperatures = state.temperatures.iter().map(|t| format!("{t:.2}"));
+        let temperatures = state.temperatures.iter().map(|t| format!("{t:.2} {:.2}", celsius(*t)));
         std::iter::once(number(*time)).chain(temperatures).collect()
     });
     std::iter::once(head).chain(rows).collect()

@@ -2,7 +2,7 @@
 
 use crate::results::facts;
 use crate::results::files::to_json;
-use crate::results::finished::{BeforeWindow, Run};
+use crate::results::finished::{Notes, Run};
 use crate::results::formats::{self, TableFormat};
 use crate::results::stream::{self, Stream};
 use crate::results::summary::Summary;
@@ -139,13 +139,13 @@ pub fn perform(request: Request<'_>, instead: &Instead, progress: &dyn Fn(f64)) 
     let mut recording = Recording::default();
     let started = Instant::now();
     let mut samples: Vec<(f64, Vec<f64>)> = Vec::new();
-    let (mut unwritten, mut before) = (None, BeforeWindow::new(&model.scene().record));
+    let (mut unwritten, mut notes) = (None, Notes::new(&model));
     let ended = recording.run(&mut sim, duration, interval, |sim, recording| {
         progress(sim.time());
         if sim.time() >= duration * samples.len() as f64 / SAMPLES {
             samples.push((sim.time(), sim.state().to_vec()));
         }
-        before.at(sim);
+        notes.at(sim, recording);
         unwritten = stream.add(recording).err();
         unwritten.is_none() && !terminal::stop_requested()
     });
@@ -153,7 +153,7 @@ pub fn perform(request: Request<'_>, instead: &Instead, progress: &dyn Fn(f64)) 
     let written = unwritten.map_or_else(|| stream.finish(), Err);
     let wall = started.elapsed().as_secs_f64();
     let parts = sim.time_parts(&samples, REPEATS).unwrap_or_default();
-    let mut run = finished(&mut sim, title, (recording, before), (ended, written), (wall, parts));
+    let mut run = finished(&mut sim, title, (recording, notes), (ended, written), (wall, parts));
     let mut summary = Summary::new(&run, file, case, set);
     if instead.starts > 1 && summary.complete {
         let count = usize::from(instead.starts);
@@ -182,34 +182,42 @@ pub fn perform(request: Request<'_>, instead: &Instead, progress: &dyn Fn(f64)) 
 pub fn finished(
     sim: &mut Sim,
     title: String,
-    (recording, before): (Recording, BeforeWindow),
+    (recording, notes): (Recording, Notes),
     (ended, written): (Result<()>, Result<()>),
     (wall, parts): (f64, PartTimes),
 ) -> Run {
     let model = sim.model().clone();
     let Record { duration, interval, .. } = model.scene().record;
     let cancelled = matches!(&ended, Err(e) if e.status == Status::Cancelled);
-    let all = sim.channels();
+    let channels = model.recorded().iter().map(|i| sim.channels()[*i].clone()).collect();
     let interrupted = cancelled || terminal::stop_requested() && sim.time() < duration - interval;
     let whole = !interrupted && ended.is_ok();
     let ending =
         if whole { String::new() } else { format!("; incomplete, ended at {} s", number(sim.time())) };
+    let (statistics, report, works) = (sim.statistics(), sim.report(), sim.works());
+    let balance = sim.power_balance().ok();
+    let (contacts_at, forces) = match &notes.strongest {
+        Some((record, time, state)) => (*record, sim.forces_at(*time, state)),
+        None => (recording.times.len().saturating_sub(1), sim.forces()),
+    };
+    let contacts = forces.map_or(Vec::new(), |forces| forces.contacts.clone());
     Run {
         title,
         facts: facts::facts(&model) + &ending,
-        channels: model.recorded().iter().map(|i| all[*i].clone()).collect(),
+        channels,
         parts,
-        statistics: sim.statistics(),
+        statistics,
         doubts: sim.doubts().iter().map(ToString::to_string).collect(),
-        report: sim.report(),
+        report,
         time: sim.time(),
         wall,
         written: written.is_ok(),
         interrupted,
-        balance: sim.power_balance().ok(),
-        contacts: sim.forces().map_or(Vec::new(), |forces| forces.contacts.clone()),
-        works: sim.works(),
-        before,
+        balance,
+        contacts,
+        contacts_at,
+        works,
+        before: notes.works,
         failure: ended.err().filter(|e| e.status != Status::Cancelled).or(written.err()),
         model,
         recording,

@@ -3,13 +3,21 @@
 use rustfft::algorithm::Radix4;
 use rustfft::num_complex::Complex;
 use rustfft::{Fft, FftDirection};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// Zero padding: the spectrum is computed at this many frequencies per line, so that a peak between two lines keeps
 /// its height (without padding a Hann window shows it up to 15 % too low).
 const PADDING: usize = 8;
 /// Fewer samples than this give no spectrum worth showing.
 const MIN_SAMPLES: usize = 16;
+/// The floor beside a peak is the median over so many times the resolution, from its main lobe on.
+const BESIDE: f64 = 8.0;
+/// Noise is taken for a peak with this probability: its normal deviate, that of 1e-4.
+const DEVIATE: f64 = 3.719;
+/// Peaks are higher than this times what the window makes of higher ones: their frequency may vary a little.
+const ABOVE_LEAKAGE: f64 = 3.0;
+/// Degrees of freedom of the power of noise per segment: two, less what segments share under their windows.
+const FREEDOM: f64 = 1.9;
 
 /// Amplitude over frequency.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,6 +31,15 @@ pub struct Spectrum {
     pub resolution: f64,
     /// Stretches of time that it is the mean of.
     pub segments: u32,
+}
+
+/// A line that stands out of the noise about it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Peak {
+    /// Frequency, Hz.
+    pub frequency: f64,
+    /// Amplitude, in the unit of the samples.
+    pub amplitude: f64,
 }
 
 /// Spectrum of samples taken every `interval` seconds: root of the mean power of segments that overlap by half, as many of them as
@@ -102,13 +119,60 @@ impl Spectrum {
         (frequency <= *self.frequencies.last()?).then(|| all.iter().copied().fold(0.0, f64::max))
     }
 
-    /// Frequency and amplitude of the highest local maximum above the resolution: what is below is a drift.
-    pub fn peak(&self) -> Option<(f64, f64)> {
-        let inner = self.amplitudes.windows(3).enumerate();
-        let inner =
-            inner.filter(|(i, a)| a[1] > a[0] && a[1] >= a[2] && self.frequencies[i + 1] > self.resolution);
-        let (i, a) = inner.max_by(|(_, a), (_, b)| a[1].total_cmp(&b[1]))?;
-        Some((self.frequencies[i + 1], a[1]))
+    /// The highest local maximum above the resolution, whether it stands out or not: what is below is a drift.
+    pub fn highest(&self) -> Option<Peak> {
+        self.maxima().max_by(|a, b| a.amplitude.total_cmp(&b.amplitude))
+    }
+
+    /// Local maxima above the resolution that stand out of the noise on either side of them, and of what the window makes of higher
+    /// ones, highest first.
+    pub fn peaks(&self) -> Vec<Peak> {
+        let mut all: Vec<Peak> = self.maxima().collect();
+        all.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
+        let least = self.least_ratio();
+        let mut found: Vec<Peak> = Vec::new();
+        for peak in all {
+            let leaked = found.iter().map(|higher| self.leaked(higher, peak.frequency)).fold(0.0, f64::max);
+            let floor = (least * self.floor(peak.frequency)).max(ABOVE_LEAKAGE * leaked);
+            if peak.amplitude > floor {
+                found.push(peak);
+            }
+        }
+        found
+    }
+
+    /// Envelope of what a Hann window shows of a sine at another frequency.
+    fn leaked(&self, of: &Peak, frequency: f64) -> f64 {
+        let lines = (frequency - of.frequency).abs() / (0.5 * self.resolution);
+        if lines < 2.0 { of.amplitude } else { of.amplitude / (PI * lines * (lines * lines - 1.0)) }
+    }
+
+    fn maxima(&self) -> impl Iterator<Item = Peak> + '_ {
+        let inner = self.amplitudes.windows(3).zip(&self.frequencies[1.min(self.frequencies.len())..]);
+        let inner = inner.filter(|(a, f)| a[1] > a[0] && a[1] >= a[2] && **f > self.resolution);
+        inner.map(|(a, f)| Peak { frequency: *f, amplitude: a[1] })
+    }
+
+    /// The higher one of the medians of the amplitudes on both sides of a frequency, without what the window makes of a sine there.
+    /// On a slope that is the upper side, above which nothing stands out that is no peak.
+    fn floor(&self, frequency: f64) -> f64 {
+        let place =
+            |times: f64| self.frequencies.partition_point(|f| *f < frequency + times * self.resolution);
+        let zero = self.frequencies.partition_point(|f| *f <= 0.5 * self.resolution);
+        let median = |from: usize, to: usize| {
+            let mut side = self.amplitudes.get(from..to).unwrap_or_default().to_vec();
+            side.sort_by(f64::total_cmp);
+            side.get(side.len() / 2).copied().unwrap_or(0.0)
+        };
+        median(place(-BESIDE).max(zero), place(-1.0)).max(median(place(1.0), place(BESIDE)))
+    }
+
+    /// Ratio to the median that noise exceeds seldom: its power is chi-squared distributed, whose quantiles follow from the normal
+    /// ones (E. B. Wilson and M. M. Hilferty, 1931).
+    fn least_ratio(&self) -> f64 {
+        let variance = 2.0 / (9.0 * FREEDOM * f64::from(self.segments));
+        let median = 1.0 - variance;
+        ((median + DEVIATE * variance.sqrt()) / median).powf(1.5)
     }
 }
 
@@ -123,7 +187,18 @@ mod tests {
     fn peak_of_sine(lines: f64) -> (f64, f64) {
         let turn = TAU * lines / N as f64;
         let samples: Vec<f64> = (0..N).map(|i| 7.0 + 0.3 * (turn * i as f64 + 0.4).sin()).collect();
-        amplitude_spectrum(&samples, INTERVAL).and_then(|s| s.peak()).unwrap()
+        amplitude_spectrum(&samples, INTERVAL)
+            .and_then(|s| s.highest())
+            .map(|p| (p.frequency, p.amplitude))
+            .unwrap()
+    }
+
+    /// Noise of a linear congruential generator.
+    fn noise(mut state: u32) -> impl FnMut() -> f64 {
+        move || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            f64::from(state >> 8) / f64::from(1u32 << 24) - 0.5
+        }
     }
 
     #[test]
@@ -159,7 +234,7 @@ mod tests {
             (0..N).map(|i| drift[i] + 0.05 * (TAU * 40.0 * i as f64 / N as f64).sin()).collect();
         let spectrum = amplitude_spectrum(&both, INTERVAL).unwrap();
         assert_eq!(spectrum.resolution, 2.0 / (N as f64 * INTERVAL));
-        let (frequency, amplitude) = spectrum.peak().unwrap();
+        let Peak { frequency, amplitude } = spectrum.highest().unwrap();
         assert!(
             (frequency - 200.0).abs() < 1.0 && (amplitude - 0.05).abs() < 2e-3,
             "{frequency} {amplitude}"
@@ -174,18 +249,13 @@ mod tests {
 
     #[test]
     fn segments_keep_amplitudes_and_lower_the_scatter_of_noise() {
-        // Noise of a linear congruential generator.
-        let mut state = 5u32;
-        let mut noise = || {
-            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            f64::from(state >> 8) / f64::from(1u32 << 24) - 0.5
-        };
+        let mut noise = noise(5);
         let samples: Vec<f64> = (0..8 * N).map(|i| (TAU * 0.1 * i as f64).sin() + 0.5 * noise()).collect();
         let one = amplitude_spectrum(&samples, INTERVAL).unwrap();
         let wanted = 2.0 / (N as f64 * INTERVAL);
         let many = averaged_spectrum(&samples, INTERVAL, wanted).unwrap();
         assert_eq!((one.segments, many.segments, many.resolution), (1, 15, wanted));
-        let (frequency, amplitude) = many.peak().unwrap();
+        let Peak { frequency, amplitude } = many.highest().unwrap();
         assert!((frequency - 200.0).abs() < 1.0 && (amplitude - 1.0).abs() < 0.01, "{frequency} {amplitude}");
         assert!((many.at(200.0).unwrap() - 1.0).abs() < 0.01 && many.at(1e9).is_none());
         // The noise above 400 Hz: its scatter over the lines.
@@ -198,6 +268,34 @@ mod tests {
         // A resolution that the samples do not have is not there.
         assert_eq!(averaged_spectrum(&samples[..N], INTERVAL, 1e-3).unwrap().resolution, wanted);
         assert_eq!(averaged_spectrum(&[1.0; 8], INTERVAL, 1.0), None);
+    }
+
+    /// Of two hundred records of noise that falls with the frequency hardly any has a peak; a sine in it is always found.
+    #[test]
+    fn peaks_are_sines_and_not_noise() {
+        for (length, wanted) in [(N, 1.0), (8 * N, 2.0 / (N as f64 * INTERVAL))] {
+            let (mut false_ones, mut sines) = (0, 0);
+            for seed in 0..200 {
+                let mut noise = noise(7919 * seed + 1);
+                // With a mean over the past, so that low frequencies are the louder ones.
+                let mut past = 0.0;
+                let samples: Vec<f64> = (0..length)
+                    .map(|_| {
+                        past = 0.9 * past + noise();
+                        past
+                    })
+                    .collect();
+                false_ones += averaged_spectrum(&samples, INTERVAL, wanted).unwrap().peaks().len();
+                let with: Vec<f64> =
+                    samples.iter().enumerate().map(|(i, x)| x + 0.8 * (TAU * 0.2 * i as f64).sin()).collect();
+                let peaks = averaged_spectrum(&with, INTERVAL, wanted).unwrap().peaks();
+                sines += usize::from(peaks.first().is_some_and(|peak| (peak.frequency - 400.0).abs() < 2.0));
+            }
+            assert!(false_ones <= 20 && sines == 200, "{length}: {false_ones} {sines}");
+        }
+        // The feet of the window about a sine are no peaks.
+        let sine: Vec<f64> = (0..N).map(|i| (TAU * 40.3 * i as f64 / N as f64).sin()).collect();
+        assert_eq!(amplitude_spectrum(&sine, INTERVAL).unwrap().peaks().len(), 1);
     }
 
     #[test]

@@ -12,7 +12,7 @@ use crate::points::Row;
 use crate::points::spectrum::Spectrum;
 use crate::results::facts;
 use crate::results::files::{write_csv, write_text, write_with};
-use crate::results::finished::BeforeWindow;
+use crate::results::finished::Notes;
 use crate::results::formats::parquet;
 use crate::results::summary::Summary;
 use crate::run::{self, LARGEST_TABLE, in_file};
@@ -223,14 +223,14 @@ impl<'a> Sweep<'a> {
         let mut sim = Sim::new(model)?;
         terminal::stop_with(sim.canceller());
         let mut recording = Recording::default();
-        let mut before = BeforeWindow::new(&sim.model().scene().record);
-        let ended = recording.run(&mut sim, duration, interval, |sim, _| {
-            before.at(sim);
+        let mut notes = Notes::new(sim.model());
+        let ended = recording.run(&mut sim, duration, interval, |sim, recording| {
+            notes.at(sim, recording);
             part.at(sim.time() / duration);
             !terminal::stop_requested()
         });
         let spent = (0.0, PartTimes::default());
-        let run = run::finished(&mut sim, String::new(), (recording, before), (ended, Ok(())), spent);
+        let run = run::finished(&mut sim, String::new(), (recording, notes), (ended, Ok(())), spent);
         Ok(match &run.failure {
             _ if run.interrupted => None,
             Some(e) => Some(Row::failed(values.to_vec(), Some(run.time), e)),

@@ -4,7 +4,7 @@ use super::series::series;
 use super::{Done, Known};
 use crate::CasesArgs;
 use crate::plots::sweep::{Abscissa, Spectra, waterfall};
-use crate::points::row::share_of;
+use crate::points::row::{CAGE_TURNS, share_of};
 use crate::points::{Row, spectrum};
 use crate::results::table::rounded;
 use crate::results::{files, output};
@@ -112,6 +112,7 @@ fn csv_rows(set: &CaseSet, comparison: &Comparison, done: &[Done<'_>]) -> Vec<Ve
     if done.iter().any(|d| d.results().is_some_and(|row| row.text(&shares[0]).is_some())) {
         columns.extend(shares);
     }
+    columns.push(CAGE_TURNS.to_owned());
     let mut head = vec!["case".to_owned(), SPEED.to_owned()];
     head.extend(varied.iter().map(|path| (*path).to_owned()));
     head.extend(columns.iter().cloned());

@@ -65,6 +65,8 @@ fn picture(title: &str, done: &[Done<'_>]) -> Option<Result<String>> {
 
 fn point(d: &Done<'_>) -> Option<Point> {
     let row = d.results()?;
-    let centre = (row.number("cage.y_ratio mean [1]")?, row.number("cage.z_ratio mean [1]")?);
-    Some(Point { speed: d.speed, centre })
+    let part = |axis: &str, part: &str| row.number(&format!("cage.{axis}_ratio {part} [1]"));
+    let band = |axis: &str| Some([part(axis, "5 %")?, part(axis, "95 %")?]);
+    let centre = (part("y", "mean")?, part("z", "mean")?);
+    Some(Point { speed: d.speed, centre, bands: [band("y")?, band("z")?] })
 }

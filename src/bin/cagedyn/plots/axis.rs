@@ -100,6 +100,11 @@ impl Axis {
         self
     }
 
+    /// Whether it shows logarithms to the base 10.
+    pub fn logarithmic(&self) -> bool {
+        matches!(self.notation, Notation::PowerOfTen | Notation::Antilogarithm)
+    }
+
     /// Places of the ticks.
     pub fn ticks(&self) -> Vec<f64> {
         if let Some(at) = &self.at {

@@ -3,7 +3,7 @@
 use super::axis::Axis;
 use super::labels::Room;
 use super::panel::{Panel, Place, panel};
-use super::style::{self, BLUE, CURVE, Canvas, Drawn, INK, MUTED, Symbol, TEXT, line, px, text_width};
+use super::style::{self, BLUE, CURVE, Canvas, Drawn, INK, MUTED, Symbol, TEXT, THIN, line, px, text_width};
 use super::{Series, look};
 use cagedyn::Result;
 use plotters::prelude::{Circle, PathElement};
@@ -29,6 +29,16 @@ pub struct Point {
     pub speed: f64,
     /// Cage centre over the guide clearance.
     pub centre: (f64, f64),
+    /// Fifth and 95th percentile of both of its coordinates.
+    pub bands: [[f64; 2]; 2],
+}
+
+impl Point {
+    /// Ends of the bars of its scatter.
+    fn bars(&self) -> [[(f64, f64); 2]; 2] {
+        let ((y, z), [across, up]) = (self.centre, self.bands);
+        [across.map(|y| (y, z)), up.map(|z| (y, z))]
+    }
 }
 
 /// The square that is shown: its centre and half its side.
@@ -73,14 +83,14 @@ impl Square {
 /// # Errors
 /// [`cagedyn::Status::File`] when it cannot be drawn.
 pub fn cage_positions(title: &str, series: &[Series<Point>]) -> Result<String> {
-    let points: Vec<_> = series.iter().flat_map(|s| &s.points).map(|p| p.centre).collect();
+    let points: Vec<_> = series.iter().flat_map(|s| &s.points).flat_map(|p| p.bars().concat()).collect();
     let shown = Square::around(&points);
     let x_axis = shown.axis("mean cage centre y / radial guide clearance [1]", shown.centre.0);
     let y_axis = shown.axis("mean cage centre z / radial guide clearance [1]", shown.centre.1);
     let place = Place { x: 100.0, y: 80.0, w: SIDE, h: SIDE };
     let longest = series.iter().map(|s| text_width(&s.label, TEXT)).fold(150.0, f64::max);
     let width = 100.0 + SIDE + 28.0 + 36.0 + longest;
-    let subtitle = "Mean cage centre of every case; numbers: inner ring speed in 1/min";
+    let subtitle = "Mean cage centre of every case, bars from the 5th to the 95th percentile; numbers: inner ring speed in 1/min";
     style::picture((width, 80.0 + SIDE + 70.0), title, subtitle, |canvas| {
         legend(canvas, series, &shown)?;
         panel(canvas, place, (&x_axis, &y_axis), true, &[], |panel| {
@@ -137,6 +147,11 @@ fn contents(panel: &mut Panel<'_, '_, '_>, series: &[Series<Point>], circle: &[(
     for (k, s) in series.iter().enumerate() {
         panel.curve(s.points.iter().map(|p| p.centre), line(look(k).1, CURVE))?;
         room.add(&s.points.iter().map(|p| panel.place(p.centre)).collect::<Vec<_>>());
+        for ends in s.points.iter().flat_map(Point::bars) {
+            let ends = ends.map(|end| panel.place(end));
+            style::bar(panel.canvas(), ends, look(k).1)?;
+            room.line(&ends, THIN);
+        }
     }
     let points = || series.iter().enumerate().flat_map(|(k, s)| s.points.iter().map(move |p| (look(k), p)));
     let labels: Vec<_> = points()

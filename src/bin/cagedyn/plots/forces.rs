@@ -1,8 +1,9 @@
-//! The bearing with the forces of its contacts at the end of a run (compare Fig. 11).
+//! The bearing with the forces of its contacts where that on a pocket is largest (compare Fig. 11).
 
 use super::axis::Axis;
+use super::cage_shape::{self, CageShape};
 use super::panel::{HEAD, Panel, Place, panel};
-use super::style::{self, CURVE, Drawn, FAINT, GREEN, INK, MUTED, PURPLE, Paint, RED, Symbol, THIN, line};
+use super::style::{self, Drawn, GREEN, INK, METAL, MUTED, PURPLE, Paint, RED, Symbol, THIN, line};
 use crate::results::finished::Run;
 use crate::results::table::{number, rounded};
 use cagedyn::Result;
@@ -15,6 +16,7 @@ const SIDE: f64 = 600.0;
 /// the longest one on the cage in units of the pitch radius.
 const ON_RACEWAYS: f64 = 0.45;
 const ON_CAGE: f64 = 0.4;
+const ON_CAGE_NAME: &str = "elements on cage";
 /// Arrows shorter than this are not seen, in units of the pitch radius.
 const SHORTEST: f64 = 0.004;
 /// Radius of the arrow that tells which way the elements go, in units of the pitch radius.
@@ -59,7 +61,7 @@ pub fn contact_forces(run: &Run) -> Option<Result<String>> {
     let mut kinds = vec![
         // As in the animation of the report.
         Kind::new("elements on raceways", Body::Raceways, RED),
-        Kind::new("elements on cage", Body::Cage, PURPLE),
+        Kind::new(ON_CAGE_NAME, Body::Cage, PURPLE),
         Kind::new("guide on cage", Body::Cage, GREEN),
     ];
     for (name, contact) in run.model.contact_names().iter().zip(&run.contacts) {
@@ -67,9 +69,9 @@ pub fn contact_forces(run: &Run) -> Option<Result<String>> {
             kinds[usize::from(!name.ends_with("_raceway"))].arrows.push(arrow);
         }
     }
-    let last = |name: &str| run.column(name)?.last().copied();
-    if let (Some(y), Some(z)) = (last("guide.force_y"), last("guide.force_z")) {
-        let at = ["cage.y", "cage.z"].map(|name| last(name).unwrap_or(0.0));
+    let then = |name: &str| run.column(name)?.get(run.contacts_at).copied();
+    if let (Some(y), Some(z)) = (then("guide.force_y"), then("guide.force_z")) {
+        let at = ["cage.y", "cage.z"].map(|name| then(name).unwrap_or(0.0));
         kinds[2].arrows.push(Arrow { at, force: [y, z] });
     }
     kinds.retain(|kind| kind.largest() > 0.0);
@@ -77,7 +79,7 @@ pub fn contact_forces(run: &Run) -> Option<Result<String>> {
         return None;
     }
     let kind = run.model.element_kind();
-    let angles = (0..run.model.element_count()).map(|j| last(&format!("{kind}[{j}].orbit_angle")));
+    let angles = (0..run.model.element_count()).map(|j| then(&format!("{kind}[{j}].orbit_angle")));
     let angles: Vec<f64> = angles.collect::<Option<_>>()?;
     let circles = ["outer_raceway_radius", "inner_raceway_radius"].map(length);
     let longest = |body| match body {
@@ -92,7 +94,13 @@ pub fn contact_forces(run: &Run) -> Option<Result<String>> {
     let axis = |name| Axis::new(name, -1e3 * reach, 1e3 * reach, 5);
     let (x_axis, y_axis) = (axis("y [mm]"), axis("z [mm]"));
     let place = Place { x: 100.0, y: 122.0, w: SIDE, h: SIDE };
-    let subtitle = run.subtitle(&format!("Forces of the contacts at {} s", rounded(run.end())));
+    let cage = CageShape::new(&run.model, ["cage.y", "cage.z", "cage.angle"].map(then));
+    let time = rounded(run.recording.times.get(run.contacts_at).copied()?);
+    let when = match kinds.iter().any(|kind| kind.name == ON_CAGE_NAME) {
+        true => format!("Forces at {time} s, when that on a pocket is largest"),
+        false => format!("Forces at {time} s; none on a pocket in the window"),
+    };
+    let subtitle = run.subtitle(&when);
     Some(style::picture((730.0, 790.0), &run.title, &subtitle, |canvas| {
         let entries: Vec<_> = kinds
             .iter()
@@ -101,16 +109,24 @@ pub fn contact_forces(run: &Run) -> Option<Result<String>> {
             })
             .collect();
         style::legend_row(canvas, 76.0, &entries[..entries.len().min(2)])?;
-        let note = (Symbol::Line(FAINT), "elements; one scale for the raceways, one for the cage".to_owned());
+        let note = match cage {
+            Some(_) => "raceways and cage have a scale each; its height is not known",
+            None => "raceways and cage have a scale each",
+        };
+        let note = (Symbol::None, note.to_owned());
         let second: Vec<_> = entries.iter().skip(2).cloned().chain([note]).collect();
         style::legend_row(canvas, 100.0, &second)?;
         panel(canvas, place, (&x_axis, &y_axis), true, &[], |panel| {
             for radius in circles.into_iter().flatten() {
                 panel.circle(1e3 * radius, line(MUTED, THIN))?;
             }
+            if let Some(cage) = &cage {
+                cage_shape::draw(panel, cage)?;
+            }
             for angle in &angles {
-                panel
-                    .curve(circle([pitch * angle.cos(), pitch * angle.sin()], radius), line(FAINT, CURVE))?;
+                let edge: Vec<_> = circle([pitch * angle.cos(), pitch * angle.sin()], radius).collect();
+                panel.area(edge.iter().copied(), METAL)?;
+                panel.curve(edge, line(MUTED, THIN))?;
             }
             panel.circle(1e3 * SHORTEST * pitch, line(INK, THIN))?;
             if let Some(way) = run.direction() {

@@ -2,6 +2,7 @@
 
 use super::labels::Room;
 use super::style::{BLUE, Drawn, FAINT, INK, MUTED, Paint, RED, TEXT, line, picture, px, text};
+use crate::results::table::celsius;
 use cagedyn::Result;
 use cagedyn::heat::HeatState;
 use plotters::prelude::*;
@@ -68,9 +69,12 @@ pub fn draw(
             canvas.draw(&Circle::new(at((x, y)), px(lump), WHITE.filled()))?;
             canvas.draw(&Circle::new(at((x, y)), px(lump), line(INK, 1.4)))?;
             let name = name.replace('_', " ");
-            canvas.draw(&Text::new(name, at((x, y - 2.0)), text(TEXT, MUTED, HPos::Center, VPos::Bottom)))?;
-            let degrees = format!("{temperature:.1} K");
-            canvas.draw(&Text::new(degrees, at((x, y + 2.0)), text(TEXT, INK, HPos::Center, VPos::Top)))?;
+            canvas.draw(&Text::new(name, at((x, y - 3.0)), text(TEXT, MUTED, HPos::Center, VPos::Bottom)))?;
+            let scales = [format!("{temperature:.1} K"), format!("{:.1} \u{b0}C", celsius(temperature))];
+            for (k, degrees) in scales.into_iter().enumerate() {
+                let place = at((x, y + TEXT * k as f64));
+                canvas.draw(&Text::new(degrees, place, text(TEXT, INK, HPos::Center, VPos::Top)))?;
+            }
             if heat != 0.0 {
                 // On the side away from the middle, where no flow is.
                 let (side, anchor) = if y < CENTRE.1 { (-1.0, VPos::Bottom) } else { (1.0, VPos::Top) };

@@ -22,6 +22,8 @@ pub struct Room {
     markers: Vec<(i32, i32)>,
     lines: Vec<Frame>,
     labels: Vec<Frame>,
+    /// Corners that labels stay within, if any.
+    within: Option<[(i32, i32); 2]>,
 }
 
 /// A rectangle on the surface.
@@ -83,7 +85,12 @@ fn along(a: (i32, i32), b: (i32, i32), width: f64) -> impl Iterator<Item = Frame
 impl Room {
     /// For labels and markers of these sizes, px of the picture.
     pub fn new(size: f64, marker: f64) -> Self {
-        Self { size, marker, markers: Vec::new(), lines: Vec::new(), labels: Vec::new() }
+        Self { size, marker, markers: Vec::new(), lines: Vec::new(), labels: Vec::new(), within: None }
+    }
+
+    /// The same with labels within these corners only.
+    pub fn within(self, corners: [(i32, i32); 2]) -> Self {
+        Self { within: Some(corners), ..self }
     }
 
     /// Adds the markers of a curve, and the curve.
@@ -154,6 +161,13 @@ impl Room {
     /// How bad a place is, in areas of overlap.
     fn cost(&self, frame: &Frame, own: (i32, i32), far: usize) -> i64 {
         let (solid, lines) = self.covered(frame);
+        let outside = self.within.is_some_and(|[(left, top), (right, bottom)]| {
+            let [(x0, y0), (x1, y1)] = frame.corners();
+            x0 < left || y0 < top || x1 > right || y1 > bottom
+        });
+        if outside {
+            return i64::MAX;
+        }
         // A label nearer to the marker of another point would be read as belonging to it.
         let ambiguous = self.markers.iter().any(|at| frame.distance(*at) < frame.distance(own));
         SOLID * solid + CURVES * lines + frame.area() * (far as i64 + 2 * i64::from(ambiguous))
@@ -194,7 +208,7 @@ mod tests {
         let frames: Vec<Frame> = series.iter().flatten().map(|point| room.take(at(*point), "5000")).collect();
         for (i, frame) in frames.iter().enumerate() {
             let mut others =
-                Room { labels: Vec::new(), lines: room.lines.clone(), markers: room.markers.clone(), ..room };
+                Room { lines: room.lines.clone(), markers: room.markers.clone(), ..Room::new(11.0, 5.0) };
             others.labels = frames.iter().enumerate().filter(|(k, _)| *k != i).map(|(_, f)| *f).collect();
             assert_eq!(others.covered(frame), (0, 0), "label {i} at {frame:?}");
         }

@@ -2,6 +2,7 @@
 
 mod axis;
 mod cage_positions;
+mod cage_shape;
 mod forces;
 pub mod heat_flow;
 mod labels;

@@ -53,7 +53,8 @@ pub fn panel(
 ) -> Drawn {
     let below = if x_labels { X_LABELS } else { 0.0 };
     let corner = (px(place.x - Y_LABELS), px(place.y));
-    let area = canvas.clone().shrink(corner, (px(place.w + Y_LABELS) as u32, px(place.h + below) as u32));
+    canvas.note([place.x, place.y, place.w, place.h], [x, y]);
+    let area = (**canvas).clone().shrink(corner, (px(place.w + Y_LABELS) as u32, px(place.h + below) as u32));
     let mut chart = ChartBuilder::on(&area)
         .set_label_area_size(LabelAreaPosition::Left, px(Y_LABELS))
         .set_label_area_size(LabelAreaPosition::Bottom, px(below))

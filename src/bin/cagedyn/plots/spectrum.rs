@@ -1,146 +1,131 @@
 //! Amplitude spectrum of the cage position (compare Fig. 6).
 
 use super::axis::Axis;
-use super::panel::{Place, panel};
-use super::style::{self, BLUE, INK, MUTED, Marker, RED, Symbol, TEXT, THIN, line, px, text, text_width};
+use super::labels::Room;
+use super::panel::{Panel, Place, panel};
+use super::style::{self, BLUE, Canvas, Drawn, INK, Marker, RED, Symbol, TEXT, THIN, line};
 use crate::results::finished::Run;
 use crate::results::lines;
 use crate::results::summary::{Summary, Whirl};
 use crate::results::table::{number, rounded};
-use crate::spectrum::Spectrum;
+use crate::spectrum::{Peak, Spectrum};
 use cagedyn::Result;
-use plotters::prelude::Text;
-use plotters::style::text_anchor::{HPos, VPos};
+use plotters::style::text_anchor::HPos;
 
 /// Highest frequency shown, Hz, if the cage does not whirl faster ...
 const HIGHEST: f64 = 1000.0;
 /// ... or else in units of the whirl frequency.
 const ABOVE_WHIRL: f64 = 2.2;
-/// Multiples of the frequency of the cage that are marked.
-const HARMONICS: [usize; 4] = [1, 4, 8, 16];
-/// Powers of ten shown below the peak.
+/// Powers of ten shown below the highest amplitude, at most.
 const DECADES: f64 = 4.0;
-/// Labels of the whirl frequency and its double.
-const WHIRL: [&str; 2] = ["whirl", "2 x whirl"];
+/// Axes of fewer powers of ten have ticks between them.
+const FEW_DECADES: f64 = 2.5;
 /// Frequency ranges that are told apart.
 const COLUMNS: usize = 1000;
-/// Room above the peak for the label of a frequency, and above all labels, in powers of ten.
-const LABEL_ROOM: f64 = 0.3;
-const TOP_ROOM: f64 = 0.25;
-/// There is room for at least this many labels.
-const MIN_LABELS: usize = 3;
+/// Share of the height above the highest amplitude, which labels have, and below the lowest.
+const ROOM: (f64, f64) = (0.16, 0.03);
+/// Peaks without a name that are told by their frequency.
+const UNKNOWN: usize = 4;
+/// Size of the labels and of the markers, px.
+const LABEL: f64 = TEXT - 1.0;
+const MARKER: f64 = 3.0;
 
 /// Place of the diagram, px.
 const PLACE: Place = Place { x: 100.0, y: 100.0, w: 770.0, h: 370.0 };
+
+/// A peak with what is said of it.
+struct Named {
+    peak: Peak,
+    label: String,
+}
 
 /// The picture, if there is a cage and the run is long enough.
 pub fn cage_spectrum(run: &Run, summary: &Summary) -> Option<Result<String>> {
     let (mut spectrum, first) = lines::spectrum(run, summary.cage_frequency_hz)?;
     spectrum.amplitudes.iter_mut().for_each(|a| *a *= 1e3);
-    let highest =
-        summary.whirl.as_ref().and_then(Whirl::frequency).map_or(HIGHEST, |f| HIGHEST.max(ABOVE_WHIRL * f));
+    let whirl = summary.whirl.as_ref().and_then(Whirl::frequency);
+    let highest = whirl.map_or(HIGHEST, |f| HIGHEST.max(ABOVE_WHIRL * f));
     let shown = spectrum.frequencies.partition_point(|f| *f <= highest);
     spectrum.frequencies.truncate(shown);
     spectrum.amplitudes.truncate(shown);
-    let what = format!("Amplitude spectrum of cage.z from {} s to {} s", rounded(first), rounded(run.end()));
-    let count = run.model.element_count() as f64;
-    let cage = summary.cage_frequency_hz.filter(|f| *f >= spectrum.resolution);
-    let sidebands = cage.map_or(Vec::new(), |f| vec![(count - 1.0) * f, (count + 1.0) * f]);
-    let orders = orders(run, summary, &spectrum);
-    Some(draw(&run.title, &run.subtitle(&what), &spectrum, (&orders, &sidebands)))
-}
-
-/// Frequencies to mark, with their names: those of the cage, of the pockets passing by and of the whirl, as far as the spectrum tells
-/// them apart from others and from zero.
-fn orders(run: &Run, summary: &Summary, spectrum: &Spectrum) -> Vec<(f64, String)> {
-    let Some(cage) = summary.cage_frequency_hz.filter(|f| *f > 0.0) else { return Vec::new() };
-    let count = run.model.element_count();
-    // Those that matter most come first.
-    let passing = (count as f64 * cage, format!("Z f_c = {count} f_c"));
-    let whirl = summary.whirl.as_ref().and_then(Whirl::frequency);
-    let whirl = whirl.into_iter().flat_map(|f| [(f, WHIRL[0].to_owned()), (2.0 * f, WHIRL[1].to_owned())]);
-    let harmonics = HARMONICS.into_iter().map(|n| (n as f64 * cage, lines::multiple(n, "f_c")));
-    let mut list: Vec<(f64, String)> = Vec::new();
-    for (f, name) in std::iter::once(passing).chain(whirl).chain(harmonics) {
-        let apart = |other: f64| (f - other).abs() >= spectrum.resolution;
-        if apart(0.0) && list.iter().all(|(other, _)| apart(*other)) {
-            list.push((f, name));
-        }
+    let mut what =
+        format!("Amplitude spectrum of cage.z from {} s to {} s", rounded(first), rounded(run.end()));
+    let cage = summary.cage_frequency_hz.filter(|f| *f > 0.0);
+    if let Some(cage) = cage {
+        what += &format!(", f_c = {} Hz, Z = {}", number(cage), run.model.element_count());
     }
-    list.retain(|(f, _)| spectrum.frequencies.last().is_some_and(|highest| f < highest));
-    list.sort_by(|a, b| a.0.total_cmp(&b.0));
-    list
+    let known = cage.map_or(Vec::new(), |cage| lines::frequencies(run, cage, whirl));
+    let peaks = lines::named_peaks(&spectrum, &known);
+    let mut unknown = 0;
+    let labelled = peaks.into_iter().filter_map(|(peak, name)| {
+        unknown += usize::from(name.is_none());
+        let name = name.map(|name| name + ", ");
+        let label = format!("{}{} Hz", name.clone().unwrap_or_default(), number(peak.frequency));
+        (name.is_some() || unknown <= UNKNOWN).then_some(Named { peak, label })
+    });
+    let labelled: Vec<Named> = labelled.collect();
+    Some(draw(&run.title, &run.subtitle(&what), &spectrum, &labelled))
 }
 
-/// Rows for labels that begin at these places and are so long; higher ones have smaller numbers. A label stands below all that it
-/// begins within, so that its line from below does not cross their texts.
-fn rows(labels: &[(f64, f64)]) -> Vec<usize> {
-    let mut rows: Vec<usize> = Vec::new();
-    for (k, (x, _)) in labels.iter().enumerate() {
-        let over = labels[..k].iter().zip(&rows).filter(|((from, length), _)| from + length > *x);
-        rows.push(over.map(|(_, row)| row + 1).max().unwrap_or(0));
-    }
-    rows
-}
-
-fn draw(
-    title: &str,
-    subtitle: &str,
-    spectrum: &Spectrum,
-    (orders, sidebands): (&[(f64, String)], &[f64]),
-) -> Result<String> {
+fn draw(title: &str, subtitle: &str, spectrum: &Spectrum, peaks: &[Named]) -> Result<String> {
     let highest = spectrum.frequencies.last().copied().unwrap_or(HIGHEST);
-    let peak = spectrum.peak();
-    let largest = spectrum.amplitudes.iter().fold(0.0, |m: f64, a| m.max(*a)).max(1e-15).log10();
-    let labels: Vec<String> =
-        orders.iter().map(|(frequency, name)| format!("{name}, {} Hz", number(*frequency))).collect();
-    let long = |text: &String| (text_width(text, TEXT - 1.0) + 10.0) * highest / PLACE.w;
-    let extents: Vec<_> = orders.iter().zip(&labels).map(|((f, _), text)| (*f, long(text))).collect();
-    let rows = rows(&extents);
-    let room = TOP_ROOM + LABEL_ROOM * rows.iter().map(|row| row + 1).fold(MIN_LABELS, usize::max) as f64;
+    let all: Vec<(f64, f64)> = spectrum.lines(COLUMNS).collect();
+    let (low, high) = all
+        .iter()
+        .filter(|(_, a)| *a > 0.0)
+        .fold((f64::INFINITY, 1e-15f64), |(low, high), (_, a)| (low.min(*a), high.max(*a)));
+    let (low, high) = (low.min(high).log10().max(high.log10() - DECADES), high.log10());
+    let size = (high - low).max(0.3) / (1.0 - ROOM.0 - ROOM.1);
+    let ends = (high - (1.0 - ROOM.0) * size, high + ROOM.0 * size);
+    let peaks: Vec<&Named> = peaks.iter().filter(|named| named.peak.amplitude.log10() > low).collect();
+    let axis = if size < FEW_DECADES { Axis::logarithms } else { Axis::powers_of_ten };
+    let y_axis = axis("amplitude of cage.z [mm]", ends.0, ends.1);
     let x_axis = Axis::new("frequency [Hz]", 0.0, highest, 10);
-    let y_axis = Axis::powers_of_ten("amplitude of cage.z [mm]", (largest - DECADES).round(), largest + room);
     style::picture((900.0, 540.0), title, subtitle, |canvas| {
-        let window = match spectrum.segments {
-            1 => format!("Hann window, resolution {} Hz", number(spectrum.resolution)),
-            n => format!("Hann window, {n} segments, resolution {} Hz", number(spectrum.resolution)),
-        };
-        let mut entries = vec![(Symbol::Line(BLUE), window)];
-        if let Some((frequency, amplitude)) = peak {
-            let label = format!("peak {} mm at {} Hz", number(amplitude), number(frequency));
-            entries.push((Symbol::Marker(Marker::Ring, RED), label));
-        }
-        let whirls = orders.iter().any(|(_, name)| WHIRL.contains(&name.as_str()));
-        let marks = [
-            (orders.iter().any(|(_, name)| name.contains("f_c")), "n f_c"),
-            (!sidebands.is_empty(), "Z f_c ± f_c"),
-            (whirls, "n x whirl"),
-        ];
-        let marks: Vec<&str> = marks.into_iter().filter_map(|(there, name)| there.then_some(name)).collect();
-        if !marks.is_empty() {
-            entries.push((Symbol::Dashed(MUTED), marks.join(", ")));
-        }
-        style::legend_row(canvas, 78.0, &entries)?;
+        legend(canvas, spectrum, &peaks)?;
         panel(canvas, PLACE, (&x_axis, &y_axis), true, &[], |panel| {
-            for (((frequency, _), label), row) in orders.iter().zip(&labels).zip(&rows) {
-                let top = y_axis.max - 0.12 - LABEL_ROOM * *row as f64;
-                panel.vertical(*frequency, top, line(MUTED, THIN))?;
-                let (x, y) = panel.place((*frequency, top));
-                let style = text(TEXT - 1.0, INK, HPos::Left, VPos::Top);
-                panel.canvas().draw(&Text::new(label.as_str(), (x + px(5.0), y - px(2.0)), style))?;
-            }
-            for frequency in sidebands.iter().filter(|frequency| **frequency < highest) {
-                panel.vertical(*frequency, y_axis.min + 0.8, line(MUTED, THIN))?;
-            }
-            panel.curve(above(spectrum.lines(COLUMNS), y_axis.min), line(BLUE, THIN + 0.2))?;
-            match peak {
-                Some((f, a)) if a > 0.0 => {
-                    style::marker(panel.canvas(), Marker::Ring, panel.place((f, a.log10())), 4.5, RED)
-                }
-                _ => Ok(()),
-            }
+            let curve = above(all.into_iter(), y_axis.min);
+            panel.curve(curve.iter().copied(), line(BLUE, THIN + 0.2))?;
+            mark(panel, &curve, &peaks, [(0.0, y_axis.max), (highest, y_axis.min)])
         })
     })
+}
+
+fn legend(canvas: &Canvas<'_>, spectrum: &Spectrum, peaks: &[&Named]) -> Drawn {
+    let segments =
+        if spectrum.segments > 1 { format!("{} segments, ", spectrum.segments) } else { String::new() };
+    let window = format!("Hann window, {segments}resolution {} Hz", number(spectrum.resolution));
+    let peak = match (peaks.first(), spectrum.highest()) {
+        (Some(Named { peak, .. }), _) => Some((peak.amplitude, "peaks above the noise, highest")),
+        (None, highest) => highest.map(|peak| (peak.amplitude, "no peak above the noise, which goes up to")),
+    };
+    let symbol = if peaks.is_empty() { Symbol::None } else { Symbol::Marker(Marker::Ring, RED) };
+    let peak = peak.map(|(amplitude, what)| (symbol, format!("{what} {} mm", number(amplitude))));
+    let entries: Vec<_> = std::iter::once((Symbol::Line(BLUE), window)).chain(peak).collect();
+    style::legend_row(canvas, 78.0, &entries)
+}
+
+/// Rings and labels of the peaks, within these corners.
+fn mark(
+    panel: &Panel<'_, '_, '_>,
+    curve: &[(f64, f64)],
+    peaks: &[&Named],
+    corners: [(f64, f64); 2],
+) -> Drawn {
+    let mut room = Room::new(LABEL, MARKER).within(corners.map(|corner| panel.place(corner)));
+    for part in curve.split(|(_, a)| a.is_nan()) {
+        room.line(&part.iter().map(|point| panel.place(*point)).collect::<Vec<_>>(), THIN);
+    }
+    let place = |peak: &Peak| panel.place((peak.frequency, peak.amplitude.log10()));
+    peaks.iter().for_each(|named| room.add(&[place(&named.peak)]));
+    for Named { peak, label } in peaks {
+        let frame = room.take(place(peak), label);
+        room.leader(panel.canvas(), place(peak), &frame)?;
+        style::label(panel.canvas(), label, frame.centre, (LABEL, INK), HPos::Center)?;
+    }
+    peaks
+        .iter()
+        .try_for_each(|named| style::marker(panel.canvas(), Marker::Ring, place(&named.peak), MARKER, RED))
 }
 
 /// The logarithms of amplitudes, which end at `floor` where they go below it.
@@ -154,11 +139,6 @@ fn above(lines: impl Iterator<Item = (f64, f64)>, floor: f64) -> Vec<(f64, f64)>
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn labels_stand_below_those_that_they_begin_within() {
-        assert_eq!(rows(&[(0.0, 10.0), (4.0, 10.0), (11.0, 5.0), (20.0, 5.0)]), [0, 1, 2, 0]);
-    }
 
     #[test]
     fn curves_end_at_the_floor() {

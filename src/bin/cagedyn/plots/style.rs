@@ -1,14 +1,47 @@
 //! What all pictures share: colours, fonts, titles, markers and legends.
 
+use super::axis::Axis;
+use crate::results::table::escaped;
 use cagedyn::{Error, Result, Status};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 pub use plotters::style::RGBColor as Paint;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
+use std::cell::RefCell;
 use std::io;
+use std::ops::Deref;
 
 /// A drawing surface.
-pub type Canvas<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+pub struct Canvas<'a> {
+    area: DrawingArea<SVGBackend<'a>, Shift>,
+    /// Elements that nobody sees, by which a page knows what the places of diagrams mean.
+    notes: RefCell<String>,
+}
+
+impl<'a> Deref for Canvas<'a> {
+    type Target = DrawingArea<SVGBackend<'a>, Shift>;
+
+    fn deref(&self) -> &Self::Target {
+        &self.area
+    }
+}
+
+impl Canvas<'_> {
+    /// Notes that a rectangle in px is a diagram with these axes.
+    pub fn note(&self, [x, y, w, h]: [f64; 4], axes: [&Axis; 2]) {
+        let [x, y, w, h] = [x, y, w, h].map(px);
+        let of = |axis: &Axis| {
+            let kind = if axis.logarithmic() { "log" } else { "lin" };
+            let name = axis.name.lines().next().unwrap_or_default();
+            format!("{} {} {kind} {}", axis.min, axis.max, escaped(name))
+        };
+        let [across, up] = axes.map(of);
+        self.notes.borrow_mut().push_str(&format!(
+            "<rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" opacity=\"0\" data-x=\"{across}\" data-y=\"{up}\"/>\n"
+        ));
+    }
+}
+
 /// Result of drawing.
 pub type Drawn<T = ()> = std::result::Result<T, DrawingAreaErrorKind<io::Error>>;
 
@@ -44,6 +77,11 @@ pub const RED: Paint = Paint(0xb8, 0x2e, 0x3a);
 pub const PURPLE: Paint = Paint(0x74, 0x54, 0xa6);
 /// Sixth curve.
 pub const TEAL: Paint = Paint(0x1c, 0x8f, 0x9c);
+/// Bodies: bars, rims and edges of the cage, elements.
+pub const CAGE: Paint = Paint(0xd8, 0xb5, 0x6a);
+pub const CAGE_RIM: Paint = Paint(0xf0, 0xe2, 0xbf);
+pub const CAGE_EDGE: Paint = Paint(0x8a, 0x6d, 0x25);
+pub const METAL: Paint = Paint(0xee, 0xf1, 0xf4);
 
 /// Colours of series, in order.
 pub const SERIES: [Paint; 6] = [BLUE, ORANGE, GREEN, PURPLE, TEAL, RED];
@@ -94,7 +132,8 @@ pub fn picture(
     let mut svg = String::new();
     let (width, height) = (px(size.0), px(size.1));
     let drawn = (|| {
-        let canvas = SVGBackend::with_string(&mut svg, (width as u32, height as u32)).into_drawing_area();
+        let area = SVGBackend::with_string(&mut svg, (width as u32, height as u32)).into_drawing_area();
+        let canvas = Canvas { area, notes: RefCell::default() };
         canvas.fill(&WHITE)?;
         let room = size.0 - 2.0 * LEFT;
         let fitting = 18.0 * (room / text_width(title, 19.0)).min(1.0);
@@ -103,12 +142,15 @@ pub fn picture(
         let style = text(fitting, MUTED, HPos::Left, VPos::Top);
         canvas.draw(&Text::new(subtitle.to_owned(), (px(LEFT), px(42.0)), style))?;
         draw(&canvas)?;
-        canvas.present()
+        canvas.present()?;
+        Ok(canvas.notes.into_inner())
     })();
-    drawn.map_err(|e: DrawingAreaErrorKind<io::Error>| Error::new(Status::File, format!("picture: {e}")))?;
+    let notes = drawn
+        .map_err(|e: DrawingAreaErrorKind<io::Error>| Error::new(Status::File, format!("picture: {e}")))?;
     // The view box keeps the large coordinates; only the size of the picture shrinks.
     let drawn_size = format!("width=\"{width}\" height=\"{height}\"");
-    Ok(svg.replacen(&drawn_size, &format!("width=\"{}\" height=\"{}\"", size.0, size.1), 1))
+    let svg = svg.replacen(&drawn_size, &format!("width=\"{}\" height=\"{}\"", size.0, size.1), 1);
+    Ok(svg.replacen("</svg>", &format!("{notes}</svg>"), 1))
 }
 
 /// Left margin of titles and legends, px.
@@ -167,6 +209,20 @@ pub fn marker(canvas: &Canvas<'_>, shape: Marker, at: (i32, i32), size: f64, col
     }
 }
 
+/// Half the width of the ends of bars, px.
+const BAR_END: f64 = 4.0;
+
+/// Draws a bar of scatter, upright or level, between two places of the surface.
+pub fn bar(canvas: &Canvas<'_>, [from, to]: [(i32, i32); 2], color: Paint) -> Drawn {
+    if from == to {
+        return Ok(());
+    }
+    let (dx, dy) = if from.0 == to.0 { (px(BAR_END), 0) } else { (0, px(BAR_END)) };
+    let end = |(x, y): (i32, i32)| [(x - dx, y - dy), (x + dx, y + dy)];
+    let strokes = [[from, to], end(from), end(to)];
+    strokes.into_iter().try_for_each(|ends| canvas.draw(&PathElement::new(ends.to_vec(), line(color, THIN))))
+}
+
 /// Draws a text of a size in px with a white edge, to be readable on lines and colours.
 pub fn label(
     canvas: &Canvas<'_>,
@@ -201,6 +257,8 @@ pub enum Symbol {
     MarkedLine(Marker, Paint),
     /// A shaded interval.
     Patch,
+    /// Nothing: a remark.
+    None,
 }
 
 const SYMBOL_WIDTH: f64 = 22.0;
@@ -223,6 +281,7 @@ pub fn legend_entry(canvas: &Canvas<'_>, (x, y): (f64, f64), symbol: Symbol, lab
         canvas.draw(&PathElement::new(vec![(px(x + from), px(y)), (px(x + to), px(y))], style))
     };
     match symbol {
+        Symbol::None => {}
         Symbol::Line(color) => stroke(0.0, SYMBOL_WIDTH, line(color, 2.0))?,
         Symbol::Dashed(color) => {
             for k in 0..3 {

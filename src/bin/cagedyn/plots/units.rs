@@ -39,13 +39,8 @@ const UNITS: [&str; 30] = [
 /// Values of a signal, whose unit is that of the signal.
 const OF_SIGNAL: [&str; 8] = ["constant", "mean", "amplitude", "before", "after", "from", "to", "value"];
 
-/// Name of a value on an axis: its path, with its unit where that is known.
-pub fn with_unit(path: &str) -> String {
-    unit(path).map_or(path.to_owned(), |unit| format!("{path} [{unit}]"))
-}
-
-/// The unit of the value at a path.
-fn unit(path: &str) -> Option<&'static str> {
+/// The unit of the value at a path, where the schema tells it.
+pub fn unit(path: &str) -> Option<&'static str> {
     let schema: Value = serde_json::from_str(Scene::JSON_SCHEMA).ok()?;
     let (mut node, mut unit) = (&schema, None);
     for step in path.split('.').filter(|step| step.parse::<usize>().is_err()) {
@@ -99,6 +94,5 @@ mod tests {
         ] {
             assert_eq!(unit(path), expected, "{path}");
         }
-        assert_eq!(with_unit("cage.mass"), "cage.mass [kg]");
     }
 }

@@ -5,7 +5,7 @@ use super::panel::{Panel, Place, panel};
 use super::style::{
     self, BLUE, CURVE, Canvas, Drawn, INK, MUTED, Marker, ORANGE, Paint, RED, Symbol, THIN, line,
 };
-use super::units::with_unit;
+use super::sweep::Abscissa;
 use cagedyn::Result;
 use cagedyn::whirl::{Branch, End, Point};
 
@@ -28,7 +28,8 @@ type Value = fn(&Point) -> f64;
 /// [`cagedyn::Status::File`] when it cannot be drawn.
 pub fn draw(title: &str, path: &str, branch: &Branch) -> Result<String> {
     let points = &branch.points;
-    let x_axis = Axis::covering(&with_unit(path), points.iter().map(|point| point.parameter), 10);
+    let x = Abscissa::of_path(path, false, &points.iter().map(|point| point.parameter).collect::<Vec<_>>());
+    let x_axis = x.covering(10);
     let subtitle = format!(
         "Steady whirl over {path}, without gravity; the branch ends {}",
         match branch.end {
@@ -50,7 +51,9 @@ pub fn draw(title: &str, path: &str, branch: &Branch) -> Result<String> {
         for (k, (name, value)) in rows.into_iter().enumerate() {
             let y_axis = Axis::covering(name, points.iter().map(value), 6);
             let place = Place { x: LEFT, y: TOP + k as f64 * (HEIGHT + GAP), w: WIDTH, h: HEIGHT };
-            panel(canvas, place, (&x_axis, &y_axis), k == 2, &[], |panel| contents(panel, points, value))?;
+            panel(canvas, place, (&x_axis, &y_axis), k == 2, &[], |panel| {
+                contents(panel, (points, &x), value)
+            })?;
         }
         Ok(())
     })
@@ -73,15 +76,16 @@ fn legend(canvas: &Canvas<'_>, points: &[Point]) -> Drawn {
     Ok(())
 }
 
-fn contents(panel: &mut Panel<'_, '_, '_>, points: &[Point], value: Value) -> Drawn {
+fn contents(panel: &mut Panel<'_, '_, '_>, (points, x): (&[Point], &Abscissa), value: Value) -> Drawn {
+    let place = |point: &Point| (x.place(point.parameter), value(point));
     // Between branches there is no line.
     for pair in points.windows(2).filter(|pair| !pair[1].grazed) {
         let stable = pair.iter().all(|point| point.whirl.stable());
         let style = if stable { line(BLUE, CURVE) } else { line(MUTED, THIN) };
-        panel.curve(pair.iter().map(|point| (point.parameter, value(point))), style)?;
+        panel.curve(pair.iter().map(place), style)?;
     }
     let mark = |point: &Point, shape: Marker, size: f64, color: Paint| {
-        style::marker(panel.canvas(), shape, panel.place((point.parameter, value(point))), size, color)
+        style::marker(panel.canvas(), shape, panel.place(place(point)), size, color)
     };
     for point in points {
         let (shape, color) = if point.whirl.stable() { (Marker::Disc, BLUE) } else { (Marker::Ring, ORANGE) };

@@ -3,12 +3,9 @@
 use super::axis::Axis;
 use super::labels::nested;
 use super::panel::{Panel, Place, X_LABELS, panel};
-use super::style::{
-    self, CURVE, Canvas, Drawn, INK, MUTED, Marker, Symbol, TEXT, THIN, line, px, text_width,
-};
+use super::style::{self, CURVE, Canvas, Drawn, INK, MUTED, Marker, Symbol, TEXT, THIN, line, text_width};
 use super::{Series, is_long, look};
 use cagedyn::Result;
-use plotters::prelude::PathElement;
 
 /// Place and size of the diagram, px.
 const LEFT: f64 = 100.0;
@@ -18,9 +15,8 @@ const HEIGHT: f64 = 440.0;
 /// Height of the diagram of the starts, and its distance from the other, px.
 const STARTS: f64 = 120.0;
 const GAP: f64 = 16.0;
-/// Size of the markers and half width of the ends of the bars, px.
+/// Size of the markers, px.
 const MARKER: f64 = 4.5;
-const BAR_END: f64 = 4.0;
 
 /// Whirl of one case.
 pub struct WhirlPoint {
@@ -116,14 +112,7 @@ fn contents(
     let sizes = nested(&places, MARKER);
     for (((k, p, (x, _)), place), size) in shown().zip(&places).zip(sizes) {
         let (shape, color) = look(k);
-        let ends = band(p).map(|y| panel.place((x, y)));
-        let stroke = |from, to| panel.canvas().draw(&PathElement::new(vec![from, to], line(color, THIN)));
-        if ends[0] != ends[1] {
-            stroke(ends[0], ends[1])?;
-            for (x, y) in ends {
-                stroke((x - px(BAR_END), y), (x + px(BAR_END), y))?;
-            }
-        }
+        style::bar(panel.canvas(), band(p).map(|y| panel.place((x, y))), color)?;
         let shape = if p.whirls { shape } else { Marker::Ring };
         style::marker(panel.canvas(), shape, *place, size, color)?;
     }

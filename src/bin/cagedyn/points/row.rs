@@ -3,7 +3,7 @@
 use super::columns::{OF_ROLLERS, OF_WHIRL, of_rollers, of_whirl};
 use super::spectrum::Spectrum;
 use crate::results::files::plain;
-use crate::results::summary::Summary;
+use crate::results::summary::{FEW_TURNS, Summary};
 use cagedyn::{CageMotion, Error, Spread};
 use serde::{Deserialize, Serialize};
 
@@ -19,6 +19,9 @@ const PARTS: [Part; 7] = [
     ("5 %", |s| Some(s.p05)),
     ("95 %", |s| Some(s.p95)),
 ];
+
+/// Column of the turns of the cage in the run.
+pub const CAGE_TURNS: &str = "cage turns [1]";
 
 /// What is known of a run that is done.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -52,6 +55,7 @@ impl Row {
         let mut add = |name: &str, value: Option<f64>| {
             results.extend(value.map(|value| (name.to_owned(), plain(value))));
         };
+        add(CAGE_TURNS, summary.cage_turns);
         add("velocity deviation [1]", summary.whirl.as_ref().and_then(|whirl| whirl.velocity_deviation));
         add("load zone [rad]", summary.load_zone.map(|zone| zone.extent_rad));
         add("power loss [W]", summary.power_loss.as_ref().map(|loss| loss.total_w));
@@ -86,6 +90,11 @@ impl Row {
     /// The cell of a column of the results.
     pub fn text(&self, column: &str) -> Option<&str> {
         Some(&self.results.iter().find(|(name, _)| name == column)?.1)
+    }
+
+    /// Turns of the cage in the run, where they are too few for its means.
+    pub fn few_turns(&self) -> Option<f64> {
+        self.number(CAGE_TURNS).filter(|turns| *turns < FEW_TURNS)
     }
 
     /// A result that is a number.

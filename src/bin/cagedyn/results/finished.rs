@@ -29,12 +29,15 @@ pub struct Run {
     pub statistics: RunStatistics,
     /// Works and energies, if forces are defined at the end.
     pub balance: Option<PowerBalance>,
-    /// Forces of all contacts at the end, if they are defined there.
+    /// Forces of all contacts at a record, if they are defined there: that with the largest force on a pocket in the averaging
+    /// window, or the last one where there is none.
     pub contacts: Vec<ContactForces>,
+    /// Place of that record.
+    pub contacts_at: usize,
     /// Works up to the end, J.
     pub works: [f64; POWERS.len()],
-    /// Works up to the beginning of the averaging window.
-    pub before: BeforeWindow,
+    /// Works up to the beginning of the averaging window: time, s, and J.
+    pub before: Option<(f64, [f64; POWERS.len()])>,
     /// What speaks against trusting the run.
     pub doubts: Vec<String>,
     /// What the integration did and why.
@@ -109,9 +112,14 @@ impl Run {
 
     /// Which way the elements go round at the end: 1 counter-clockwise, -1 clockwise; none where they stand still.
     pub fn direction(&self) -> Option<f64> {
-        let inputs = self.model.inputs_at(self.end(), &HostInputs::default());
-        let [orbit, _] = self.model.kinematic_speeds(&inputs);
+        let orbit = self.kinematic_orbit_speed();
         (orbit != 0.0).then(|| orbit.signum())
+    }
+
+    /// Speed of the elements about the bearing at the end without slip, rad/s.
+    pub fn kinematic_orbit_speed(&self) -> f64 {
+        let inputs = self.model.inputs_at(self.end(), &HostInputs::default());
+        self.model.kinematic_speeds(&inputs)[0]
     }
 
     /// Number of rollers with a motion of their own.
@@ -120,23 +128,46 @@ impl Run {
     }
 }
 
-/// Notes the works of a run where its averaging window begins.
-pub struct BeforeWindow {
+/// What is noted of a run while it goes on.
+pub struct Notes {
+    /// Start of the averaging window, s.
     start: f64,
-    /// Time, s, and works up to it, J.
+    /// Columns of the forces on pockets.
+    pocket_forces: Vec<usize>,
+    /// Time in s of the first record in the window, and works up to it, J.
     pub works: Option<(f64, [f64; POWERS.len()])>,
+    /// The largest force on a pocket at a record in the window, N.
+    largest: f64,
+    /// Place, time in s and state of that record.
+    pub strongest: Option<(usize, f64, Vec<f64>)>,
 }
 
-impl BeforeWindow {
-    /// For a run that is recorded so.
-    pub fn new(record: &Record) -> Self {
-        Self { start: window_start(record, record.duration), works: None }
+impl Notes {
+    /// For a run of this model.
+    pub fn new(model: &Model) -> Self {
+        let (all, record) = (model.channels(), &model.scene().record);
+        let of_pocket = |(_, i): &(usize, &usize)| all[**i].name.ends_with("].pocket_force");
+        let pocket_forces = model.recorded().iter().enumerate().filter(of_pocket).map(|(place, _)| place);
+        Self {
+            start: window_start(record, record.duration),
+            pocket_forces: pocket_forces.collect(),
+            works: None,
+            largest: 0.0,
+            strongest: None,
+        }
     }
 
     /// To be called after every record.
-    pub fn at(&mut self, sim: &Sim) {
-        if self.works.is_none() && sim.time() >= self.start {
-            self.works = Some((sim.time(), sim.works()));
+    pub fn at(&mut self, sim: &Sim, recording: &Recording) {
+        if sim.time() < self.start {
+            return;
+        }
+        self.works.get_or_insert_with(|| (sim.time(), sim.works()));
+        let last = self.pocket_forces.iter().filter_map(|i| recording.columns.get(*i)?.last());
+        let largest = last.fold(0.0, |most: f64, force| most.max(force.abs()));
+        if largest > self.largest {
+            self.largest = largest;
+            self.strongest = Some((recording.times.len() - 1, sim.time(), sim.state().to_vec()));
         }
     }
 }

@@ -1,8 +1,10 @@
 //! Lines of the amplitude spectrum of the cage: at the frequencies of a bearing.
 
 use crate::results::finished::Run;
-use crate::spectrum::{Spectrum, averaged_spectrum};
+use crate::spectrum::{Peak, Spectrum, averaged_spectrum};
+use cagedyn::model::{HostInputs, Input};
 use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
 
 /// The start of a run is left out, s ...
 const SETTLED: f64 = 0.08;
@@ -35,6 +37,9 @@ pub struct Line {
     pub frequency_hz: f64,
     /// Amplitude of a sine there, m.
     pub amplitude_m: f64,
+    /// Whether there is a peak that stands out of the noise about it.
+    #[serde(default)]
+    pub peak: bool,
 }
 
 /// Spectrum of the height of the cage centre in m, and the time in s that it begins at; `None` without a cage or with too few
@@ -47,18 +52,38 @@ pub fn spectrum(run: &Run, cage: Option<f64>) -> Option<(Spectrum, f64)> {
     Some((averaged_spectrum(samples, run.interval(), wanted)?, *run.recording.times.get(from)?))
 }
 
-/// Frequencies of the bearing with their names: of the cage and its harmonics, of the elements that pass, with sidebands, and of
-/// the whirl. `cage` and `whirl` in Hz.
-pub fn frequencies(elements: usize, cage: f64, whirl: Option<f64>) -> Vec<(String, f64)> {
+/// Frequencies of the bearing with their names: of the cage and its harmonics, of the elements that pass a place, with sidebands, of
+/// the inner ring and the elements that pass a place of it, and of the whirl. `cage` and `whirl` in Hz.
+pub fn frequencies(run: &Run, cage: f64, whirl: Option<f64>) -> Vec<(String, f64)> {
+    let elements = run.model.element_count();
     let harmonic = |n: usize| (multiple(n, "f_c"), n as f64 * cage);
     let passing = elements as f64 * cage;
     let mut all: Vec<_> = HARMONICS.into_iter().filter(|n| *n != elements).map(harmonic).collect();
-    all.extend([("Z f_c", passing), ("2 Z f_c", 2.0 * passing)].map(|(name, f)| (name.to_owned(), f)));
+    all.extend([1, 2, 3].map(|n| (multiple(n, "Z f_c"), n as f64 * passing)));
     all.extend(
         [("Z f_c - f_c", -cage), ("Z f_c + f_c", cage)].map(|(name, f)| (name.to_owned(), passing + f)),
     );
-    all.extend(whirl.map(|f| ("whirl".to_owned(), f)));
+    let speed = run.model.inputs_at(run.end(), &HostInputs::default()).of(Input::RingSpeed);
+    let ring = Some(speed.abs() / TAU).filter(|f| *f > cage);
+    all.extend(ring.map(|f| ("f_i".to_owned(), f)));
+    all.extend(ring.map(|f| ("Z (f_i - f_c)".to_owned(), elements as f64 * (f - cage))));
+    all.extend(whirl.into_iter().flat_map(|f| [1, 2].map(|n| (multiple(n, "whirl"), n as f64 * f))));
     all
+}
+
+/// The peaks of a spectrum, highest first, each with the name of the nearest of these frequencies that it cannot be told apart from and
+/// that no higher one has.
+pub fn named_peaks(spectrum: &Spectrum, known: &[(String, f64)]) -> Vec<(Peak, Option<String>)> {
+    let mut left: Vec<&(String, f64)> = known.iter().collect();
+    let peaks = spectrum.peaks().into_iter();
+    peaks
+        .map(|peak| {
+            let off = |(_, f): &(String, f64)| (f - peak.frequency).abs();
+            let near = left.iter().enumerate().filter(|(_, known)| off(known) <= 0.5 * spectrum.resolution);
+            let nearest = near.min_by(|a, b| off(a.1).total_cmp(&off(b.1))).map(|(place, _)| place);
+            (peak, nearest.map(|place| left.remove(place).0.clone()))
+        })
+        .collect()
 }
 
 /// "f_c", "2 f_c" and so on.
@@ -70,9 +95,11 @@ pub fn multiple(n: usize, name: &str) -> String {
 pub fn lines(run: &Run, cage: Option<f64>, whirl: Option<f64>) -> Option<Lines> {
     let cage = cage.filter(|f| *f > 0.0)?;
     let (spectrum, from_s) = spectrum(run, Some(cage))?;
-    let known = frequencies(run.model.element_count(), cage, whirl).into_iter();
-    let found = known.filter_map(|(name, frequency_hz)| {
-        Some(Line { name, frequency_hz, amplitude_m: spectrum.at(frequency_hz)? })
+    let known = frequencies(run, cage, whirl);
+    let peaks = named_peaks(&spectrum, &known);
+    let found = known.into_iter().filter_map(|(name, frequency_hz)| {
+        let peak = peaks.iter().any(|(_, other)| other.as_ref() == Some(&name));
+        Some(Line { amplitude_m: spectrum.at(frequency_hz)?, name, frequency_hz, peak })
     });
     let lines = found.filter(|line| line.frequency_hz > spectrum.resolution).collect();
     Some(Lines { from_s, resolution_hz: spectrum.resolution, segments: spectrum.segments, lines })

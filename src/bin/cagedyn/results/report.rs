@@ -1,8 +1,8 @@
 //! The summary that `run` prints.
 
 use crate::results::finished::Run;
-use crate::results::summary::{Balance, Statistics, Summary, Whirl};
-use crate::results::table::{self, Align, grouped, number, rounded};
+use crate::results::summary::{Balance, Statistics, Summary, Whirl, Window};
+use crate::results::table::{self, Align, celsius, grouped, number, rounded};
 use std::borrow::Cow;
 use std::path::Path;
 
@@ -28,7 +28,11 @@ impl Row {
     }
 }
 
-struct Rows(Vec<Row>);
+struct Rows {
+    list: Vec<Row>,
+    /// What stands beside every mean, if the run is too short for it.
+    few_turns: Option<String>,
+}
 
 impl Rows {
     /// A mean with its deviation and its error in another unit, `scale` of it per SI unit. What is zero all the time is left
@@ -47,13 +51,24 @@ impl Rows {
                 false => "?".to_owned(),
             };
             let spread = Some([number(s.spread.deviation * scale), error]);
-            let (value, remark) = (number(s.spread.mean * scale), remark.to_owned());
-            self.0.push(Row { name, value, spread, unit, remark });
+            let (value, remark) = (number(s.spread.mean * scale), self.of_mean(remark));
+            self.list.push(Row { name, value, spread, unit, remark });
         }
     }
 
+    /// A mean of which nothing else is known.
+    fn mean(&mut self, name: &'static str, value: f64, unit: &'static str, remark: &str) {
+        self.add(name, number(value), unit, &self.of_mean(remark));
+    }
+
+    /// The remark of a mean.
+    fn of_mean(&self, remark: &str) -> String {
+        let parts = self.few_turns.iter().map(String::as_str).chain([remark]);
+        parts.filter(|part| !part.is_empty()).collect::<Vec<_>>().join("; ")
+    }
+
     fn add(&mut self, name: &'static str, value: String, unit: &'static str, remark: &str) {
-        self.0.push(Row { name, value, spread: None, unit, remark: remark.to_owned() });
+        self.list.push(Row { name, value, spread: None, unit, remark: remark.to_owned() });
     }
 }
 
@@ -62,10 +77,10 @@ pub fn text(run: &Run, summary: &Summary, folder: &Path) -> String {
     let w = &summary.window;
     let mut text = format!("{}\n{}\n", summary.title, run.facts);
     text.push_str(&format!(
-        "mean ± standard deviation (standard error of the mean; ? if still changing) from {} s to {} s ({} records)\n",
+        "mean ± standard deviation (standard error of the mean; ? if still changing) from {} s to {} s ({})\n",
         rounded(w.from_s),
         rounded(w.to_s),
-        w.records
+        window(w)
     ));
     if let Some(whirl) = &summary.whirl {
         text.push_str(&format!("cage motion in this time: {}\n", motion(whirl)));
@@ -87,6 +102,12 @@ pub fn text(run: &Run, summary: &Summary, folder: &Path) -> String {
     text
 }
 
+/// "200 records, 2.0 turns of the cage".
+pub fn window(window: &Window) -> String {
+    let turns = window.cage_turns.map(|turns| format!(", {turns:.1} turns of the cage"));
+    format!("{} records{}", window.records, turns.unwrap_or_default())
+}
+
 /// "backward whirl, 10.4 turns, within 15 % of its speed from 0.024 s on".
 pub fn motion(whirl: &Whirl) -> String {
     if !whirl.motion.is_whirl() {
@@ -101,7 +122,7 @@ pub fn motion(whirl: &Whirl) -> String {
 
 /// Results in the averaging window.
 pub fn results(summary: &Summary) -> Vec<Row> {
-    let mut rows = Rows(Vec::new());
+    let mut rows = Rows { list: Vec::new(), few_turns: summary.few_turns() };
     let of = |name: &str| summary.of(name);
     if summary.of("cage.y_ratio").is_some() {
         rows.spread("cage centre y", of("cage.y_ratio"), 1.0, "of guide clearance", "");
@@ -122,7 +143,7 @@ pub fn results(summary: &Summary) -> Vec<Row> {
     rows.spread("whirl radius", of("cage.whirl_radius"), 1e6, "um", "");
     if let Some(deviation) = summary.whirl.as_ref().and_then(|whirl| whirl.velocity_deviation) {
         let remark = "standard deviation of the speed of the cage centre over its mean";
-        rows.add("velocity deviation", number(deviation), "", remark);
+        rows.mean("velocity deviation", deviation, "", remark);
     }
     rows.spread("film share", of("guide.film_share"), 100.0, "%", "of the guide force");
     let across = "across the line from guide to cage centre";
@@ -141,8 +162,8 @@ pub fn results(summary: &Summary) -> Vec<Row> {
     }
     if let Some(forces) = &summary.pocket_forces {
         let remark = "mean over time, all elements together";
-        rows.add("pocket force, driving", number(forces.driving_n), "N", remark);
-        rows.add("pocket force, braking", number(forces.braking_n), "N", remark);
+        rows.mean("pocket force, driving", forces.driving_n, "N", remark);
+        rows.mean("pocket force, braking", forces.braking_n, "N", remark);
         rows.add("pocket force, largest", number(forces.largest_n), "N", "of one element, from every step");
     }
     rows.spread("drag torque", of("inner_ring.drag_torque"), 1.0, "N m", "on the inner ring");
@@ -154,17 +175,18 @@ pub fn results(summary: &Summary) -> Vec<Row> {
             format!("{} {:.0} %", name.replace('_', " "), 100.0 * power / loss.total_w)
         };
         let largest: Vec<_> = sources.into_iter().take(4).map(share).collect();
-        rows.add("power loss", number(loss.total_w), "W", &largest.join(", "));
+        rows.mean("power loss", loss.total_w, "W", &largest.join(", "));
     }
     rows.spread("inner ring y", of("inner_ring.y"), 1e6, "um", "");
     rows.spread("inner ring z", of("inner_ring.z"), 1e6, "um", "");
     for (name, statistics) in &summary.statistics {
         if let Some(lump) = name.strip_prefix("temperature.") {
-            rows.spread("temperature", Some(statistics), 1.0, "K", lump);
+            let remark = format!("{:.2} °C, {lump}", celsius(statistics.spread.mean));
+            rows.spread("temperature", Some(statistics), 1.0, "K", &remark);
         }
     }
     rows.spread("viscosity", of("lubricant.viscosity"), 1e3, "mPa s", "of the lubricant");
-    rows.0
+    rows.list
 }
 
 /// What the integration did and what it took, but for the time: name and text.

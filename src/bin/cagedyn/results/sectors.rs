@@ -29,6 +29,9 @@ pub struct Sectors {
     /// Its largest magnitude in any step, N.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub pocket_force_peak_n: Vec<Option<f64>>,
+    /// Turns of the cage in the run, where they are too few for a mean to say much.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub few_cage_turns: Option<f64>,
 }
 
 /// Quantity `field` of all elements over the angle from time `from` (s) on, if the scene records both.
@@ -67,6 +70,7 @@ pub fn of(run: &Run, from: f64) -> (Option<Sectors>, Option<LoadZone>) {
         pocket_force_mean_n: known(&forces.mean),
         pocket_force_p95_n: known(&forces.p95),
         pocket_force_peak_n: known(&forces.peak),
+        few_cage_turns: None,
     };
     (Some(sectors), zone)
 }

@@ -18,6 +18,9 @@ use std::path::Path;
 /// A name or unit: one of the program, or one that was read.
 type Name = Cow<'static, str>;
 
+/// A run with fewer turns of the cage says so beside every mean: with each turn loads and deviations of the bearing repeat.
+pub const FEW_TURNS: f64 = 3.0;
+
 /// All results. The names of the fields are those in the file.
 #[derive(Serialize, Deserialize)]
 pub struct Summary {
@@ -64,6 +67,9 @@ pub struct Summary {
     /// Where the power goes, mean over the window.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub power_loss: Option<PowerLoss>,
+    /// Turns of the cage in the whole run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cage_turns: Option<f64>,
     /// Averaging window.
     pub window: Window,
     /// Rotation frequency of the cage in the window, Hz.
@@ -184,6 +190,9 @@ pub struct PowerLoss {
     /// By source. What is zero, and what gives power, is left out.
     #[serde(serialize_with = "as_map", deserialize_with = "from_map")]
     pub by_source_w: Vec<(Name, f64)>,
+    /// Turns of the cage in the run, where they are too few for a mean to say much.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub few_cage_turns: Option<f64>,
 }
 
 /// Averaging window.
@@ -195,6 +204,9 @@ pub struct Window {
     pub to_s: f64,
     /// Number of records.
     pub records: usize,
+    /// Turns of the cage from the first to the last of them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cage_turns: Option<f64>,
 }
 
 /// Motion of the cage centre about the guide centre.
@@ -218,6 +230,9 @@ pub struct Whirl {
     pub velocity_deviation: Option<f64>,
     /// Time from which on the whirl speed stays within 15 % of its mean, s; none if it never does.
     pub settling_time_s: Option<f64>,
+    /// Turns of the cage in the run, where they are too few for a mean to say much.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub few_cage_turns: Option<f64>,
 }
 
 /// The largest slip of any roller.
@@ -240,6 +255,9 @@ pub struct PocketForces {
     pub braking_n: f64,
     /// Largest single force on the cage, driving or braking, N.
     pub largest_n: f64,
+    /// Turns of the cage in the run, where they are too few for a mean to say much.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub few_cage_turns: Option<f64>,
 }
 
 /// Extremes, mean and integral of one watched channel.
@@ -255,6 +273,9 @@ pub struct Extremes {
     pub mean: f64,
     /// Integral over time, in `unit` times s.
     pub integral: f64,
+    /// Turns of the cage in the run, where they are too few for a mean to say much.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub few_cage_turns: Option<f64>,
 }
 
 /// Statistics of one channel.
@@ -262,6 +283,9 @@ pub struct Extremes {
 pub struct Statistics {
     /// Unit; "1" for ratios.
     pub unit: Name,
+    /// Turns of the cage in the run, where they are too few for a mean to say much.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub few_cage_turns: Option<f64>,
     /// Mean, deviation and percentiles.
     #[serde(flatten)]
     pub spread: Spread,
@@ -273,12 +297,14 @@ impl Summary {
         let from = run.window_start();
         let whirl = whirl(&run.model, &run.recording, from);
         let speed = whirl.as_ref().and_then(|whirl| whirl.speed);
-        let statistics = key_statistics(&run.channels, &run.recording, from, speed);
+        let cage_turns = cage_turns(run, 0.0);
+        let few = cage_turns.filter(|turns| *turns < FEW_TURNS);
+        let statistics = key_statistics(&run.channels, &run.recording, (from, few), speed);
         let mean = |name: &str| statistics.iter().find(|(n, _)| n == name).map(|(_, s)| s.spread.mean);
         let layout = run.model.layout();
         let (over_orbit, load_zone) = sectors::of(run, from);
         let cage_frequency_hz = mean("cage.speed").map(|speed| speed.abs() / TAU);
-        let whirl = whirl.map(Whirl::new);
+        let whirl = whirl.map(|whirl| Whirl::new(whirl, few));
         let spectrum = lines(run, cage_frequency_hz, whirl.as_ref().and_then(Whirl::frequency));
         Self {
             title: run.title.clone(),
@@ -298,26 +324,37 @@ impl Summary {
             states: States { positions: layout.positions(), velocities: layout.velocities() },
             integration: integration(run),
             power_balance: run.balance.as_ref().map(balance),
-            power_loss: power_loss(run),
-            window: window(&run.recording, from),
+            power_loss: power_loss(run, few),
+            cage_turns,
+            window: window(run, from),
             cage_frequency_hz,
             whirl,
             spectrum,
             starts: None,
             max_roller_slip: max_roller_slip(run, from),
-            pocket_forces: pocket_forces(run, from),
+            pocket_forces: pocket_forces(run, (from, few)),
             load_zone,
-            over_orbit,
-            extremes: extremes(run, from),
+            over_orbit: over_orbit.map(|sectors| Sectors { few_cage_turns: few, ..sectors }),
+            extremes: extremes(run, (from, few)),
             statistics,
             files: vec![if run.written { SERIES } else { UNFINISHED }.to_owned()],
         }
+    }
+
+    /// Turns of the cage in the run where they are few, in words.
+    pub fn few_turns(&self) -> Option<String> {
+        self.cage_turns.filter(|turns| *turns < FEW_TURNS).map(few_turns)
     }
 
     /// Statistics of a channel, if it has any.
     pub fn of(&self, channel: &str) -> Option<&Statistics> {
         self.statistics.iter().find(|(name, _)| name == channel).map(|(_, s)| s)
     }
+}
+
+/// What stands beside a mean over a run of so few turns of the cage.
+pub fn few_turns(turns: f64) -> String {
+    format!("only {turns:.1} turns of the cage")
 }
 
 /// Channel whose statistics leave out what is near the centre of the guide.
@@ -328,7 +365,7 @@ const WHIRL_SPEED: &str = "cage.whirl_speed";
 fn key_statistics(
     channels: &[Channel],
     recording: &Recording,
-    from: f64,
+    (from, few_cage_turns): (f64, Option<f64>),
     whirl_speed: Option<Spread>,
 ) -> Vec<(String, Statistics)> {
     let of_element = |name: &str| name.starts_with("roller[") || name.starts_with("element[");
@@ -340,7 +377,7 @@ fn key_statistics(
                 WHIRL_SPEED => whirl_speed?,
                 _ => recording.spread(i, from)?,
             };
-            Some((c.name.clone(), Statistics { unit: c.unit.into(), spread }))
+            Some((c.name.clone(), Statistics { unit: c.unit.into(), few_cage_turns, spread }))
         })
         .collect()
 }
@@ -371,8 +408,8 @@ fn drives(name: &str) -> bool {
     matches!(name, "loads" | "ring_drive" | "outer_ring_drive" | "element_drive")
 }
 
-fn power_loss(run: &Run) -> Option<PowerLoss> {
-    let (from, before) = run.before.works?;
+fn power_loss(run: &Run, few_cage_turns: Option<f64>) -> Option<PowerLoss> {
+    let (from, before) = run.before?;
     let time = run.time - from;
     if time <= 0.0 {
         return None;
@@ -381,7 +418,7 @@ fn power_loss(run: &Run) -> Option<PowerLoss> {
         POWERS.into_iter().zip(run.works).zip(before).map(|((name, now), then)| (name, (then - now) / time));
     let losses: Vec<_> = powers.filter(|(name, power)| *power > 0.0 && !drives(name)).collect();
     let total_w = losses.iter().map(|(_, power)| power).sum();
-    Some(PowerLoss { total_w, by_source_w: named(losses.into_iter()) })
+    Some(PowerLoss { total_w, by_source_w: named(losses.into_iter()), few_cage_turns })
 }
 
 /// The pairs with their names as those that were read are.
@@ -417,7 +454,7 @@ impl Whirl {
         Some(self.mean_speed_rad_per_s.filter(|_| self.motion.is_whirl())?.abs() / TAU)
     }
 
-    fn new(w: WhirlSummary) -> Self {
+    fn new(w: WhirlSummary, few_cage_turns: Option<f64>) -> Self {
         Self {
             motion: w.motion,
             mean_speed_rad_per_s: w.speed.map(|speed| speed.mean),
@@ -427,17 +464,32 @@ impl Whirl {
             turns: w.turns,
             velocity_deviation: w.velocity_deviation,
             settling_time_s: w.settling_time,
+            few_cage_turns,
         }
     }
 }
 
-fn window(recording: &Recording, from: f64) -> Window {
-    let times = recording.times.get(recording.index_at(from)..).unwrap_or_default();
+fn window(run: &Run, from: f64) -> Window {
+    let times = run.recording.times.get(run.recording.index_at(from)..).unwrap_or_default();
     Window {
         from_s: times.first().copied().unwrap_or(0.0),
         to_s: times.last().copied().unwrap_or(0.0),
         records: times.len(),
+        cage_turns: cage_turns(run, from),
     }
+}
+
+/// Turns of the cage from time `from` (s) to the end, in either sense; without slip where its speed is not recorded. `None` without a
+/// cage, or of one that does not turn.
+fn cage_turns(run: &Run, from: f64) -> Option<f64> {
+    run.model.scene().cage.as_ref()?;
+    let first = run.recording.index_at(from);
+    let times = run.recording.times.get(first..)?;
+    let speed = match run.column("cage.speed").and_then(|column| column.get(first..)) {
+        Some(column) => column.iter().map(|speed| speed.abs()).sum::<f64>() / column.len() as f64,
+        None => run.kinematic_orbit_speed().abs(),
+    };
+    Some(speed * (times.last()? - times.first()?) / TAU).filter(|turns| *turns > 0.0)
 }
 
 /// The columns `roller[j].field` of all rollers from time `from` on.
@@ -456,7 +508,7 @@ fn max_roller_slip(run: &Run, from: f64) -> Option<RollerSlip> {
     Some(RollerSlip { value, roller, time_s })
 }
 
-fn pocket_forces(run: &Run, from: f64) -> Option<PocketForces> {
+fn pocket_forces(run: &Run, (from, few_cage_turns): (f64, Option<f64>)) -> Option<PocketForces> {
     let kind = run.model.element_kind();
     let of_element = |j: usize| run.interval_from(&format!("{kind}[{j}].pocket_force"), from);
     let all: Vec<Interval> = (0..run.model.element_count()).map(of_element).collect::<Option<_>>()?;
@@ -465,15 +517,17 @@ fn pocket_forces(run: &Run, from: f64) -> Option<PocketForces> {
         driving_n: all.iter().map(|x| x.positive).sum::<f64>() / time,
         braking_n: all.iter().map(|x| x.positive - x.integral).sum::<f64>() / time,
         largest_n: all.iter().map(|x| x.max.max(-x.min)).fold(0.0, f64::max),
+        few_cage_turns,
     })
 }
 
-fn extremes(run: &Run, from: f64) -> Vec<(String, Extremes)> {
+fn extremes(run: &Run, (from, few_cage_turns): (f64, Option<f64>)) -> Vec<(String, Extremes)> {
     let all = run.model.channels();
     let watched = run.model.watched().iter().map(|i| &all[*i]);
     let found = watched.enumerate().filter_map(|(place, channel)| {
         let Interval { min, max, mean, integral, .. } = run.recording.interval(place, from)?;
-        Some((channel.name.clone(), Extremes { unit: channel.unit.into(), min, max, mean, integral }))
+        let unit = channel.unit.into();
+        Some((channel.name.clone(), Extremes { unit, min, max, mean, integral, few_cage_turns }))
     });
     found.collect()
 }

@@ -43,9 +43,30 @@ pub fn number(x: f64) -> String {
     format!("{x:.decimals$}")
 }
 
+/// A temperature in K on the scale of Celsius.
+pub fn celsius(temperature: f64) -> f64 {
+    temperature - 273.15
+}
+
 /// A number without the round-off of its last digits and without trailing zeros: 0.3, not 0.30000000000000004.
 pub fn rounded(x: f64) -> f64 {
     format!("{x:.11e}").parse().unwrap_or(x)
+}
+
+/// Text as HTML, also within quotes.
+pub fn escaped(text: &str) -> String {
+    let mut html = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => html.push_str("&amp;"),
+            '<' => html.push_str("&lt;"),
+            '>' => html.push_str("&gt;"),
+            '"' => html.push_str("&quot;"),
+            '\'' => html.push_str("&#39;"),
+            _ => html.push(c),
+        }
+    }
+    html
 }
 
 /// An integer with its digits in groups of three.

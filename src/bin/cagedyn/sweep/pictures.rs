@@ -118,6 +118,7 @@ fn curves(
         band: band.and_then(|[low, high]| Some([row.number(low)?, row.number(high)?])),
         trusted: row.trusted != Some(false),
         failed: row.error.is_some(),
+        short: row.few_turns().is_some(),
     };
     let series = |quantity: &Quantity, label: Option<&String>| {
         let of =
@@ -147,6 +148,7 @@ fn map(rows: &[(usize, Row)], (name, mean, _): &Quantity) -> Map {
             value: row.number(mean).filter(|_| !meaningless),
             meaningless,
             trusted: row.trusted != Some(false),
+            short: row.few_turns().is_some(),
         }
     });
     Map { name, cells: cells.collect() }

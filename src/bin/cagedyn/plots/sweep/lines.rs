@@ -30,6 +30,8 @@ pub struct Mark {
     pub trusted: bool,
     /// Whether it failed.
     pub failed: bool,
+    /// Whether it is too short for means.
+    pub short: bool,
 }
 
 /// A diagram.
@@ -50,7 +52,11 @@ pub fn lines(title: &str, x: &Abscissa, labels: &[String], diagrams: &[Curves]) 
     let longest = entries.iter().map(|(_, label)| text_width(label, TEXT)).fold(120.0, f64::max);
     let height = TOP + diagrams.len() as f64 * (HEIGHT + GAP) + 50.0;
     let width = LEFT + WIDTH + 28.0 + 36.0 + longest;
-    style::picture((width, height), title, "Over the averaging window of every run; SI units", |canvas| {
+    let mut subtitle = "Over the averaging window of every run".to_owned();
+    if diagrams.iter().flat_map(|d| &d.series).flatten().any(|mark| mark.short) {
+        subtitle += super::SHORT;
+    }
+    style::picture((width, height), title, &subtitle, |canvas| {
         legend(canvas, &entries)?;
         for (k, diagram) in diagrams.iter().enumerate() {
             let marks = || diagram.series.iter().flatten();

@@ -31,6 +31,8 @@ pub struct Cell {
     pub meaningless: bool,
     /// Whether the run is to be trusted.
     pub trusted: bool,
+    /// Whether it is too short for means.
+    pub short: bool,
 }
 
 /// A map.
@@ -57,7 +59,10 @@ pub fn maps(title: &str, axes: [&Abscissa; 2], maps: &[Map]) -> Result<String> {
     let ends = |k: usize| (edges[k].first().copied().unwrap_or(0.0), edges[k].last().copied().unwrap_or(1.0));
     let (x_axis, y_axis) = (axes[0].axis_of_cells(ends(0), 6), axes[1].axis_of_cells(ends(1), 10));
     let any = |is: fn(&Cell) -> bool| maps.iter().flat_map(|map| &map.cells).any(is);
-    let mut subtitle = "Means over the averaging window of every run; SI units".to_owned();
+    let mut subtitle = "Means over the averaging window of every run".to_owned();
+    if any(|cell| cell.short) {
+        subtitle += super::SHORT;
+    }
     if maps.iter().any(|map| map.name.starts_with("max ")) {
         subtitle += "; max: the largest in it";
     }

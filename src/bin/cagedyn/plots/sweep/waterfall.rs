@@ -66,7 +66,7 @@ pub fn waterfall(title: &str, diagrams: &[Spectra]) -> Result<String> {
     let range = [f64::min, f64::max].map(|of| resolutions.clone().reduce(of).unwrap_or(0.0));
     let range = range.map(|x| format!("{x:.1}"));
     let range = if range[0] == range[1] { range[0].clone() } else { range.join(" to ") };
-    let subtitle = format!("Amplitude spectrum of cage.z; Hann window, resolution {range} Hz; SI units");
+    let subtitle = format!("Amplitude spectrum of cage.z; Hann window, resolution {range} Hz");
     style::picture(size, title, &subtitle, |canvas| {
         let marked = names(&all).join(", ");
         let mut entries = vec![(Symbol::Dashed(INK), marked)];
@@ -90,7 +90,7 @@ pub fn waterfall(title: &str, diagrams: &[Spectra]) -> Result<String> {
 fn draw(canvas: &Canvas<'_>, place: Place, diagram: &Spectra, (highest, scale): (f64, &Axis)) -> Drawn {
     let x = &diagram.axis;
     let mut columns: Vec<&Column> = diagram.columns.iter().collect();
-    columns.sort_by(|a, b| a.at.total_cmp(&b.at));
+    columns.sort_by(|a, b| x.place(a.at).total_cmp(&x.place(b.at)));
     let edges = x.edges();
     let ends = (edges.first().copied().unwrap_or(0.0), edges.last().copied().unwrap_or(1.0));
     let (x_axis, y_axis) = (x.axis(ends, 10), Axis::new("frequency [Hz]", 0.0, highest, 8));
