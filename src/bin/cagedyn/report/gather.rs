@@ -116,9 +116,10 @@ fn picture(path: &Path) -> std::result::Result<String, String> {
     let plain = |tag: &str| {
         let inside = tag.split('>').next().unwrap_or_default();
         let acts = |word: &String| word.starts_with("on") || word.ends_with("href") || word == "style";
-        // The end of the tag is not within a value.
-        !words(inside).iter().any(acts)
+        // Names, which stand outside of the quotes; the end of the tag is not within a value.
+        !inside.split('"').step_by(2).flat_map(words).any(|word| acts(&word))
             && !inside.contains('\'')
+            && !inside.contains("url(")
             && inside.matches('"').count().is_multiple_of(2)
     };
     let drawn = svg.starts_with("<svg") && svg.split('<').skip(1).all(|tag| known(tag) && plain(tag));
@@ -137,6 +138,7 @@ mod tests {
             fs::write(&path, svg).unwrap();
             picture(&path).is_ok()
         };
+        assert!(taken("<svg><rect data-x=\"0 1 lin one of them, style [1]\"/></svg>"));
         assert!(taken("<svg width=\"1\">\n<text x=\"1\">\n1 &lt; 2 on top, style\n</text>\n</svg>\n"));
         for bad in [
             "<svg><script>alert(1)</script></svg>",
@@ -145,6 +147,7 @@ mod tests {
             "<svg/onload=\"x\"></svg>",
             "<svg><text x=\"a>b\"onclick=\"x\">a</text></svg>",
             "<svg><text x='a>b' y='1'>a</text></svg>",
+            "<svg><rect fill=\"url(x)\"/></svg>",
             "<svg><rect style=\"fill:url(x)\"/></svg>",
             "<svg><image href=\"x\"/></svg>",
             "<svg><!-- --></svg>",

@@ -3,9 +3,9 @@
 use super::animation::Animation;
 use super::gather::Gathered;
 use super::scene_text::{Remarks, marked};
-use crate::results::report::{cost, motion, results};
-use crate::results::summary::{Balance, Summary};
-use crate::results::table::{number, rounded};
+use crate::results::report::{cost, motion, results, window};
+use crate::results::summary::{Balance, Summary, few_turns};
+use crate::results::table::{escaped, number, rounded};
 use std::path::Path;
 
 /// The whole page but for the line that a report begins with.
@@ -15,11 +15,19 @@ pub fn page(g: &Gathered) -> String {
         "version" => s.version.to_string(),
         "title" => escaped(&s.title),
         "css" => include_str!("report.css").to_owned(),
-        "js" => {
-            concat!("\"use strict\";\n", include_str!("bearing.js"), include_str!("report.js")).to_owned()
+        "js" => concat!(
+            "\"use strict\";\n",
+            include_str!("bearing.js"),
+            include_str!("pictures.js"),
+            include_str!("report.js")
+        )
+        .to_owned(),
+        "zoom" => {
+            concat!("/*\n", include_str!("panzoom.license.txt"), "*/\n", include_str!("panzoom.min.js"))
+                .to_owned()
         }
         "facts" => escaped(&g.facts),
-        "trust" => trust(s),
+        "trust" => trust(g),
         "origin" => origin(s),
         "results" => summary_table(s),
         "animation" => g.animation.as_ref().map_or(String::new(), animation),
@@ -51,23 +59,8 @@ fn unfilled(name: &str) -> String {
     format!("{{{{{name}}}}}")
 }
 
-/// Text as HTML.
-pub fn escaped(text: &str) -> String {
-    let mut html = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => html.push_str("&amp;"),
-            '<' => html.push_str("&lt;"),
-            '>' => html.push_str("&gt;"),
-            '"' => html.push_str("&quot;"),
-            '\'' => html.push_str("&#39;"),
-            _ => html.push(c),
-        }
-    }
-    html
-}
-
-fn trust(s: &Summary) -> String {
+fn trust(g: &Gathered) -> String {
+    let s = &g.summary;
     let mut wrong: Vec<String> = s.error.iter().map(|e| format!("The run failed: {e}")).collect();
     if s.interrupted {
         wrong.push("The run was interrupted.".to_owned());
@@ -77,12 +70,9 @@ fn trust(s: &Summary) -> String {
         wrong.push(format!("The results are incomplete: they end at {end} s."));
     }
     wrong.extend(s.doubts.iter().cloned());
-    let warnings = list(&s.warnings);
-    let warnings = match s.warnings.is_empty() {
-        true => String::new(),
-        false => format!("<p>Unlikely values of the scene:</p>{warnings}"),
-    };
+    let but = !s.warnings.is_empty() || s.few_turns().is_some();
     let (class, says) = match (s.trusted, s.complete) {
+        (true, true) if but => ("trust but", "Trusted"),
         (true, true) => ("trust", "Trusted"),
         (true, false) => ("trust no", "Incomplete"),
         (false, _) => ("trust no", "Not to be trusted"),
@@ -91,7 +81,40 @@ fn trust(s: &Summary) -> String {
         true => format!(": the run kept what the preset {} promises.", escaped(&s.integration.preset)),
         false => list(&wrong),
     };
-    format!("<div class=\"{class}\"><b>{says}</b>{kept}{warnings}</div>")
+    format!(
+        "<div class=\"{class}\"><b>{says}</b>{kept}<p>That stands under these conditions:</p>{}</div>",
+        list(&conditions(g))
+    )
+}
+
+/// What a reader has to know before trusting results.
+fn conditions(g: &Gathered) -> Vec<String> {
+    let s = &g.summary;
+    let mut all = Vec::new();
+    if let Some(few) = s.few_turns() {
+        all.push(format!("The run has {few}, so its means say little of how the bearing runs."));
+    }
+    let changing = s.statistics.iter().filter(|(_, of)| !of.spread.stationary).count();
+    if changing > 0 {
+        let count = s.statistics.len();
+        all.push(format!("{changing} of {count} channels were still changing in the averaging window."));
+    }
+    all.extend(s.warnings.iter().map(|warning| format!("Unlikely value of the scene: {warning}")));
+    let assumed = Remarks::of(g.comment.as_ref()).assumed;
+    all.push(match assumed.as_ref().map(Vec::len) {
+        None => "The scene does not say which of its values are assumed.".to_owned(),
+        Some(0) => "The scene names none of its values as assumed.".to_owned(),
+        Some(1) => "The scene names one of its values as assumed; it is marked below.".to_owned(),
+        Some(n) => format!("The scene names {n} of its values as assumed; they are marked below."),
+    });
+    let balance = s.power_balance.as_ref().map_or(String::new(), |balance| {
+        format!(
+            " {:.4} % of the energy that passed through is missing.",
+            100.0 * balance.relative_residual.abs()
+        )
+    });
+    all.push(format!("Judged is how exactly the equations of this scene were solved, not whether they are those of the bearing.{balance}"));
+    all
 }
 
 fn list(lines: &[String]) -> String {
@@ -133,12 +156,8 @@ fn signed(text: &str) -> String {
 
 fn summary_table(s: &Summary) -> String {
     let w = &s.window;
-    let mut html = format!(
-        "<p>Averaging window: {} s to {} s, {} records.",
-        rounded(w.from_s),
-        rounded(w.to_s),
-        w.records
-    );
+    let mut html =
+        format!("<p>Averaging window: {} s to {} s, {}.", rounded(w.from_s), rounded(w.to_s), window(w));
     if let Some(whirl) = &s.whirl {
         html.push_str(&format!(" Motion of the cage in it: <b>{}</b>.", escaped(&motion(whirl))));
     }
@@ -256,8 +275,8 @@ fn statistics(s: &Summary) -> String {
     let rows = s.statistics.iter().map(|(name, of)| {
         let x = &of.spread;
         let error = if x.stationary { number(x.standard_error) } else { "still changing".to_owned() };
-        let numbers = [x.mean, x.deviation].map(number).into_iter();
-        let numbers = numbers.chain([error]).chain([x.min, x.p05, x.p95, x.max].map(number));
+        let numbers = [of_run(number(x.mean), of.few_cage_turns), number(x.deviation), error].into_iter();
+        let numbers = numbers.chain([x.min, x.p05, x.p95, x.max].map(number));
         let names = [escaped(name), escaped(&of.unit)];
         names.into_iter().chain(numbers.map(|text| signed(&text))).collect()
     });
@@ -284,11 +303,17 @@ fn extremes(s: &Summary) -> String {
     }
     let rows = s.extremes.iter().map(|(name, x)| {
         let names = [escaped(name), escaped(&x.unit)];
-        names.into_iter().chain([x.min, x.max, x.mean].map(|x| signed(&number(x)))).collect()
+        let mean = of_run(number(x.mean), x.few_cage_turns);
+        names.into_iter().chain([number(x.min), number(x.max), mean].map(|text| signed(&text))).collect()
     });
     let head = [("channel", false), ("unit", false), ("smallest", true), ("largest", true), ("mean", true)];
     let title = format!("Extremes of {} channels in any step of the window", s.extremes.len());
     folded(&title, &table(&head, rows))
+}
+
+/// A mean, with the turns of the cage in its run where they are few.
+fn of_run(mean: String, few: Option<f64>) -> String {
+    few.map_or(mean.clone(), |turns| format!("{mean} ({})", few_turns(turns)))
 }
 
 /// Something that opens at a click, and in print.

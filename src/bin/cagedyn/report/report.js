@@ -46,7 +46,7 @@
   const places = Math.max(0, Math.ceil(-Math.log10(data.times[1] - data.times[0])));
 
   function readout(at) {
-    const rows = [["time", `${digits(time(at), places)} s`]];
+    const rows = [["time", `${digits(time(at), places)} s`], ["frame", `${digits(at + 1, Number.isInteger(at) ? 0 : 1)} of ${frames}`]];
     if (data.cage) {
       const [y, z] = centreAt(at);
       const of = clearance ? "" : " mm";
@@ -116,6 +116,14 @@
     if (on) window.requestAnimationFrame(tick);
   }
 
+  // To the next frame, or the one before.
+  function step(way) {
+    play(false);
+    const next = way > 0 ? Math.floor(state.at + 1e-9) + 1 : Math.ceil(state.at - 1e-9) - 1;
+    state.at = Math.min(Math.max(next, 0), frames - 1);
+    show();
+  }
+
   // Moves on by the time since the last call.
   function tick(now) {
     if (!state.playing) return;
@@ -149,6 +157,11 @@
 
   element("time").max = frames - 1;
   element("play").addEventListener("click", () => play(!state.playing));
+  element("back").addEventListener("click", () => step(-1));
+  element("forward").addEventListener("click", () => step(1));
+  document.addEventListener("keydown", (event) => {
+    if (event.key === "," || event.key === ".") step(event.key === "." ? 1 : -1);
+  });
   element("time").addEventListener("input", (event) => {
     play(false);
     state.at = Number(event.target.value);
@@ -214,6 +227,13 @@
     const paused = state.at;
     tick(1e6);
     expect(state.at === paused, "it moves while it is paused");
+    set("time", 0.5);
+    element("forward").click();
+    expect(state.at === 1, "the next frame is another");
+    element("back").click();
+    expect(state.at === 0, "the frame before is another");
+    element("back").click();
+    expect(state.at === 0, "there is a frame before the first");
     set("time", frames - 1);
     expect(readText().startsWith(digits(data.times[frames - 1], places)), "the end shows another time");
     set("time", (frames - 1) / 2);
