@@ -65,6 +65,13 @@ fn cases_that_are_done_are_not_run_again() {
     assert_eq!(first.status.code(), Some(1), "{}", text(&first.stderr));
     assert!(!text(&first.stdout).contains("of them done"));
     let (before, times) = (results(&out), written(&out));
+    // How much the cage moves about its mean, and how short the runs are.
+    assert!(before.1.contains("bars from the 5th to the 95th percentile"));
+    let printed = text(&first.stdout);
+    let turns = before.0[0].iter().position(|cell| cell == "cage turns [1]").expect("turns");
+    let few =
+        before.0[1..].iter().filter(|row| row[turns].parse().is_ok_and(|turns: f64| turns < 3.0)).count();
+    assert_eq!((few, printed.matches("turns of the cage").count()), (4, 4), "{printed}");
     let whole_table = std::fs::read(out.join("cases.csv")).expect("a table");
     let again = cases(&file, &out, &["--jobs", "1"]);
     // The failure is kept and told, too.

@@ -22,6 +22,7 @@ mod fuzzed;
 mod header;
 mod hosts;
 mod install;
+mod pictures;
 mod report;
 mod spectra;
 mod sweep;

@@ -51,7 +51,8 @@ fn loads(page: &str) -> Vec<&str> {
         "<embed",
     ];
     let found = marks.into_iter().filter(|mark| page.contains(mark));
-    let known = ["http://www.w3.org/2000/svg"];
+    // In the licence of what pictures are zoomed with.
+    let known = ["http://www.w3.org/2000/svg", "https://github.com/timmywil/panzoom"];
     let links = page.match_indices("http").map(|(i, _)| &page[i..page.len().min(i + 60)]);
     let links = links.filter(|link| link.starts_with("http://") || link.starts_with("https://"));
     found.chain(links.filter(|link| !known.iter().any(|known| link.starts_with(known)))).collect()
@@ -76,6 +77,9 @@ fn a_report_is_one_small_file_that_loads_nothing_and_is_the_same_from_its_folder
         assert_eq!(first, page(&out, &at("third.html"), &[]), "{scene}: the folder has another report");
         for part in [
             "<b>Trusted</b>",
+            "under these conditions",
+            "Judged is how exactly",
+            "Permission is hereby granted",
             "Power balance",
             "Orbit of the cage centre",
             "Amplitude spectrum",
@@ -169,8 +173,8 @@ fn texts_of_a_scene_are_escaped_and_assumed_values_marked() {
     );
     assert!(page.contains("<title>&lt;/title&gt;&amp;</title>"), "titles");
     let plain = self::page(&scene.to_string_lossy(), &dir.path().join("y.html"), &[]);
-    assert_eq!(plain.matches("<script").count(), 2, "the script and its numbers");
-    assert_eq!((plain.matches("</script>").count(), plain.matches("</title>").count()), (2, 1));
+    assert_eq!(plain.matches("<script").count(), 3, "the script, what it zooms with and its numbers");
+    assert_eq!((plain.matches("</script>").count(), plain.matches("</title>").count()), (3, 1));
     assert!(
         plain.contains("&lt;/script&gt;&lt;script&gt;alert(&#39;x&#39;)") && plain.contains("{{css}}</h1>")
     );
@@ -310,7 +314,7 @@ fn browser(profile: &Path) -> Option<Command> {
         "--disable-dev-shm-usage",
         "--hide-scrollbars",
     ]);
-    command.args(["--enable-logging=stderr", "--v=0", "--window-size=1200,1500"]);
+    command.args(["--enable-logging=stderr", "--v=0", "--window-size=1200,2200"]);
     command.arg(format!("--user-data-dir={}", profile.display()));
     Some(command)
 }
@@ -347,6 +351,11 @@ fn a_browser_shows_the_report() {
         let of_page: Vec<&str> = log.lines().filter(|line| line.contains("CONSOLE")).collect();
         assert!(of_page.is_empty(), "{name}: {of_page:?}");
     }
+    // Narrow as a telephone, where a page that is wider than its window fails its check.
+    let address = format!("file://{}#selfcheck", at("rollers.html").display());
+    let mut narrow = browser(&at("profile")).expect("it was there");
+    let output = narrow.args(["--window-size=390,900", "--dump-dom", &address]).output().expect("a browser");
+    assert!(text(&output.stdout).contains("data-selfcheck=\"ok, "), "{}", text(&output.stderr));
     let picture = |hash: &str| {
         let png = at("x.png");
         let address = format!("file://{}#{hash}", at("rollers.html").display());

@@ -70,6 +70,7 @@ fn grids_give_one_row_for_every_combination_whatever_the_number_of_jobs() {
         assert_eq!(column(&rows, name)[3], value.to_string(), "{name}");
     }
     let svg = text(&files(&one)[2]);
+    assert!(svg.contains("|inner_ring.speed.constant| [1/min]") && svg.contains("fewer than three turns"));
     assert!(svg.contains("drag torque [N m]") && !svg.contains("NaN") && !svg.contains("4900 N, radial"));
 }
 

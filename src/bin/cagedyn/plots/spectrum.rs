@@ -3,7 +3,7 @@
 use super::axis::Axis;
 use super::labels::Room;
 use super::panel::{Panel, Place, panel};
-use super::style::{self, BLUE, Canvas, Drawn, INK, Marker, RED, Symbol, TEXT, THIN, line};
+use super::style::{self, BLUE, Canvas, Drawn, INK, MUTED, Marker, RED, Symbol, TEXT, THIN, line};
 use crate::results::finished::Run;
 use crate::results::lines;
 use crate::results::summary::{Summary, Whirl};
@@ -37,6 +37,8 @@ const PLACE: Place = Place { x: 100.0, y: 100.0, w: 770.0, h: 370.0 };
 struct Named {
     peak: Peak,
     label: String,
+    /// Whether it stands out of the noise.
+    clear: bool,
 }
 
 /// The picture, if there is a cage and the run is long enough.
@@ -61,9 +63,14 @@ pub fn cage_spectrum(run: &Run, summary: &Summary) -> Option<Result<String>> {
         unknown += usize::from(name.is_none());
         let name = name.map(|name| name + ", ");
         let label = format!("{}{} Hz", name.clone().unwrap_or_default(), number(peak.frequency));
-        (name.is_some() || unknown <= UNKNOWN).then_some(Named { peak, label })
+        (name.is_some() || unknown <= UNKNOWN).then_some(Named { peak, label, clear: true })
     });
-    let labelled: Vec<Named> = labelled.collect();
+    let mut labelled: Vec<Named> = labelled.collect();
+    // The highest one is never without a name.
+    if let Some(peak) = spectrum.highest().filter(|peak| labelled.iter().all(|other| other.peak != *peak)) {
+        let label = format!("highest, {} Hz", number(peak.frequency));
+        labelled.push(Named { peak, label, clear: false });
+    }
     Some(draw(&run.title, &run.subtitle(&what), &spectrum, &labelled))
 }
 
@@ -95,13 +102,17 @@ fn legend(canvas: &Canvas<'_>, spectrum: &Spectrum, peaks: &[&Named]) -> Drawn {
     let segments =
         if spectrum.segments > 1 { format!("{} segments, ", spectrum.segments) } else { String::new() };
     let window = format!("Hann window, {segments}resolution {} Hz", number(spectrum.resolution));
-    let peak = match (peaks.first(), spectrum.highest()) {
-        (Some(Named { peak, .. }), _) => Some((peak.amplitude, "peaks above the noise, highest")),
-        (None, highest) => highest.map(|peak| (peak.amplitude, "no peak above the noise, which goes up to")),
-    };
-    let symbol = if peaks.is_empty() { Symbol::None } else { Symbol::Marker(Marker::Ring, RED) };
-    let peak = peak.map(|(amplitude, what)| (symbol, format!("{what} {} mm", number(amplitude))));
-    let entries: Vec<_> = std::iter::once((Symbol::Line(BLUE), window)).chain(peak).collect();
+    let highest =
+        |clear: bool| peaks.iter().find(|named| named.clear == clear).map(|named| named.peak.amplitude);
+    let peak = highest(true).map(|amplitude| {
+        let text = format!("peaks, up to {} mm", number(amplitude));
+        (Symbol::Marker(Marker::Ring, RED), text)
+    });
+    let other = highest(false).map(|amplitude| {
+        let text = format!("no clear peak, {} mm", number(amplitude));
+        (Symbol::Marker(Marker::Disc, MUTED), text)
+    });
+    let entries: Vec<_> = std::iter::once((Symbol::Line(BLUE), window)).chain(peak).chain(other).collect();
     style::legend_row(canvas, 78.0, &entries)
 }
 
@@ -118,14 +129,15 @@ fn mark(
     }
     let place = |peak: &Peak| panel.place((peak.frequency, peak.amplitude.log10()));
     peaks.iter().for_each(|named| room.add(&[place(&named.peak)]));
-    for Named { peak, label } in peaks {
+    for Named { peak, label, .. } in peaks {
         let frame = room.take(place(peak), label);
         room.leader(panel.canvas(), place(peak), &frame)?;
         style::label(panel.canvas(), label, frame.centre, (LABEL, INK), HPos::Center)?;
     }
-    peaks
-        .iter()
-        .try_for_each(|named| style::marker(panel.canvas(), Marker::Ring, place(&named.peak), MARKER, RED))
+    peaks.iter().try_for_each(|named| {
+        let (shape, color) = if named.clear { (Marker::Ring, RED) } else { (Marker::Disc, MUTED) };
+        style::marker(panel.canvas(), shape, place(&named.peak), MARKER, color)
+    })
 }
 
 /// The logarithms of amplitudes, which end at `floor` where they go below it.

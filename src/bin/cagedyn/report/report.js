@@ -215,6 +215,7 @@
       element(id).value = value;
       element(id).dispatchEvent(new Event("input"));
     };
+    expect(root.scrollWidth <= root.clientWidth, `the page is ${root.scrollWidth - root.clientWidth} px wider than the window`);
     set("time", 0);
     const start = sum();
     element("play").click();
