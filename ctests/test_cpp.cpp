@@ -116,6 +116,8 @@ static void check_errors(const Model &model)
     CHECK(last_status() == CAGEDYN_ERR_BAD_VALUE);
     CHECK(sim.time() == 0.0 && last_status() == CAGEDYN_OK);
     CHECK(model.outputs().find("wheel") == CAGEDYN_ERR_UNKNOWN_NAME);
+    sim.output(model.outputs().find("cage.zratio"));
+    CHECK(last_message().find("'cage.zratio', the nearest is 'cage.z_ratio'") != std::string_view::npos);
 }
 #else
 static void check_errors(const Model &model)
@@ -130,6 +132,11 @@ static void check_errors(const Model &model)
     CHECK(status_of([&] { sim.derivative(0.0, state, few); }) == CAGEDYN_ERR_WRONG_SIZE);
     CHECK(status_of([&] { sim.outputs(few); }) == CAGEDYN_ERR_WRONG_SIZE);
     CHECK(status_of([&] { model.outputs().find("wheel"); }) == CAGEDYN_ERR_UNKNOWN_NAME);
+    try {
+        model.outputs().find("cage.zratio");
+    } catch (const Error &error) {
+        CHECK(std::string_view(error.what()).find("'cage.zratio', the nearest is 'cage.z_ratio'") != std::string_view::npos);
+    }
     CHECK(status_of([&] { model.states().name(70); }) == CAGEDYN_ERR_BAD_INDEX);
     CHECK(status_of([&] { model.geometry("wheel"); }) == CAGEDYN_ERR_UNKNOWN_NAME);
     CHECK(status_of([&] { sim.step(1e-5); }) == CAGEDYN_OK);

@@ -26,6 +26,35 @@ static void check_texts(void)
     CHECK(cagedyn_error_status() == CAGEDYN_ERR_NULL_ARGUMENT);
 }
 
+/* A host may keep the pointer: it leads to what the last call left there, never into memory that was freed. */
+static void check_kept_message(const cagedyn_model *m)
+{
+    char path[2000];
+    memset(path, 'x', sizeof path);
+    path[sizeof path - 1] = '\0';
+    CHECK(cagedyn_model_from_file("x") == NULL);
+    const char *kept = cagedyn_error_message();
+    CHECK(cagedyn_model_from_file(path) == NULL);
+    CHECK(kept == cagedyn_error_message() && strstr(kept, "xxxx") != NULL);
+    cagedyn_sim *sim = cagedyn_sim_new(m);
+    CHECK(cagedyn_sim_step(sim, -1.0) != CAGEDYN_OK && strncmp(kept, "dt", 2) == 0);
+    cagedyn_sim_free(sim);
+    CHECK(strncmp(kept, "dt", 2) == 0);
+    CHECK(cagedyn_sim_new(NULL) == NULL && cagedyn_model_state_count(m) > 0 && *kept == '\0');
+}
+
+/* Also where the code of a search is used as an index at once. */
+static void check_nearest_name(const cagedyn_model *m, cagedyn_sim *sim)
+{
+    double value = 7.0;
+    CHECK_FAILS(cagedyn_model_find_output(m, "cage.y_ration"), CAGEDYN_ERR_UNKNOWN_NAME,
+                "'cage.y_ration', the nearest is 'cage.y_ratio'");
+    CHECK_FAILS(cagedyn_sim_get_output(sim, cagedyn_model_find_output(m, "cage.zratio"), &value), CAGEDYN_ERR_BAD_INDEX,
+                "'cage.zratio', the nearest is 'cage.z_ratio'");
+    CHECK_FAILS(cagedyn_model_find_input(m, "inner_ring.sped"), CAGEDYN_ERR_UNKNOWN_NAME, "'inner_ring.speed'");
+    CHECK(value == 7.0);
+}
+
 static void check_null_handles(void)
 {
     double x[3] = {1.0, 2.0, 3.0};
@@ -117,7 +146,11 @@ static void check_newton(const cagedyn_model *m, cagedyn_sim *sim)
     CHECK(cagedyn_sim_linearize(sim, 0.0, state, n) == CAGEDYN_OK);
     CHECK_FAILS(cagedyn_sim_factorize(sim, -1.0), CAGEDYN_ERR_BAD_VALUE, "gamma");
     CHECK_FAILS(cagedyn_sim_solve(sim, x, n), CAGEDYN_ERR_BAD_STATE, "factorize");
+    x[1] = NAN;
+    CHECK_FAILS(cagedyn_sim_solve(sim, x, n), CAGEDYN_ERR_BAD_STATE, "factorize");
     CHECK(cagedyn_sim_factorize(sim, 1e-6) == CAGEDYN_OK);
+    CHECK_FAILS(cagedyn_sim_solve(sim, x, n), CAGEDYN_ERR_BAD_VALUE, "x[1]");
+    x[1] = 0.0;
     CHECK_FAILS(cagedyn_sim_solve(sim, NULL, n), CAGEDYN_ERR_NULL_ARGUMENT, "x");
     CHECK_FAILS(cagedyn_sim_solve(sim, x, n - 1), CAGEDYN_ERR_WRONG_SIZE, "x");
     CHECK(x[0] == 0.0);
@@ -223,6 +256,8 @@ int main(int argc, char **argv)
     CHECK(sim != NULL);
     check_texts();
     check_null_handles();
+    check_kept_message(model);
+    check_nearest_name(model, sim);
     check_arrays(model, sim);
     check_jacobian(model, sim);
     check_newton(model, sim);

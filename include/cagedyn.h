@@ -22,7 +22,8 @@
  *            No panic and no exception crosses this interface.
  *
  * Strings    NUL-terminated UTF-8. Returned strings belong to the library, are never NULL, and live as long as the
- *            object they were asked from (error messages: until the next call in the same thread).
+ *            object they were asked from. The error message lies in a buffer of the thread, which the next call overwrites and
+ *            nothing frees before the thread ends: copy what is to be kept.
  *
  * Arrays     A pointer with a length next to it, in numbers, not bytes. The length must be exactly the one the
  *            function names; ask the model for it. Arrays stay the caller's.
@@ -151,7 +152,8 @@ const char *cagedyn_version(void);
 int32_t cagedyn_error_status(void);
 
 /* Message of the last call in this thread that can fail: one line of UTF-8, empty after a success, never NULL.
- * Valid until the next call in this thread. */
+ * It lies in a buffer of the thread: the pointer is the same every time and can be read as long as the thread lives, and the next
+ * call in this thread overwrites the text. Above 4095 bytes it is cut and ends in "...". */
 const char *cagedyn_error_message(void);
 
 /* Name of a status code without the prefix CAGEDYN_, for example "ERR_BAD_SCENE"; "UNKNOWN" for other numbers.
@@ -429,7 +431,8 @@ int32_t cagedyn_sim_factorize(cagedyn_sim *sim,
                               double gamma);
 
 /* Replaces the right-hand side in `x` by the solution of (I - gamma J) x = b with the factors of the last
- * cagedyn_sim_factorize(). `length` is the length of the state. */
+ * cagedyn_sim_factorize(). `length` is the length of the state. CAGEDYN_ERR_BAD_STATE without factors, whatever is in `x`, or
+ * when the solution is not finite; CAGEDYN_ERR_BAD_VALUE for numbers that are not finite. */
 int32_t cagedyn_sim_solve(cagedyn_sim *sim, double *x, int64_t length);
 
 /* As cagedyn_sim_contact_forces(), at an arbitrary state and time `t` (s). `state_length` is the length of the state, `length`

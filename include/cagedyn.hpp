@@ -37,7 +37,7 @@ namespace cagedyn {
 // Status of the last call in this thread that can fail; CAGEDYN_OK after a success.
 inline std::int32_t last_status() noexcept { return cagedyn_error_status(); }
 
-// Message of that call; empty after a success. Valid until the next call in this thread.
+// Message of that call; empty after a success. The next call in this thread overwrites it.
 inline std::string_view last_message() noexcept { return cagedyn_error_message(); }
 
 // Version of the library that is linked.

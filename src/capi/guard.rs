@@ -1,6 +1,7 @@
 //! What every entry of the C ABI passes through: error memory, panic guard, argument checks.
 
 use crate::error::{Error, Result, Status};
+use crate::scene::nearest;
 use std::cell::{Cell, RefCell, UnsafeCell};
 use std::ffi::{CStr, CString, c_char};
 use std::ops::{Deref, DerefMut};
@@ -10,8 +11,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 thread_local! {
     /// Status of the last call; apart from its text, so that a call after a success has one number to look at.
     static LAST_STATUS: Cell<i32> = const { Cell::new(0) };
-    static LAST_MESSAGE: RefCell<CString> = RefCell::new(CString::default());
+    /// Its text. Has no destructor and never moves, so that a pointer to it can be read as long as the thread lives.
+    static LAST_MESSAGE: UnsafeCell<[u8; MESSAGE_ROOM]> = const { UnsafeCell::new([0; MESSAGE_ROOM]) };
+    /// What the last search by name that found nothing had to say.
+    static LAST_SEARCH: RefCell<String> = const { RefCell::new(String::new()) };
 }
+
+/// Longest message with its NUL, bytes; what is longer ends in dots.
+const MESSAGE_ROOM: usize = 4096;
 
 /// Clears the error, runs `entry`, and returns its value, or `on_failure` after storing the error. A panic becomes
 /// [`Status::Internal`].
@@ -27,7 +34,7 @@ pub fn guard<R>(on_failure: impl FnOnce(Status) -> R, entry: impl FnOnce() -> Re
 /// Status of an entry; a failure is stored. All entries pass through this one function.
 fn run(entry: &mut dyn FnMut() -> Result<()>) -> Status {
     if last_status() != 0 {
-        store(0, CString::default());
+        store(0, "");
     }
     let error = match catch_unwind(AssertUnwindSafe(entry)) {
         Ok(Ok(())) => return Status::Ok,
@@ -38,7 +45,7 @@ fn run(entry: &mut dyn FnMut() -> Result<()>) -> Status {
             Error::new(Status::Internal, format!("internal defect: {text}"))
         }
     };
-    store(error.status as i32, to_c_string(&error.message));
+    store(error.status as i32, &error.message);
     error.status
 }
 
@@ -66,7 +73,7 @@ pub fn count(entry: impl FnOnce() -> Result<usize>) -> i64 {
 
 /// Text of the last error of this thread, empty after a success.
 pub fn last_message() -> *const c_char {
-    LAST_MESSAGE.try_with(|e| e.try_borrow().map_or(EMPTY.as_ptr(), |e| e.as_ptr())).unwrap_or(EMPTY.as_ptr())
+    LAST_MESSAGE.try_with(|buffer| buffer.get().cast_const().cast()).unwrap_or(EMPTY.as_ptr())
 }
 
 /// Status of the last call in this thread.
@@ -85,8 +92,21 @@ pub unsafe fn find_static(names: &[&[&'static CStr]], name: *const c_char) -> i6
     count(|| {
         // SAFETY: see above.
         let name = unsafe { text("name", name) }?;
-        let place = names.iter().copied().flatten().position(|n| n.to_bytes() == name.as_bytes());
-        place.ok_or_else(|| Error::new(Status::UnknownName, format!("name: there is no '{name}'")))
+        place_of(name, names.iter().copied().flatten().copied())
+    })
+}
+
+/// Place of a name among these. A failure says which of them is nearest, and is remembered for whoever uses its code as an index.
+pub fn place_of<'a>(name: &str, names: impl Iterator<Item = &'a CStr> + Clone) -> Result<usize> {
+    let place = names.clone().position(|n| n.to_bytes() == name.as_bytes());
+    place.ok_or_else(|| {
+        let mut text = format!("there is no '{name}'");
+        if let Some(meant) = nearest(name, names.filter_map(|n| n.to_str().ok())) {
+            text += &format!(", the nearest is '{meant}'");
+        }
+        let error = Error::new(Status::UnknownName, format!("name: {text}"));
+        let _ = LAST_SEARCH.try_with(|last| last.try_borrow_mut().map(|mut last| *last = text));
+        error
     })
 }
 
@@ -96,10 +116,21 @@ pub fn static_name(names: &'static [&'static CStr], index: i64) -> *const c_char
     name.map_or(EMPTY, |name| *name).as_ptr()
 }
 
-fn store(status: i32, message: CString) {
+fn store(status: i32, message: &str) {
     LAST_STATUS.set(status);
-    // A thread that is being torn down has no memory for texts left; its calls still return their status.
-    let _ = LAST_MESSAGE.try_with(|e| e.try_borrow_mut().map(|mut e| *e = message));
+    let mut end = message.len().min(MESSAGE_ROOM - 1);
+    let more = if end < message.len() { "..." } else { "" };
+    end -= more.len();
+    while !message.is_char_boundary(end) {
+        end -= 1;
+    }
+    let bytes = message[..end].bytes().chain(more.bytes());
+    let bytes = bytes.map(|byte| if byte == 0 { b' ' } else { byte }).chain([0]);
+    let _ = LAST_MESSAGE.try_with(|buffer| {
+        // SAFETY: it is of this thread, and nothing of it is lent but as a pointer that hosts read between calls.
+        let buffer = unsafe { &mut *buffer.get() };
+        buffer.iter_mut().zip(bytes).for_each(|(to, byte)| *to = byte);
+    });
 }
 
 /// A C string of `text`; NUL bytes inside become spaces.
@@ -278,10 +309,17 @@ pub fn index(name: &str, index: i64, count: usize) -> Result<usize> {
 fn no_place(name: &str, index: i64, count: usize) -> String {
     let code = Status::ALL.into_iter().find(|status| *status as i64 == index && *status != Status::Ok);
     match code {
-        Some(code) => format!(
-            "{name}: index {index} is CAGEDYN_{} of the call that gave it; there are {count}",
-            code.name()
-        ),
+        Some(code) => {
+            let mut text = format!(
+                "{name}: index {index} is CAGEDYN_{} of the call that gave it; there are {count}",
+                code.name()
+            );
+            let search = LAST_SEARCH.try_with(|last| last.borrow().clone()).unwrap_or_default();
+            if code == Status::UnknownName && !search.is_empty() {
+                text += &format!("; the last search without result: {search}");
+            }
+            text
+        }
         None => format!("{name}: index {index}, there are {count}, from 0 on"),
     }
 }
@@ -309,6 +347,36 @@ mod tests {
         assert!(message().contains("broken 7"));
         assert_eq!(status(|| Ok(())), 0);
         assert_eq!((last_status(), message().as_str()), (0, ""));
+    }
+
+    /// As a host that keeps the pointer would see it.
+    #[test]
+    fn a_kept_message_is_what_the_last_call_left_there() {
+        let fail = |text: &str| status(|| Err(Error::new(Status::BadValue, text)));
+        fail("short");
+        let kept = last_message();
+        let long = "\u{e4}\0".repeat(MESSAGE_ROOM);
+        fail(&long);
+        assert_eq!(last_message(), kept);
+        let text = message();
+        assert!(text.len() < MESSAGE_ROOM && text.len() > MESSAGE_ROOM - 8, "{}", text.len());
+        assert_eq!(text, format!("{}...", &long.replace('\0', " ")[..text.len() - 3]));
+        fail("again");
+        assert_eq!((last_message(), message().as_str()), (kept, "again"));
+        assert_eq!(status(|| Ok(())), 0);
+        assert_eq!((last_message(), message().as_str()), (kept, ""));
+    }
+
+    #[test]
+    fn the_nearest_name_is_said_also_of_a_code_used_as_an_index() {
+        let names = [c"cage.y_ratio", c"cage.z_ratio"];
+        assert_eq!(place_of("cage.z_ratio", names.into_iter()), Ok(1));
+        let found = count(|| place_of("cage.y_ration", names.into_iter()));
+        let says = "there is no 'cage.y_ration', the nearest is 'cage.y_ratio'";
+        assert_eq!(message(), format!("name: {says}"));
+        let error = index("index", found, 2).unwrap_err();
+        assert!(error.message.ends_with(&format!("; the last search without result: {says}")), "{error}");
+        assert_eq!(place_of("wheel", names.into_iter()).unwrap_err().message, "name: there is no 'wheel'");
     }
 
     #[test]

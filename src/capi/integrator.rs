@@ -198,7 +198,8 @@ pub unsafe extern "C" fn cagedyn_sim_factorize(sim: *mut cagedyn_sim, gamma: f64
 }
 
 /// Replaces the right-hand side in `x` by the solution of (I - gamma J) x = b with the factors of the last
-/// cagedyn_sim_factorize(). `length` is the length of the state.
+/// cagedyn_sim_factorize(). `length` is the length of the state. CAGEDYN_ERR_BAD_STATE without factors, whatever is in `x`, or
+/// when the solution is not finite; CAGEDYN_ERR_BAD_VALUE for numbers that are not finite.
 ///
 /// # Safety
 /// `sim` is NULL or a live handle, `x` NULL or an array of `length` numbers.

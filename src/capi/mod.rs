@@ -88,7 +88,8 @@ pub extern "C" fn cagedyn_error_status() -> i32 {
 }
 
 /// Message of the last call in this thread that can fail: one line of UTF-8, empty after a success, never NULL.
-/// Valid until the next call in this thread.
+/// It lies in a buffer of the thread: the pointer is the same every time and can be read as long as the thread lives, and the next
+/// call in this thread overwrites the text. Above 4095 bytes it is cut and ends in "...".
 #[unsafe(no_mangle)]
 pub extern "C" fn cagedyn_error_message() -> *const c_char {
     guard::last_message()

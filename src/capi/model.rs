@@ -1,6 +1,6 @@
 //! Models in C: creation and introspection.
 
-use super::guard::{EMPTY, count, free, guard, index, shared, text, to_c_string};
+use super::guard::{EMPTY, count, free, guard, index, place_of, shared, text, to_c_string};
 use crate::error::{Error, Result, Status};
 use crate::model::{CONTACT_QUANTITIES, FORCE_COMPONENTS, FORCE_SOURCES, Model};
 use crate::scene::Scene;
@@ -122,8 +122,7 @@ pub(super) unsafe fn find(
     count(|| {
         // SAFETY: see above.
         let (items, name) = unsafe { (list(shared("model", model)?), text("name", name)?) };
-        let found = items.iter().position(|item| item.name.to_bytes() == name.as_bytes());
-        found.ok_or_else(|| Error::new(Status::UnknownName, format!("name: there is no '{name}'")))
+        place_of(name, items.iter().map(|item| item.name.as_c_str()))
     })
 }
 

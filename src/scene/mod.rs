@@ -42,7 +42,7 @@ pub use heat::{
     BearingTorque, Conductance, ElementsShare, Heat, HeatLink, HeatNode, HeatSource, OilFlow,
     SplashedSurface, ThermalPlay,
 };
-pub(crate) use json::{line_of, parse_located};
+pub(crate) use json::{line_of, nearest, parse_located};
 pub use json::{parse_override, set_path};
 pub use lubricant::{Lubricant, Temperature, Viscosity, ViscosityPoint, WaltherViscosity};
 pub use rings::{FreeRing, InnerRing, Load, OuterRing, RingMotion};

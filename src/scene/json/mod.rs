@@ -13,6 +13,7 @@ pub use overrides::{parse_override, set_path};
 pub use parse::{parse, parse_located};
 pub use typed::{Complaint, PICKS, UNKNOWN_TEXT, typed, typed_beside};
 pub use unknown::Unknown;
+pub(crate) use unknown::nearest;
 
 use crate::error::{Error, Status};
 use std::fmt::Display;

@@ -53,12 +53,12 @@ impl Unknown {
             Kind::Field(expected) => {
                 let key = path.pop()?;
                 let node = self.at(&path);
-                let meant = nearest(&key, expected);
+                let meant = nearest(&key, expected.iter().copied());
                 let taken = node.instead.values().any(|other| other.is_some() && *other == meant);
                 return node.instead.insert(key, meant.filter(|_| !taken)).is_none().then_some(None);
             }
             Kind::Choice(word, expected) => {
-                if let Some(meant) = nearest(word, expected) {
+                if let Some(meant) = nearest(word, expected.iter().copied()) {
                     return self
                         .at(&path)
                         .instead
@@ -75,11 +75,11 @@ impl Unknown {
 }
 
 /// The name that was probably meant: about a quarter of the letters differ at most.
-fn nearest(word: &str, names: &[&'static str]) -> Option<&'static str> {
+pub(crate) fn nearest<'a>(word: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     // A word without letters resembles nothing.
     let letters = word.chars().count();
     let most = if letters == 0 { 0 } else { (letters / 4).max(1) };
-    let distances = names.iter().map(|name| (distance(word, name), *name));
+    let distances = names.map(|name| (distance(word, name), name));
     distances
         .filter(|(distance, _)| *distance <= most)
         .min_by_key(|(distance, _)| *distance)
@@ -119,7 +119,7 @@ mod tests {
             ("density", None),
             ("", None),
         ] {
-            assert_eq!(nearest(word, &names), meant, "{word}");
+            assert_eq!(nearest(word, names.into_iter()), meant, "{word}");
         }
         assert_eq!(distance("kitten", "sitting"), 3);
         assert_eq!(distance(&"a".repeat(100_000), "ab"), 5);

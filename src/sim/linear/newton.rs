@@ -76,18 +76,18 @@ impl Sim {
     /// factors of the last [`Sim::factorize`].
     ///
     /// # Errors
-    /// [`Status::WrongSize`], [`Status::BadValue`] for numbers that are not finite, [`Status::BadState`] without factors or
-    /// when the solution is not finite; `x` is then unchanged.
+    /// [`Status::WrongSize`]; [`Status::BadState`] without factors, whatever is in `x`, or when the solution is not finite;
+    /// [`Status::BadValue`] for numbers that are not finite. `x` is then unchanged.
     pub fn solve(&mut self, x: &mut [f64]) -> Result<()> {
         if x.len() != self.state.len() {
             return Err(wrong_size("x", x.len(), self.state.len()));
         }
-        if let Some(i) = x.iter().position(|x| !x.is_finite()) {
-            return Err(Error::new(Status::BadValue, format!("x[{i}]: {} is not a finite number", x[i])));
-        }
         let positions = self.model().layout().positions();
         let newton = self.newton.as_deref_mut().ok_or_else(|| out_of_order("factorize"))?;
         let shift = newton.shift.ok_or_else(|| out_of_order("factorize"))?;
+        if let Some(i) = x.iter().position(|x| !x.is_finite()) {
+            return Err(Error::new(Status::BadValue, format!("x[{i}]: {} is not a finite number", x[i])));
+        }
         for (r, b) in newton.solution.iter_mut().zip(&*x) {
             *r = shift * b;
         }
