@@ -24,7 +24,7 @@ use std::time::Instant;
 
 /// The parts of an evaluation are timed at about this many states of the run, this often.
 const SAMPLES: f64 = 16.0;
-const REPEATS: u32 = 50;
+const REPEATS: u32 = 10;
 
 /// Tables above this size are made only when it is asked for, bytes.
 pub const LARGEST_TABLE: f64 = 2e9;

@@ -247,9 +247,12 @@ fn energy(balance: Option<&Balance>) -> String {
 
 /// "outer raceway 31 %, guide 5 %, rest 64 %".
 fn time_shares(shares: &[(String, f64)]) -> String {
+    if shares.is_empty() {
+        return "not measured: what was timed after the run does not fit its wall time".to_owned();
+    }
     let rest = 1.0 - shares.iter().map(|(_, share)| share).sum::<f64>();
     let parts = shares.iter().map(|(part, share)| (part.replace('_', " "), *share));
-    let rest = std::iter::once(("integration, derivatives and records".to_owned(), rest.max(0.0)));
+    let rest = std::iter::once(("integration, derivatives and records".to_owned(), rest));
     let each = parts.chain(rest).map(|(part, share)| format!("{part} {:.0} %", 100.0 * share));
     each.collect::<Vec<_>>().join(", ")
 }

@@ -7,7 +7,7 @@ use crate::results::map::{as_map, from_map};
 use crate::results::motion::whirl;
 use crate::results::sectors::{self, Sectors};
 use crate::starts::Starts;
-use cagedyn::model::{Channel, FAULTS, LAWS, PARTS, POWERS};
+use cagedyn::model::{Channel, FAULTS, LAWS, PARTS, POWERS, PartTimes};
 use cagedyn::sim::{LoadZone, PowerBalance};
 use cagedyn::{CageMotion, Interval, Recording, Spread, WhirlSummary};
 use serde::{Deserialize, Serialize};
@@ -382,11 +382,19 @@ fn key_statistics(
         .collect()
 }
 
-/// Parts that the scene has, with their shares of the wall time.
+/// Parts that the scene has, with their shares of the wall time; none where they were not measured.
 fn time_shares(run: &Run) -> Vec<(String, f64)> {
-    let evaluations = run.statistics.evaluations as f64;
-    let shares = PARTS.iter().zip(run.parts).filter(|(_, time)| *time > 0.0 && run.wall > 0.0);
-    shares.map(|(name, time)| ((*name).to_owned(), evaluations * time / run.wall)).collect()
+    shares_of(run.parts, run.statistics.evaluations as f64, run.wall)
+}
+
+/// Shares of the wall time of parts that took so long in each evaluation. They are timed after the run: where they make more than
+/// the whole of it, the machine was busier then, or the states that they were timed at are not those that took the time.
+fn shares_of(parts: PartTimes, evaluations: f64, wall: f64) -> Vec<(String, f64)> {
+    if evaluations * parts.iter().sum::<f64>() > wall {
+        return Vec::new();
+    }
+    let shares = PARTS.iter().zip(parts).filter(|(_, time)| *time > 0.0);
+    shares.map(|(name, time)| ((*name).to_owned(), evaluations * time / wall)).collect()
 }
 
 fn balance(b: &PowerBalance) -> Balance {
@@ -530,4 +538,21 @@ fn extremes(run: &Run, (from, few_cage_turns): (f64, Option<f64>)) -> Vec<(Strin
         Some((channel.name.clone(), Extremes { unit, min, max, mean, integral, few_cage_turns }))
     });
     found.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_that_exceed_the_wall_time_are_left_out() {
+        let parts = [1e-6, 2e-6, 0.0, 0.0, 5e-6, 0.0];
+        let shares = shares_of(parts, 1e5, 1.0);
+        let names: Vec<_> = shares.iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(names, ["finding_contacts", "outer_raceway", "guide"]);
+        assert!((shares.iter().map(|(_, share)| share).sum::<f64>() - 0.8).abs() < 1e-12);
+        assert_eq!(shares_of(parts, 1e5, 0.79), []);
+        assert_eq!(shares_of(parts, 1e5, 0.0), []);
+        assert_eq!(shares_of(PartTimes::default(), 0.0, 0.0), []);
+    }
 }
