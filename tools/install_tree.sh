@@ -71,10 +71,11 @@ done
 for folder in scenes schemas matlab; do ln -s "../../cagedyn/$folder" "$tree$doc/$folder"; done
 mkdir "$tree$doc/include"
 for file in cagedyn.h cagedyn.hpp cagedyn_analysis.hpp; do ln -s "../../../../include/$file" "$tree$doc/include/$file"; done
-# Texts with the folders and the version in them.
+# Texts with the version in them, and the way from the libraries to the prefix.
+up=$(realpath -ms --relative-to="$LIBDIR" "$PREFIX")
 fill() {
     mkdir -p "$(dirname "$tree$2")"
-    sed -e "s|@PREFIX@|$PREFIX|" -e "s|@LIBDIR@|$LIBDIR|" -e "s|@VERSION@|$VERSION|" "$1" > "$tree$2"
+    sed -e "s|@UP@|$up|" -e "s|@VERSION@|$VERSION|" "$1" > "$tree$2"
     chmod 644 "$tree$2"
 }
 fill tools/cagedyn.pc.in "$LIBDIR/pkgconfig/cagedyn.pc"
