@@ -293,6 +293,19 @@ fn mistakes_are_one_line() {
     assert_eq!(read(&dir.path().join("mine.html")), "<p>mine</p>");
 }
 
+#[test]
+fn a_name_without_suffix_gets_it() {
+    let dir = tempfile::tempdir().expect("a directory");
+    for (asked, made) in
+        [("a", "a.html"), ("nu.2310", "nu.2310.html"), ("b.HTML", "b.HTML"), ("c.htm", "c.htm")]
+    {
+        let out = report("scenes/grease_guide.json", &dir.path().join(asked), &["--until", "1e-4"]);
+        assert!(out.status.success(), "{}", text(&out.stderr));
+        assert!(dir.path().join(made).is_file() && text(&out.stdout).contains(made), "{asked}");
+    }
+    assert_eq!(std::fs::read_dir(dir.path()).expect("a folder").count(), 4);
+}
+
 fn refused(output: &Output, says: &str) {
     let message = text(&output.stderr);
     assert_eq!(output.status.code(), Some(1), "{message}");

@@ -138,7 +138,8 @@ pub struct ReportArgs {
     /// Scene file, which is run, or a folder of results of `run`.
     #[arg(value_name = "SCENE|DIR")]
     source: PathBuf,
-    /// The report. NAME.html in this folder, of the scene or folder of this name, unless given.
+    /// The report; .html is put behind a name without it. NAME.html in this folder, of the scene or folder of this name, unless
+    /// given.
     #[arg(long, value_name = "FILE.html")]
     out: Option<PathBuf>,
     #[command(flatten)]

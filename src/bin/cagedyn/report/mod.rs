@@ -26,7 +26,7 @@ const BEGINS: &str = "<!DOCTYPE html><!-- cagedyn report -->";
 /// A scene or folder that cannot be used, a file that cannot be written. A failure during the run is printed here, after its
 /// report.
 pub fn command(args: &ReportArgs) -> Result<ExitCode> {
-    let out = args.out.clone().unwrap_or_else(|| format!("{}.html", stem(&args.source)).into());
+    let out = args.out.clone().map_or_else(|| format!("{}.html", stem(&args.source)).into(), named);
     let made = args.source.is_dir();
     if made && !(args.sets.list.is_empty() && args.instead.leaves_all()) {
         let text = "--set and what else changes a run: this one has been made; report its scene instead";
@@ -45,6 +45,20 @@ pub fn command(args: &ReportArgs) -> Result<ExitCode> {
     let (run, _) = performed.map_err(|e| in_file(&args.source, e))?;
     write(&folder.0, &out)?;
     Ok(run::exit_code(&run))
+}
+
+/// The file with the suffix by which a browser knows it.
+fn named(out: PathBuf) -> PathBuf {
+    let has_it = out
+        .extension()
+        .is_some_and(|suffix| ["html", "htm"].iter().any(|html| suffix.eq_ignore_ascii_case(html)));
+    let nameless = out.file_name().is_none() || out.is_dir();
+    if has_it || nameless {
+        return out;
+    }
+    let mut name = out.into_os_string();
+    name.push(".html");
+    name.into()
 }
 
 fn write(folder: &Path, out: &Path) -> Result<()> {
