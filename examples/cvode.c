@@ -7,6 +7,8 @@
  *   cc -std=c99 cvode.c $(pkg-config --cflags --libs cagedyn) -lsundials_cvode -lsundials_nvecserial \
  *       -lsundials_sunlinsolspgmr -lsundials_core -lm -o cvode
  *   ./cvode scenes/nu2310.json
+ *
+ * With SUNDIALS 7; in version 6 (libsundials-dev of Debian 12) the library sundials_core is called sundials_generic.
  */
 #include <math.h>
 #include <string.h>
@@ -16,6 +18,11 @@
 #include <sunlinsol/sunlinsol_spgmr.h>
 
 #include "example.h"
+
+/* SUNDIALS 6 has no name for "no communicator". */
+#ifndef SUN_COMM_NULL
+#define SUN_COMM_NULL NULL
+#endif
 
 /* Error of a step in units of the scales below. */
 static const double TOLERANCE = 1e-4;

@@ -94,6 +94,23 @@ fn cvode() {
     run("cvode.c", "c99", "cvode.txt", &more);
 }
 
+/// With SUNDIALS of the system, where there is one: version 6 in Debian 12, with another name of one library.
+#[test]
+fn cvode_of_the_system() {
+    let is_there = |name: &str| {
+        let found = Command::new("cc").arg(format!("-print-file-name=lib{name}.so")).output();
+        found.is_ok_and(|found| found.stdout.contains(&b'/'))
+    };
+    let Some(base) = ["sundials_core", "sundials_generic"].into_iter().find(|name| is_there(name)) else {
+        eprintln!("there is no SUNDIALS of the system (libsundials-dev)");
+        return;
+    };
+    let names = ["sundials_cvode", "sundials_nvecserial", "sundials_sunlinsolspgmr", base];
+    let names = names.map(|name| format!("-l{name}"));
+    let more: Vec<&OsStr> = names.iter().map(OsStr::new).collect();
+    run("cvode.c", "c99", "cvode.txt", &more);
+}
+
 #[test]
 fn cpp() {
     run("nu2310.cpp", "c++17", "nu2310.txt", &[]);
