@@ -36,12 +36,26 @@ static void check_whirl(const Model &warm, bool all)
     CHECK(!branch && taken);
     CHECK(status_of([&] { WhirlBranch::follow(rigid, "wheel", 1.0, 2.0); }) == CAGEDYN_ERR_BAD_JSON);
     CHECK(status_of([] { WhirlBranch::steady(Model()); }) == CAGEDYN_ERR_NULL_ARGUMENT);
+
+    Watch watch;
+    watch.cancel();
+    CHECK(status_of([&] { WhirlBranch::steady(rigid, watch); }) == CAGEDYN_ERR_CANCELLED);
+    WhirlBranch short_one = WhirlBranch::follow(rigid, "inner_ring.speed.constant", 314.16, 330.0, watch);
+    CHECK(short_one.status() == CAGEDYN_OK && watch.progress().share == 1.0);
+    CHECK(watch.progress().found == static_cast<double>(short_one.size()));
+    watch.set_wall_time_limit(0.0);
+    CHECK(status_of([&] { WhirlBranch::steady(rigid, watch); }) == CAGEDYN_ERR_OUT_OF_TIME);
     if (all) CHECK(WhirlBranch::steady(model).amplitudes(0).size() == 3);
 }
 
 static void check_heat(const Model &model, bool all)
 {
     HeatBalance heat(model);
+    Watch watch;
+    watch.cancel();
+    CHECK(status_of([&] { heat.settle(watch); }) == CAGEDYN_ERR_CANCELLED);
+    watch.cancel();
+    CHECK(status_of([&] { heat.step(10.0, watch); }) == CAGEDYN_ERR_CANCELLED);
     std::vector<std::string_view> lumps = heat.lumps();
     std::size_t film = 0;
     while (film < lumps.size() && lumps[film] != "film") film++;

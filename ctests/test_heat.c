@@ -1,4 +1,6 @@
 /* Heat balance: steady temperatures, warming up, where heat goes, and what is refused. The scene is that of a warm greased guide. */
+#include <math.h>
+
 #include "check.h"
 
 static int64_t quantity(const char *name)
@@ -77,6 +79,19 @@ int main(int argc, char **argv)
     CHECK_FAILS(cagedyn_heat_flows(heat, flows, links - 1), CAGEDYN_ERR_WRONG_SIZE, "must be");
     CHECK_FAILS(cagedyn_heat_quantities(heat, NULL, n), CAGEDYN_ERR_NULL_ARGUMENT, "out: is NULL");
     CHECK(cagedyn_heat_set_temperatures(heat, start, lumps) == CAGEDYN_OK && cagedyn_heat_step(heat, 1.0) == CAGEDYN_OK);
+
+    /* What a watch ends goes on with another call. */
+    cagedyn_watch *watch = cagedyn_watch_new();
+    double progress[2];
+    CHECK(cagedyn_watch_set_wall_time_limit(watch, 0.0) == CAGEDYN_OK);
+    CHECK_FAILS(cagedyn_heat_settle_with_watch(heat, watch), CAGEDYN_ERR_OUT_OF_TIME, "wall time");
+    CHECK_FAILS(cagedyn_heat_step_with_watch(heat, 1.0, watch), CAGEDYN_ERR_OUT_OF_TIME, "wall time");
+    CHECK(cagedyn_watch_set_wall_time_limit(watch, INFINITY) == CAGEDYN_OK);
+    CHECK(cagedyn_watch_cancel(watch) == CAGEDYN_OK);
+    CHECK_FAILS(cagedyn_heat_settle_with_watch(heat, watch), CAGEDYN_ERR_CANCELLED, "stopped on request");
+    CHECK(cagedyn_heat_settle_with_watch(heat, watch) == CAGEDYN_OK);
+    CHECK(cagedyn_watch_progress(watch, progress, 2) == CAGEDYN_OK && progress[0] == 1.0 && progress[1] > 1.0);
+    cagedyn_watch_free(watch);
     cagedyn_heat_free(heat);
     cagedyn_heat_free(NULL);
 

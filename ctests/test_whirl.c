@@ -44,6 +44,33 @@ int main(int argc, char **argv)
     CHECK(x[parameter] == 600.0);
     cagedyn_whirl_free(branch);
 
+    /* A branch that is ended keeps its points. */
+    cagedyn_watch *watch = cagedyn_watch_new();
+    double progress[2];
+    CHECK(watch != NULL && cagedyn_watch_cancel(watch) == CAGEDYN_OK);
+    CHECK(cagedyn_whirl_steady_with_watch(model, watch) == NULL && cagedyn_error_status() == CAGEDYN_ERR_CANCELLED);
+    one = cagedyn_whirl_steady_with_watch(model, watch);
+    CHECK(one != NULL && cagedyn_whirl_status(one) == CAGEDYN_OK);
+    cagedyn_whirl_free(one);
+    CHECK(cagedyn_watch_progress(watch, progress, 2) == CAGEDYN_OK && progress[0] == 1.0 && progress[1] == 1.0);
+    /* Long enough for a point, however slow the machine, and too short for the branch. */
+    branch = NULL;
+    for (double seconds = 0.02; branch == NULL && seconds < 100.0; seconds *= 1.5) {
+        CHECK(cagedyn_watch_set_wall_time_limit(watch, seconds) == CAGEDYN_OK);
+        branch = cagedyn_whirl_follow_with_watch(model, "inner_ring.speed.constant", 5.0, 1500.0, watch);
+        CHECK(branch != NULL || cagedyn_error_status() == CAGEDYN_ERR_OUT_OF_TIME);
+    }
+    CHECK(cagedyn_whirl_point_count(branch) > 0 && strcmp(cagedyn_whirl_end(branch), "out of time") == 0);
+    CHECK_FAILS(cagedyn_whirl_status(branch), CAGEDYN_ERR_OUT_OF_TIME, "wall time");
+    CHECK(strstr(cagedyn_whirl_why(branch), "wall time") != NULL);
+    cagedyn_whirl_free(branch);
+    CHECK_FAILS(cagedyn_watch_set_wall_time_limit(watch, -1.0), CAGEDYN_ERR_BAD_VALUE, "seconds: -1");
+    CHECK_FAILS(cagedyn_watch_progress(watch, progress, 1), CAGEDYN_ERR_WRONG_SIZE, "out: length 1, must be 2");
+    CHECK_FAILS(cagedyn_watch_cancel(NULL), CAGEDYN_ERR_NULL_ARGUMENT, "watch: is NULL");
+    CHECK_FAILS(cagedyn_whirl_status(NULL), CAGEDYN_ERR_NULL_ARGUMENT, "whirl: is NULL");
+    cagedyn_watch_free(watch);
+    cagedyn_watch_free(NULL);
+
     CHECK(cagedyn_whirl_steady(NULL) == NULL && cagedyn_error_status() == CAGEDYN_ERR_NULL_ARGUMENT);
     CHECK(cagedyn_whirl_follow(model, "inner_ring.sped", 1.0, 2.0) == NULL);
     CHECK(cagedyn_error_status() == CAGEDYN_ERR_BAD_JSON && strstr(cagedyn_error_message(), "sped") != NULL);

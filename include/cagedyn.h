@@ -137,6 +137,10 @@ typedef struct cagedyn_monitor cagedyn_monitor;
 /* A running simulation. May be used by one thread at a time; a second one gets CAGEDYN_ERR_BUSY. */
 typedef struct cagedyn_sim cagedyn_sim;
 
+/* Watches, limits and stops a search, that is a call that takes it: cagedyn_whirl_..._with_watch(), cagedyn_heat_..._with_watch(). One
+ * for each search that runs at a time. May be used by any number of threads at a time. */
+typedef struct cagedyn_watch cagedyn_watch;
+
 /* Steady whirls of a cage among elements of prescribed motion, without gravity: one, or a branch of them. Any number of threads may
  * read it. */
 typedef struct cagedyn_whirl cagedyn_whirl;
@@ -313,10 +317,21 @@ void cagedyn_heat_free(cagedyn_heat *heat);
  * failure temperatures stay what they were. */
 int32_t cagedyn_heat_settle(cagedyn_heat *heat);
 
+/* As cagedyn_heat_settle(), with a watch, by which it can be stopped; NULL for none. Temperatures are then those of the last whole burst,
+ * of which the other calls tell, and another call goes on from there. */
+int32_t cagedyn_heat_settle_with_watch(cagedyn_heat *heat,
+                                       const cagedyn_watch *watch);
+
 /* Warms up for `duration` (s, from 1e-6 to 1e9) with the heat of one burst of motion: the longer, the more roughly. On failure
  * temperatures stay what they were. */
 int32_t cagedyn_heat_step(cagedyn_heat *heat,
                           double duration);
+
+/* As cagedyn_heat_step(), with a watch, by which it can be stopped; NULL for none. Temperatures then stay what they were, and the motion
+ * goes on from where it is. */
+int32_t cagedyn_heat_step_with_watch(cagedyn_heat *heat,
+                                     double duration,
+                                     const cagedyn_watch *watch);
 
 /* Number of lumps. Negative status code on failure. */
 int64_t cagedyn_heat_lump_count(const cagedyn_heat *heat);
@@ -520,6 +535,27 @@ void cagedyn_canceller_free(cagedyn_canceller *canceller);
  * so does every later one until the limit is set again. INFINITY for no limit, as at first. */
 int32_t cagedyn_sim_set_wall_time_limit(cagedyn_sim *sim,
                                         double seconds);
+
+/* Creates a watch without limit. Returns NULL on failure. Free it with cagedyn_watch_free() when no search uses it any more. */
+cagedyn_watch *cagedyn_watch_new(void);
+
+/* Frees a watch. NULL is ignored, and the stored error stays. */
+void cagedyn_watch_free(cagedyn_watch *watch);
+
+/* Makes the running search, or else the next one, end with CAGEDYN_ERR_CANCELLED within some thousandths of a second, or within a step of
+ * a motion that it runs. The request is then spent. What was found is kept as the search says. */
+int32_t cagedyn_watch_cancel(const cagedyn_watch *watch);
+
+/* Lets searches that begin after this call run until `seconds` of wall time from now. Then they end with CAGEDYN_ERR_OUT_OF_TIME, until the
+ * limit is set again. INFINITY for no limit, as at first. */
+int32_t cagedyn_watch_set_wall_time_limit(cagedyn_watch *watch,
+                                          double seconds);
+
+/* Writes how far the running search is, or how far the last one came (length: 2): the share of the way that is done, from 0 to 1, rough
+ * where its length is not known before; and how many pieces of the result there are, that is whirls or bursts of motion. */
+int32_t cagedyn_watch_progress(const cagedyn_watch *watch,
+                               double *out,
+                               int64_t length);
 
 /* Creates a model from the JSON text of a scene. Returns NULL on failure. Free it with cagedyn_model_free(). */
 cagedyn_model *cagedyn_model_from_json(const char *json);
@@ -805,9 +841,13 @@ int32_t cagedyn_sim_power_balance(cagedyn_sim *sim,
                                   double *out,
                                   int64_t length);
 
-/* Finds the steady whirl of the model's scene without its gravity: a branch of one point, whose parameter is 0. Returns NULL on
- * failure, with the reason in cagedyn_error_message(). Free it with cagedyn_whirl_free(). */
+/* Finds the steady whirl of the model's scene without its gravity: a branch of one point, whose parameter is 0. Of several whirls it is a
+ * stable one. Returns NULL on failure, with the reason in cagedyn_error_message(): that there is no whirl, or that none was found. Free it
+ * with cagedyn_whirl_free(). */
 cagedyn_whirl *cagedyn_whirl_steady(const cagedyn_model *model);
+
+/* As cagedyn_whirl_steady(), with a watch, by which it can be stopped; NULL for none. */
+cagedyn_whirl *cagedyn_whirl_steady_with_watch(const cagedyn_model *model, const cagedyn_watch *watch);
 
 /* Follows the steady whirl over a number of the scene from one value to another, around folds. `path` is that of an override, as in
  * inner_ring.speed.constant. Returns NULL where there is no whirl at the start, with the reason in cagedyn_error_message(); where
@@ -817,6 +857,14 @@ cagedyn_whirl *cagedyn_whirl_follow(const cagedyn_model *model,
                                     const char *path,
                                     double from,
                                     double to);
+
+/* As cagedyn_whirl_follow(), with a watch, by which it can be stopped; NULL for none. A branch that is stopped has the points so far, and
+ * cagedyn_whirl_status() tells; before the first point NULL is returned. */
+cagedyn_whirl *cagedyn_whirl_follow_with_watch(const cagedyn_model *model,
+                                               const char *path,
+                                               double from,
+                                               double to,
+                                               const cagedyn_watch *watch);
 
 /* Frees a branch. NULL is ignored, and the stored error stays. */
 void cagedyn_whirl_free(cagedyn_whirl *whirl);
@@ -858,8 +906,11 @@ int32_t cagedyn_whirl_eigenvalues(const cagedyn_whirl *whirl,
                                   int64_t length);
 
 /* How a branch ends: "range" at the end of the range, "length" after as many points as a branch may have, "lost" where no
- * whirl was found further on; "" on failure. Static text. */
+ * whirl was found further on, "cancelled" or "out of time" where a watch has ended it; "" on failure. Static text. */
 const char *cagedyn_whirl_end(const cagedyn_whirl *whirl);
+
+/* CAGEDYN_ERR_CANCELLED or CAGEDYN_ERR_OUT_OF_TIME for a branch that a watch has ended, CAGEDYN_OK for others; other codes on failure. */
+int32_t cagedyn_whirl_status(const cagedyn_whirl *whirl);
 
 /* Why a branch ends before the end of its range, one line; "" where it does not, and on failure. Lives as long as the branch. */
 const char *cagedyn_whirl_why(const cagedyn_whirl *whirl);

@@ -8,6 +8,34 @@
 
 namespace cagedyn {
 
+// Watches, limits and stops one search at a time, from any thread.
+class Watch {
+public:
+    // Share of the way that is done, from 0 to 1, and how many whirls or bursts of motion there are.
+    struct Progress {
+        double share, found;
+    };
+
+    Watch() : handle_(detail::made(cagedyn_watch_new())) {}
+
+    explicit operator bool() const noexcept { return handle_ != nullptr; }
+    cagedyn_watch *get() const noexcept { return handle_.get(); }
+
+    // Ends the running search, or else the next one.
+    void cancel() const { detail::check(cagedyn_watch_cancel(get())); }
+    // Of searches that begin after this, s from now.
+    void set_wall_time_limit(double seconds) { detail::check(cagedyn_watch_set_wall_time_limit(get(), seconds)); }
+    Progress progress() const
+    {
+        double x[2] = {};
+        detail::check(cagedyn_watch_progress(get(), x, 2));
+        return {x[0], x[1]};
+    }
+
+private:
+    std::unique_ptr<cagedyn_watch, detail::Deleter<cagedyn_watch_free>> handle_;
+};
+
 // A branch of steady whirls, from its start to where it ends.
 class WhirlBranch {
 public:
@@ -27,10 +55,20 @@ public:
     {
         return WhirlBranch(detail::made(cagedyn_whirl_steady(model.get())));
     }
+    static WhirlBranch steady(const Model &model, const Watch &watch)
+    {
+        return WhirlBranch(detail::made(cagedyn_whirl_steady_with_watch(model.get(), watch.get())));
+    }
     // Over the number at this path of the scene.
     static WhirlBranch follow(const Model &model, Text path, double from, double to)
     {
         return WhirlBranch(detail::made(cagedyn_whirl_follow(model.get(), path.c_str(), from, to)));
+    }
+    // One that the watch ends has the points so far, unless there is none.
+    static WhirlBranch follow(const Model &model, Text path, double from, double to, const Watch &watch)
+    {
+        return WhirlBranch(
+            detail::made(cagedyn_whirl_follow_with_watch(model.get(), path.c_str(), from, to, watch.get())));
     }
     // Takes over a handle of cagedyn.h.
     explicit WhirlBranch(cagedyn_whirl *handle) noexcept : handle_(handle) {}
@@ -64,7 +102,9 @@ public:
         for (std::size_t i = 0; i < rates.size(); i++) values.push_back({rates[i], frequencies[i]});
         return values;
     }
-    // "range", "length" or "lost".
+    // CAGEDYN_OK, or why a watch has ended it.
+    std::int32_t status() const noexcept { return cagedyn_whirl_status(get()); }
+    // "range", "length", "lost", "cancelled" or "out of time".
     std::string_view end() const { return detail::told(cagedyn_whirl_end(get())); }
     // Why it ends before its range does; empty where it does not. Lives as long as the branch.
     std::string_view why() const noexcept { return cagedyn_whirl_why(get()); }
@@ -92,8 +132,14 @@ public:
 
     // Finds the temperatures at which the bearing stays.
     void settle() { detail::check(cagedyn_heat_settle(get())); }
+    // What the watch ends goes on from the last whole burst with another call.
+    void settle(const Watch &watch) { detail::check(cagedyn_heat_settle_with_watch(get(), watch.get())); }
     // Warms up for this time, s.
     void step(double duration) { detail::check(cagedyn_heat_step(get(), duration)); }
+    void step(double duration, const Watch &watch)
+    {
+        detail::check(cagedyn_heat_step_with_watch(get(), duration, watch.get()));
+    }
 
     // Names live as long as the balance.
     std::vector<std::string_view> lumps() const

@@ -119,6 +119,11 @@ impl Error {
         }
         Self { status, message }
     }
+
+    /// Whether a host has ended what failed: on request, or with its limit on the wall time.
+    pub(crate) fn is_stop(&self) -> bool {
+        matches!(self.status, Status::Cancelled | Status::OutOfTime)
+    }
 }
 
 impl fmt::Display for Error {

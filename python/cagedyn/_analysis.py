@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+import threading
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -9,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._model import Model
-from ._native import Array, check, counted, ffi, filled, lib, made, numbers, text
+from ._native import Array, Error, check, counted, ffi, filled, last_error, lib, made, numbers, text
 
 _MOTIONS = ("resting", "stable", "forward whirl", "backward whirl", "irregular")
 
@@ -18,21 +21,85 @@ def _names(count: int, name: Any) -> list[str]:
     return [text(name(i)) for i in range(count)]
 
 
+#: Told the share of the way that is done, from 0 to 1, and how many whirls or bursts of motion there are.
+Progress = Callable[[float, int], None]
+
+#: Wall time in s between looks whether Ctrl-C was pressed.
+_PATIENCE = 0.1
+
+
+def _search(call: Any, good: Any, wall_time: float, progress: Progress | None) -> tuple[Any, BaseException | None]:
+    """What `call(watch)` gives in a thread of its own, with what has ended it early.
+
+    Ctrl-C, or a failure of `progress`, ends it; `good(result)` tells whether the library has a result, which may be one of a search that was ended.
+    """
+    watch = made(lib.cagedyn_watch_new(), lib.cagedyn_watch_free)
+    check(lib.cagedyn_watch_set_wall_time_limit(watch, wall_time))
+    results: list[tuple[Any, Error | None]] = []
+    done = threading.Event()
+
+    def run() -> None:
+        try:
+            result = call(watch)
+            # The error belongs to the thread.
+            results.append((result, None if good(result) else last_error()))
+        finally:
+            done.set()
+
+    # A daemon: whoever presses Ctrl-C twice does not wait.
+    worker = threading.Thread(target=run, daemon=True)
+    worker.start()
+    stopped: BaseException | None = None
+    try:
+        while not done.wait(_PATIENCE):
+            if progress is not None:
+                x = filled(2, lambda p, n: lib.cagedyn_watch_progress(watch, p, n))
+                progress(float(x[0]), int(x[1]))
+    except BaseException as interrupt:
+        stopped = interrupt
+        check(lib.cagedyn_watch_cancel(watch))
+        done.wait()
+    worker.join()
+    result, error = results[0]
+    return result, stopped or error
+
+
 class WhirlBranch:
     """Steady whirls of a model's scene without its gravity, found without time stepping: one, or a branch over a number of the scene.
 
     path: of that number, as in overrides, for example "inner_ring.speed.constant"; it goes from `start` to `stop`, around folds.
 
     Raises Error where there is no whirl at the start. Where the branch ends later, `end` and `why` tell. An elastic cage can take
-    minutes.
+    minutes; it ends after `wall_time` in s with the points so far, if there is one. `progress` is called ten times a second. Ctrl-C ends
+    it, as KeyboardInterrupt, whose attribute `branch` has the points so far, or None.
     """
 
-    def __init__(self, model: Model, path: str | None = None, start: float = 0.0, stop: float = 0.0) -> None:
-        if path is None:
-            handle = lib.cagedyn_whirl_steady(model._handle)
-        else:
-            handle = lib.cagedyn_whirl_follow(model._handle, path.encode(), start, stop)
-        handle = made(handle, lib.cagedyn_whirl_free)
+    def __init__(
+        self,
+        model: Model,
+        path: str | None = None,
+        start: float = 0.0,
+        stop: float = 0.0,
+        *,
+        wall_time: float = math.inf,
+        progress: Progress | None = None,
+    ) -> None:
+        name, start, stop = None if path is None else path.encode(), float(start), float(stop)
+
+        def call(watch: Any) -> Any:
+            if name is None:
+                return lib.cagedyn_whirl_steady_with_watch(model._handle, watch)
+            return lib.cagedyn_whirl_follow_with_watch(model._handle, name, start, stop, watch)
+
+        handle, stopped = _search(call, lambda handle: handle != ffi.NULL, wall_time, progress)
+        if handle != ffi.NULL:
+            self._read(ffi.gc(handle, lib.cagedyn_whirl_free))
+        if stopped is not None:
+            if not isinstance(stopped, Error):
+                stopped.branch = None if handle == ffi.NULL else self  # type: ignore[attr-defined]
+            raise stopped
+
+    def _read(self, handle: Any) -> None:
         count = counted(lib.cagedyn_whirl_point_count(handle))
         columns = _names(lib.cagedyn_whirl_quantity_count(), lib.cagedyn_whirl_quantity_name)
         rows = [filled(len(columns), lambda p, n, i=i: lib.cagedyn_whirl_point(handle, i, p, n)) for i in range(count)]
@@ -48,7 +115,7 @@ class WhirlBranch:
         ).reshape(count, waves)
         #: Rate in 1/s plus i times frequency in rad/s, the largest rate first; shape (points, eigenvalues).
         self.eigenvalues: NDArray[np.complex128] = np.array([_eigenvalues(handle, i) for i in range(count)])
-        #: "range", "length" or "lost".
+        #: "range", "length", "lost", "cancelled" or "out of time".
         self.end: str = text(lib.cagedyn_whirl_end(handle))
         #: Why it ends before its range does; empty where it does not.
         self.why: str = text(lib.cagedyn_whirl_why(handle))
@@ -87,13 +154,27 @@ class HeatBalance:
             first, second = (None if lump < 0 else self.lumps[lump] for lump in ends)
             self.links.append((first, second))
 
-    def settle(self) -> None:
-        """Finds the temperatures at which the bearing stays, from bursts of motion. On failure nothing changes."""
-        check(lib.cagedyn_heat_settle(self._handle))
+    def settle(self, *, wall_time: float = math.inf, progress: Progress | None = None) -> None:
+        """Finds the temperatures at which the bearing stays, from bursts of motion. On failure nothing changes.
 
-    def step(self, duration: float) -> None:
-        """Warms up for `duration` in s with the heat of one burst of motion: the longer, the more roughly."""
-        check(lib.cagedyn_heat_step(self._handle, duration))
+        Raises Error after `wall_time` in s, and KeyboardInterrupt within a step of the motion after Ctrl-C: temperatures are then those of
+        the last whole burst, and another call goes on from there. `progress` is called ten times a second.
+        """
+        self._move(lambda watch: lib.cagedyn_heat_settle_with_watch(self._handle, watch), wall_time, progress)
+
+    def step(
+        self, duration: float, *, wall_time: float = math.inf, progress: Progress | None = None
+    ) -> None:
+        """Warms up for `duration` in s with the heat of one burst of motion: the longer, the more roughly. Ends early as `settle`."""
+        duration = float(duration)
+        self._move(
+            lambda watch: lib.cagedyn_heat_step_with_watch(self._handle, duration, watch), wall_time, progress
+        )
+
+    def _move(self, call: Any, wall_time: float, progress: Progress | None) -> None:
+        _, stopped = _search(call, lambda status: status == 0, wall_time, progress)
+        if stopped is not None:
+            raise stopped
 
     def _by(self, names: list[str], call: Any) -> dict[str, float]:
         values = filled(len(names), lambda p, n: call(self._handle, p, n))

@@ -1,6 +1,9 @@
 """Steady whirl, temperatures and motions: the numbers of the library, names, errors."""
 
+import _thread
 import math
+import threading
+import time
 from pathlib import Path
 
 import cagedyn
@@ -33,6 +36,58 @@ def test_branch(guide):
 def test_elastic_whirl():
     elastic = cagedyn.Model.from_file(SCENES / "grease_guide_elastic.json")
     assert cagedyn.WhirlBranch(elastic).amplitudes.shape == (1, len(range(2, 5)))
+
+
+def after_ctrl_c(call):
+    """The KeyboardInterrupt of a call that is interrupted after half a second, and how long it then took, s."""
+    pressed = []
+
+    def press():
+        pressed.append(time.monotonic())
+        _thread.interrupt_main()
+
+    threading.Timer(0.5, press).start()
+    with pytest.raises(KeyboardInterrupt) as caught:
+        call()
+    return caught.value, time.monotonic() - pressed[0]
+
+
+def test_branch_that_is_ended():
+    elastic = cagedyn.Model.from_file(SCENES / "grease_guide_elastic.json")
+    path = "inner_ring.speed.constant"
+    told = []
+    branch = cagedyn.WhirlBranch(
+        elastic, path, 314.16, 900.0, wall_time=3.0, progress=lambda share, found: told.append((share, found))
+    )
+    assert branch.end == "out of time" and "wall time" in branch.why and len(branch.points) >= 1
+    assert told[-1][0] > 0.0 and told[-1][1] >= 1
+    interrupt, seconds = after_ctrl_c(lambda: cagedyn.WhirlBranch(elastic, path, 314.16, 900.0))
+    assert seconds < 0.5
+    assert interrupt.branch is None or interrupt.branch.end == "cancelled"
+    with pytest.raises(cagedyn.Error, match="wall time") as late:
+        cagedyn.WhirlBranch(elastic, wall_time=0.0)
+    assert late.value.name == "ERR_OUT_OF_TIME"
+
+
+def test_heat_that_is_ended():
+    heat = cagedyn.HeatBalance(cagedyn.Model.from_file(SCENES / "nu2310_heat.json"))
+    start = heat.temperatures
+    _, seconds = after_ctrl_c(heat.settle)
+    assert seconds < 0.5
+    with pytest.raises(cagedyn.Error, match="wall time"):
+        heat.settle(wall_time=0.1)
+    with pytest.raises(RuntimeError, match="enough"):
+        heat.settle(progress=_enough)
+    # What bursts came to is kept, and more of them go on from there.
+    assert heat.temperatures != start and heat.quantities["bursts"] >= 1.0
+    kept = heat.temperatures
+    heat.step(1.0)
+    assert heat.temperatures != kept
+
+
+def _enough(share, bursts):
+    if bursts > 0:
+        raise RuntimeError("enough")
 
 
 def test_heat(guide):

@@ -4,6 +4,7 @@ use super::guard::{
     EMPTY, Exclusive, Handle, count, exclusive, free, guard, index, read_array, shared, static_name, status,
     to_c_string, write_array,
 };
+use super::limits::{cagedyn_watch, limits_of};
 use super::model::cagedyn_model;
 use crate::error::{Error, Result, Status};
 use crate::heat::{HeatBalance, HeatState};
@@ -29,15 +30,15 @@ impl Handle for cagedyn_heat {
     }
 }
 
-/// A heat balance with what its last burst of motion came to.
+/// A heat balance.
 pub struct Balance {
     heat: HeatBalance,
-    last: Option<HeatState>,
 }
 
 impl Balance {
+    /// What its last burst of motion came to.
     fn last(&self) -> Result<&HeatState> {
-        self.last.as_ref().ok_or_else(|| {
+        self.heat.last().ok_or_else(|| {
             let text = "heat: no motion has been run; cagedyn_heat_settle() or cagedyn_heat_step() does so";
             Error::new(Status::BadState, text.to_owned())
         })
@@ -82,6 +83,24 @@ unsafe fn with(heat: *const cagedyn_heat, entry: impl FnOnce(&mut Balance) -> Re
     status(|| entry(&mut *unsafe { exclusive("heat", heat) }?))
 }
 
+/// Moves temperatures within the limits of a watch.
+///
+/// # Safety
+/// `heat` and `watch` are NULL or live handles.
+unsafe fn watched(
+    heat: *const cagedyn_heat,
+    watch: *const cagedyn_watch,
+    moves: impl FnOnce(&mut HeatBalance) -> Result<()>,
+) -> i32 {
+    // SAFETY: see above.
+    unsafe {
+        with(heat, |balance| {
+            balance.heat.set_limits(limits_of(watch));
+            moves(&mut balance.heat)
+        })
+    }
+}
+
 /// Creates the heat balance of a model whose scene has `heat`, at the temperatures of the start. Returns NULL on failure, with the
 /// reason in cagedyn_error_message(). Free it with cagedyn_heat_free().
 ///
@@ -99,7 +118,7 @@ pub unsafe extern "C" fn cagedyn_heat_new(model: *const cagedyn_model) -> *mut c
             let place =
                 |name: &str| heat.names().position(|lump| lump == name).map_or(-1, |place| place as i64);
             let links = heat.links().map(|ends| ends.map(place)).collect();
-            let content = Exclusive::new(Balance { heat, last: None });
+            let content = Exclusive::new(Balance { heat });
             Ok(Box::into_raw(Box::new(cagedyn_heat { content, lumps, sources, links })))
         },
     )
@@ -123,12 +142,21 @@ pub unsafe extern "C" fn cagedyn_heat_free(heat: *mut cagedyn_heat) {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_heat_settle(heat: *mut cagedyn_heat) -> i32 {
     // SAFETY: see above.
-    unsafe {
-        with(heat, |balance| {
-            balance.last = Some(balance.heat.settle()?);
-            Ok(())
-        })
-    }
+    unsafe { cagedyn_heat_settle_with_watch(heat, std::ptr::null()) }
+}
+
+/// As cagedyn_heat_settle(), with a watch, by which it can be stopped; NULL for none. Temperatures are then those of the last whole burst,
+/// of which the other calls tell, and another call goes on from there.
+///
+/// # Safety
+/// `heat` and `watch` are NULL or live handles.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_heat_settle_with_watch(
+    heat: *mut cagedyn_heat,
+    watch: *const cagedyn_watch,
+) -> i32 {
+    // SAFETY: see above.
+    unsafe { watched(heat, watch, |heat| heat.settle().map(|_| ())) }
 }
 
 /// Warms up for `duration` (s, from 1e-6 to 1e9) with the heat of one burst of motion: the longer, the more roughly. On failure
@@ -139,12 +167,22 @@ pub unsafe extern "C" fn cagedyn_heat_settle(heat: *mut cagedyn_heat) -> i32 {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_heat_step(heat: *mut cagedyn_heat, duration: f64) -> i32 {
     // SAFETY: see above.
-    unsafe {
-        with(heat, |balance| {
-            balance.last = Some(balance.heat.step(duration)?);
-            Ok(())
-        })
-    }
+    unsafe { cagedyn_heat_step_with_watch(heat, duration, std::ptr::null()) }
+}
+
+/// As cagedyn_heat_step(), with a watch, by which it can be stopped; NULL for none. Temperatures then stay what they were, and the motion
+/// goes on from where it is.
+///
+/// # Safety
+/// `heat` and `watch` are NULL or live handles.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_heat_step_with_watch(
+    heat: *mut cagedyn_heat,
+    duration: f64,
+    watch: *const cagedyn_watch,
+) -> i32 {
+    // SAFETY: see above.
+    unsafe { watched(heat, watch, |heat| heat.step(duration).map(|_| ())) }
 }
 
 /// Number of lumps. Negative status code on failure.

@@ -4,8 +4,9 @@ use super::guard::{
     EMPTY, check_array, count, free, guard, index, shared, static_name, status, text, to_c_string,
     write_array,
 };
+use super::limits::{cagedyn_watch, limits_of};
 use super::model::cagedyn_model;
-use crate::error::Result;
+use crate::error::{Result, Status};
 use crate::registry::registry;
 use crate::scene::Scene;
 use crate::whirl::{Branch, End, Point, follow, steady};
@@ -62,18 +63,33 @@ fn handle(branch: Branch) -> *mut cagedyn_whirl {
     Box::into_raw(Box::new(cagedyn_whirl { branch, why }))
 }
 
-/// Finds the steady whirl of the model's scene without its gravity: a branch of one point, whose parameter is 0. Returns NULL on
-/// failure, with the reason in cagedyn_error_message(). Free it with cagedyn_whirl_free().
+/// Finds the steady whirl of the model's scene without its gravity: a branch of one point, whose parameter is 0. Of several whirls it is a
+/// stable one. Returns NULL on failure, with the reason in cagedyn_error_message(): that there is no whirl, or that none was found. Free it
+/// with cagedyn_whirl_free().
 ///
 /// # Safety
 /// `model` is NULL or a live handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_whirl_steady(model: *const cagedyn_model) -> *mut cagedyn_whirl {
+    // SAFETY: see above.
+    unsafe { cagedyn_whirl_steady_with_watch(model, std::ptr::null()) }
+}
+
+/// As cagedyn_whirl_steady(), with a watch, by which it can be stopped; NULL for none.
+///
+/// # Safety
+/// `model` and `watch` are NULL or live handles.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_whirl_steady_with_watch(
+    model: *const cagedyn_model,
+    watch: *const cagedyn_watch,
+) -> *mut cagedyn_whirl {
     guard(
         |_| std::ptr::null_mut(),
         || {
             // SAFETY: see above.
-            let whirl = steady(unsafe { shared("model", model) }?.model.scene(), None)?;
+            let (model, limits) = unsafe { (shared("model", model)?, limits_of(watch)) };
+            let whirl = steady(model.model.scene(), None, &limits)?;
             let point = Point { parameter: 0.0, whirl, fold: false, hopf: false, grazed: false };
             Ok(handle(Branch { points: vec![point], end: End::Range }))
         },
@@ -94,15 +110,33 @@ pub unsafe extern "C" fn cagedyn_whirl_follow(
     from: f64,
     to: f64,
 ) -> *mut cagedyn_whirl {
+    // SAFETY: see above.
+    unsafe { cagedyn_whirl_follow_with_watch(model, path, from, to, std::ptr::null()) }
+}
+
+/// As cagedyn_whirl_follow(), with a watch, by which it can be stopped; NULL for none. A branch that is stopped has the points so far, and
+/// cagedyn_whirl_status() tells; before the first point NULL is returned.
+///
+/// # Safety
+/// `model` and `watch` are NULL or live handles, `path` NULL or a NUL-terminated text.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_whirl_follow_with_watch(
+    model: *const cagedyn_model,
+    path: *const c_char,
+    from: f64,
+    to: f64,
+    watch: *const cagedyn_watch,
+) -> *mut cagedyn_whirl {
     guard(
         |_| std::ptr::null_mut(),
         || {
             // SAFETY: see above.
-            let (model, path) = unsafe { (shared("model", model)?, text("path", path)?) };
+            let (model, path, limits) =
+                unsafe { (shared("model", model)?, text("path", path)?, limits_of(watch)) };
             let json = model.model.scene().to_json();
             let with =
                 |_: &Scene, value: f64| Scene::from_json_with(&json, [(path, format!("{value:?}").as_str())]);
-            Ok(handle(follow(model.model.scene(), [from, to], with, |_| ())?))
+            Ok(handle(follow(model.model.scene(), [from, to], with, &limits, |_| ())?))
         },
     )
 }
@@ -224,7 +258,7 @@ pub unsafe extern "C" fn cagedyn_whirl_eigenvalues(
 }
 
 /// How a branch ends: "range" at the end of the range, "length" after as many points as a branch may have, "lost" where no
-/// whirl was found further on; "" on failure. Static text.
+/// whirl was found further on, "cancelled" or "out of time" where a watch has ended it; "" on failure. Static text.
 ///
 /// # Safety
 /// `whirl` is NULL or a live handle.
@@ -239,10 +273,27 @@ pub unsafe extern "C" fn cagedyn_whirl_end(whirl: *const cagedyn_whirl) -> *cons
                 End::Range => c"range",
                 End::Length => c"length",
                 End::Lost(_) => c"lost",
+                End::Stopped(e) if e.status == Status::Cancelled => c"cancelled",
+                End::Stopped(_) => c"out of time",
             }
             .as_ptr())
         },
     )
+}
+
+/// CAGEDYN_ERR_CANCELLED or CAGEDYN_ERR_OUT_OF_TIME for a branch that a watch has ended, CAGEDYN_OK for others; other codes on failure.
+///
+/// # Safety
+/// `whirl` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_whirl_status(whirl: *const cagedyn_whirl) -> i32 {
+    status(|| {
+        // SAFETY: see above.
+        match &unsafe { shared("whirl", whirl) }?.branch.end {
+            End::Stopped(e) => Err(e.clone()),
+            _ => Ok(()),
+        }
+    })
 }
 
 /// Why a branch ends before the end of its range, one line; "" where it does not, and on failure. Lives as long as the branch.

@@ -2,7 +2,7 @@
 
 use crate::error::Result;
 use crate::model::{Input, Model, Power};
-use crate::sim::Sim;
+use crate::sim::{RunLimits, Sim};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -80,19 +80,24 @@ impl Burst {
 
     /// Goes on for a burst with the lumps at these temperatures (K): the mean heat of its last part from these sources (power, lump,
     /// share), over whole turns of the whirl where there is one.
-    pub(super) fn run(&mut self, temperatures: &[f64], sources: &[(Power, usize, f64)]) -> Result<Heating> {
+    pub(super) fn run(
+        &mut self,
+        temperatures: &[f64],
+        sources: &[(Power, usize, f64)],
+        limits: &RunLimits,
+    ) -> Result<Heating> {
         self.warm(temperatures)?;
         let start = self.sim.time();
         let length = if self.sim.model().has_rollers() { LENGTH_OF_FREE } else { LENGTH };
         let at = |i: u32| start + length * f64::from(i) / f64::from(LOOKS);
         let first = (COUNTED_FROM * f64::from(LOOKS)) as u32;
-        self.sim.advance_to(at(first))?;
+        limits.advance(&mut self.sim, at(first))?;
         let begin = self.works()?;
         let mut angle = self.angle()?;
         let (mut turned, mut turns) = (0.0f64, 0.0f64);
         let mut end = begin.clone();
         for i in first + 1..=LOOKS {
-            self.sim.advance_to(at(i))?;
+            limits.advance(&mut self.sim, at(i))?;
             let now = self.angle()?;
             turned += (now - angle + 0.5 * TAU).rem_euclid(TAU) - 0.5 * TAU;
             angle = now;

@@ -22,7 +22,7 @@ use crate::bodies::HeatBudget;
 use crate::error::{Error, Result, Status};
 use crate::model::Model;
 use crate::scene::Heat;
-use crate::sim::Sim;
+use crate::sim::{RunLimits, Sim};
 use burst::{Burst, Heating};
 use std::sync::Arc;
 
@@ -60,6 +60,8 @@ pub struct HeatBalance {
     burst: Burst,
     /// Temperatures now, K.
     temperatures: Vec<f64>,
+    last: Option<HeatState>,
+    limits: RunLimits,
 }
 
 /// What a heat balance has come to.
@@ -138,7 +140,23 @@ impl HeatBalance {
         let sim = Sim::new(model)?;
         let burst = Burst::new(sim);
         let budget = HeatBudget::of(burst.model().scene(), burst.ring_speed()).ok_or_else(missing)?;
-        Ok(Self { temperatures: budget.start.clone(), burst, heat, budget })
+        let temperatures = budget.start.clone();
+        Ok(Self { temperatures, burst, heat, budget, last: None, limits: RunLimits::default() })
+    }
+
+    /// What the last burst of motion came to; `None` before the first.
+    pub fn last(&self) -> Option<&HeatState> {
+        self.last.as_ref()
+    }
+
+    /// What ends a search from outside, and tells how far it is.
+    pub fn limits(&self) -> &RunLimits {
+        &self.limits
+    }
+
+    /// Puts other limits in their place.
+    pub fn set_limits(&mut self, limits: RunLimits) {
+        self.limits = limits;
     }
 
     /// The bearing at the temperatures of the last burst.
@@ -195,17 +213,18 @@ impl HeatBalance {
     ///
     /// # Errors
     /// [`Status::BadState`] where temperatures do not settle, or leave the range of the oil; as [`Sim::advance_to`]. Temperatures
-    /// are those before then, and the motion starts anew.
+    /// are those before then, and the motion starts anew. With [`Status::Cancelled`] and [`Status::OutOfTime`] temperatures are those of
+    /// the last whole burst, [`HeatBalance::last`] has what it came to, and another call goes on from there.
     pub fn settle(&mut self) -> Result<HeatState> {
         self.or_back(Self::find_steady)
     }
 
-    /// What `moves` the temperatures; where that fails, nothing has moved.
+    /// What `moves` the temperatures; where that fails, nothing has moved. What a host ends is kept.
     fn or_back<T>(&mut self, moves: impl FnOnce(&mut Self) -> Result<T>) -> Result<T> {
-        let before = self.temperatures.clone();
-        let moved = moves(self);
-        if moved.is_err() {
-            self.temperatures = before;
+        let before = (self.temperatures.clone(), self.last.clone());
+        let moved = self.limits.clone().searching(|| moves(self));
+        if moved.as_ref().is_err_and(|e| !e.is_stop()) {
+            (self.temperatures, self.last) = before;
             self.burst.restart();
         }
         moved
@@ -230,9 +249,15 @@ impl HeatBalance {
             self.temperatures = moved;
             self.check_range()?;
             let scatter = means.as_ref().map_or(0.0, Means::standard_error);
+            let state = self.keep(heat, bursts, scatter);
             if change < SETTLED && means.is_none() || means.is_some() && scatter < MEAN_SETTLED {
-                return Ok(HeatState { scatter, ..self.state(heat, bursts) });
+                self.limits.tell(1.0, bursts);
+                return Ok(state);
             }
+            let way = |now: f64| (LARGEST_STEP / now).ln() / (LARGEST_STEP / SETTLED).ln();
+            let square = |x: f64| x * x;
+            self.limits
+                .tell(if means.is_none() { way(change) } else { square(MEAN_SETTLED / scatter) }, bursts);
             // Changes that no longer get smaller are scatter.
             if means.is_none() && bursts >= FEWEST_BURSTS && share == 1.0 && change > STILL_FALLING * before {
                 means = Some(Means::default());
@@ -246,13 +271,14 @@ impl HeatBalance {
     /// Warms up from the present temperatures; tells the time (s) and the state after each step, which are longer and longer.
     ///
     /// # Errors
-    /// As [`HeatBalance::settle`], but for settling.
+    /// As [`HeatBalance::settle`], but for settling. What was told before a limit stays.
     pub fn warm_up(&mut self, mut tell: impl FnMut(f64, &HeatState)) -> Result<HeatState> {
         self.or_back(|heat| {
             let (mut time, mut step) = (0.0, FIRST_STEP);
             let mut last = None;
             for bursts in 1..=STEPS {
                 let state = heat.warm(step, bursts)?;
+                heat.limits.tell(bursts as f64 / STEPS as f64, bursts);
                 time += step;
                 step *= GROWTH;
                 tell(time, &state);
@@ -280,7 +306,7 @@ impl HeatBalance {
         let viscosity = self.viscosity();
         self.budget.network.step(&heat.into_nodes, viscosity, duration, &mut self.temperatures)?;
         self.check_range()?;
-        Ok(self.state(heat, bursts))
+        Ok(self.keep(heat, bursts, 0.0))
     }
 
     /// Kinematic viscosity of the lubricant, m^2/s.
@@ -289,7 +315,7 @@ impl HeatBalance {
     }
 
     fn run_burst(&mut self) -> Result<Heating> {
-        let mut heating = self.burst.run(&self.temperatures, &self.budget.sources)?;
+        let mut heating = self.burst.run(&self.temperatures, &self.budget.sources, &self.limits)?;
         if let Some(friction) = &self.budget.friction {
             let into = &mut heating.into_nodes;
             heating.of_bearing = friction.heat(
@@ -301,8 +327,9 @@ impl HeatBalance {
         Ok(heating)
     }
 
-    fn state(&self, heating: Heating, bursts: usize) -> HeatState {
-        HeatState {
+    /// Keeps what a burst came to.
+    fn keep(&mut self, heating: Heating, bursts: usize, scatter: f64) -> HeatState {
+        let state = HeatState {
             temperatures: self.temperatures.clone(),
             flows: self.budget.network.flows(&self.temperatures, self.viscosity()),
             carried: self.budget.network.carried(&self.temperatures),
@@ -313,9 +340,10 @@ impl HeatBalance {
             viscosity: heating.viscosity,
             clearance: heating.clearance,
             whirl_speed: heating.whirl_speed,
-            scatter: 0.0,
+            scatter,
             bursts,
-        }
+        };
+        self.last.insert(state).clone()
     }
 
     fn check_range(&self) -> Result<()> {

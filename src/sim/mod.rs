@@ -14,7 +14,7 @@ mod snapshot;
 pub use crate::integrate::Statistics as DriverStatistics;
 pub(crate) use balance::BalanceItem;
 pub use balance::{BALANCE_ITEMS, PowerBalance};
-pub use limits::Canceller;
+pub use limits::{Canceller, RunLimits};
 pub use linear::sparse::SparsePattern;
 pub use results::interval::Interval;
 pub use results::over_orbit::{LoadZone, OverOrbit};
@@ -208,7 +208,7 @@ impl Sim {
             return Err(Error::new(Status::BadValue, text));
         }
         self.evaluated = Evaluated::Other;
-        if let Some(why) = self.bearing.limits_mut().interruption() {
+        if let Some(why) = self.bearing.limits().interruption() {
             return Err(self.failure(Failure::Interrupted { time: self.time, why }));
         }
         let advanced = self.driver.advance(&mut self.bearing, t);
@@ -233,12 +233,12 @@ impl Sim {
     /// # Errors
     /// [`Status::BadValue`] if it is negative or NaN.
     pub fn set_wall_time_limit(&mut self, seconds: f64) -> Result<()> {
-        if seconds.is_nan() || seconds < 0.0 {
-            let text = format!("seconds: {seconds} is not 0 or more");
-            return Err(Error::new(Status::BadValue, text));
-        }
-        self.bearing.limits_mut().set_wall_time(seconds);
-        Ok(())
+        self.bearing.limits_mut().set_wall_time(seconds)
+    }
+
+    /// Lets it run within the limits of a search that it is part of.
+    pub(crate) fn set_limits(&mut self, limits: &RunLimits) {
+        *self.bearing.limits_mut() = limits.clone();
     }
 
     /// Present value of an input, or of what follows from inputs, such as the orbit speed of elements that roll.

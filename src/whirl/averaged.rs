@@ -13,7 +13,8 @@ use crate::bodies::CAGE_MOTION;
 use crate::error::{Error, Result, Status};
 use crate::model::{Fault, HostInputs, Input, InputValues, Model, Workspace};
 use crate::scalar::math;
-use crate::scene::{GuideFilm, Scene, Signal};
+use crate::scene::{GuideFilm, Pocket, Scene, Signal};
+use crate::sim::RunLimits;
 use crate::space::rotate;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
@@ -29,6 +30,10 @@ const WAVE: f64 = 1e-5;
 /// Steps of differences of the state for its stability: place m, velocity m/s, lead rad, speed rad/s, waves m and their rates m/s.
 const STEPS: [f64; 6] = [1e-9, 1e-5, 1e-9, 1e-3, 1e-9, 1e-5];
 
+/// Slower than this share of the elements, or nearer to the centre than this share of the clearance, a cage rests.
+const RESTS: f64 = 1e-3;
+const CENTRE: f64 = 1e-6;
+
 /// Step of differences over the motion in axes at rest, in units of its scales.
 pub(super) const DIFFERENCE_OF_MOTION: f64 = 1e-3;
 /// Positive nodes and weights of the Gauss-Legendre rule of twelve points on [-1, 1].
@@ -43,6 +48,8 @@ const GAUSS: [(f64, f64); 6] = [
 
 /// The averaged cage of a scene.
 pub(super) struct Averaged {
+    /// What may end a search with it.
+    limits: RunLimits,
     model: Model,
     ws: Workspace,
     inputs: InputValues,
@@ -59,6 +66,10 @@ pub(super) struct Averaged {
     a: Vec<f64>,
     /// Whether elements pass the contact counter-clockwise.
     passes_forwards: bool,
+    /// Radial play of an element in its pocket, m.
+    play: f64,
+    /// Evenly spaced places of it that means are over; `None` where they are exact.
+    train: Option<usize>,
 }
 
 /// A whirl, as it is solved for.
@@ -81,8 +92,8 @@ struct State {
 }
 
 impl Averaged {
-    /// That of a scene, whose gravity is left out.
-    pub(super) fn new(scene: &Scene) -> Result<Self> {
+    /// That of a scene, whose gravity is left out, for a search with these limits.
+    pub(super) fn new(scene: &Scene, limits: &RunLimits) -> Result<Self> {
         let refused = |path: &str, text: &str| Err(Error::new(Status::BadScene, format!("{path}: {text}")));
         let scene = Scene { gravity: None, ..scene.clone() };
         if scene.kinematic_elements.is_none() {
@@ -132,6 +143,11 @@ impl Averaged {
             _ => None,
         };
         let orders = cage.elastic_ring.as_ref().map_or(Vec::new(), |ring| (2..=ring.modes).collect());
+        let play = match &cage.pocket {
+            Some(Pocket::SolidPlane(pocket)) => 0.5 * pocket.diametral_clearance,
+            Some(Pocket::LubricatedCylinder(pocket)) => pocket.radial_clearance,
+            None => f64::INFINITY,
+        };
         let growth = cage.elastic_ring.as_ref().map_or(0.0, |ring| ring.growth);
         let model = Model::new(scene)?;
         let inputs = model.inputs_at(0.0, &HostInputs::default());
@@ -140,6 +156,7 @@ impl Averaged {
         }
         let count = model.element_count();
         Ok(Self {
+            limits: limits.clone(),
             ws: Workspace::new(&model),
             orders,
             pitch: TAU / count as f64,
@@ -149,6 +166,8 @@ impl Averaged {
             layer,
             a: vec![0.0; model.layout().velocities()],
             passes_forwards: true,
+            play,
+            train: None,
             inputs,
             model,
         })
@@ -156,6 +175,20 @@ impl Averaged {
 
     pub(super) fn model(&self) -> &Model {
         &self.model
+    }
+
+    /// Radial play of an element in its pocket, m; infinite without pockets.
+    pub(super) fn play(&self) -> f64 {
+        self.play
+    }
+
+    pub(super) fn limits(&self) -> &RunLimits {
+        &self.limits
+    }
+
+    /// Radial clearance of the cage at rest, m.
+    pub(super) fn clearance(&self) -> f64 {
+        self.clearance
     }
 
     /// Orbit speed of the elements, rad/s.
@@ -172,14 +205,19 @@ impl Averaged {
 
     /// Unknowns of a whirl.
     pub(super) fn pack(&self, whirl: &Unknowns) -> Vec<f64> {
-        let first = match self.inside() {
-            Some(inside) => {
-                let cos = (inside / whirl.eccentricity).clamp(-1.0, 1.0);
-                math::atan2((1.0 - cos * cos).sqrt(), cos)
-            }
-            None => whirl.eccentricity / self.free(),
-        };
+        let first = self.place_at(whirl.eccentricity);
         [first, whirl.speed, whirl.lead].into_iter().chain(whirl.waves.iter().copied()).collect()
+    }
+
+    /// The unknown that stands for this eccentricity, m.
+    pub(super) fn place_at(&self, eccentricity: f64) -> f64 {
+        let Some(inside) = self.inside() else { return eccentricity / self.free() };
+        // Of the shorter of both to the longer one: the half angle of the wet arc, or, beside the layer, what goes on from it.
+        let (wet, cos) = match inside / eccentricity {
+            share if share < 1.0 => (1.0, share),
+            share => (-1.0, 1.0 / share),
+        };
+        wet * math::atan2((1.0 - cos * cos).max(0.0).sqrt(), cos)
     }
 
     /// Clearance of the grown cage, m.
@@ -188,7 +226,7 @@ impl Averaged {
     }
 
     /// What is left of it inside of a layer, where the angle of the wet arc of a round cage stands for its place, m.
-    fn inside(&self) -> Option<f64> {
+    pub(super) fn inside(&self) -> Option<f64> {
         self.layer.filter(|_| self.orders.is_empty()).map(|layer| self.free() - layer)
     }
 
@@ -196,6 +234,7 @@ impl Averaged {
     pub(super) fn unknowns(&self, u: &[f64]) -> Unknowns {
         // The half angle of the wet arc of a round cage takes out the square root at its edge.
         let eccentricity = match self.inside() {
+            Some(inside) if u[0] < 0.0 => inside * math::cos(u[0]),
             Some(inside) => inside / math::cos(u[0]),
             None => self.free() * u[0],
         };
@@ -208,6 +247,11 @@ impl Averaged {
 
     pub(super) fn eccentricity(&self, u: &[f64]) -> f64 {
         self.unknowns(u).eccentricity
+    }
+
+    /// Whether nothing goes round: the cage stands, or is in the centre.
+    pub(super) fn rests(&self, u: &[f64]) -> bool {
+        self.speed(u).abs() < RESTS * self.orbit.abs() || self.eccentricity(u).abs() < CENTRE * self.clearance
     }
 
     /// The state of a whirl, and the speed at which it goes round in axes of the cage.
@@ -247,8 +291,16 @@ impl Averaged {
 
     /// Mean accelerations of the cage: place, angle, waves.
     fn accelerations(&mut self, state: &State) -> Result<Vec<f64>> {
+        self.limits.check()?;
         let n = CAGE_MOTION + state.waves.len();
         let mut mean = vec![0.0; n];
+        if let Some(train) = self.train {
+            let share = 1.0 / train as f64;
+            for i in 0..train {
+                self.add(state, self.pitch * share * i as f64, share, &mut mean)?;
+            }
+            return Ok(mean);
+        }
         // Between places where a pocket begins or ends to touch, everything is smooth.
         let step = self.pitch / SCAN as f64;
         let mut breaks = Vec::new();
@@ -349,6 +401,7 @@ impl Averaged {
 
     /// Rates of the motion in axes at rest at the time `t`, s, among single elements.
     pub(super) fn full_rate(&mut self, t: f64, x: &DVector<f64>) -> Result<DVector<f64>> {
+        self.limits.check()?;
         let n = x.len() / 2;
         self.inputs.orbit_travel = self.orbit * t;
         let (q, v) = x.as_slice().split_at(n);
@@ -375,6 +428,11 @@ impl Averaged {
                 (x[at], x[at + 1]) = (a, b);
             }
         }
+    }
+
+    /// Takes means over so many evenly spaced places of the train, to tell signs by, or exact ones again.
+    pub(super) fn set_train(&mut self, places: Option<usize>) {
+        self.train = places;
     }
 
     /// Tells whether elements go round faster than the whirl, seen counter-clockwise.

@@ -1,9 +1,10 @@
 //! A branch of steady whirls over a number of the scene, followed around folds by its arc length.
 
 use super::averaged::Averaged;
-use super::{Whirl, linearized, start, whirl};
+use super::{Whirl, linearized, rest, whirl};
 use crate::error::{Error, Result, Status};
 use crate::scene::Scene;
+use crate::sim::RunLimits;
 use nalgebra::{DMatrix, DVector};
 
 /// Points of a branch at most, its first step as a share of the range, the largest and the smallest.
@@ -32,6 +33,8 @@ pub enum End {
     Length,
     /// No whirl was found further on; the text says why.
     Lost(String),
+    /// Where a host ended it, on request or with its limit on the wall time.
+    Stopped(Error),
 }
 
 impl End {
@@ -41,6 +44,8 @@ impl End {
             Self::Range => "range",
             Self::Length => "length",
             Self::Lost(_) => "lost",
+            Self::Stopped(e) if e.status == Status::Cancelled => "cancelled",
+            Self::Stopped(_) => "out of time",
         }
     }
 
@@ -49,7 +54,13 @@ impl End {
         match self {
             Self::Range | Self::Length => None,
             Self::Lost(why) => Some(why),
+            Self::Stopped(e) => Some(&e.message),
         }
+    }
+
+    /// Of a failure.
+    fn of(e: Error) -> Self {
+        if e.is_stop() { Self::Stopped(e) } else { Self::Lost(e.message) }
     }
 }
 
@@ -81,24 +92,35 @@ pub struct Branch {
 /// Follows the steady whirl of a scene from one value of a number of it to another; `with` changes the scene.
 ///
 /// # Errors
-/// [`Status::BadValue`] for a range of no length; as [`super::steady`] for its start. Later failures end the branch.
+/// [`Status::BadValue`] for a range of no length; as [`super::steady`] for its start. Later failures, and limits, end the branch, which keeps
+/// its points.
 pub fn follow(
+    scene: &Scene,
+    range: [f64; 2],
+    with: impl Fn(&Scene, f64) -> Result<Scene>,
+    limits: &RunLimits,
+    tell: impl FnMut(&Point),
+) -> Result<Branch> {
+    limits.searching(|| along(scene, range, with, limits, tell))
+}
+
+fn along(
     scene: &Scene,
     [from, to]: [f64; 2],
     with: impl Fn(&Scene, f64) -> Result<Scene>,
+    limits: &RunLimits,
     mut tell: impl FnMut(&Point),
 ) -> Result<Branch> {
     let range = to - from;
     if !range.is_finite() || range == 0.0 {
         return Err(Error::new(Status::BadValue, format!("range: from {from:?} to {to:?} there is no way")));
     }
-    let at = |s: f64| Averaged::new(&with(scene, from + range * s)?);
+    let at = |s: f64| Averaged::new(&with(scene, from + range * s)?, limits);
     let first_scene = with(scene, from)?;
-    let mut averaged = Averaged::new(&first_scene)?;
-    let begin = start::guess(&first_scene, &averaged)?;
+    let mut averaged = Averaged::new(&first_scene, limits)?;
     let mut points = vec![Point {
         parameter: from,
-        whirl: super::steady_from(&first_scene, &mut averaged, begin)?,
+        whirl: super::find(&first_scene, &mut averaged)?,
         fold: false,
         hopf: false,
         grazed: false,
@@ -117,6 +139,7 @@ pub fn follow(
     tangent[n] = 1.0;
     let mut step = FIRST_STEP;
     let end = loop {
+        limits.tell(x[n], points.len());
         if points.len() >= MOST_POINTS {
             break End::Length;
         }
@@ -127,11 +150,15 @@ pub fn follow(
                 let s = next[n];
                 let last = &points[points.len() - 1];
                 let found = at(s).and_then(|mut averaged| {
-                    whirl(&mut averaged, &DVector::from_vec(plain(&next)), corrections)
+                    let u = DVector::from_vec(plain(&next));
+                    if averaged.rests(u.as_slice()) {
+                        return Err(rest(&averaged, &u));
+                    }
+                    whirl(&mut averaged, &u, corrections)
                 });
                 let found = match found {
                     Ok(found) => found,
-                    Err(e) => break End::Lost(e.message),
+                    Err(e) => break End::of(e),
                 };
                 let (grazed, crossed) =
                     (found.arcs != last.whirl.arcs, found.stable() != last.whirl.stable());
@@ -157,13 +184,19 @@ pub fn follow(
                     step = (step * GROWTH).min(LARGEST_STEP);
                 }
             }
+            Err(e) if e.is_stop() => break End::of(e),
             Err(e) => {
                 step *= 0.5;
                 if step < SMALLEST_STEP {
                     // Where an arc is about to appear or vanish, the search begins anew beyond it.
                     let beyond = x[n] + BEYOND;
-                    let begun = (beyond < 1.0).then(|| begin_at(scene, from + range * beyond, &with));
-                    let Some(Ok((parameter, whirl))) = begun else { break End::Lost(e.message) };
+                    let parameter = from + range * beyond;
+                    let begun = || super::find(&with(scene, parameter)?, &mut at(beyond)?);
+                    let whirl = match (beyond < 1.0).then(begun) {
+                        Some(Ok(whirl)) => whirl,
+                        Some(Err(stop)) if stop.is_stop() => break End::of(stop),
+                        _ => break End::of(e),
+                    };
                     let last = &points[points.len() - 1].whirl;
                     if last.arcs == whirl.arcs {
                         break End::Lost(e.message);
@@ -179,12 +212,10 @@ pub fn follow(
             }
         }
     };
+    if !matches!(end, End::Stopped(_)) {
+        limits.tell(1.0, points.len());
+    }
     Ok(Branch { points, end })
-}
-
-/// The whirl at a value of the number, from where a search begins by itself.
-fn begin_at(scene: &Scene, value: f64, with: &impl Fn(&Scene, f64) -> Result<Scene>) -> Result<(f64, Whirl)> {
-    Ok((value, super::steady(&with(scene, value)?, None)?))
 }
 
 /// One step along the branch: predictor and corrector with the bordered system. Returns point, tangent and corrections.

@@ -3,12 +3,13 @@
 //! Elements of prescribed motion pass the moving contact of a whirling cage much faster than it or its pockets can answer, so their
 //! train counts as its mean. Without gravity the averaged cage is autonomous in its own axes, and a circular whirl is a state at
 //! rest there: a Newton step finds it in a millisecond, eigenvalues tell whether it is stable, and continuation follows it over
-//! speed, temperature, clearance, stiffness, or any other number of the scene.
+//! speed, temperature, clearance, stiffness, or any other number of the scene. Every function takes [`RunLimits`], by which another
+//! thread can stop it, a wall time ends it, and its progress can be seen.
 //!
 //! ```no_run
 //! fn main() -> cagedyn::Result<()> {
 //!     let text = std::fs::read_to_string("scenes/grease_guide.json").unwrap_or_default();
-//!     let whirl = cagedyn::whirl::steady(&cagedyn::Scene::from_json(&text)?, None)?;
+//!     let whirl = cagedyn::whirl::steady(&cagedyn::Scene::from_json(&text)?, None, &Default::default())?;
 //!     println!("{} rad/s at {} m, stable: {}", whirl.speed, whirl.eccentricity, whirl.stable());
 //!     Ok(())
 //! }
@@ -19,6 +20,7 @@ mod branch;
 mod exact;
 mod onset;
 mod orbit;
+mod search;
 mod start;
 
 pub use branch::{Branch, End, Point, follow};
@@ -29,6 +31,7 @@ pub use orbit::{Orbit, orbit};
 use crate::error::{Error, Result, Status};
 use crate::scalar::math;
 use crate::scene::Scene;
+use crate::sim::RunLimits;
 use averaged::{Averaged, Unknowns};
 use nalgebra::{DMatrix, DVector};
 
@@ -77,39 +80,99 @@ impl Whirl {
     }
 }
 
-/// The steady whirl of a scene without its gravity, near `guess`, or near where a closed estimate or a short run leads.
+/// The steady whirl of a scene without its gravity, near `guess`, or, of several, a stable one.
+///
+/// Without a guess the search begins at a closed estimate, or with a short run from the start of the scene. Where that leads to rest or
+/// nowhere, all whirls of a rigid cage are looked for; an elastic one is then started as the rigid one whirls, or with fewer waves.
 ///
 /// # Errors
-/// [`Status::BadScene`] for a scene of free rollers, with unbalance or without a guide, [`Status::BadState`] where there is no such whirl near.
-pub fn steady(scene: &Scene, guess: Option<&Whirl>) -> Result<Whirl> {
-    let mut averaged = Averaged::new(scene)?;
-    match guess {
-        Some(whirl) => solve(&mut averaged, whirl.unknowns.clone()),
-        None => {
-            let first = start::guess(scene, &averaged)?;
-            steady_from(scene, &mut averaged, first)
-        }
-    }
+/// [`Status::BadScene`] for a scene of free rollers, with unbalance or without a guide; [`Status::BadState`] where there is no whirl, or none
+/// was found, as the message says; [`Status::Cancelled`] and [`Status::OutOfTime`].
+pub fn steady(scene: &Scene, guess: Option<&Whirl>, limits: &RunLimits) -> Result<Whirl> {
+    limits.searching(|| {
+        let mut averaged = Averaged::new(scene, limits)?;
+        let whirl = match guess {
+            Some(whirl) => solve(&mut averaged, whirl.unknowns.clone()),
+            None => find(scene, &mut averaged),
+        }?;
+        limits.tell(1.0, 1);
+        Ok(whirl)
+    })
 }
 
-/// The steady whirl near these unknowns. An elastic cage whose motion is irregular may whirl near where one of fewer waves does.
-fn steady_from(scene: &Scene, averaged: &mut Averaged, first: Vec<f64>) -> Result<Whirl> {
-    solve(averaged, first).or_else(|error| {
-        let Some(stiffer) = start::with_fewer_waves(scene) else { return Err(error) };
-        let Ok(mut near) = steady(&stiffer, None) else { return Err(error) };
-        near.unknowns.extend([0.0; 2]);
-        solve(averaged, near.unknowns).map_err(|_| error)
+/// All steady whirls of a rigid cage without the gravity of its scene, those that are stable first, then by their speed. Empty where it
+/// can only rest.
+///
+/// # Errors
+/// [`Status::BadScene`] for an elastic cage, and as [`steady`]; [`Status::Cancelled`] and [`Status::OutOfTime`].
+pub fn all(scene: &Scene, limits: &RunLimits) -> Result<Vec<Whirl>> {
+    if scene.cage.as_ref().is_some_and(|cage| cage.elastic_ring.is_some()) {
+        let text = "cage.elastic_ring: all whirls are looked for of rigid cages only";
+        return Err(Error::new(Status::BadScene, text.to_owned()));
+    }
+    limits.searching(|| {
+        let whirls = search::search(&mut Averaged::new(scene, limits)?, true)?.whirls;
+        limits.tell(1.0, whirls.len());
+        Ok(whirls)
     })
+}
+
+/// A steady whirl, from where a search begins by itself.
+fn find(scene: &Scene, averaged: &mut Averaged) -> Result<Whirl> {
+    let guess = start::guess(scene, averaged);
+    let begun = guess.is_ok();
+    let error = match guess.and_then(|first| solve(averaged, first)) {
+        Err(e) if !e.is_stop() => e,
+        found => return found,
+    };
+    if scene.cage.as_ref().is_none_or(|cage| cage.elastic_ring.is_none()) {
+        let found = search::search(averaged, false)?;
+        let none = || Error::new(Status::BadState, found.in_words());
+        return found.whirls.first().cloned().ok_or_else(none);
+    }
+    // One that comes to no steady whirl by itself may whirl near where one of fewer waves does; one that rests needs a push.
+    type Try = fn(&Scene, &mut Averaged) -> Result<Whirl>;
+    let mut tries: [Try; 2] = [with_fewer_waves, pushed];
+    if !begun {
+        tries.reverse();
+    }
+    for attempt in tries {
+        match attempt(scene, averaged) {
+            Err(e) if !e.is_stop() => {}
+            found => return found,
+        }
+    }
+    Err(error)
+}
+
+/// The whirl next to that of a cage with one wave less.
+fn with_fewer_waves(scene: &Scene, averaged: &mut Averaged) -> Result<Whirl> {
+    let stiffer = start::with_fewer_waves(scene)
+        .ok_or_else(|| Error::new(Status::BadState, "there are no waves to leave out".to_owned()))?;
+    let mut near = find(&stiffer, &mut Averaged::new(&stiffer, averaged.limits())?)?;
+    near.unknowns.extend([0.0; 2]);
+    solve(averaged, near.unknowns)
+}
+
+/// The whirl that an elastic cage comes to which starts as a rigid one whirls.
+fn pushed(scene: &Scene, averaged: &mut Averaged) -> Result<Whirl> {
+    let rigid = start::rigid(scene);
+    let whirl = find(&rigid, &mut Averaged::new(&rigid, averaged.limits())?)?;
+    let first = start::run(&start::with_start(scene, &whirl, averaged.orbit()), averaged)?;
+    let first = averaged.pack(&first);
+    solve(averaged, first)
 }
 
 /// The exact whirl next to the averaged one of a scene without its gravity: periodic over the passing of one element.
 ///
 /// # Errors
 /// As [`steady`].
-pub fn exact(scene: &Scene, near: &Whirl) -> Result<Exact> {
-    let mut averaged = Averaged::new(scene)?;
-    averaged.set_passing(near.speed);
-    exact::exact(&mut averaged, near)
+pub fn exact(scene: &Scene, near: &Whirl, limits: &RunLimits) -> Result<Exact> {
+    limits.searching(|| {
+        let mut averaged = Averaged::new(scene, limits)?;
+        averaged.set_passing(near.speed);
+        exact::exact(&mut averaged, near)
+    })
 }
 
 /// Newton's method from these unknowns.
@@ -138,7 +201,11 @@ fn solve(averaged: &mut Averaged, first: Vec<f64>) -> Result<Whirl> {
             share *= 0.5;
         }
         if largest < CONVERGED {
-            return whirl(averaged, &u, steps);
+            return if averaged.rests(u.as_slice()) {
+                Err(rest(averaged, &u))
+            } else {
+                whirl(averaged, &u, steps)
+            };
         }
     }
     let text = format!(
@@ -147,6 +214,15 @@ fn solve(averaged: &mut Averaged, first: Vec<f64>) -> Result<Whirl> {
         averaged.eccentricity(u.as_slice())
     );
     Err(Error::new(Status::BadState, text))
+}
+
+/// A cage that rests is a solution, too, but no whirl.
+fn rest(averaged: &Averaged, u: &DVector<f64>) -> Error {
+    let text = format!(
+        "no steady whirl found: Newton's method came to rest, at {:.3e} m from the centre",
+        averaged.eccentricity(u.as_slice())
+    );
+    Error::new(Status::BadState, text)
 }
 
 /// Residual at these unknowns, and its derivatives over them in units of their scales.
@@ -197,5 +273,7 @@ fn whirl(averaged: &mut Averaged, u: &DVector<f64>, steps: usize) -> Result<Whir
     })
 }
 
+#[cfg(test)]
+mod settled_tests;
 #[cfg(test)]
 mod tests;

@@ -9,13 +9,14 @@
 //! Onset is no bifurcation of rest: between the first and the last of these speeds rest and whirl are both there, and how the cage is
 //! disturbed decides. Speeds are found by halving, to a share of themselves.
 
-use super::steady;
+use super::averaged::Averaged;
+use super::find;
 use crate::bodies::CAGE_MOTION;
 use crate::error::{Error, Result, Status};
 use crate::model::{HostInputs, Input, Model};
 use crate::scalar::math;
 use crate::scene::{OuterRing, PlaneVector, Scene, Signal};
-use crate::sim::Sim;
+use crate::sim::{RunLimits, Sim};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
@@ -37,7 +38,7 @@ const DROPS: [[f64; 2]; 3] = [[0.0, 0.0], [0.05, 0.0], [-0.03, 0.04]];
 
 /// Speeds of the inner ring at which a whirl begins and ends, rad/s, within the range that was looked at. `None` where there is none:
 /// of the first, where whirls go on down to the slowest speed, of the others, where there is no whirl up to the fastest.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Onset {
     /// A whirl that is there goes on down to here.
     pub survival: Option<f64>,
@@ -45,13 +46,22 @@ pub struct Onset {
     pub dropped_start: Option<f64>,
     /// A cage at rest begins to whirl here while the speed is raised.
     pub loss_of_rest: Option<f64>,
+    /// How many of the three, in this order, are known: all, unless a host has ended the search.
+    pub known: usize,
+    /// Why the others are not.
+    pub stopped: Option<Error>,
 }
 
 /// The three speeds of a scene between two magnitudes of the speed of its inner ring, rad/s.
 ///
 /// # Errors
-/// [`Status::BadValue`] for a range that does not grow from above zero; [`Status::BadScene`] as [`steady`], as [`Sim::advance_to`].
-pub fn onset(scene: &Scene, [slowest, fastest]: [f64; 2]) -> Result<Onset> {
+/// [`Status::BadValue`] for a range that does not grow from above zero; [`Status::BadScene`] as [`super::steady`], as [`Sim::advance_to`]. Limits are an error only before the
+/// first speed is found.
+pub fn onset(scene: &Scene, range: [f64; 2], limits: &RunLimits) -> Result<Onset> {
+    limits.searching(|| speeds(scene, range, limits))
+}
+
+fn speeds(scene: &Scene, [slowest, fastest]: [f64; 2], limits: &RunLimits) -> Result<Onset> {
     if !(slowest > 0.0 && fastest > slowest && fastest.is_finite()) {
         let text = format!("range: from {slowest:?} to {fastest:?} rad/s; speeds must grow from above zero");
         return Err(Error::new(Status::BadValue, text));
@@ -66,13 +76,26 @@ pub fn onset(scene: &Scene, [slowest, fastest]: [f64; 2]) -> Result<Onset> {
     }
     let sign = if *given < 0.0 { -1.0 } else { 1.0 };
     let at = |speed: f64| with_speed(scene, sign * speed);
-    let goes_on = |speed: f64| whirls_on(&at(speed));
-    let starts = |speed: f64| starts_dropped(&at(speed));
-    Ok(Onset {
-        survival: first(slowest, fastest, goes_on)?.filter(|speed| *speed > slowest),
-        dropped_start: first(slowest, fastest, starts)?,
-        loss_of_rest: raised(scene, sign, [slowest, fastest])?,
-    })
+    let goes_on = |speed: f64| whirls_on(&at(speed), limits);
+    let starts = |speed: f64| starts_dropped(&at(speed), limits);
+    let mut onset = Onset::default();
+    let find_all = |onset: &mut Onset| -> Result<()> {
+        onset.survival = first(slowest, fastest, goes_on)?.filter(|speed| *speed > slowest);
+        onset.known = 1;
+        limits.tell(1.0 / 3.0, 1);
+        onset.dropped_start = first(slowest, fastest, starts)?;
+        onset.known = 2;
+        limits.tell(2.0 / 3.0, 2);
+        onset.loss_of_rest = raised(scene, sign, [slowest, fastest], limits)?;
+        onset.known = 3;
+        limits.tell(1.0, 3);
+        Ok(())
+    };
+    match find_all(&mut onset) {
+        Err(e) if e.is_stop() && onset.known > 0 => onset.stopped = Some(e),
+        ended => ended?,
+    }
+    Ok(onset)
 }
 
 /// The slowest speed from which on something holds, if it does at the fastest: geometric halving.
@@ -100,8 +123,12 @@ fn with_speed(scene: &Scene, speed: f64) -> Scene {
 }
 
 /// Whether the whirl without gravity goes on under it.
-fn whirls_on(scene: &Scene) -> Result<bool> {
-    let Ok(whirl) = steady(scene, None) else { return Ok(false) };
+fn whirls_on(scene: &Scene, limits: &RunLimits) -> Result<bool> {
+    let whirl = match find(scene, &mut Averaged::new(scene, limits)?) {
+        Ok(whirl) => whirl,
+        Err(e) if e.is_stop() => return Err(e),
+        Err(_) => return Ok(false),
+    };
     let model = Arc::new(Model::new(scene.clone())?);
     let mut sim = Sim::new(model.clone())?;
     let Some(cage) = model.layout().cage() else { return Ok(false) };
@@ -118,18 +145,18 @@ fn whirls_on(scene: &Scene) -> Result<bool> {
         (v[at], v[at + 1]) = (-n * pair[1], n * pair[0]);
     }
     sim.set_state(0.0, &state)?;
-    whirls(&mut sim, RUN)
+    whirls(&mut sim, RUN, limits)
 }
 
 /// Whether a cage whirls that starts near the centre.
-fn starts_dropped(scene: &Scene) -> Result<bool> {
+fn starts_dropped(scene: &Scene, limits: &RunLimits) -> Result<bool> {
     let clearance =
         scene.cage.as_ref().and_then(|cage| cage.guide.as_ref()).map_or(0.0, |g| g.diametral_clearance / 2.0);
     for [y, z] in DROPS {
         let mut scene = scene.clone();
         scene.initial.cage = Some(PlaneVector { y: y * clearance, z: z * clearance });
         scene.initial.cage_velocity = PlaneVector::default();
-        if whirls(&mut Sim::new(Arc::new(Model::new(scene)?))?, RUN)? {
+        if whirls(&mut Sim::new(Arc::new(Model::new(scene)?))?, RUN, limits)? {
             return Ok(true);
         }
     }
@@ -137,7 +164,7 @@ fn starts_dropped(scene: &Scene) -> Result<bool> {
 }
 
 /// The speed at which a cage that rests begins to whirl while the speed grows evenly.
-fn raised(scene: &Scene, sign: f64, [slowest, fastest]: [f64; 2]) -> Result<Option<f64>> {
+fn raised(scene: &Scene, sign: f64, [slowest, fastest]: [f64; 2], limits: &RunLimits) -> Result<Option<f64>> {
     let mut scene = scene.clone();
     scene.initial.cage_velocity = PlaneVector::default();
     let ramp = Signal::Ramp { from: sign * slowest, to: sign * fastest, start: REST, end: REST + RAISE };
@@ -145,9 +172,9 @@ fn raised(scene: &Scene, sign: f64, [slowest, fastest]: [f64; 2]) -> Result<Opti
         ring.speed = ramp;
     }
     let mut sim = Sim::new(Arc::new(Model::new(scene)?))?;
-    sim.advance_to(REST)?;
+    limits.advance(&mut sim, REST)?;
     while sim.time() < REST + RAISE {
-        if whirls(&mut sim, STAY)? {
+        if whirls(&mut sim, STAY, limits)? {
             return Ok(Some(sim.input_at_present(Input::RingSpeed).abs()));
         }
     }
@@ -155,15 +182,15 @@ fn raised(scene: &Scene, sign: f64, [slowest, fastest]: [f64; 2]) -> Result<Opti
 }
 
 /// Whether the cage goes round in the last part of a run of this length, s: its direction, not the speed of its rattling, tells.
-fn whirls(sim: &mut Sim, length: f64) -> Result<bool> {
+fn whirls(sim: &mut Sim, length: f64, limits: &RunLimits) -> Result<bool> {
     let start = sim.time();
     let Some(cage) = sim.model().layout().cage() else { return Ok(false) };
-    sim.advance_to(start + JUDGED_FROM * length)?;
+    limits.advance(sim, start + JUDGED_FROM * length)?;
     let looks = ((1.0 - JUDGED_FROM) * length / LOOK).ceil();
     let direction = |sim: &Sim| math::atan2(sim.state()[cage + 1], sim.state()[cage]);
     let (mut before, mut turned) = (direction(sim), 0.0);
     for i in 1..=looks as u32 {
-        sim.advance_to(start + length * (JUDGED_FROM + (1.0 - JUDGED_FROM) * f64::from(i) / looks))?;
+        limits.advance(sim, start + length * (JUDGED_FROM + (1.0 - JUDGED_FROM) * f64::from(i) / looks))?;
         let now = direction(sim);
         turned += (now - before + PI).rem_euclid(TAU) - PI;
         before = now;

@@ -6,10 +6,11 @@
 //! whether the whirl survives small disturbances. Towards low speed it ends where the cage leaves the layer at the top of its turn.
 
 use super::averaged::Averaged;
-use super::{Whirl, steady};
+use super::{Whirl, find};
 use crate::error::{Error, Result, Status};
 use crate::scalar::math;
 use crate::scene::Scene;
+use crate::sim::RunLimits;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
 
@@ -51,14 +52,18 @@ struct Turn {
 /// The whirl of a rigid cage under the gravity of its scene.
 ///
 /// # Errors
-/// [`Status::BadScene`] for an elastic cage; as [`steady`]; [`Status::BadState`] where there is no such orbit, with the reason.
-pub fn orbit(scene: &Scene) -> Result<Orbit> {
+/// [`Status::BadScene`] for an elastic cage; as [`super::steady`]; [`Status::BadState`] where there is no such orbit, with the reason.
+pub fn orbit(scene: &Scene, limits: &RunLimits) -> Result<Orbit> {
+    limits.searching(|| closed(scene, limits))
+}
+
+fn closed(scene: &Scene, limits: &RunLimits) -> Result<Orbit> {
     if scene.cage.as_ref().is_some_and(|cage| cage.elastic_ring.is_some()) {
         let text = "cage.elastic_ring: the orbit under gravity is found for rigid cages; run the scene for an elastic one";
         return Err(Error::new(Status::BadScene, text.to_owned()));
     }
-    let start = steady(scene, None)?;
-    let mut averaged = Averaged::new(scene)?;
+    let mut averaged = Averaged::new(scene, limits)?;
+    let start = find(scene, &mut averaged)?;
     let gravity = scene.gravity.map_or([0.0; 2], |g| [g.y, g.z]);
     // The cage begins on the horizontal axis; the time stands in the place of its height.
     let mut u = DVector::from_vec(averaged.averaged_at_rest(&start.unknowns));

@@ -1,11 +1,12 @@
 //! Where the search for a steady whirl starts: a closed estimate for a rigid cage on a layer, else the end of a short run.
 
+use super::Whirl;
 use super::averaged::{Averaged, Unknowns};
 use crate::bodies::CAGE_MOTION;
 use crate::error::{Error, Result, Status};
 use crate::model::{HostInputs, Input, Model};
 use crate::scalar::math;
-use crate::scene::{GuideFilm, GuideRing, Pocket, RingStiffness, Scene};
+use crate::scene::{GuideFilm, GuideRing, PlaneVector, Pocket, RingStiffness, Scene};
 use crate::sim::Sim;
 use std::sync::Arc;
 
@@ -27,6 +28,24 @@ pub(super) fn guess(scene: &Scene, averaged: &Averaged) -> Result<Vec<f64>> {
         Some(unknowns) => Ok(averaged.pack(&unknowns)),
         None => Ok(averaged.pack(&run(scene, averaged)?)),
     }
+}
+
+/// The scene with a cage that does not bend.
+pub(super) fn rigid(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    if let Some(cage) = &mut scene.cage {
+        cage.elastic_ring = None;
+    }
+    scene
+}
+
+/// The scene with a cage that starts as this whirl goes, among elements of this orbit speed, rad/s.
+pub(super) fn with_start(scene: &Scene, whirl: &Whirl, orbit: f64) -> Scene {
+    let mut scene = scene.clone();
+    scene.initial.cage = Some(PlaneVector { y: whirl.eccentricity, z: 0.0 });
+    scene.initial.cage_velocity = PlaneVector { y: 0.0, z: whirl.eccentricity * whirl.speed };
+    scene.initial.cage_speed = Some(orbit);
+    scene
 }
 
 /// The scene with a cage of one wave less, if it has more than one.
@@ -75,7 +94,7 @@ fn estimate(scene: &Scene, averaged: &Averaged) -> Option<Unknowns> {
 }
 
 /// The whirl that the scene comes to by itself, in axes that go round with it.
-fn run(scene: &Scene, averaged: &Averaged) -> Result<Unknowns> {
+pub(super) fn run(scene: &Scene, averaged: &Averaged) -> Result<Unknowns> {
     let model = Arc::new(Model::new(Scene { gravity: None, ..scene.clone() })?);
     let cage = model.layout().cage().unwrap_or(0);
     let mut sim = Sim::new(model.clone())?;
@@ -84,7 +103,7 @@ fn run(scene: &Scene, averaged: &Averaged) -> Result<Unknowns> {
     let from = (COUNTED_FROM * f64::from(LOOKS)) as u32;
     let share = 1.0 / f64::from(LOOKS - from);
     for i in from + 1..=LOOKS {
-        sim.advance_to(RUN * f64::from(i) / f64::from(LOOKS))?;
+        averaged.limits().advance(&mut sim, RUN * f64::from(i) / f64::from(LOOKS))?;
         let (q, v) = sim.state().split_at(model.layout().positions());
         let [y, z, angle] = [q[cage], q[cage + 1], q[cage + 2]];
         let e = math::hypot(y, z).max(1e-12);

@@ -288,7 +288,11 @@ fn a_cage_among_rings_that_turn_has_the_steady_whirl_of_its_run() {
     let solved = |speed: f64| {
         let outer = json!({"speed": constant(speed)});
         let scene = grease(&[("outer_ring", outer), ("gravity", Value::Null)]);
-        let whirl = cagedyn::whirl::steady(&cagedyn::Scene::from_json(&scene.to_string()).unwrap(), None);
+        let whirl = cagedyn::whirl::steady(
+            &cagedyn::Scene::from_json(&scene.to_string()).unwrap(),
+            None,
+            &Default::default(),
+        );
         (scene, whirl.unwrap_or_else(|e| panic!("{speed}: {e}")))
     };
     let (_, at_rest) = solved(0.0);

@@ -7,7 +7,7 @@ use crate::results::{facts, files};
 use crate::run::{in_file, read, stem};
 use crate::{HeatArgs, terminal};
 use cagedyn::heat::{HeatBalance, HeatState};
-use cagedyn::{Model, Result, Scene};
+use cagedyn::{Model, Result, Scene, Status};
 use serde_json::json;
 use std::process::ExitCode;
 use std::time::Instant;
@@ -22,19 +22,35 @@ pub fn command(args: &HeatArgs) -> Result<ExitCode> {
     let mut heat = scene.and_then(Model::new).and_then(HeatBalance::new).map_err(in_scene)?;
     let started = Instant::now();
     let mut history = Vec::new();
-    let state = if args.warm_up {
-        heat.warm_up(|time, state| history.push((time, state.clone())))
-    } else {
-        heat.settle()
+    let ended = terminal::search("heat", args.max_wall_time, |limits| {
+        heat.set_limits(limits.clone());
+        if args.warm_up {
+            heat.warm_up(|time, state| history.push((time, state.clone())))
+        } else {
+            heat.settle()
+        }
+    })?;
+    // What bursts came to before the end of a search that was stopped is kept.
+    let (state, stopped) = match (ended, heat.last()) {
+        (Ok(state), _) => (state, None),
+        (Err(e), Some(last)) if matches!(e.status, Status::Cancelled | Status::OutOfTime) => {
+            (last.clone(), Some(e))
+        }
+        (Err(e), _) => return Err(in_scene(e)),
     };
-    let state = state.map_err(in_scene)?;
+    let stopped = stopped.map(in_scene);
+    let as_json = |names: &[String], links: &[[String; 2]]| {
+        let mut found = as_json(names, links, &state);
+        found["stopped"] = json!(stopped.as_ref().map(|e| e.message.as_str()));
+        found
+    };
     let set: Vec<String> = args.sets.pairs().map(|(path, value)| format!("{path}={value}")).collect();
     let title = facts::title(heat.model().scene().title.as_deref(), &stem(&args.scene), &set);
     let names: Vec<String> = heat.names().map(str::to_owned).collect();
     let links: Vec<[String; 2]> = heat.links().map(|ends| ends.map(str::to_owned)).collect();
     if let Some(folder) = &args.out {
         std::fs::create_dir_all(folder).map_err(|e| files::file_error(folder, e))?;
-        write_json(&folder.join("heat.json"), &as_json(&names, &links, &state))?;
+        write_json(&folder.join("heat.json"), &as_json(&names, &links))?;
         let ambient = heat.model().scene().heat.as_ref().map_or(f64::NAN, |heat| heat.ambient);
         let picture = heat_flow::draw(&title, &names, &links, &state, ambient)?;
         write_text(&folder.join("heat_flow.svg"), &picture)?;
@@ -47,13 +63,15 @@ pub fn command(args: &HeatArgs) -> Result<ExitCode> {
         }
     }
     if args.json {
-        terminal::print(&format!("{:#}\n", as_json(&names, &links, &state)))?;
-        return Ok(ExitCode::SUCCESS);
+        terminal::print(&format!("{:#}\n", as_json(&names, &links)))?;
+        return Ok(terminal::ended_by(stopped.as_ref()));
     }
     let mut text = format!("{title}\n");
     let last = history.last().map_or(f64::NAN, |(time, _)| *time);
     text.push_str(&if args.warm_up {
         format!("warming up from the start, after {} s\n", number(last))
+    } else if stopped.is_some() {
+        "temperatures on the way to where they stay\n".to_owned()
     } else {
         "steady temperatures\n".to_owned()
     });
@@ -92,7 +110,7 @@ pub fn command(args: &HeatArgs) -> Result<ExitCode> {
         starts.collect::<Vec<_>>().join(" ")
     ));
     terminal::print(&text)?;
-    Ok(ExitCode::SUCCESS)
+    Ok(terminal::ended_by(stopped.as_ref()))
 }
 
 fn section(text: &mut String, name: &str, rows: Vec<Vec<String>>) {

@@ -248,6 +248,9 @@ pub struct HeatArgs {
     /// Warm up from the start for some hours of bearing time, instead of where temperatures stay.
     #[arg(long)]
     warm_up: bool,
+    /// End the search after this wall time in s, as a failure; what was found until then is written and printed.
+    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = parse_time)]
+    max_wall_time: Option<f64>,
     /// Print the result as JSON.
     #[arg(long)]
     json: bool,
@@ -269,6 +272,12 @@ pub struct WhirlArgs {
     /// At which speeds of the inner ring, rad/s, the cage whirls under gravity instead: survival, dropped start, loss of rest.
     #[arg(long, value_name = "FROM:TO", value_parser = whirl::parse_speeds, conflicts_with_all = ["vary", "gravity"])]
     onset: Option<[f64; 2]>,
+    /// All steady whirls of a rigid cage instead of one.
+    #[arg(long, conflicts_with_all = ["vary", "gravity", "onset"])]
+    all: bool,
+    /// End the search after this wall time in s, as a failure; what was found until then is written and printed.
+    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = parse_time)]
+    max_wall_time: Option<f64>,
     /// Folder for whirl.json and, with --vary, whirl.csv and whirl.svg; made if it does not exist.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -344,10 +353,7 @@ fn main() -> ExitCode {
     }
     match dispatch(&command) {
         Ok(code) => code,
-        Err(error) => {
-            terminal::complain(&error);
-            ExitCode::FAILURE
-        }
+        Err(error) => terminal::ended_by(Some(&error)),
     }
 }
 

@@ -1,10 +1,11 @@
 //! Standard output and error, the progress bar and the signals that end a run.
 
-use cagedyn::sim::Canceller;
+use cagedyn::sim::{Canceller, RunLimits};
 use cagedyn::{Error, Result, Status};
 use indicatif::{HumanDuration, MultiProgress, ProgressBar, ProgressStyle};
 use std::cell::Cell;
 use std::io::{self, ErrorKind, IsTerminal, Write};
+use std::process::ExitCode;
 #[cfg(unix)]
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -20,6 +21,9 @@ const TICKS_PER_SECOND: f64 = 1e6;
 /// A second signal sooner than this is taken for a copy of the first: some programs signal both the process and its
 /// group.
 const SAME_SIGNAL: Duration = Duration::from_millis(300);
+
+/// Time between looks at how far a search is.
+const LOOK: Duration = Duration::from_millis(100);
 
 static STOP: OnceLock<Instant> = OnceLock::new();
 static RUNNING: Mutex<Vec<Canceller>> = Mutex::new(Vec::new());
@@ -137,12 +141,51 @@ impl Progress {
         self.bar.set_position((t * TICKS_PER_SECOND) as u64);
         self.bar.set_message(format!("{t:.4} s"));
     }
+
+    /// Moves the bar to this share of a way of length 1, with so many pieces of the result.
+    fn share(&self, share: f64, found: usize) {
+        self.bar.set_position((share * TICKS_PER_SECOND) as u64);
+        self.bar.set_message(format!("{found} found"));
+    }
 }
 
 impl Drop for Progress {
     fn drop(&mut self) {
         self.bar.finish_and_clear();
     }
+}
+
+/// Does a search that Ctrl-C, or this wall time in s, ends, and shows how far it is.
+///
+/// # Errors
+/// As [`listen_for_interrupt`], and a wall time that is none.
+pub fn search<T>(label: &str, wall_time: Option<f64>, search: impl FnOnce(&RunLimits) -> T) -> Result<T> {
+    listen_for_interrupt()?;
+    let mut limits = RunLimits::default();
+    limits.set_wall_time(wall_time.unwrap_or(f64::INFINITY))?;
+    stop_with(limits.canceller());
+    let bar = Progress::new(label, 1.0);
+    let done = AtomicBool::new(false);
+    Ok(std::thread::scope(|scope| {
+        let show = || {
+            while !done.load(Ordering::Relaxed) {
+                bar.share(limits.share(), limits.found());
+                std::thread::park_timeout(LOOK);
+            }
+        };
+        let shown = shows_progress().then(|| scope.spawn(show));
+        let found = search(&limits);
+        done.store(true, Ordering::Relaxed);
+        shown.inspect(|shown| shown.thread().unpark());
+        found
+    }))
+}
+
+/// How a program ends after something that a host can end early; 130 after Ctrl-C, 1 after a limit on the wall time.
+pub fn ended_by(error: Option<&Error>) -> ExitCode {
+    let Some(error) = error else { return ExitCode::SUCCESS };
+    complain(error);
+    if error.status == Status::Cancelled { ExitCode::from(INTERRUPTED) } else { ExitCode::FAILURE }
 }
 
 /// Progress of many runs in one line: done, running, failed, time left; visible only if standard error is a terminal.

@@ -28,23 +28,41 @@ pub fn command(args: &WhirlArgs) -> Result<ExitCode> {
     let title = facts::title(scene.title.as_deref(), &stem(&args.scene), &set);
     let started = Instant::now();
     if let Some(range) = args.onset {
-        return tell_onset(args, &title, &whirl::onset(&scene, range).map_err(in_scene)?, started);
+        let onset =
+            terminal::search("onset", args.max_wall_time, |limits| whirl::onset(&scene, range, limits))?;
+        return tell_onset(args, &title, &onset.map_err(in_scene)?, started);
     }
     if args.gravity {
-        return tell_orbit(args, &title, &whirl::orbit(&scene).map_err(in_scene)?, started);
+        let orbit = terminal::search("orbit", args.max_wall_time, |limits| whirl::orbit(&scene, limits))?;
+        return tell_orbit(args, &title, &orbit.map_err(in_scene)?, started);
+    }
+    if args.all {
+        let whirls = terminal::search("whirls", args.max_wall_time, |limits| whirl::all(&scene, limits))?;
+        return tell_all(args, &title, &whirls.map_err(in_scene)?, started);
     }
     let Some(vary) = &args.vary else {
-        let whirl = whirl::steady(&scene, None).map_err(in_scene)?;
-        // Averaging may find what single elements have not.
-        let exact = whirl::exact(&scene, &whirl);
-        return tell(args, &title, (&whirl, exact.ok().as_ref()), started);
+        let found = terminal::search("whirl", args.max_wall_time, |limits| {
+            let whirl = whirl::steady(&scene, None, limits)?;
+            // Averaging may find what single elements have not.
+            let exact = whirl::exact(&scene, &whirl, limits);
+            Ok((whirl, exact.ok()))
+        })?;
+        let (whirl, exact) = found.map_err(in_scene)?;
+        return tell(args, &title, (&whirl, exact.as_ref()), started);
     };
     // Values are put into the text again, so that any number of a scene can be varied and is checked.
     let with = |_: &Scene, value: f64| {
         let value = format!("{value:?}");
         Scene::from_json_with(&text, args.sets.pairs().chain([(vary.path.as_str(), value.as_str())]))
     };
-    let branch = whirl::follow(&scene, vary.range, with, |_| ()).map_err(in_scene)?;
+    let branch = terminal::search("whirls", args.max_wall_time, |limits| {
+        whirl::follow(&scene, vary.range, with, limits, |_| ())
+    })?;
+    let branch = branch.map_err(in_scene)?;
+    let stopped = match &branch.end {
+        whirl::End::Stopped(e) => Some(in_scene(e.clone())),
+        _ => None,
+    };
     let found = as_json(&vary.path, &branch);
     if let Some(folder) = &args.out {
         std::fs::create_dir_all(folder).map_err(|e| files::file_error(folder, e))?;
@@ -54,7 +72,7 @@ pub fn command(args: &WhirlArgs) -> Result<ExitCode> {
     }
     if args.json {
         terminal::print(&format!("{found:#}\n"))?;
-        return Ok(ExitCode::SUCCESS);
+        return Ok(terminal::ended_by(stopped.as_ref()));
     }
     let mut text = format!("{title}\nsteady whirl without gravity over {}\n\n", vary.path);
     let head = ["", "whirl rad/s", "eccentricity um", "leading rate 1/s", "arcs", "", ""]
@@ -86,7 +104,26 @@ pub fn command(args: &WhirlArgs) -> Result<ExitCode> {
         started.elapsed().as_secs_f64()
     ));
     terminal::print(&text)?;
-    Ok(ExitCode::SUCCESS)
+    Ok(terminal::ended_by(stopped.as_ref()))
+}
+
+/// All whirls of a rigid cage.
+fn tell_all(args: &WhirlArgs, title: &str, whirls: &[Whirl], started: Instant) -> Result<ExitCode> {
+    let found = json!({"whirls": whirls.iter().map(of_whirl).collect::<Vec<_>>()});
+    let head = ["whirl rad/s", "eccentricity um", "leading rate 1/s", "arcs", ""].map(str::to_owned).to_vec();
+    let rows = whirls.iter().map(|whirl| {
+        vec![
+            format!("{:.2}", whirl.speed),
+            format!("{:.3}", 1e6 * whirl.eccentricity),
+            number(whirl.eigenvalues.first().map_or(f64::NAN, |value| value[0])),
+            whirl.arcs.to_string(),
+            if whirl.stable() { "stable" } else { "unstable" }.to_owned(),
+        ]
+    });
+    let rows: Vec<_> = std::iter::once(head).chain(rows).collect();
+    let none = if whirls.is_empty() { "\n  none: the cage can only rest\n" } else { "" };
+    let last = format!("{none}\n  {:.2} s wall time\n", started.elapsed().as_secs_f64());
+    tell_rows(args, &format!("{title}\nall steady whirls without gravity"), &found, &rows, &last)
 }
 
 /// Writes and prints a result that is no branch.
@@ -139,17 +176,25 @@ fn tell_orbit(args: &WhirlArgs, title: &str, orbit: &Orbit, started: Instant) ->
 
 /// The speeds at which a cage whirls.
 fn tell_onset(args: &WhirlArgs, title: &str, onset: &Onset, started: Instant) -> Result<ExitCode> {
-    let Onset { survival, dropped_start, loss_of_rest } = *onset;
-    let found = json!({"survival": survival, "dropped_start": dropped_start, "loss_of_rest": loss_of_rest, "range": args.onset});
-    let shown = |speed: Option<f64>, none: &str| {
-        speed.map_or(none.to_owned(), |speed| {
-            format!("{speed:.2} rad/s ({:.0} 1/min)", speed * 30.0 / std::f64::consts::PI)
-        })
+    let Onset { survival, dropped_start, loss_of_rest, known, ref stopped } = *onset;
+    let why = stopped.as_ref().map(|e| e.message.as_str());
+    let found = json!({
+        "survival": survival,
+        "dropped_start": dropped_start,
+        "loss_of_rest": loss_of_rest,
+        "range": args.onset,
+        "known": known,
+        "stopped": why,
+    });
+    let shown = |place: usize, speed: Option<f64>, none: &str| match speed {
+        Some(speed) => format!("{speed:.2} rad/s ({:.0} 1/min)", speed * 30.0 / std::f64::consts::PI),
+        None if place >= known => "not known".to_owned(),
+        None => none.to_owned(),
     };
     let rows = [
-        ["a whirl goes on down to".to_owned(), shown(survival, "the slowest of these speeds")],
-        ["a dropped cage comes to whirl from".to_owned(), shown(dropped_start, "none of these speeds on")],
-        ["a cage at rest is lost at".to_owned(), shown(loss_of_rest, "none of these speeds")],
+        ["a whirl goes on down to".to_owned(), shown(0, survival, "the slowest of these speeds")],
+        ["a dropped cage comes to whirl from".to_owned(), shown(1, dropped_start, "none of these speeds on")],
+        ["a cage at rest is lost at".to_owned(), shown(2, loss_of_rest, "none of these speeds")],
     ];
     let last = format!("\n  {:.1} s wall time\n", started.elapsed().as_secs_f64());
     tell_rows(
@@ -158,7 +203,8 @@ fn tell_onset(args: &WhirlArgs, title: &str, onset: &Onset, started: Instant) ->
         &found,
         &rows.map(Vec::from),
         &last,
-    )
+    )?;
+    Ok(terminal::ended_by(stopped.as_ref()))
 }
 
 /// Reads `from:to` as speeds.

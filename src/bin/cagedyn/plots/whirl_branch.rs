@@ -36,6 +36,7 @@ pub fn draw(title: &str, path: &str, branch: &Branch) -> Result<String> {
             End::Range => "with the range",
             End::Length => "after as many points as it may have",
             End::Lost(_) => "where no whirl is found further on",
+            End::Stopped(_) => "where the search was stopped",
         }
     );
     let rows: [(&str, Value); 3] = [

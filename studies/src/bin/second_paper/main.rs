@@ -152,7 +152,7 @@ fn level() -> Result<Table> {
 /// Speeds at which the rigid cage whirls.
 fn starts() -> Result<Table> {
     let mut table = Table::new("onset", &["rigid cage, 313 K", "rev/min"]);
-    let found = onset(&scene("grease_guide", &[])?, [15.0, 300.0])?;
+    let found = onset(&scene("grease_guide", &[])?, [15.0, 300.0], &Default::default())?;
     let turns = |speed: Option<f64>| {
         speed.map_or("none up to 2865".to_owned(), |speed| format!("{:.0}", speed * 60.0 / TAU))
     };
