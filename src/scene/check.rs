@@ -24,7 +24,7 @@ pub const fn range(min: f64, max: f64, unit: &'static str) -> Range {
 }
 
 /// Units in which values are often given by mistake: the SI unit, the other one, and what a value in it is multiplied with.
-const UNIT_SLIPS: [(&str, &str, f64); 23] = [
+const UNIT_SLIPS: [(&str, &str, f64); 30] = [
     ("m", "millimetres", 1e-3),
     ("m", "micrometres", 1e-6),
     ("rad/s", "revolutions per minute", std::f64::consts::PI / 30.0),
@@ -35,15 +35,22 @@ const UNIT_SLIPS: [(&str, &str, f64); 23] = [
     ("s", "milliseconds", 1e-3),
     ("s", "microseconds", 1e-6),
     ("m/s", "millimetres per second", 1e-3),
+    ("m/s^2", "mm/s^2", 1e-3),
     ("N", "kilonewtons", 1e3),
+    ("N", "millinewtons", 1e-3),
+    ("N s/m", "N s/mm", 1e3),
+    ("N s/m", "kN s/mm", 1e6),
     ("N/m", "N/mm", 1e3),
     ("N/m", "N/um", 1e6),
     ("Pa s", "millipascal seconds", 1e-3),
     ("Pa s", "micropascal seconds", 1e-6),
+    ("Pa s", "m^2/s of oil with 880 kg/m^3", 880.0),
+    ("Pa", "kilopascals", 1e3),
     ("Pa", "megapascals", 1e6),
     ("Pa", "gigapascals", 1e9),
     ("1/Pa", "1/GPa", 1e-9),
     ("m^2/s", "mm^2/s", 1e-6),
+    ("m^3/s", "litres per minute", 1e-3 / 60.0),
     ("kg/m^3", "g/cm^3", 1e3),
     ("J/(kg K)", "kJ/(kg K)", 1e3),
     ("1/K", "milli per K", 1e-3),

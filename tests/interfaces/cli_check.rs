@@ -46,6 +46,19 @@ fn scenes_and_case_sets_that_are_right_are_ok() {
 }
 
 #[test]
+fn a_replaced_value_is_named_instead_of_the_title_and_an_unlikely_one_is_told() {
+    let file = "scenes/nu2310.json";
+    let output = run(&["check", file, "--set", "inner_ring.speed=3000"]);
+    assert_eq!(output.status.code(), Some(0));
+    assert_eq!(text(&output.stdout), format!("{file}: ok, nu2310 with inner_ring.speed=3000\n"));
+    let told = text(&output.stderr);
+    assert!(told.contains("warning: inner_ring.speed: 3000 rad/s") && told.contains("314.159"), "{told}");
+    let output = run(&["check", file, "--set", "inner_ring.speed=300", "--set", "title=mine"]);
+    assert_eq!(text(&output.stdout), format!("{file}: ok, mine\n"));
+    assert!(output.stderr.is_empty());
+}
+
+#[test]
 fn five_mistakes_are_five_lines() {
     let folder = tempfile::tempdir().expect("a directory");
     let (scene, paths) = five();

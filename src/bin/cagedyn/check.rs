@@ -1,6 +1,7 @@
 //! The command `check`: everything that is wrong with a scene or a case set, at once.
 
-use crate::run::read;
+use crate::results::facts;
+use crate::run::{read, stem};
 use crate::{CheckArgs, terminal};
 use cagedyn::scene::CaseSet;
 use cagedyn::{Error, Problem, Result, Scene, Status};
@@ -21,14 +22,26 @@ pub fn command(args: &CheckArgs) -> Result<ExitCode> {
         let list: Vec<Value> = found.iter().map(|(file, problem)| as_json(file, problem)).collect();
         terminal::print(&format!("{:#}\n", Value::Array(list)))?;
     } else if found.is_empty() {
-        let title = value_of(&text, "title").map_or(String::new(), |title| format!(", {title}"));
-        terminal::print(&format!("{}: ok{title}\n", args.file.display()))?;
+        let scene = Scene::from_json_with(&text, args.sets.pairs()).ok();
+        let own = scene.as_ref().map_or_else(|| value_of(&text, "title"), |scene| scene.title.clone());
+        terminal::print(&format!("{}: ok{}\n", args.file.display(), title(args, own)))?;
+        scene.iter().flat_map(Scene::warnings).for_each(|warning| terminal::warn(&warning));
     } else {
         let lines =
             found.iter().map(|(file, problem)| format!("{}:{}: {problem}\n", file.display(), problem.line));
         terminal::print(&lines.collect::<String>())?;
     }
     Ok(if found.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// ", title", if there is one; the name of the file with the values that were replaced, of which a title may tell.
+fn title(args: &CheckArgs, own: Option<String>) -> String {
+    let set: Vec<String> = args.sets.pairs().map(|(path, value)| format!("{path}={value}")).collect();
+    if own.is_none() && set.is_empty() {
+        return String::new();
+    }
+    let title = facts::title(own.as_deref(), &stem(&args.file), &set);
+    format!(", {}", title.replace(['\n', '\r'], " "))
 }
 
 /// A text at the top of a JSON object, in one line.
