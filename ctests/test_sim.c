@@ -177,6 +177,18 @@ static void check_trust(const cagedyn_model *m)
     CHECK(cagedyn_sim_step(sim, 1e-4) == CAGEDYN_OK);
     cagedyn_sim_free(sim);
     cagedyn_model_free(coarse);
+
+    /* Of motion that the host imposes the balance knows nothing. */
+    int64_t n = cagedyn_model_state_count(m);
+    double *state = numbers(n);
+    sim = cagedyn_sim_new(m);
+    CHECK(cagedyn_sim_get_state(sim, state, n) == CAGEDYN_OK);
+    CHECK(cagedyn_sim_advance_to(sim, 1e-3) == CAGEDYN_OK && cagedyn_sim_trust(sim) == CAGEDYN_OK);
+    CHECK(cagedyn_sim_set_state(sim, 1e-3, state, n) == CAGEDYN_OK);
+    CHECK(cagedyn_sim_step(sim, 1e-4) == CAGEDYN_OK);
+    CHECK_FAILS(cagedyn_sim_trust(sim), CAGEDYN_ERR_NOT_JUDGED, "set the state once");
+    cagedyn_sim_free(sim);
+    free(state);
 }
 
 /* Extremes and impulses between two times, from every step. */

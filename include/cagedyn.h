@@ -116,6 +116,9 @@
 /* An object is used by another thread, or by a batch that runs; nothing happened. */
 #define CAGEDYN_ERR_BUSY -17
 
+/* Whether a run kept what its preset promises cannot be known, as the host set its state on the way; see cagedyn_sim_trust(). */
+#define CAGEDYN_ERR_NOT_JUDGED -18
+
 /* A defect in the library; free the object. */
 #define CAGEDYN_ERR_INTERNAL -99
 
@@ -700,8 +703,17 @@ int32_t cagedyn_sim_time(const cagedyn_sim *sim, double *time);
 /* Writes the state to `state` (length: state count). */
 int32_t cagedyn_sim_get_state(const cagedyn_sim *sim, double *state, int64_t length);
 
-/* Sets time (s, from 0 to 1e6) and state (length: state count) and restarts the integrator and the power balance. Inputs that
- * are held stay held. On failure nothing changes. */
+/* Sets time (s, from 0 to 1e6) and state (length: state count). Inputs that are held stay held, counts go on. On failure nothing
+ * changes.
+ *
+ * - The present time and state change nothing.
+ * - A state next to the present one at the present time (every number within a hundredth of the scale that its error is
+ *   controlled in) costs what cagedyn_sim_set_input() does: some force evaluations, and steps that grow again from a single
+ *   one between judgements. Method, step and power balance go on.
+ * - Any other state begins anew: some thirty steps with controlled errors, each of about seven force evaluations and their
+ *   derivatives, before a method without them may go on, and a new power balance. Where time has passed since the last
+ *   beginning and does not go back, the run is not judged from then on, see cagedyn_sim_trust(). A host that imposes motion in
+ *   every step should set inputs or let the library integrate; for forces alone there is cagedyn_sim_derivative(). */
 int32_t cagedyn_sim_set_state(cagedyn_sim *sim,
                               double time,
                               const double *state,
@@ -796,7 +808,9 @@ int32_t cagedyn_sim_statistics(const cagedyn_sim *sim,
 /* Whether the run since the start of the scene or the last set state kept what its preset promises: CAGEDYN_OK, or
  * CAGEDYN_ERR_UNTRUSTED with the reasons in cagedyn_error_message(). Promised is that no more than 1 % (draft), 0.1 %
  * (engineering) or 0.01 % (reference) of the energy that passed through is missing, and that leapfrog steps that were asked
- * for are stable, and that no thermal factor of a raceway contact was ever at its floor. Costs a force evaluation. */
+ * for are stable, and that no thermal factor of a raceway contact was ever at its floor. CAGEDYN_ERR_NOT_JUDGED where nothing
+ * speaks against the run, but cagedyn_sim_set_state() moved it on the way to where its motion had not led: of that the balance
+ * knows nothing. Costs a force evaluation. */
 int32_t cagedyn_sim_trust(cagedyn_sim *sim);
 
 /* What the integration does and why, and what went wrong on the way, in one line for people: the method and the reason
@@ -836,7 +850,8 @@ const char *cagedyn_balance_name(int64_t index);
 /* Index of the item of a power balance of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure. */
 int64_t cagedyn_find_balance(const char *name);
 
-/* Writes the power balance since the start of the scene or the last cagedyn_sim_set_state() (length: balance count). */
+/* Writes the power balance since the start of the scene or the last cagedyn_sim_set_state() that was not next to the state that
+ * the simulation had (length: balance count). */
 int32_t cagedyn_sim_power_balance(cagedyn_sim *sim,
                                   double *out,
                                   int64_t length);

@@ -377,12 +377,20 @@ public:
     Canceller canceller() const { return Canceller(detail::made(cagedyn_canceller_new(sim_))); }
     void set_wall_time_limit(double seconds) { detail::check(cagedyn_sim_set_wall_time_limit(sim_, seconds)); }
 
-    // Whether the run kept what its preset promises; last_message() says why not.
+    // Whether the run kept what its preset promises; last_message() says why not, or why that cannot be known.
     bool trusted()
     {
         std::int32_t status = cagedyn_sim_trust(sim_);
-        if (status != CAGEDYN_ERR_UNTRUSTED) detail::check(status);
+        if (status != CAGEDYN_ERR_UNTRUSTED && status != CAGEDYN_ERR_NOT_JUDGED) detail::check(status);
         return status == CAGEDYN_OK;
+    }
+    // Whether it can be known: false where set_state moved the run on the way and nothing else speaks against it.
+    bool judged()
+    {
+        std::int32_t status = cagedyn_sim_trust(sim_);
+        if (status == CAGEDYN_ERR_NOT_JUDGED) return false;
+        if (status != CAGEDYN_ERR_UNTRUSTED) detail::check(status);
+        return true;
     }
     // One line for people. Lives until the next call for this simulation.
     std::string_view report() { return detail::told(cagedyn_sim_report(sim_)); }

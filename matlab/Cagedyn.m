@@ -182,7 +182,7 @@ classdef Cagedyn < handle
         end
 
         function text = doubts(b)
-            % Why the run does not keep what its preset promises; empty if it does.
+            % Why the run does not keep what its preset promises, or why that cannot be known; empty if it does.
             text = cagedyn_mex('doubts', b.sim);
         end
 

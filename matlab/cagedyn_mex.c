@@ -454,7 +454,7 @@ static int sim_command(const char *c, object *o, int n, const mxArray **args, mx
         check(cagedyn_sim_body_forces(sim, mxGetPr(*out), o->components * o->sources * o->bodies));
     } else if (strcmp(c, "doubts") == 0) {
         int32_t status = cagedyn_sim_trust(sim);
-        if (status != CAGEDYN_ERR_UNTRUSTED) check(status);
+        if (status != CAGEDYN_ERR_UNTRUSTED && status != CAGEDYN_ERR_NOT_JUDGED) check(status);
         *out = mxCreateString(status == CAGEDYN_OK ? "" : cagedyn_error_message());
     } else if (strcmp(c, "report") == 0) {
         *out = mxCreateString(cagedyn_sim_report(sim));

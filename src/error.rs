@@ -42,13 +42,15 @@ pub enum Status {
     Untrusted = -16,
     /// An object is used by another thread, or by a batch that runs.
     Busy = -17,
+    /// Whether a run kept what its preset promises cannot be known, as the host set its state on the way.
+    NotJudged = -18,
     /// A defect in the library; the object should be freed.
     Internal = -99,
 }
 
 impl Status {
     /// All kinds, in the order of their codes.
-    pub const ALL: [Status; 19] = [
+    pub const ALL: [Status; 20] = [
         Status::Ok,
         Status::NullArgument,
         Status::WrongSize,
@@ -67,6 +69,7 @@ impl Status {
         Status::OutOfTime,
         Status::Untrusted,
         Status::Busy,
+        Status::NotJudged,
         Status::Internal,
     ];
 
@@ -91,6 +94,7 @@ impl Status {
             Status::OutOfTime => "ERR_OUT_OF_TIME\0",
             Status::Untrusted => "ERR_UNTRUSTED\0",
             Status::Busy => "ERR_BUSY\0",
+            Status::NotJudged => "ERR_NOT_JUDGED\0",
             Status::Internal => "ERR_INTERNAL\0",
         }
     }

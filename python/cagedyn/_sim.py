@@ -136,7 +136,11 @@ class Sim:
         return filled(len(self.model.states), lambda p, n: lib.cagedyn_sim_get_state(self._handle, p, n))
 
     def set_state(self, time: float, state: ArrayLike) -> None:
-        """Sets time in s and state, shape (states,), and restarts the integration. On failure nothing changes."""
+        """Sets time in s and state, shape (states,). On failure nothing changes.
+
+        The present ones change nothing, and a state next to the present one at the present time goes on at little cost. Any other
+        begins anew with some thirty steps of controlled errors; where time has passed, the run is not judged from then on.
+        """
         pointer, length, _keep = numbers(state)
         check(lib.cagedyn_sim_set_state(self._handle, time, pointer, length))
 
@@ -341,17 +345,23 @@ class Sim:
 
     @property
     def doubts(self) -> str:
-        """Why the run does not keep what its preset promises; empty if it does."""
+        """Why the run does not keep what its preset promises, or why that cannot be known; empty if it does."""
         status = lib.cagedyn_sim_trust(self._handle)
-        if status == lib.CAGEDYN_ERR_UNTRUSTED:
+        if status in (lib.CAGEDYN_ERR_UNTRUSTED, lib.CAGEDYN_ERR_NOT_JUDGED):
             return str(last_error())
         check(status)
         return ""
 
     @property
-    def trusted(self) -> bool:
-        """Whether the run kept what its preset promises."""
-        return not self.doubts
+    def trusted(self) -> bool | None:
+        """Whether the run kept what its preset promises; None where `set_state` moved it on the way, so that the power balance
+        cannot know."""
+        status = lib.cagedyn_sim_trust(self._handle)
+        if status == lib.CAGEDYN_ERR_NOT_JUDGED:
+            return None
+        if status != lib.CAGEDYN_ERR_UNTRUSTED:
+            check(status)
+        return bool(status == lib.CAGEDYN_OK)
 
     @property
     def report(self) -> str:

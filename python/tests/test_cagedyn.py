@@ -105,6 +105,7 @@ def test_state_inputs_and_saving(sim):
     assert sim.time == 1e-3 and np.array_equal(sim.state, state)
     state[2] += 1e-6
     sim.set_state(0.5, state)
+    assert sim.trusted is None and "set the state" in sim.doubts
     assert sim.time == 0.5 and np.array_equal(sim.state, state)
     sim.reset()
     assert sim.time == 0.0

@@ -72,6 +72,8 @@ pub const CAGEDYN_ERR_OUT_OF_TIME: i32 = -15;
 pub const CAGEDYN_ERR_UNTRUSTED: i32 = -16;
 /// An object is used by another thread, or by a batch that runs; nothing happened.
 pub const CAGEDYN_ERR_BUSY: i32 = -17;
+/// Whether a run kept what its preset promises cannot be known, as the host set its state on the way; see cagedyn_sim_trust().
+pub const CAGEDYN_ERR_NOT_JUDGED: i32 = -18;
 /// A defect in the library; free the object.
 pub const CAGEDYN_ERR_INTERNAL: i32 = -99;
 
@@ -128,6 +130,7 @@ mod tests {
             CAGEDYN_ERR_OUT_OF_TIME,
             CAGEDYN_ERR_UNTRUSTED,
             CAGEDYN_ERR_BUSY,
+            CAGEDYN_ERR_NOT_JUDGED,
             CAGEDYN_ERR_INTERNAL,
         ];
         assert_eq!(constants.to_vec(), Status::ALL.map(|s| s as i32).to_vec());

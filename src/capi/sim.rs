@@ -159,8 +159,17 @@ pub unsafe extern "C" fn cagedyn_sim_get_state(sim: *const cagedyn_sim, state: *
     status(|| unsafe { write_array("state", exclusive("sim", sim)?.sim.state(), state, length) })
 }
 
-/// Sets time (s, from 0 to 1e6) and state (length: state count) and restarts the integrator and the power balance. Inputs that
-/// are held stay held. On failure nothing changes.
+/// Sets time (s, from 0 to 1e6) and state (length: state count). Inputs that are held stay held, counts go on. On failure nothing
+/// changes.
+///
+/// - The present time and state change nothing.
+/// - A state next to the present one at the present time (every number within a hundredth of the scale that its error is
+///   controlled in) costs what cagedyn_sim_set_input() does: some force evaluations, and steps that grow again from a single
+///   one between judgements. Method, step and power balance go on.
+/// - Any other state begins anew: some thirty steps with controlled errors, each of about seven force evaluations and their
+///   derivatives, before a method without them may go on, and a new power balance. Where time has passed since the last
+///   beginning and does not go back, the run is not judged from then on, see cagedyn_sim_trust(). A host that imposes motion in
+///   every step should set inputs or let the library integrate; for forces alone there is cagedyn_sim_derivative().
 ///
 /// # Safety
 /// `sim` is NULL or a live handle, `state` NULL or an array of `length` numbers.

@@ -54,7 +54,9 @@ pub unsafe extern "C" fn cagedyn_sim_statistics(sim: *const cagedyn_sim, out: *m
 /// Whether the run since the start of the scene or the last set state kept what its preset promises: CAGEDYN_OK, or
 /// CAGEDYN_ERR_UNTRUSTED with the reasons in cagedyn_error_message(). Promised is that no more than 1 % (draft), 0.1 %
 /// (engineering) or 0.01 % (reference) of the energy that passed through is missing, and that leapfrog steps that were asked
-/// for are stable, and that no thermal factor of a raceway contact was ever at its floor. Costs a force evaluation.
+/// for are stable, and that no thermal factor of a raceway contact was ever at its floor. CAGEDYN_ERR_NOT_JUDGED where nothing
+/// speaks against the run, but cagedyn_sim_set_state() moved it on the way to where its motion had not led: of that the balance
+/// knows nothing. Costs a force evaluation.
 ///
 /// # Safety
 /// `sim` is NULL or a live handle.
@@ -159,7 +161,8 @@ pub unsafe extern "C" fn cagedyn_find_balance(name: *const c_char) -> i64 {
     unsafe { find_static(&[&Power::C_NAMES, &BalanceItem::C_NAMES], name) }
 }
 
-/// Writes the power balance since the start of the scene or the last cagedyn_sim_set_state() (length: balance count).
+/// Writes the power balance since the start of the scene or the last cagedyn_sim_set_state() that was not next to the state that
+/// the simulation had (length: balance count).
 ///
 /// # Safety
 /// `sim` is NULL or a live handle, `out` NULL or an array of `length` numbers.

@@ -68,6 +68,8 @@ pub trait Stepper<S: System>: Stored {
     }
     /// Forgets what was learned from earlier states.
     fn forget(&mut self) {}
+    /// Counts from zero.
+    fn reset_counts(&mut self) {}
     /// Tries a step of size `h` from time `t`; never evaluates later than `t_last`. Returns the error, if the method
     /// estimates it.
     ///

@@ -17,12 +17,23 @@ pub(super) struct Start {
     /// s
     pub(super) time: f64,
     pub(super) energy: Energy,
+    /// How many times the host has set the state in this run, away from where the motion had led.
+    pub(super) set: u64,
+}
+
+impl Start {
+    /// The state jumps from one energy to another, which is no gain of the run.
+    pub(super) fn shift(&mut self, before: Energy, after: Energy) {
+        self.energy.kinetic += after.kinetic - before.kinetic;
+        self.energy.elastic += after.elastic - before.elastic;
+        self.energy.potential += after.potential - before.potential;
+    }
 }
 
 /// Energies of a run from its start to the time that the integration has reached.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PowerBalance {
-    /// From the start of the scene, or the last [`Sim::set_state`], s.
+    /// From the start of the scene, or the last [`Sim::set_state`] that was not next to the state that the run had, s.
     pub from: f64,
     /// To this time, s; the integration may be ahead of [`Sim::time`] by some steps.
     pub to: f64,
@@ -89,7 +100,8 @@ impl PowerBalance {
 }
 
 impl Sim {
-    /// The power balance since the start of the scene or the last [`Sim::set_state`]. Works are summed up step by step, with
+    /// The power balance since the start of the scene or the last [`Sim::set_state`] that was not next to the state that the
+    /// run had; the energy of the little that such ones change is none of its gain. Works are summed up step by step, with
     /// the weights of the method; those of the leapfrog with the forces of contacts that it applied, the mean velocities of
     /// the rollers, and the predicted ones of ring and cage. Inputs and limits may change on the way. An input that is set
     /// within a step divides the works of that step in proportion to time.
@@ -103,7 +115,7 @@ impl Sim {
         let energy = self.energy_at(to, &state)?;
         let mut work = [0.0; POWERS.len()];
         work.copy_from_slice(&self.works_at(to)[..POWERS.len()]);
-        let Start { time, energy: start } = self.balance;
+        let Start { time, energy: start, .. } = self.balance;
         Ok(PowerBalance { from: time, to, work, energy: [start, energy] })
     }
 
@@ -131,14 +143,14 @@ impl Sim {
 
     /// Starts the balance at the last evaluated state, which must be the present one.
     pub(super) fn start_balance(&mut self) {
-        self.balance = Start { time: self.time, energy: self.bearing.energy() };
+        self.balance = Start { time: self.time, energy: self.bearing.energy(), ..self.balance };
         self.bearing.begin_works(&self.balance.energy);
         self.driver.forget_works();
     }
 }
 
 stored! {
-    impl[] Start { time, energy }
+    impl[] Start { time, energy, set }
     if |start| start.time >= 0.0
 }
 

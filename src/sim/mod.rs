@@ -27,7 +27,7 @@ pub use results::whirl::{CageMotion, SMALLEST_WHIRL_RADIUS, WhirlRecord, WhirlSu
 
 use crate::error::{Error, Result, Status};
 use crate::integrate::{Driver, Failure, Tuning};
-use crate::model::{Channel, FAULTS, Forces, Input, Model, PartTimes, Reading};
+use crate::model::{Channel, Energy, FAULTS, Forces, Input, Model, PartTimes, Reading};
 use crate::scene::{Preset, Solver};
 use bearing::Bearing;
 pub(crate) use errors::check_time;
@@ -41,6 +41,11 @@ const MAX_TIME: f64 = 1e6;
 
 /// Largest magnitude of a state that is set: an angle after the longest run at the highest speed, and more.
 const LARGEST_STATE: f64 = 1e12;
+
+/// A state that is set is next to the present one within this share of the scales of the model, and at the same time within
+/// this share of it, which sums of many steps leave.
+const NEAR: f64 = 1e-2;
+const SAME_TIME: f64 = 1e-10;
 
 /// What was evaluated last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,6 +79,8 @@ pub struct Sim {
     evaluated: Evaluated,
     fingerprint: [f64; 2],
     balance: balance::Start,
+    /// Of every state, see [`Model::state_scales`].
+    scales: Vec<f64>,
 }
 
 impl Sim {
@@ -113,6 +120,7 @@ impl Sim {
         let mut sim = Self {
             fingerprint: snapshot::fingerprint(&model, &solver, &tuning),
             accelerations: vec![0.0; model.layout().velocities()],
+            scales: model.state_scales(),
             bearing,
             driver,
             solver,
@@ -152,7 +160,14 @@ impl Sim {
         &self.state
     }
 
-    /// Sets time and state and restarts the integrator. Forces must be defined there.
+    /// Sets time and state. Forces must be defined there.
+    ///
+    /// The present time and state change nothing. A state next to the present one, at the present time and within a hundredth of
+    /// the scales of the model ([`Model::state_scales`]), goes on with the method, its step and the power balance; that costs
+    /// what [`Sim::set_input`] does: two force evaluations, and steps that grow again from a single one between judgements of
+    /// their energy. Any other state begins anew, as where bodies are set down is rarely where they rest: some thirty steps with
+    /// controlled errors and derivatives each, a new balance, and, where time has passed and does not go back, a run that
+    /// is not judged ([`Sim::not_judged`]). Counts go on.
     ///
     /// # Errors
     /// [`Status::WrongSize`], [`Status::BadValue`] for numbers that are not finite or a negative time,
@@ -160,16 +175,41 @@ impl Sim {
     pub fn set_state(&mut self, time: f64, state: &[f64]) -> Result<()> {
         check_time("time", time)?;
         self.check_state(state)?;
+        if time == self.time && state == self.state {
+            return Ok(());
+        }
         self.evaluated = Evaluated::Other;
+        let before = self.is_near(time, state).then(|| self.energy_at_present()).flatten();
         let evaluated = self.bearing.accelerations_at(time, state, &mut self.accelerations);
         evaluated.map_err(|f| self.bad_state(time, f))?;
+        let moved = self.time > self.balance.time;
+        let back = time < self.time;
         self.time = time;
         self.state.copy_from_slice(state);
+        if let Some(before) = before {
+            self.balance.shift(before, self.bearing.energy());
+            self.restart();
+            return Ok(());
+        }
         self.driver.forget();
         self.restart();
         self.begin_interval();
         self.start_balance();
+        self.balance.set = if back { 0 } else { self.balance.set + u64::from(moved) };
         Ok(())
+    }
+
+    /// Whether a state at a time (s) is next to the present one.
+    fn is_near(&self, time: f64, state: &[f64]) -> bool {
+        let mut pairs = self.state.iter().zip(state).zip(&self.scales);
+        (time - self.time).abs() <= SAME_TIME * self.time
+            && pairs.all(|((own, new), unit)| (own - new).abs() <= NEAR * unit)
+    }
+
+    /// Energy of the present state; `None` where forces are undefined.
+    fn energy_at_present(&mut self) -> Option<Energy> {
+        let evaluated = self.bearing.accelerations_at(self.time, &self.state, &mut self.accelerations);
+        evaluated.ok().map(|()| self.bearing.energy())
     }
 
     /// All forces at the current state, without stepping.
@@ -259,6 +299,7 @@ impl Sim {
         self.restart();
         self.begin_interval();
         self.forces()?;
+        self.balance.set = 0;
         self.start_balance();
         Ok(())
     }
@@ -426,6 +467,9 @@ impl Sim {
             text += &format!("; the film of the guide can give energy to the cage ({field})");
         }
         let doubts = self.doubts();
+        if let Some(why) = self.not_judged() {
+            text += &format!("; not judged: {why}");
+        }
         if !doubts.is_empty() {
             text += &format!("; not to be trusted: {}", results::trust::in_words(&doubts));
         }

@@ -379,9 +379,10 @@ fn a_set_state_is_met_without_memory_and_inputs_with_it() {
     assert!(step < 0.9 * first, "{step} {first}");
     sim.set_input(2, -290e3).unwrap();
     assert_eq!(choice(&sim).leapfrog_step, step);
-    let state = sim.state().to_vec();
+    let (state, steps) = (sim.state().to_vec(), choice(&sim).steps);
     sim.set_state(0.0, &state).unwrap();
     assert_eq!(choice(&sim).leapfrog_step, first);
+    assert_eq!(choice(&sim).steps, steps);
 }
 
 #[test]

@@ -63,7 +63,7 @@ fn a_state_set_by_the_host_is_where_the_run_goes_on() {
     let mut s = sim(&[]);
     s.advance_to(1e-3).unwrap();
     let state = s.state().to_vec();
-    // Setting the present state restarts the integrator: the same physics, another step sequence.
+    // The present state changes nothing.
     s.set_state(1e-3, &state).unwrap();
     assert_eq!(s.state(), state);
     s.advance_to(1.1e-3).unwrap();
@@ -78,6 +78,74 @@ fn a_state_set_by_the_host_is_where_the_run_goes_on() {
     assert_eq!(e.status, Status::BadState);
     assert!(e.message.contains("film between cage and guide"), "{e}");
     assert_eq!(s.time(), 5.0);
+}
+
+/// A host that hands its own copy of the state back in every step, or one that differs by round-off or by what it controls errors
+/// to, costs little, keeps the balance and all counts.
+#[test]
+fn states_next_to_the_present_one_go_on_gently() {
+    let advance = |change: Option<f64>| {
+        let mut s = sim(&[]);
+        s.advance_to(5e-3).unwrap();
+        let before = s.statistics();
+        for i in 1..=50u32 {
+            if let Some(change) = change {
+                let mut state = s.state().to_vec();
+                let unit = s.model().state_scales()[0];
+                state[0] += change * unit * if i % 2 == 0 { 1.0 } else { -1.0 };
+                s.set_state(s.time(), &state).unwrap();
+            }
+            s.advance_to(5e-3 + 1e-4 * f64::from(i)).unwrap();
+        }
+        let after = s.statistics();
+        assert_eq!(after.choice.unwrap().steps.iter().sum::<u64>(), after.driver.steps);
+        assert_eq!(s.power_balance().unwrap().from, 0.0);
+        assert_eq!(s.trust(), Ok(()));
+        let cost = (after.evaluations - before.evaluations, after.jacobians - before.jacobians);
+        (bits(s.state()), cost)
+    };
+    let (free, (evaluations, jacobians)) = advance(None);
+    assert_eq!(advance(Some(0.0)), (free, (evaluations, jacobians)));
+    let (_, near) = advance(Some(5e-3));
+    // From a state elsewhere on it is more than thirty Jacobians for each of the fifty.
+    assert!(
+        near.0 < 4 * evaluations && near.1 < jacobians + 50 / 3,
+        "{near:?} after {evaluations}, {jacobians}"
+    );
+}
+
+/// Of motion that a host imposes the balance knows nothing; a state from which a run begins is no such thing.
+#[test]
+fn imposed_motion_is_not_judged() {
+    let mut s = sim(&[]);
+    let mut state = s.state().to_vec();
+    state[2] += 1e-6;
+    s.set_state(0.0, &state).unwrap();
+    s.advance_to(1e-3).unwrap();
+    assert_eq!(s.trust(), Ok(()));
+    let steps = s.statistics().driver.steps;
+    for i in 1..=3u32 {
+        state[2] += 2e-6;
+        s.set_state(1e-3 * f64::from(i), &state).unwrap();
+        s.advance_to(1e-3 * f64::from(i + 1)).unwrap();
+    }
+    let error = s.trust().unwrap_err();
+    assert!(error.status == Status::NotJudged && error.message.contains("3 times"), "{error}");
+    assert_eq!(s.doubts(), []);
+    assert!(s.report().contains("not judged"), "{}", s.report());
+    let (counted, choice) = (s.statistics().driver.steps, s.statistics().choice.unwrap());
+    assert!(counted > steps && choice.steps.iter().sum::<u64>() == counted);
+    assert!(choice.highest_frequency > 0.0);
+    // What a simulation remembers, a snapshot does.
+    let mut other = sim(&[]);
+    other.restore(&s.save()).unwrap();
+    assert_eq!(other.trust(), Err(error));
+    s.set_state(0.0, &state).unwrap();
+    s.advance_to(1e-3).unwrap();
+    assert_eq!(s.trust(), Ok(()));
+    other.reset().unwrap();
+    assert_eq!(other.trust(), Ok(()));
+    assert_eq!(other.statistics().choice.unwrap().steps, [0; 3]);
 }
 
 #[test]

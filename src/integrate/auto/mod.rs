@@ -235,7 +235,6 @@ impl<const N: usize> Auto<N> {
             (0, self.aim.tuning.start, self.aim.tuning.first_hold, 0);
         (self.wait, self.pause) = (0, self.aim.tuning.first_pause);
         (self.event_wait, self.event) = (0, false);
-        (self.steps, self.changes) = ([0; 3], 0);
         (self.active, self.reason) = match self.aim.statistics {
             true => (Kind::Rosenbrock, Reason::Affordable),
             false => (Kind::DormandPrince, Reason::Trajectory),

@@ -86,11 +86,16 @@ impl<const N: usize> StabilityMonitor<N> {
         }
     }
 
-    /// Forgets everything that was measured.
+    /// Forgets everything that steps rest on.
     pub fn forget(&mut self) {
-        (self.due, self.highest) = (0, 0.0);
+        self.due = 0;
         (self.frequency, self.damped) = (self.expected.frequency, self.expected.damped);
         self.careful = false;
+    }
+
+    /// Forgets the highest frequency met.
+    pub fn reset_highest(&mut self) {
+        self.highest = 0.0;
     }
 
     /// The steps of the leapfrog missed too much energy: from now on they are careful ones.

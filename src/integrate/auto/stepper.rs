@@ -37,6 +37,11 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
         self.start_over();
     }
 
+    fn reset_counts(&mut self) {
+        (self.steps, self.changes) = ([0; 3], 0);
+        self.monitor.reset_highest();
+    }
+
     fn attempt(&mut self, system: &mut S, t: f64, h: f64, t_last: f64) -> Result<Option<Estimate>, S::Fault> {
         self.h = h;
         let result = active!(self, S, attempt(system, t, h, t_last));

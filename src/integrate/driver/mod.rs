@@ -131,10 +131,11 @@ impl<S: Observed> Driver<S> {
     /// Sets all counts to zero and forgets what was learned from earlier states.
     pub fn reset(&mut self) {
         self.statistics = Statistics::default();
+        self.stepper.reset_counts();
         self.forget();
     }
 
-    /// Forgets what was learned from earlier states.
+    /// Forgets what was learned from earlier states; counts stay.
     pub fn forget(&mut self) {
         self.nominal_step = self.limits.nominal_step;
         self.stepper.forget();

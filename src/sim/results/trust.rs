@@ -3,6 +3,7 @@
 use crate::bodies::Power;
 use crate::error::{Error, Result, Status};
 use crate::scene::Method;
+use crate::sim::balance::Start;
 use crate::sim::preset::numbers;
 use crate::sim::{PowerBalance, Sim};
 use std::fmt;
@@ -135,13 +136,23 @@ impl Sim {
     /// Whether the run is to be trusted.
     ///
     /// # Errors
-    /// [`Status::Untrusted`] with every doubt.
+    /// [`Status::Untrusted`] with every doubt; [`Status::NotJudged`] as [`Sim::not_judged`].
     pub fn trust(&mut self) -> Result<()> {
         let doubts = self.doubts();
-        if doubts.is_empty() {
-            return Ok(());
+        if !doubts.is_empty() {
+            return Err(Error::new(Status::Untrusted, in_words(&doubts)));
         }
-        Err(Error::new(Status::Untrusted, in_words(&doubts)))
+        self.not_judged().map_or(Ok(()), |why| Err(Error::new(Status::NotJudged, why)))
+    }
+
+    /// Why it cannot be known whether the run is to be trusted, even if nothing speaks against it: [`Sim::set_state`] moved it
+    /// on the way to where its motion had not led, and of that the balance knows nothing. `None` where it can be known.
+    pub fn not_judged(&self) -> Option<String> {
+        let Start { set, time, .. } = self.balance;
+        (set > 0).then(|| {
+            let times = if set == 1 { "once".to_owned() } else { format!("{set} times") };
+            format!("the host set the state {times} on the way; the power balance knows what happened after {time:?} s")
+        })
     }
 }
 
