@@ -91,6 +91,8 @@ mod tests {
     const ROLLERS: &str = include_str!("../../../../scenes/nu2310.json");
     const GREASE: &str = include_str!("../../../../scenes/grease_guide.json");
 
+    const OIL: &str = include_str!("../../../../scenes/ball_short_bearing.json");
+
     fn warnings(text: &str, set: &[(&str, &str)]) -> Vec<String> {
         let scene = Scene::from_json_with(text, set.iter().copied());
         scene.unwrap_or_else(|e| panic!("{e}")).warnings()
@@ -120,7 +122,7 @@ mod tests {
             (GREASE, "cage.guide.solid.contact.stiffness", "1e12", "stiffer than solid steel"),
             (GREASE, "cage.pocket.solid_plane.contact.stiffness", "1e3", "weight of the cage"),
             (GREASE, "cage.guide.solid.contact.damping", "4e-4", "hardly any damping"),
-            (GREASE, "cage.guide.diametral_clearance", "4e-6", "unusually small"),
+            (OIL, "cage.guide.diametral_clearance", "4e-6", "unusually small"),
             (GREASE, "cage.guide.film.lubricant_layer.thickness", "8e-2", "many times the clearance"),
             (GREASE, "inner_ring.speed.constant", "3000", "revolutions per minute, 314.159 rad/s"),
         ] {
