@@ -3,6 +3,7 @@
 
 #![allow(missing_docs, clippy::result_unit_err, reason = "read in this repository only")]
 
+pub mod bearings;
 pub mod cvode;
 pub mod effects;
 pub mod judge;

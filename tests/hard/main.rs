@@ -307,8 +307,14 @@ fn a_minute_of_simulated_time() {
 /// Judges plausible random scenes, `make judge`: how many were not trusted or failed, and the table.
 fn judge_scenes(numbers: std::ops::Range<u64>, presets: &[&str], means: bool) -> [usize; 2] {
     let presets = presets.iter().map(|preset| (*preset).to_owned()).collect();
-    let options =
-        judge::run::Options { duration: 0.03, means, presets, wall_time: 600.0, tuning: Tuning::default() };
+    let options = judge::run::Options {
+        kind: Default::default(),
+        duration: 0.03,
+        means,
+        presets,
+        wall_time: 600.0,
+        tuning: Tuning::default(),
+    };
     let outcomes = judge::run::judge_all(numbers, &options, |outcome| {
         if let Some(line) = judge::summary::line(outcome) {
             println!("{line}");

@@ -3,6 +3,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod damage;
+mod published;
 mod scenes;
 
 use cagedyn::{Error, Model, Recording, Scene, Sim, Status};

@@ -1,6 +1,7 @@
 //! One random scene with every preset.
 
-use crate::judge::scenes;
+use crate::judge::impossible::Watch;
+use crate::judge::{published, scenes};
 use cagedyn::integrate::Tuning;
 use cagedyn::sim::{LEVEL, Sample};
 use cagedyn::{Error, Model, Sim, Status};
@@ -9,9 +10,30 @@ use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, mpsc};
 
+/// Where scenes come from. Numbers of different kinds have nothing in common.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Kind {
+    /// Sizes at random.
+    #[default]
+    Plain,
+    /// Published bearings with everything that a scene can have.
+    Published,
+}
+
+impl Kind {
+    /// A scene of `duration` s for this number.
+    pub fn scene(self, number: u64, duration: f64) -> Value {
+        match self {
+            Self::Plain => scenes::scene(number, duration),
+            Self::Published => published::scene(number, duration),
+        }
+    }
+}
+
 /// How scenes are judged.
 #[derive(Clone, Debug)]
 pub struct Options {
+    pub kind: Kind,
     /// Length of each run, s.
     pub duration: f64,
     /// Whether means are compared with `reference`, which takes ten times as long.
@@ -73,7 +95,7 @@ impl Options {
 #[derive(Debug)]
 pub enum Verdict {
     /// The schema refuses the scene.
-    Refused,
+    Refused(Error),
     Failed(Error),
     Ran {
         /// Missing energy as a share of what passed through.
@@ -81,6 +103,8 @@ pub enum Verdict {
         trusted: bool,
         evaluations: u64,
         apart: Option<Apart>,
+        /// Results that no bearing can have.
+        impossible: Vec<String>,
         report: String,
     },
 }
@@ -126,7 +150,7 @@ pub fn judge_all(numbers: Range<u64>, options: &Options, mut each: impl FnMut(&O
 
 /// Runs scene `number` with the presets.
 pub fn judge(number: u64, options: &Options) -> Vec<Outcome> {
-    let scene = scenes::scene(number, options.duration);
+    let scene = options.kind.scene(number, options.duration);
     let run = |preset, shift| run(&scene, preset, shift, options);
     let mut references = options.means.then(|| [0.0, CLOSE].map(|shift| run("reference", shift)));
     let means = match &references {
@@ -143,7 +167,7 @@ pub fn judge(number: u64, options: &Options) -> Vec<Outcome> {
             }
         };
         let verdict = match ran {
-            Err(e) if matches!(e.status, Status::BadScene | Status::BadJson) => Verdict::Refused,
+            Err(e) if matches!(e.status, Status::BadScene | Status::BadJson) => Verdict::Refused(e),
             Err(e) => Verdict::Failed(e),
             Ok((mut verdict, here)) => {
                 if let (Verdict::Ran { apart, .. }, Some(means)) = (&mut verdict, &means) {
@@ -192,7 +216,7 @@ fn starts(run: impl Fn(f64) -> Option<Means>, channel: usize) -> Option<Sample> 
 /// # Errors
 /// As the first run that fails.
 pub fn over_starts(number: u64, count: u32, options: &Options) -> Result<Vec<OverStarts>, Error> {
-    let scene = scenes::scene(number, options.duration);
+    let scene = options.kind.scene(number, options.duration);
     let mut all = Vec::new();
     for (preset, _) in options.chosen() {
         let (mut columns, mut evaluations) = ([const { Vec::new() }; 4], 0.0);
@@ -236,10 +260,12 @@ fn run(scene: &Value, preset: &str, shift: f64, options: &Options) -> Result<(Ve
     }
     let names: Vec<String> = sim.channels().iter().map(|channel| channel.name.clone()).collect();
     let places = CHANNELS.map(|name| names.iter().position(|n| n == name));
+    let mut watch = Watch::new(&scene, &names);
     let (mut out, mut columns) = (vec![0.0; names.len()], [const { Vec::new() }; 4]);
     for i in 1..=RECORDS {
         sim.advance_to(options.duration * f64::from(i) / f64::from(RECORDS))?;
         sim.outputs(&mut out)?;
+        watch.see(&out);
         if 2 * i > RECORDS {
             for (column, place) in columns.iter_mut().zip(places) {
                 column.extend(place.map(|k| out[k]));
@@ -251,6 +277,7 @@ fn run(scene: &Value, preset: &str, shift: f64, options: &Options) -> Result<(Ve
         trusted: sim.doubts().is_empty(),
         evaluations: sim.statistics().evaluations,
         apart: None,
+        impossible: watch.list(scene["outer_ring"]["speed"] != Value::Null),
         report: sim.report(),
     };
     Ok((verdict, columns.map(|values| Sample::of_series(&values))))

@@ -10,29 +10,29 @@ use serde_json::{Value, json};
 use std::f64::consts::TAU;
 
 /// Draws with named distributions.
-struct Draw(Random);
+pub(super) struct Draw(pub(super) Random);
 
 impl Draw {
     /// Log-uniform.
-    fn log(&mut self, low: f64, high: f64) -> f64 {
+    pub(super) fn log(&mut self, low: f64, high: f64) -> f64 {
         self.0.within(low.ln(), high.ln()).exp()
     }
 
-    fn within(&mut self, low: f64, high: f64) -> f64 {
+    pub(super) fn within(&mut self, low: f64, high: f64) -> f64 {
         self.0.within(low, high)
     }
 
-    fn chance(&mut self, probability: f64) -> bool {
+    pub(super) fn chance(&mut self, probability: f64) -> bool {
         self.0.chance(probability)
     }
 
-    fn angle(&mut self) -> f64 {
+    pub(super) fn angle(&mut self) -> f64 {
         self.within(0.0, TAU)
     }
 
     /// A value that most often is constant, else jumps, grows, follows a table or swings by up to all of `mean` at up to `fastest`
     /// Hz, within `duration` s.
-    fn signal(&mut self, mean: f64, duration: f64, fastest: f64) -> Value {
+    pub(super) fn signal(&mut self, mean: f64, duration: f64, fastest: f64) -> Value {
         let at = self.within(0.1, 0.6) * duration;
         match self.0.index(10) {
             0 => json!({"step": {"before": mean, "after": mean * self.within(0.0, 2.0), "time": at}}),
@@ -55,7 +55,7 @@ impl Draw {
         }
     }
 
-    fn friction(&mut self) -> Value {
+    pub(super) fn friction(&mut self) -> Value {
         json!({"coefficient": self.log(0.02, 0.2), "transition_speed": self.log(5e-3, 0.1)})
     }
 
@@ -74,7 +74,7 @@ impl Draw {
     }
 
     /// Laws of a lubricated line contact with this damping, s.
-    fn line(&mut self, [shortest, longest]: [f64; 2]) -> Value {
+    pub(super) fn line(&mut self, [shortest, longest]: [f64; 2]) -> Value {
         let mut laws = json!({
             "damping": {"relaxation_time": self.log(shortest, longest), "softening_depth": 10e-9},
             "film": "pan_hamrock", "traction": "muraki_kimura",
@@ -95,7 +95,7 @@ impl Draw {
         laws
     }
 
-    fn viscosity(&mut self) -> Value {
+    pub(super) fn viscosity(&mut self) -> Value {
         if self.chance(0.5) {
             return json!({"constant": self.log(0.005, 0.3)});
         }

@@ -11,7 +11,12 @@ fn breaks(residual: f64, promise: f64) -> bool {
 pub fn line(outcome: &Outcome) -> Option<String> {
     let Outcome { number, preset, promise, verdict } = outcome;
     let text = match verdict {
+        Verdict::Refused(e) => format!("refused: {e}"),
         Verdict::Failed(e) => format!("failed: {e}"),
+        Verdict::Ran { impossible, trusted, report, .. } if !impossible.is_empty() => {
+            let trusted = if *trusted { "trusted" } else { "not trusted" };
+            format!("impossible, {trusted}: {}: {report}", impossible.join("; "))
+        }
         Verdict::Ran { trusted: false, report, residual, .. } => {
             format!("not trusted, residual {residual:.1e}: {report}")
         }
@@ -55,8 +60,8 @@ fn apart(verdict: &Verdict) -> Option<Apart> {
 
 /// Counts by preset.
 pub fn table(outcomes: &[Outcome]) -> String {
-    let mut text = "\n| preset | scenes | refused | failed | not trusted | trusted, balance broken | trusted, means of one run apart | of eight starts | \
-                    largest missing share of the trusted | median evaluations per run | most, of scene |\n|---|---|---|---|---|---|---|---|---|---|---|\n"
+    let mut text = "\n| preset | scenes | refused | failed | impossible | not trusted | trusted, balance broken | trusted, means of one run apart | of eight starts | \
+                    largest missing share of the trusted | median evaluations per run | most, of scene |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n"
         .to_owned();
     for (preset, promise) in PRESETS {
         let list: Vec<&Outcome> = outcomes.iter().filter(|o| o.preset == preset).collect();
@@ -79,10 +84,11 @@ pub fn table(outcomes: &[Outcome]) -> String {
             _ => most,
         });
         text += &format!(
-            "| {preset} | {} | {} | {} | {} | {} | {} | {} | {largest:.1e} | {median} | {most}, {scene} |\n",
+            "| {preset} | {} | {} | {} | {} | {} | {} | {} | {} | {largest:.1e} | {median} | {most}, {scene} |\n",
             list.len(),
-            count(&|v| matches!(v, Verdict::Refused)),
+            count(&|v| matches!(v, Verdict::Refused(_))),
             count(&|v| matches!(v, Verdict::Failed(_))),
+            count(&|v| matches!(v, Verdict::Ran { impossible, .. } if !impossible.is_empty())),
             count(&|v| matches!(v, Verdict::Ran { trusted: false, .. })),
             count(
                 &|v| matches!(v, Verdict::Ran { trusted: true, residual, .. } if breaks(*residual, promise))

@@ -7,7 +7,9 @@
 mod tuning;
 
 use cagedyn::integrate::Tuning;
-use cagedyn_studies::judge::{run, scenes, summary};
+use cagedyn_studies::bearings;
+use cagedyn_studies::judge::run::Kind;
+use cagedyn_studies::judge::{run, summary};
 use clap::Parser;
 use std::process::ExitCode;
 
@@ -17,6 +19,12 @@ struct Arguments {
     /// The first scene.
     #[arg(long, default_value_t = 1000)]
     seed: u64,
+    /// Scenes of published bearings with everything that a scene can have, which have numbers of their own.
+    #[arg(long)]
+    published: bool,
+    /// Print the table of published bearings instead.
+    #[arg(long)]
+    bearings: bool,
     /// Number of scenes.
     #[arg(long, default_value_t = 200)]
     n: u64,
@@ -45,12 +53,17 @@ struct Arguments {
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
+    if arguments.bearings {
+        print!("{}", bearings::page());
+        return ExitCode::SUCCESS;
+    }
+    let kind = if arguments.published { Kind::Published } else { Kind::Plain };
     if arguments.print {
-        println!("{:#}", scenes::scene(arguments.seed, arguments.duration));
+        println!("{:#}", kind.scene(arguments.seed, arguments.duration));
         return ExitCode::SUCCESS;
     }
     let Arguments { seed, n, duration, means, preset: presets, wall_time, .. } = arguments;
-    let options = run::Options { duration, means, presets, wall_time, tuning: Tuning::default() };
+    let options = run::Options { kind, duration, means, presets, wall_time, tuning: Tuning::default() };
     if arguments.tuning {
         print!("{}", tuning::page(seed..seed + n, &options));
         return ExitCode::SUCCESS;

@@ -21,7 +21,7 @@ fn total(numbers: Range<u64>, options: &Options, tuning: Tuning) -> Total {
     let mut total = Total { evaluations: Vec::new(), missing: 0.0, bad: 0 };
     for outcome in outcomes {
         match outcome.verdict {
-            Verdict::Refused => {}
+            Verdict::Refused(_) => {}
             Verdict::Ran { trusted, residual, evaluations, .. } => {
                 total.evaluations.push(evaluations as f64);
                 total.bad += usize::from(!trusted);
