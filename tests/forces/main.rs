@@ -7,5 +7,6 @@ mod balance;
 mod continuity;
 mod effects;
 mod passive;
+mod published;
 mod static_equilibrium;
 mod symmetry;

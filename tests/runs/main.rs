@@ -12,6 +12,7 @@ mod nu2310;
 mod outer_ring;
 mod profile;
 mod promises;
+mod published;
 mod roller_sizes;
 mod sim;
 mod snapshots;
