@@ -21,6 +21,7 @@ mod burst;
 use crate::bodies::HeatBudget;
 use crate::error::{Error, Result, Status};
 use crate::model::Model;
+use crate::scalar::math;
 use crate::scene::Heat;
 use crate::sim::{RunLimits, Sim};
 use burst::{Burst, Heating};
@@ -254,7 +255,7 @@ impl HeatBalance {
                 self.limits.tell(1.0, bursts);
                 return Ok(state);
             }
-            let way = |now: f64| (LARGEST_STEP / now).ln() / (LARGEST_STEP / SETTLED).ln();
+            let way = |now: f64| math::ln(LARGEST_STEP / now) / math::ln(LARGEST_STEP / SETTLED);
             let square = |x: f64| x * x;
             self.limits
                 .tell(if means.is_none() { way(change) } else { square(MEAN_SETTLED / scatter) }, bursts);

@@ -6,6 +6,10 @@ use cagedyn::{Model, Sim, Status};
 use serde_json::{Value, json};
 use std::sync::Arc;
 
+fn channel(sim: &Sim, name: &str) -> usize {
+    sim.channels().iter().position(|c| c.name == name).unwrap_or_else(|| panic!("no {name}"))
+}
+
 fn sim(scene: &Value) -> Sim {
     Sim::new(Arc::new(Model::from_json(&scene.to_string()).unwrap_or_else(|e| panic!("{e}")))).unwrap()
 }
@@ -48,7 +52,7 @@ fn rollers_that_nothing_keeps_apart_do_not_go_through_each_other() {
 #[test]
 fn neighbours_that_touch_keep_the_ring_in_the_bearing() {
     let mut full = sim(&neighbours(&without_cage()));
-    let clearance = full.model().find_output("inner_ring.z").unwrap();
+    let clearance = channel(&full, "inner_ring.z");
     let mut outputs = vec![0.0; full.model().channels().len()];
     for k in 1..=20 {
         full.advance_to(0.01 * f64::from(k)).unwrap();
@@ -71,7 +75,7 @@ fn pressed(seed: u64) -> (Sim, Vec<f64>) {
         ],
     ));
     let sim = sim(&full);
-    let mut random = Random(seed);
+    let mut random = Random::new(seed);
     let model = sim.model().clone();
     let mut state = sim.state().to_vec();
     let names: Vec<String> = model.state_infos().into_iter().map(|info| info.name).collect();
@@ -80,10 +84,10 @@ fn pressed(seed: u64) -> (Sim, Vec<f64>) {
     let gap = 2.0 * radius * (std::f64::consts::PI / 16.0).sin() - 9e-3;
     for (name, x) in names.iter().zip(&mut state) {
         let j: usize = name.split(['[', ']']).nth(1).and_then(|j| j.parse().ok()).unwrap_or(0);
-        let noise = 2.0 * random.next() - 1.0;
+        let noise = random.around_zero(1.0);
         match name.rsplit('.').next().unwrap() {
             "orbit_travel" => {
-                *x += (if j % 2 == 0 { 0.5 } else { -0.5 }) * (gap + 3e-6 + 1e-6 * noise) / radius
+                *x += (if j.is_multiple_of(2) { 0.5 } else { -0.5 }) * (gap + 3e-6 + 1e-6 * noise) / radius
             }
             "radial_offset" => *x += 1e-6 * noise,
             "radial_speed" => *x += 0.05 * noise,
@@ -255,8 +259,8 @@ fn slip_is_bounded_where_the_ring_reverses() {
     let ramp = json!({"ramp": {"from": -100.0, "to": 100.0, "start": 0.0, "end": 20e-3}});
     let mut sim = sim(&example_with(&[("inner_ring.speed", ramp)]));
     let slips: Vec<usize> = (0..12)
-        .map(|j| sim.model().find_output(&format!("roller[{j}].slip")).unwrap())
-        .chain([sim.model().find_output("cage.slip").unwrap()])
+        .map(|j| channel(&sim, &format!("roller[{j}].slip")))
+        .chain([channel(&sim, "cage.slip")])
         .collect();
     let (mut outputs, mut largest) = (vec![0.0; sim.model().channels().len()], 0.0f64);
     for k in 1..=200 {

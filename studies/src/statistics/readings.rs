@@ -29,7 +29,7 @@ pub const QUANTITIES: [Quantity; 14] = [
     quantity("largest pocket force, mean, N", "pocket", |r| Some(r.pocket_force()?.mean)),
     quantity("largest pocket force, 95 %, N", "p95", |r| Some(r.pocket_force()?.p95)),
     quantity("largest raceway load, mean, N", "load", |r| Some(r.largest_of("outer_force")?.mean)),
-    quantity("highest line of cage z, um", "peak", |r| Some(1e6 * r.spectrum()?.0.peak()?.1)),
+    quantity("highest line of cage z, um", "peak", |r| Some(1e6 * r.spectrum()?.0.highest()?.amplitude)),
     quantity("line of cage z at f_c, um", "f_c", |r| r.line(1.0)),
     quantity("line of cage z at Z f_c, um", "Z f_c", |r| r.line(r.elements() as f64)),
     quantity("approach speed in loaded raceways, rms, mm/s", "approach", |r| r.approach_speed()),

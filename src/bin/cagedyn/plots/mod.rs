@@ -13,7 +13,7 @@ mod position;
 mod roller;
 mod spectrum;
 mod strips;
-mod style;
+pub mod style;
 pub mod sweep;
 mod units;
 pub mod whirl_branch;

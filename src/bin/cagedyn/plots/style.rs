@@ -1,7 +1,6 @@
 //! What all pictures share: colours, fonts, titles, markers and legends.
 
 use super::axis::Axis;
-use crate::results::table::escaped;
 use cagedyn::{Error, Result, Status};
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -301,4 +300,20 @@ pub fn legend_entry(canvas: &Canvas<'_>, (x, y): (f64, f64), symbol: Symbol, lab
     }
     let style = text(TEXT, INK, HPos::Left, VPos::Center);
     canvas.draw(&Text::new(label.to_owned(), (px(x + SYMBOL_WIDTH + SYMBOL_GAP), px(y)), style))
+}
+
+/// Text as HTML or SVG, also within quotes.
+pub fn escaped(text: &str) -> String {
+    let mut html = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => html.push_str("&amp;"),
+            '<' => html.push_str("&lt;"),
+            '>' => html.push_str("&gt;"),
+            '"' => html.push_str("&quot;"),
+            '\'' => html.push_str("&#39;"),
+            _ => html.push(c),
+        }
+    }
+    html
 }

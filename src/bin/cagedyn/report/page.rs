@@ -3,9 +3,10 @@
 use super::animation::Animation;
 use super::gather::Gathered;
 use super::scene_text::{Remarks, marked};
+use crate::plots::style::escaped;
 use crate::results::report::{cost, motion, results, window};
 use crate::results::summary::{Balance, Summary, few_turns};
-use crate::results::table::{escaped, number, rounded};
+use crate::results::table::{number, rounded};
 use std::path::Path;
 
 /// The whole page but for the line that a report begins with.

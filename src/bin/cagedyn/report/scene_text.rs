@@ -3,7 +3,7 @@
 //! Which values are assumed, a scene may say in its comment: `"comment": {"assumed": {"rollers.mass": "solid steel"}}`, or
 //! a list of paths without reasons.
 
-use crate::results::table::escaped;
+use crate::plots::style::escaped;
 use serde_json::Value;
 
 /// What a scene says of its own values.
