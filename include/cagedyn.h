@@ -451,7 +451,9 @@ int32_t cagedyn_sim_factorize(cagedyn_sim *sim,
 /* Replaces the right-hand side in `x` by the solution of (I - gamma J) x = b with the factors of the last
  * cagedyn_sim_factorize(). `length` is the length of the state. CAGEDYN_ERR_BAD_STATE without factors, whatever is in `x`, or
  * when the solution is not finite; CAGEDYN_ERR_BAD_VALUE for numbers that are not finite. */
-int32_t cagedyn_sim_solve(cagedyn_sim *sim, double *x, int64_t length);
+int32_t cagedyn_sim_solve(cagedyn_sim *sim,
+                          double *x,
+                          int64_t length);
 
 /* As cagedyn_sim_contact_forces(), at an arbitrary state and time `t` (s). `state_length` is the length of the state, `length`
  * that of `out`. */
