@@ -3,7 +3,7 @@
 //! ```text
 //! gap   = d - R_j - R_k,   d^2 = (rho_k - rho_j)^2 + 4 r_j r_k sin(dpsi/2)^2,   r = r_p + rho
 //! dpsi  = +-2 pi/Z + travel_k - travel_j
-//! u_1   = a_1 (w_j - phi_dot),   u_2 = -a_2 (w_k - phi_dot),   a_1 = R_j,   a_2 = d - a_1
+//! u_1   = a_1 (w_j - phi_dot),   u_2 = -a_2 (w_k - phi_dot),   a_1 = d R_j/(R_j + R_k),   a_2 = d - a_1
 //! ```
 //!
 //! Line contact of two cylinders with 1/R_e = 1/R_j + 1/R_k along the line of centres, whose turning rate is phi_dot. Angles are
@@ -100,8 +100,11 @@ impl Neighbours {
         let to_other = [rho_k - rho - r_k * sin * sin * 2.0, r_k * sin * cos * 2.0];
         let d = (to_other[0] * to_other[0] + to_other[1] * to_other[1]).sqrt();
         let normal = [to_other[0] / d, to_other[1] / d];
-        let [arm_1, arm_2] = excess.map(|excess| self.radius + excess);
-        let grip = Grip::centred(normal, d.like(arm_1), d - arm_1);
+        let [radius_1, radius_2] = excess.map(|excess| self.radius + excess);
+        // The same point from both sides.
+        let arm_1 = d * (radius_1 / (radius_1 + radius_2));
+        let arm_2 = d - arm_1;
+        let grip = Grip::centred(normal, arm_1, arm_2);
         let tangent = grip.tangent();
         let (sin, cos) = (sin * cos * 2.0, -(sin * sin * 2.0) + 1.0);
         let across = r_k * orbit_speed_k;
@@ -111,10 +114,10 @@ impl Neighbours {
         ];
         let turning = (relative[0] * tangent[0] + relative[1] * tangent[1]) / d;
         let motion = ContactMotion {
-            delta: -(d - (arm_1 + arm_2)),
+            delta: -(d - (radius_1 + radius_2)),
             delta_dot: -(relative[0] * normal[0] + relative[1] * normal[1]),
             u1: (spin - turning) * arm_1,
-            u2: -((d - arm_1) * (spin_k - turning)),
+            u2: -(arm_2 * (spin_k - turning)),
         };
         (motion, grip)
     }

@@ -13,6 +13,8 @@ pub struct Parts {
     pub unbalance: bool,
     pub roundness: bool,
     pub gravity: bool,
+    /// Rollers that touch each other in the place of a cage.
+    pub neighbours: bool,
 }
 
 /// Every combination that makes sense.
@@ -35,12 +37,27 @@ pub fn all() -> Vec<Parts> {
                                 unbalance,
                                 roundness,
                                 gravity,
+                                neighbours: false,
                             });
                         }
                     }
                 }
             }
         }
+    }
+    for gravity in [false, true] {
+        let [guide, pocket] = ["none"; 2];
+        let [inner_ring, unbalance, roundness] = [false; 3];
+        list.push(Parts {
+            rollers: true,
+            guide,
+            inner_ring,
+            pocket,
+            unbalance,
+            roundness,
+            gravity,
+            neighbours: true,
+        });
     }
     list
 }
@@ -107,5 +124,21 @@ pub fn scene(parts: Parts) -> Value {
     if !parts.gravity {
         scene["gravity"] = Value::Null;
     }
+    if parts.neighbours {
+        fill(&mut scene);
+    }
     scene
+}
+
+/// Sixteen rollers in the place of the cage, with half a micrometre between neighbours.
+fn fill(scene: &mut Value) {
+    let contact = scene["raceways"]["contact"].clone();
+    let sine = (std::f64::consts::PI / 16.0).sin();
+    let raceway = scene["outer_ring"]["raceway_radius"].as_f64().unwrap();
+    let radius = ((raceway - 10e-6) * sine - 0.25e-6) / (1.0 + sine);
+    set(scene, "rollers.radius", json!(radius));
+    set(scene, "rollers.count", json!(16));
+    set(scene, "rollers.neighbours", json!({ "contact": contact }));
+    scene.as_object_mut().unwrap().remove("cage");
+    scene["initial"] = json!({"inner_ring": scene["initial"]["inner_ring"]});
 }

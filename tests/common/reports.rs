@@ -10,6 +10,7 @@ pub const GUIDE: usize = 3;
 pub const GRAVITY: usize = 4;
 pub const LOAD: usize = 5;
 pub const SUPPORT: usize = 6;
+pub const NEIGHBOUR: usize = 7;
 
 // Quantities of a contact, in the order of CONTACT_QUANTITIES.
 pub const NORMAL: usize = 0;

@@ -6,6 +6,7 @@ mod damage;
 mod published;
 mod scenes;
 
+use cagedyn::model::FAULTS;
 use cagedyn::{Error, Model, Recording, Scene, Sim, Status};
 use common::Random;
 use proptest::prelude::*;
@@ -83,8 +84,8 @@ fn check_finite(what: &str, names: &[String], values: &[f64]) -> Result<(), Test
     Ok(())
 }
 
-/// Runs a scene; whether it reached its end.
-fn run(scene: &Value) -> Result<bool, TestCaseError> {
+/// Runs a scene; what kept it from its end, if so: the commonest fault, or the status.
+fn run(scene: &Value) -> Result<Option<String>, TestCaseError> {
     let model = Model::from_json(&scene.to_string());
     let model = Arc::new(model.map_err(|e| TestCaseError::fail(format!("refused: {e}")))?);
     let names: Vec<String> = model.state_infos().into_iter().map(|info| info.name).collect();
@@ -92,7 +93,7 @@ fn run(scene: &Value) -> Result<bool, TestCaseError> {
         Ok(sim) => sim,
         Err(e) => {
             check_error(&e, &[Status::BadScene, Status::BadState])?;
-            return Ok(false);
+            return Ok(Some(format!("{:?} at the start", e.status)));
         }
     };
     check_finite("initial state", &names, sim.state())?;
@@ -113,7 +114,13 @@ fn run(scene: &Value) -> Result<bool, TestCaseError> {
         prop_assert_eq!(recording.times.len(), 11);
         prop_assert_eq!(sim.time(), record.duration);
     }
-    Ok(result.is_ok())
+    Ok(result.err().map(|e| {
+        let faults = sim.statistics().faults;
+        let commonest = FAULTS.iter().zip(faults).max_by_key(|(_, count)| *count);
+        commonest
+            .filter(|(_, count)| *count > 0)
+            .map_or(format!("{:?}", e.status), |(name, _)| name.to_string())
+    }))
 }
 
 /// Runs a scene that runs from a state that differs in its last digits.
@@ -137,13 +144,13 @@ fn scenes_run_or_say_why_not(seed: u8) {
     let failed = Counts::default();
     let result = runner_from(seed, 1000).run(&scene(), |scene| {
         started.set(started.get() + 1);
-        if run(&scene)? {
-            finished.set(finished.get() + 1);
-            if finished.get() % 8 == 0 {
-                run_nearby(&scene, finished.get())?;
-            }
-        } else {
-            count(&failed, combination(&scene));
+        if let Some(why) = run(&scene)? {
+            count(&failed, why);
+            return Ok(());
+        }
+        finished.set(finished.get() + 1);
+        if finished.get() % 8 == 0 {
+            run_nearby(&scene, finished.get())?;
         }
         Ok(())
     });

@@ -259,8 +259,16 @@ fn solver() -> impl Strategy<Value = Value> {
     .prop_map(|method| json!({"method": method, "min_step": 1e-13, "max_steps": 2_500}))
 }
 
+/// What keeps rollers apart.
+#[derive(Clone, Copy, PartialEq)]
+enum Apart {
+    Cage,
+    Neighbours,
+    Nothing,
+}
+
 /// Puts rollers between two rings, without a cage now and then.
-fn add_rollers(scene: &mut Value, sizes: Sizes, ring: (Value, &str), raceways: Value, caged: bool) {
+fn add_rollers(scene: &mut Value, sizes: Sizes, ring: (Value, &str), raceways: Value, apart: Apart) {
     let Sizes { count, radius, pitch, clearance } = sizes;
     let mass = 7800.0 * PI * radius.powi(2) * 2.5 * radius;
     scene["rollers"] = json!({
@@ -273,9 +281,12 @@ fn add_rollers(scene: &mut Value, sizes: Sizes, ring: (Value, &str), raceways: V
     scene["inner_ring"]["motion"] = ring.0;
     scene["initial"]["inner_ring"] = json!(ring.1);
     scene["raceways"] = raceways;
-    if !caged {
+    if apart != Apart::Cage {
         scene["cage"] = Value::Null;
         scene["initial"] = json!({"inner_ring": ring.1});
+    }
+    if apart == Apart::Neighbours && count > 1 {
+        scene["rollers"]["neighbours"] = json!({"contact": scene["raceways"]["contact"]});
     }
 }
 
@@ -325,12 +336,17 @@ pub fn scene() -> impl Strategy<Value = Value> {
             json!({"contact": contact, "rolling_resistance": rolling})
         });
     let flow = (signal(1500.0), viscosity(), any::<bool>());
-    let kind = (any::<bool>(), element_motion(), any::<bool>(), 0..5);
+    let kind = (any::<bool>(), element_motion(), any::<bool>(), 0..15);
     let start = (-3.0..3.0f64, -0.05..0.05f64, proptest::option::of(-500.0..500.0f64));
     (bearing, raceways, flow, ring(), kind, solver(), start).prop_map(
         |((sizes, (cage, offset)), raceways, flow, ring, kind, solver, (angle, velocity, cage_speed))| {
             let (speed, viscosity, weight) = flow;
-            let (kinematic, motion, bare, absent) = kind;
+            let (kinematic, motion, bare, apart) = kind;
+            let apart = match apart {
+                0 => Apart::Nothing,
+                1 | 2 => Apart::Neighbours,
+                _ => Apart::Cage,
+            };
             let mut scene = example();
             scene["title"] = json!("random");
             scene["gravity"] = if weight { scene["gravity"].take() } else { Value::Null };
@@ -357,7 +373,7 @@ pub fn scene() -> impl Strategy<Value = Value> {
             if kinematic {
                 add_kinematic(&mut scene, sizes, ring.0, motion, bare);
             } else {
-                add_rollers(&mut scene, sizes, ring, raceways, absent > 0);
+                add_rollers(&mut scene, sizes, ring, raceways, apart);
             }
             scene
         },

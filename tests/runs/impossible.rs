@@ -118,7 +118,7 @@ fn neighbours_push_each_other_equally() {
             for k in [0, 1, 6] {
                 assert!(
                     (ahead[k] - behind[k]).abs() < 1e-9 * ahead[k].abs() + 1e-12,
-                    "{j} {k}: {ahead:?} {behind:?}"
+                    "{j} {k}: {ahead:?}\n{behind:?}"
                 );
             }
             touching += usize::from(ahead[0] > 0.0);
@@ -181,15 +181,17 @@ fn methods_agree_on_neighbours() {
     let (sim_, state) = pressed(7);
     let scene: Value = serde_json::to_value(sim_.model().scene()).unwrap();
     let at = |method: Value| {
-        let mut sim = sim(&with(&scene, &[("solver", method)]));
+        let mut sim = sim(&with(&scene, &[("solver", method.clone())]));
         sim.set_state(0.0, &state).unwrap();
         sim.advance_to(2e-4).unwrap();
-        sim.trust().unwrap();
+        sim.trust().unwrap_or_else(|e| panic!("{method}: {e}"));
         sim.state().to_vec()
     };
     let reference = at(json!({"method": {"radau": {"tolerance": 1e-9}}}));
-    for method in ["rosenbrock", "dormand_prince", "auto", "leapfrog"] {
-        let other = at(json!({"method": {method: {}}}));
+    let controlled = ["rosenbrock", "dormand_prince", "auto"].map(|method| json!({method: {}}));
+    // Rollers this light want shorter steps of the leapfrog than its own, which would not be trusted.
+    for method in controlled.into_iter().chain([json!({"leapfrog": {"step": 2e-7}})]) {
+        let other = at(json!({ "method": method }));
         let infos = sim_.model().state_infos();
         for ((a, b), info) in reference.iter().zip(&other).zip(&infos) {
             let allowed = match info.unit {

@@ -2,7 +2,9 @@
 //! reaction, and friction and films never create energy.
 
 use crate::common::parts::{Parts, all, scene};
-use crate::common::reports::{CAGE, FRICTION, GUIDE, INNER_RING, ROLLING, ROLLING_SPEED, SLIP_SPEED};
+use crate::common::reports::{
+    CAGE, FRICTION, GUIDE, INNER_RING, NEIGHBOUR, ROLLING, ROLLING_SPEED, SLIP_SPEED,
+};
 use cagedyn::model::{Forces, LAWS};
 use cagedyn::{Model, Sim};
 use std::sync::Arc;
@@ -23,7 +25,10 @@ fn bodies(sim: &mut Sim) -> Bodies {
     let state = sim.state().to_vec();
     let of = |name: &str| names.iter().position(|n| n == name).map_or(0.0, |i| state[i]);
     let pair = |body: &str, a: &str, b: &str| [of(&format!("{body}.{a}")), of(&format!("{body}.{b}"))];
-    let mut positions = vec![[0.0; 2], pair("inner_ring", "y", "z"), pair("cage", "y", "z")];
+    let mut positions = vec![[0.0; 2], pair("inner_ring", "y", "z")];
+    if names.iter().any(|name| name == "cage.y") {
+        positions.push(pair("cage", "y", "z"));
+    }
     let channels: Vec<String> = sim.channels().iter().map(|c| c.name.clone()).collect();
     for j in 0..sim.model().element_count() {
         let kind = sim.model().element_kind();
@@ -91,9 +96,11 @@ fn every_combination_runs_balances_and_dissipates() {
             sim.advance_to(t).unwrap_or_else(|e| panic!("{parts:?}: {e}"));
             let b = bodies(&mut sim);
             let forces = sim.forces().unwrap().clone();
-            for source in 0..=GUIDE {
+            for source in (0..=GUIDE).chain([NEIGHBOUR]) {
                 let error = imbalance(&forces, source, &b.positions);
-                assert!(error < 1e-11, "{parts:?} at {t}: source {source}: {error:e}");
+                // Rollers touch by small differences of the distances of their centres.
+                let allowed = if source == NEIGHBOUR { 1e-9 } else { 1e-11 };
+                assert!(error < allowed, "{parts:?} at {t}: source {source}: {error:e}");
             }
             for contact in &forces.contacts {
                 let friction = contact[FRICTION] * contact[SLIP_SPEED];
