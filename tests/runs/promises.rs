@@ -95,7 +95,8 @@ fn fast_signals_are_not_aliased() {
     }
 }
 
-/// Layers and roughness so thin that films are gone within a micrometre: the balance is kept, or the run is not trusted.
+/// Layers and roughness so thin that films are gone within a micrometre: the balance is kept, or the run is not trusted. The
+/// film of the paper makes energy there, and every preset says so.
 #[test]
 fn no_preset_breaks_its_balance_unsaid() {
     let scene = grease(&[layer(0.5e-6), ("cage.guide.film_share.roughness", json!(0.1e-6))]);
@@ -103,11 +104,14 @@ fn no_preset_breaks_its_balance_unsaid() {
         let mut run = run(&scene, json!({"preset": preset}), 0.03);
         println!("{preset}: {}", run.report());
         let kept = run.power_balance().unwrap().closes(run.promised_balance());
-        assert_eq!(kept, run.trust().is_ok(), "{}", run.report());
-        assert!(kept || preset == "draft", "{}", run.report());
+        let doubts = run.doubts();
+        let Some(Doubt::CreatedEnergy { share, .. }) = doubts.first() else { panic!("{preset}: {doubts:?}") };
+        assert!(kept && (*share - 0.954).abs() < 0.01, "{preset}: {doubts:?}");
         run.statistics().evaluations
     });
     assert!(evaluations[1] < 2 * evaluations[2], "{evaluations:?}");
+    let passive = with(&scene, &[("cage.guide.film.lubricant_layer.pressure_shear", json!("with_edges"))]);
+    run(&passive, json!({}), 0.03).trust().unwrap();
 }
 
 /// Steps of the leapfrog that are too long are made, as they were asked for, but not trusted.

@@ -114,10 +114,12 @@ impl Sim {
         let promised = self.promised_balance();
         match self.power_balance() {
             Err(e) => doubts.push(Doubt::NoBalance(e.message)),
-            Ok(balance) if !balance.closes(promised) => {
-                doubts.push(Doubt::MissingEnergy { share: balance.relative_residual(), promised });
+            Ok(balance) => {
+                if !balance.closes(promised) {
+                    doubts.push(Doubt::MissingEnergy { share: balance.relative_residual(), promised });
+                }
+                doubts.extend(self.created_energy(&balance, promised));
             }
-            Ok(balance) => doubts.extend(self.created_energy(&balance, promised)),
         }
         let share = self.share_at_floor();
         if share > 0.0 {
