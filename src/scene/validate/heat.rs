@@ -166,7 +166,8 @@ impl Scene {
             }
         }
         // Any lump and any link may lead there.
-        if judge.doubts("heat") { Ok(()) } else { heat.reaches_ambient() }
+        let turns = self.inner_ring.as_ref().is_some_and(|ring| ring.speed.largest() > 0.0);
+        if judge.doubts("heat") { Ok(()) } else { heat.reaches_ambient(turns) }
     }
 }
 
@@ -201,15 +202,16 @@ impl Scene {
 }
 
 impl Heat {
-    /// Whether every lump can give its heat to the surroundings.
-    fn reaches_ambient(&self) -> Result<()> {
+    /// Whether every lump can give its heat to the surroundings. What a bearing moves conducts nothing at rest.
+    fn reaches_ambient(&self, turns: bool) -> Result<()> {
         let flows = |node: &HeatNode| node.flow.as_ref().is_some_and(|flow| flow.rate > 0.0);
         let mut reached: Vec<bool> = self.nodes.iter().map(flows).collect();
         for _ in &self.nodes {
             for link in &self.links {
                 let conducts = match &link.conductance {
-                    Conductance::Constant(value) | Conductance::Balls(value) => *value > 0.0,
-                    Conductance::Splashed(surface) => surface.area > 0.0,
+                    Conductance::Constant(value) => *value > 0.0,
+                    Conductance::Balls(value) => turns && *value > 0.0,
+                    Conductance::Splashed(surface) => turns && surface.area > 0.0,
                 };
                 let is_reached =
                     |name: &str| name == AMBIENT || self.node(name).is_some_and(|place| reached[place]);
@@ -223,8 +225,9 @@ impl Heat {
         match reached.iter().position(|reached| !reached) {
             None => Ok(()),
             Some(place) => {
+                let rest = if turns { "" } else { " while the ring rests" };
                 let text = format!(
-                    "nothing conducts from '{}' to '{AMBIENT}', on whatever way; its temperature would grow without end",
+                    "nothing conducts from '{}' to '{AMBIENT}'{rest}, on whatever way; its temperature would grow without end",
                     self.nodes[place].name
                 );
                 Err(bad("heat.links", text))
