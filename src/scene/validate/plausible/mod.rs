@@ -53,18 +53,23 @@ fn at(value: &Value, pattern: &str, path: String, tell: &mut impl FnMut(String, 
         return;
     }
     let (key, rest) = pattern.split_once('.').unwrap_or((pattern, ""));
+    let deep = key == "**";
+    if deep {
+        at(value, rest, path.clone(), tell);
+    }
+    let rest = if deep { pattern } else { rest };
     let mut follow = |name: &str, value: &Value| {
         let path = if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
         at(value, rest, path, tell);
     };
     match value {
-        Value::Object(map) if key == "*" => map.iter().for_each(|(name, value)| follow(name, value)),
+        Value::Object(map) if deep || key == "*" => map.iter().for_each(|(name, value)| follow(name, value)),
         Value::Object(map) => {
             if let Some(value) = map.get(key) {
                 follow(key, value);
             }
         }
-        Value::Array(list) if key == "*" => {
+        Value::Array(list) if deep || key == "*" => {
             list.iter().enumerate().for_each(|(i, value)| follow(&i.to_string(), value));
         }
         _ => {}
