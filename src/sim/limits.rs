@@ -108,7 +108,8 @@ impl RunLimits {
     pub(crate) fn searching<T>(&self, search: impl FnOnce() -> Result<T>) -> Result<T> {
         self.tell(0.0, 0);
         let found = search();
-        if found.is_ok() {
+        // A branch that was ended keeps its share.
+        if found.is_ok() && self.why().is_none() {
             self.tell(1.0, self.found().max(1));
         }
         self.withdraw();

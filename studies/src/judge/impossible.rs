@@ -35,6 +35,8 @@ pub struct Watch {
     /// Whether slips of the cage and of rollers mean something: the rings turn steadily, and not so that what slips would rest
     /// without slip.
     steady: [bool; 2],
+    /// Slip of a roller that its pocket seizes, so that it turns with the cage, or that a neighbour turns.
+    seized: f64,
     /// Largest magnitude of the drag torque, N m.
     torque: f64,
     ring: [Option<usize>; 2],
@@ -72,16 +74,22 @@ impl Watch {
             Value::Null => Some(0.0),
             speed => speed.as_f64().or_else(|| speed["constant"].as_f64()),
         };
-        let steady = match (constant("inner_ring"), constant("outer_ring")) {
-            (Some(inner), Some(outer)) => {
-                let enough = |sum: f64| sum.abs() > AT_REST * (inner.abs() + outer.abs());
-                [enough(inner + outer), enough(inner - outer)]
-            }
-            _ => [false; 2],
-        };
-        let clearance = scene["inner_ring"]["radial_clearance"].as_f64();
         let radius = scene["rollers"]["radius"].as_f64();
         let raceway = scene["outer_ring"]["raceway_radius"].as_f64();
+        let share = radius.zip(raceway).map_or(0.0, |(radius, raceway)| radius / (raceway - radius));
+        let (steady, seized) = match (constant("inner_ring"), constant("outer_ring")) {
+            (Some(inner), Some(outer)) => {
+                let enough = |sum: f64| sum.abs() > AT_REST * (inner.abs() + outer.abs());
+                let orbit = 0.5 * (inner * (1.0 - share) + outer * (1.0 + share));
+                let spin = (outer * (1.0 + share) - orbit) / share.max(f64::MIN_POSITIVE);
+                // Neighbours roll on each other, and turn one another backwards.
+                let mates = scene["rollers"]["neighbours"].is_object();
+                let seized = if mates { 2.0 } else { 1.0 + (orbit / spin).abs() };
+                ([enough(inner + outer), enough(inner - outer)], seized)
+            }
+            _ => ([false; 2], 2.0),
+        };
+        let clearance = scene["inner_ring"]["radial_clearance"].as_f64();
         let is_orbit = |name: &str| name.starts_with("roller[") && name.ends_with(".orbit_angle");
         let orbits = names.iter().enumerate().filter(|(_, name)| is_orbit(name)).map(|(i, _)| i).collect();
         Self {
@@ -93,7 +101,8 @@ impl Watch {
             steady,
             torque: 0.0,
             orbits,
-            share: radius.zip(raceway).map_or(0.0, |(radius, raceway)| radius / (raceway - radius)),
+            share,
+            seized,
             ring: ["inner_ring.y", "inner_ring.z"].map(|name| names.iter().position(|n| n == name)),
         }
     }
@@ -111,7 +120,9 @@ impl Watch {
             *sum += value;
             let kind = match quantity {
                 // What flies freely may turn as it was hit.
-                Quantity::RollerSlip(outer) if self.steady[1] && value > ALL && out[outer] > 0.0 => {
+                Quantity::RollerSlip(outer)
+                    if self.steady[1] && value > ALL * self.seized && out[outer] > 0.0 =>
+                {
                     "roller on its raceway spins backwards"
                 }
                 Quantity::Eccentricity if value > CAGE_BEYOND => "cage outside its guide",

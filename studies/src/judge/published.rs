@@ -106,7 +106,8 @@ fn rollers(draw: &mut Draw, bearing: &Bearing, duration: f64) -> Value {
     });
     scene["raceways"] = json!({"contact": draw.line([2e-7, 2e-6])});
     if draw.chance(0.7) {
-        scene["raceways"]["rolling_resistance"] = json!({"extent": "all"});
+        // Without the drag of sliding in the inlet it turns unloaded rollers backwards.
+        scene["raceways"]["rolling_resistance"] = json!({"extent": "all", "inlet_sliding": {}});
     }
     let mut pocket_clearance = f64::INFINITY;
     if bearing.caged && draw.chance(0.9) {
@@ -134,9 +135,10 @@ fn rollers(draw: &mut Draw, bearing: &Bearing, duration: f64) -> Value {
     scene
 }
 
-/// What keeps rollers without a cage apart: the place for the law of their contact, which draws from its own numbers, so that
-/// other scenes stay.
-fn neighbours(_draw: &mut Draw, _scene: &mut Value) {}
+/// What keeps rollers without a cage apart.
+fn neighbours(draw: &mut Draw, scene: &mut Value) {
+    scene["rollers"]["neighbours"] = json!({"contact": draw.line([5e-7, 5e-6])});
+}
 
 /// A profile of rollers and raceways, half of the time.
 fn profile(draw: &mut Draw, bearing: &Bearing, load: f64, scene: &mut Value) {
