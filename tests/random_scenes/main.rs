@@ -155,11 +155,15 @@ fn scenes_run_or_say_why_not(seed: u8) {
         Ok(())
     });
     report(result);
-    // Failures are an answer, but most scenes can be simulated.
+    // Failures are an answer, but most scenes can be simulated, unless nothing holds the bearing together: few rollers below the
+    // ring, none kept apart.
     let (finished, started) = (finished.get(), started.get());
     println!("{finished} of {started} scenes reached their end");
+    let fell_apart: u32 =
+        ["lost_ring", "overlap"].iter().filter_map(|name| failed.borrow().get(*name).copied()).sum();
+    assert!(fell_apart * 25 < started, "{fell_apart} of {started} fell apart");
     assert!(
-        finished * 10 >= started * 8,
+        finished * 10 >= (started - fell_apart) * 8,
         "{finished} of {started} scenes reached their end; not: {failed:#?}"
     );
 }

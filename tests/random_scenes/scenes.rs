@@ -285,7 +285,7 @@ fn add_rollers(scene: &mut Value, sizes: Sizes, ring: (Value, &str), raceways: V
         scene["cage"] = Value::Null;
         scene["initial"] = json!({"inner_ring": ring.1});
     }
-    if apart == Apart::Neighbours && count > 1 {
+    if apart == Apart::Neighbours && count > 2 {
         scene["rollers"]["neighbours"] = json!({"contact": scene["raceways"]["contact"]});
     }
 }
