@@ -159,8 +159,10 @@ fn scenes_run_or_say_why_not(seed: u8) {
     // ring, none kept apart.
     let (finished, started) = (finished.get(), started.get());
     println!("{finished} of {started} scenes reached their end");
-    let fell_apart: u32 =
-        ["lost_ring", "overlap"].iter().filter_map(|name| failed.borrow().get(*name).copied()).sum();
+    let fell_apart: u64 = ["lost_ring", "overlap"]
+        .iter()
+        .filter_map(|name| failed.borrow().get(*name).map(|n| u64::from(*n)))
+        .sum();
     assert!(fell_apart * 25 < started, "{fell_apart} of {started} fell apart");
     assert!(
         finished * 10 >= (started - fell_apart) * 8,

@@ -8,14 +8,18 @@ use std::f64::consts::TAU;
 const RING_BEYOND: f64 = 0.1;
 /// Largest distance of a cage from its guide in radial clearances: beyond one a solid contact gives way or the cage bends.
 const CAGE_BEYOND: f64 = 2.0;
+/// The same where a reversal throws the cage against a soft contact.
+const CAGE_THROWN_BEYOND: f64 = 4.0;
 /// Slip that is more than all, beyond what rounding of a stop gives.
 const ALL: f64 = 1.001;
-/// Mean slip of what is faster than without slip.
+/// Mean slip of what is faster than without slip; a roller on the inner ring alone is so by the slip of its orbit.
 const FASTER: f64 = -0.1;
 /// Temperatures that a lubricated bearing has, K.
 const TEMPERATURES: [f64; 2] = [200.0, 700.0];
 /// Mean drag torque in units of its largest value below which a bearing drives its shaft.
 const DRIVES: f64 = -1e-2;
+/// Revolutions of the shaft within which what the bearing held at its start may drive it.
+const TURNS: f64 = 0.5;
 
 /// Sum or difference of the speeds of both rings, in units of both, below which cage or rollers rest nearly.
 const AT_REST: f64 = 0.3;
@@ -25,9 +29,8 @@ const OVERLAP: f64 = 1e-2;
 
 /// Watches the channels of a run.
 pub struct Watch {
-    /// Watched channels with the sums of their values.
-    places: Vec<(usize, Quantity, f64)>,
-    records: f64,
+    /// Watched channels with the sums of their values and the number of these: of rollers, where they touch their raceway.
+    places: Vec<(usize, Quantity, [f64; 2])>,
     names: Vec<String>,
     /// Largest excess of each kind, and in how many records.
     found: BTreeMap<&'static str, (f64, String, u32)>,
@@ -37,6 +40,9 @@ pub struct Watch {
     steady: [bool; 2],
     /// Slip of a roller that its pocket seizes, so that it turns with the cage, or that a neighbour turns.
     seized: f64,
+    cage_beyond: f64,
+    /// Whether the shaft turns far enough to judge its drag.
+    turns: bool,
     /// Largest magnitude of the drag torque, N m.
     torque: f64,
     ring: [Option<usize>; 2],
@@ -69,7 +75,7 @@ impl Watch {
             _ => None,
         };
         let places = names.iter().enumerate();
-        let places = places.filter_map(|(i, name)| Some((i, quantity(name)?, 0.0))).collect();
+        let places = places.filter_map(|(i, name)| Some((i, quantity(name)?, [0.0; 2]))).collect();
         let constant = |ring: &str| match &scene[ring]["speed"] {
             Value::Null => Some(0.0),
             speed => speed.as_f64().or_else(|| speed["constant"].as_f64()),
@@ -90,11 +96,11 @@ impl Watch {
             _ => ([false; 2], 2.0),
         };
         let clearance = scene["inner_ring"]["radial_clearance"].as_f64();
+        let duration = scene["record"]["duration"].as_f64().unwrap_or(0.0);
         let is_orbit = |name: &str| name.starts_with("roller[") && name.ends_with(".orbit_angle");
         let orbits = names.iter().enumerate().filter(|(_, name)| is_orbit(name)).map(|(i, _)| i).collect();
         Self {
             places,
-            records: 0.0,
             names: names.to_vec(),
             found: BTreeMap::new(),
             clearance: clearance.and_then(|clearance| Some([0.5 * clearance.max(0.0), radius?])),
@@ -103,6 +109,8 @@ impl Watch {
             orbits,
             share,
             seized,
+            cage_beyond: if constant("inner_ring").is_some() { CAGE_BEYOND } else { CAGE_THROWN_BEYOND },
+            turns: constant("inner_ring").is_some_and(|speed| speed.abs() * duration > TURNS * TAU),
             ring: ["inner_ring.y", "inner_ring.z"].map(|name| names.iter().position(|n| n == name)),
         }
     }
@@ -113,11 +121,12 @@ impl Watch {
             let name = self.names[i].clone();
             self.note("no number", 0.0, name);
         }
-        self.records += 1.0;
         for k in 0..self.places.len() {
             let (i, quantity, ref mut sum) = self.places[k];
             let value = out[i];
-            *sum += value;
+            if !matches!(quantity, Quantity::RollerSlip(outer) if out[outer] <= 0.0) {
+                *sum = [sum[0] + value, sum[1] + 1.0];
+            }
             let kind = match quantity {
                 // What flies freely may turn as it was hit.
                 Quantity::RollerSlip(outer)
@@ -125,7 +134,7 @@ impl Watch {
                 {
                     "roller on its raceway spins backwards"
                 }
-                Quantity::Eccentricity if value > CAGE_BEYOND => "cage outside its guide",
+                Quantity::Eccentricity if value > self.cage_beyond => "cage outside its guide",
                 Quantity::Temperature if !(TEMPERATURES[0]..TEMPERATURES[1]).contains(&value) => {
                     "temperature"
                 }
@@ -167,13 +176,20 @@ impl Watch {
         let mut list: Vec<String> = found
             .map(|(kind, (value, name, records))| format!("{kind}: {name} {value:.3e}, {records} records"))
             .collect();
+        let mean_of = |[sum, records]: &[f64; 2]| sum / records.max(1.0);
+        let cage = self.places.iter().find(|(_, quantity, _)| matches!(quantity, Quantity::CageSlip));
+        let cage_slip = cage.map_or(0.0, |(_, _, sum)| mean_of(sum).max(0.0));
         for (i, quantity, sum) in &self.places {
-            let mean = sum / self.records.max(1.0);
+            let mean = mean_of(sum);
             let kind = match quantity {
                 Quantity::CageSlip if self.steady[0] && mean > ALL => "cage turns against its rings",
                 Quantity::CageSlip if self.steady[0] && mean < FASTER => "cage outruns its rings",
-                Quantity::RollerSlip(_) if self.steady[1] && mean < FASTER => "roller outruns its rings",
-                Quantity::Torque if self.steady[1] && !outer_turns && mean < DRIVES * self.torque => {
+                Quantity::RollerSlip(_) if self.steady[1] && mean < FASTER - cage_slip => {
+                    "roller outruns its rings"
+                }
+                Quantity::Torque
+                    if self.steady[1] && self.turns && !outer_turns && mean < DRIVES * self.torque =>
+                {
                     "bearing drives its shaft"
                 }
                 _ => continue,

@@ -7,6 +7,8 @@ use std::f64::consts::PI;
 
 /// Pitch radius of the bearings that contact stiffnesses of 1e6 to 5e7 N/m are usual for, m; they grow with the size.
 const USUAL_PITCH: f64 = 40e-3;
+/// Thinnest layer on a land, m: no thinner than a ground land is rough.
+const LAYER: f64 = 1e-6;
 /// How far a cage may sink into a solid contact under its weight, m.
 const SAG: f64 = 5e-6;
 
@@ -55,7 +57,7 @@ pub(super) fn guide(draw: &mut Draw, bearing: &Bearing, clearance: Option<f64>, 
         _ => {
             let thickness = play * draw.log(1e-3, 0.9);
             let shear = ["absent", "within_arc", "with_edges", "with_edges"][draw.0.index(4)];
-            json!({"lubricant_layer": {"land_width": width, "thickness": thickness.max(0.1e-6), "pressure_shear": shear}})
+            json!({"lubricant_layer": {"land_width": width, "thickness": thickness.max(LAYER), "pressure_shear": shear}})
         }
     };
     let filled = film["short_bearing"].is_object();

@@ -202,7 +202,8 @@ fn cage(draw: &mut Draw, bearing: &Bearing, clearance: Option<f64>, duration: f6
         let (eccentricity, angle) = (pitch * draw.log(1e-5, 1e-3), draw.angle());
         cage["mass_eccentricity"] = json!({"y": eccentricity * angle.cos(), "z": eccentricity * angle.sin()});
     }
-    if draw.chance(0.15) {
+    // A pocket alone does not hold a cage against a pull.
+    if draw.chance(0.15) && cage["guide"].is_object() {
         let size = mass * draw.log(1.0, 300.0);
         cage["load"] = json!({"force_z": draw.signal(size, duration, 1e5)});
     }

@@ -3,7 +3,7 @@
 use crate::judge::impossible::Watch;
 use crate::judge::{published, scenes};
 use cagedyn::integrate::Tuning;
-use cagedyn::sim::{LEVEL, Sample};
+use cagedyn::sim::{Doubt, LEVEL, Sample};
 use cagedyn::{Error, Model, Sim, Status};
 use serde_json::{Value, json};
 use std::ops::Range;
@@ -97,6 +97,8 @@ pub enum Verdict {
     /// The schema refuses the scene.
     Refused(Error),
     Failed(Error),
+    /// A film that is not passive made energy, and the run said so: by its end, or by not being trusted for nothing else.
+    MadeEnergy(String),
     Ran {
         /// Missing energy as a share of what passed through.
         residual: f64,
@@ -168,6 +170,7 @@ pub fn judge(number: u64, options: &Options) -> Vec<Outcome> {
         };
         let verdict = match ran {
             Err(e) if matches!(e.status, Status::BadScene | Status::BadJson) => Verdict::Refused(e),
+            Err(e) if e.message.contains("can make energy") => Verdict::MadeEnergy(e.message),
             Err(e) => Verdict::Failed(e),
             Ok((mut verdict, here)) => {
                 if let (Verdict::Ran { apart, .. }, Some(means)) = (&mut verdict, &means) {
@@ -272,9 +275,13 @@ fn run(scene: &Value, preset: &str, shift: f64, options: &Options) -> Result<(Ve
             }
         }
     }
+    let doubts = sim.doubts();
+    if !doubts.is_empty() && doubts.iter().all(|doubt| matches!(doubt, Doubt::CreatedEnergy { .. })) {
+        return Ok((Verdict::MadeEnergy(sim.report()), [None; 4]));
+    }
     let verdict = Verdict::Ran {
         residual: sim.power_balance()?.relative_residual(),
-        trusted: sim.doubts().is_empty(),
+        trusted: doubts.is_empty(),
         evaluations: sim.statistics().evaluations,
         apart: None,
         impossible: watch.list(scene["outer_ring"]["speed"] != Value::Null),

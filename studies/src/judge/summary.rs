@@ -13,6 +13,7 @@ pub fn line(outcome: &Outcome) -> Option<String> {
     let text = match verdict {
         Verdict::Refused(e) => format!("refused: {e}"),
         Verdict::Failed(e) => format!("failed: {e}"),
+        Verdict::MadeEnergy(report) => format!("its film made energy: {report}"),
         Verdict::Ran { impossible, trusted, report, .. } if !impossible.is_empty() => {
             let trusted = if *trusted { "trusted" } else { "not trusted" };
             format!("impossible, {trusted}: {}: {report}", impossible.join("; "))
@@ -60,8 +61,8 @@ fn apart(verdict: &Verdict) -> Option<Apart> {
 
 /// Counts by preset.
 pub fn table(outcomes: &[Outcome]) -> String {
-    let mut text = "\n| preset | scenes | refused | failed | impossible | not trusted | trusted, balance broken | trusted, means of one run apart | of eight starts | \
-                    largest missing share of the trusted | median evaluations per run | most, of scene |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n"
+    let mut text = "\n| preset | scenes | refused | failed | film made energy, and told | impossible | not trusted | trusted, balance broken | trusted, means of one run apart | of eight starts | \
+                    largest missing share of the trusted | median evaluations per run | most, of scene |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n"
         .to_owned();
     for (preset, promise) in PRESETS {
         let list: Vec<&Outcome> = outcomes.iter().filter(|o| o.preset == preset).collect();
@@ -84,10 +85,11 @@ pub fn table(outcomes: &[Outcome]) -> String {
             _ => most,
         });
         text += &format!(
-            "| {preset} | {} | {} | {} | {} | {} | {} | {} | {} | {largest:.1e} | {median} | {most}, {scene} |\n",
+            "| {preset} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {largest:.1e} | {median} | {most}, {scene} |\n",
             list.len(),
             count(&|v| matches!(v, Verdict::Refused(_))),
             count(&|v| matches!(v, Verdict::Failed(_))),
+            count(&|v| matches!(v, Verdict::MadeEnergy(_))),
             count(&|v| matches!(v, Verdict::Ran { impossible, .. } if !impossible.is_empty())),
             count(&|v| matches!(v, Verdict::Ran { trusted: false, .. })),
             count(

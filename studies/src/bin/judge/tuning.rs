@@ -27,7 +27,7 @@ fn total(numbers: Range<u64>, options: &Options, tuning: Tuning) -> Total {
                 total.bad += usize::from(!trusted);
                 total.missing = if trusted { total.missing.max(residual.abs()) } else { total.missing };
             }
-            Verdict::Failed(_) => {
+            Verdict::Failed(_) | Verdict::MadeEnergy(_) => {
                 total.evaluations.push(f64::NAN);
                 total.bad += 1;
             }
