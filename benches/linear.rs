@@ -1,4 +1,5 @@
-//! Cost of the structured linear solver over the number of spokes, beside a dense one.
+//! Cost of the structured linear solver over the number of spokes, beside a dense one; cost and errors of dense decompositions and
+//! eigenvalues of nalgebra, which the library has, and of faer.
 //!
 //! Compare numbers of one run only: machines differ and drift.
 
@@ -75,5 +76,44 @@ fn benches(c: &mut Criterion) {
     }
 }
 
-criterion_group!(linear, benches);
+/// Unknowns of a heat balance, of a whirl of a stiff and of an elastic cage, and of a bearing full of rollers.
+const DENSE: [usize; 4] = [4, 5, 17, 55];
+
+/// Nearly singular and not symmetric, as matrices of whirls are.
+fn uneven(n: usize) -> DMatrix<f64> {
+    DMatrix::from_fn(n, n, |i, j| ((7 * i + 3 * j * j) as f64).sin() * 10f64.powi((i % 4) as i32))
+}
+
+fn libraries(c: &mut Criterion) {
+    for n in DENSE {
+        let a = uneven(n);
+        let b = faer::Mat::from_fn(n, n, |i, j| a[(i, j)]);
+        let (right, ones) = (DMatrix::repeat(n, 1, 1.0), faer::Mat::<f64>::from_fn(n, 1, |_, _| 1.0));
+        let [x, y] = [a.clone().lu().solve(&right).unwrap(), {
+            let x = b.partial_piv_lu().solve(&ones);
+            DMatrix::from_fn(n, 1, |i, _| x[(i, 0)])
+        }]
+        .map(|x| (&a * &x - &right).amax() / (a.amax() * x.amax()));
+        // Their sum is the trace.
+        let nalgebra: f64 = a.complex_eigenvalues().iter().map(|value| value.re).sum();
+        let faer: f64 = b.eigenvalues().unwrap().iter().map(|value| value.re).sum();
+        let [of_nalgebra, of_faer] = [nalgebra, faer].map(|sum| (sum - a.trace()).abs() / a.amax());
+        println!("{n} unknowns, LU residual: nalgebra {x:.1e}, faer {y:.1e}");
+        println!("{n} unknowns, sum of eigenvalues: nalgebra {of_nalgebra:.1e}, faer {of_faer:.1e}");
+        c.bench_function(&format!("{n} unknowns/LU and solution, nalgebra"), |bench| {
+            bench.iter(|| black_box(&a).clone().lu().solve(&right));
+        });
+        c.bench_function(&format!("{n} unknowns/LU and solution, faer"), |bench| {
+            bench.iter(|| black_box(&b).partial_piv_lu().solve(&ones));
+        });
+        c.bench_function(&format!("{n} unknowns/eigenvalues, nalgebra"), |bench| {
+            bench.iter(|| black_box(&a).complex_eigenvalues());
+        });
+        c.bench_function(&format!("{n} unknowns/eigenvalues, faer"), |bench| {
+            bench.iter(|| black_box(&b).eigenvalues());
+        });
+    }
+}
+
+criterion_group!(linear, benches, libraries);
 criterion_main!(linear);
