@@ -47,7 +47,7 @@ fn strips(sectors: &Sectors) -> impl Iterator<Item = Strip<'static>> {
     };
     [
         strip("inner race force [N]", vec![curve(BLUE, &sectors.inner_force_mean_n, 1.0)]),
-        strip("slip [%]", vec![curve(GREEN, &sectors.slip_mean, 100.0)]),
+        strip("mean slip [%]", vec![curve(GREEN, &sectors.slip_mean, 100.0)]),
         strip(
             "pocket force [N]\nmean: driving > 0",
             vec![

@@ -153,7 +153,7 @@ pub fn results(summary: &Summary) -> Vec<Row> {
     rows.spread("pocket forces", of("pocket.force_phi"), 1.0, "N", across);
     rows.spread("elements touching", of("pocket.touching_elements"), 1.0, "", "the cage");
     if let Some(slip) = &summary.max_roller_slip {
-        let place = format!("roller {} at {} s", slip.roller, rounded(slip.time_s));
+        let place = format!("of one record: roller {} at {} s", slip.roller, rounded(slip.time_s));
         rows.add("largest roller slip", number(100.0 * slip.value), "%", &place);
     }
     if let Some(zone) = &summary.load_zone {
