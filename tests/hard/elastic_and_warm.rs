@@ -26,6 +26,21 @@ fn warm(changes: &[(&str, Value)]) -> Value {
     with(&scene_of("grease_guide_heat", &quick), changes)
 }
 
+/// Cold oil between a hot ring that turns backwards and hotter rollers, whose temperature is a state that closes in within milliseconds.
+fn cold_oil() -> Value {
+    scene_of(
+        "nu2310_heat",
+        &[
+            ("inner_ring.speed.constant", json!(-314.159)),
+            ("heat.nodes.0.start", json!(285.0)),
+            ("heat.nodes.1.start", json!(351.0)),
+            ("heat.nodes.2.start", json!(357.0)),
+            (IN_MOTION, json!(["oil"])),
+            ("heat.own_time", json!(1e-3)),
+        ],
+    )
+}
+
 /// Bends the ring by a fifth of its radius, outwards at both ends of a diameter: close to where it has no stable shape.
 fn bent(sim: &mut Sim) {
     change_state(sim, 0.0, |name, x| {
@@ -89,6 +104,12 @@ pub fn cases() -> Vec<Case> {
             "all that it takes in leaves through the cage",
             warm(&[("heat.links.0.conductance.constant", json!(0.0))]),
             12.0,
+        ),
+        case(
+            "cold oil between hot steel",
+            "285 K between a ring of 351 K, turning backwards, and rollers of 357 K",
+            cold_oil(),
+            3.0,
         ),
     ]
 }

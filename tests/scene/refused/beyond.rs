@@ -75,6 +75,16 @@ fn balances() -> Vec<Row> {
             "heat.links",
             &["'film'", "without end"],
         ),
+        base.scene(
+            "a lump whose way out only turning opens",
+            &[
+                ("inner_ring.speed.constant", json!(0.0)),
+                ("heat.links.0.conductance", json!({"balls": 1.0})),
+                ("heat.links.1.conductance", json!({"balls": 1.0})),
+            ],
+            "heat.links",
+            &["'film'", "while the ring rests", "without end"],
+        ),
         base.value("a power of no name", "heat.sources.0.power", json!("magic"), &["guide_film"]),
         base.value("a source of no lump", "heat.sources.0.node", json!("oil"), &["no lump 'oil'"]),
         base.scene(
