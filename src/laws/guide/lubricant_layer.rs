@@ -29,7 +29,6 @@
 use crate::laws::fluid::Fluid;
 use crate::laws::fluid::grease::Thickener;
 use crate::laws::guide::barus_film::BarusFilm;
-use crate::laws::guide::bent::BentFilm;
 use crate::laws::guide::circumference::Film;
 use crate::laws::guide::circumference::land::Land;
 use crate::laws::guide::journal::{FilmForce, Harmonic, JournalMotion, NoFilm};
@@ -86,10 +85,10 @@ impl LubricantLayer {
     }
 
     /// The film in the gap of a bent cage.
-    pub(super) fn around(&self, fluid: Fluid) -> BentFilm<'_> {
+    pub(super) fn around(&self, fluid: Fluid) -> Film<'_> {
         let mut film = self.film(fluid, Arch::new());
         film.land.lobe_moment = 0.0;
-        BentFilm { film, drags: true }
+        film
     }
 
     /// The film of this fluid.
@@ -113,6 +112,7 @@ impl LubricantLayer {
             layer: self.thickness,
             within_arc: self.pressure_shear == PressureShear::WithinArc,
             squeezed: true,
+            drags: true,
             roundness: &self.roundness,
             instructions,
         }

@@ -27,7 +27,7 @@ pub mod short_bearing;
 use crate::laws::contact_pair::ContactMotion;
 use crate::laws::elastic::solid::SolidContact;
 use crate::laws::fluid::Fluid;
-use crate::laws::guide::bent::BentFilm;
+use crate::laws::guide::circumference::Film;
 use crate::laws::guide::journal::{FilmForce, Harmonic, JournalMotion, NoFilm};
 use crate::laws::guide::lubricant_layer::{LubricantLayer, PressureShear};
 use crate::laws::guide::short_bearing::ShortBearing;
@@ -162,7 +162,7 @@ impl GuideFilm {
     }
 
     /// The film in the gap of a bent cage, without what its fixed lobes do.
-    fn around(&self, fluid: Fluid) -> BentFilm<'_> {
+    fn around(&self, fluid: Fluid) -> Film<'_> {
         match self {
             GuideFilm::ShortBearing(film) => film.around(fluid),
             GuideFilm::LubricantLayer(film) => film.around(fluid),

@@ -4,12 +4,14 @@
 //! h(th) = c - (y cos th + z sin th) - Sum_{n>=2} a_n cos(n (th - psi) + b_n)
 //! g(th) = (1/h^3) [((w_1 + w_2)/2) dh/dth + dh/dt],   kept only where g < 0 (Guembel)
 //! (F_y, F_z) = 2 eta0 R l^3 Int g (cos th, sin th) dth                          (two lands of width l)
-//! M = -4 pi eta0 (w_1 - w_2) R^3 l / (c sqrt(1 - eps^2)) + 1/2 Int p dh/dth dA - M_lobes
+//! M = -2 eta0 (w_1 - w_2) R^3 l Int dth/h + 1/2 Int p dh/dth dA - M_lobes
 //! ```
 //!
 //! c radial clearance, (y, z) centre of the journal in the bush, w_1 and w_2 speeds of journal and bush, psi angle of
 //! the profile, dh/dt with the profile turning. Valid for l/(2R) up to about 0.25, laminar isoviscous
-//! film. The moment of sliding uses the full film although the pressure is cut, as the paper does. That of the pressure, half
+//! film. The moment of sliding uses the full film although the pressure is cut, as the paper does; between round surfaces it is
+//! the paper's -4 pi eta0 (w_1 - w_2) R^3 l / (c sqrt(1 - eps^2)), which lobes that leave room beyond eps = 1 would make infinite
+//! in an open gap. It turns both surfaces and does not push them. That of the pressure, half
 //! on each side, and on the lobes of a profile, Int p dw/dth dA on the body that carries them, is `pressure_moment`: without it,
 //! as in the paper, the film puts energy into a journal that whirls fast enough far off the centre. Source: NTN Eq. 13-21,
 //! there for a bush at rest.
@@ -20,7 +22,6 @@
 
 use crate::laws::fluid::Fluid;
 use crate::laws::guide::barus_film::BarusFilm;
-use crate::laws::guide::bent::BentFilm;
 use crate::laws::guide::circumference::Film;
 use crate::laws::guide::circumference::land::Land;
 use crate::laws::guide::journal::{FilmForce, Harmonic, JournalMotion, NoFilm};
@@ -63,19 +64,18 @@ impl ShortBearing {
     /// Film force on the journal, or [`NoFilm`] where h <= 0.
     pub fn force<T: Real>(&self, m: &JournalMotion<T>, fluid: Fluid) -> Result<FilmForce<T>, NoFilm> {
         let viscosity = self.viscosity * fluid.relative_viscosity;
+        if !self.roundness.is_empty() {
+            return self.lobed(viscosity).force(m);
+        }
         let e = self.eccentricity(m);
         let film = (-e.ratio + 1.0) * self.clearance;
-        // Written so that a NaN counts as no film. A profile can only be thinner in places; it checks itself.
+        // Written so that a NaN counts as no film.
         let exists = film.value() > THINNEST_FILM * self.clearance;
         if !exists {
             return Err(NoFilm { minimum_film: film.value() });
         }
         let scale = -4.0 * PI * viscosity * self.radius.powi(3) * self.land_width / self.clearance;
         let sliding = (m.journal_speed - m.bush_speed) * scale / one_minus_square(e.ratio).sqrt();
-        if !self.roundness.is_empty() {
-            let lobed = self.lobed(viscosity).force(m)?;
-            return Ok(FilmForce { moment: lobed.moment + sliding, ..lobed });
-        }
         let force = self.round_force(m, &e, viscosity);
         let mut moment = sliding;
         if self.pressure_moment {
@@ -90,14 +90,15 @@ impl ShortBearing {
         self.lobed(self.viscosity).minimum(m)
     }
 
-    /// The film between surfaces that are not round, but for the moment of sliding.
+    /// The film between surfaces that are not round. Its drag turns both and does not push them, as that of a round gap.
     fn lobed(&self, viscosity: f64) -> Film<'_> {
         let share = |part: bool| if part { 1.0 } else { 0.0 };
+        let area = 2.0 * self.radius * self.land_width;
         let land = Land {
             barus: BarusFilm { pressure_viscosity: 0.0, cap: 0.5 },
             peak_scale: 0.75 * viscosity * self.land_width.powi(2),
-            area: 2.0 * self.radius * self.land_width,
-            drag: 0.0,
+            area,
+            drag: viscosity * area,
             radius: self.radius,
             gradient_force: 0.0,
             gradient_moment: share(self.pressure_moment),
@@ -110,18 +111,18 @@ impl ShortBearing {
             layer: f64::INFINITY,
             within_arc: false,
             squeezed: self.squeeze,
+            drags: false,
             roundness: &self.roundness,
             instructions: Arch::new(),
         }
     }
 
-    /// The film in the gap of a bent cage. Its drag turns both surfaces and does not push them, as that of a round gap.
-    pub(super) fn around(&self, fluid: Fluid) -> BentFilm<'_> {
+    /// The film in the gap of a bent cage.
+    pub(super) fn around(&self, fluid: Fluid) -> Film<'_> {
         let viscosity = self.viscosity * fluid.relative_viscosity;
         let mut film = self.lobed(viscosity);
         film.land.lobe_moment = 0.0;
-        film.land.drag = viscosity * film.land.area;
-        BentFilm { film, drags: false }
+        film
     }
 
     #[inline]

@@ -288,13 +288,12 @@ fn compare_short_bearings(seed: u64, count: usize, tolerance: f64, rough: bool) 
         let found = bearing.force(&motion, Fluid::SAME).expect("a film");
         let still = JournalMotion { velocity: [0.0; 2], profile_speed: 0.0, ..motion };
         let (land_force, _) = Reference::new(&land, if squeeze { &motion } else { &still }).force();
-        let eps = size(motion.position) / clearance;
         let sliding = land.radius * (motion.journal_speed - motion.bush_speed);
-        let drag = 4.0 * PI * land.viscosity * sliding * land.radius * land.width / clearance;
+        let drag = 2.0 * land.viscosity * sliding * land.radius * land.width;
         let expected = FilmForce {
             pressure: land_force.pressure.map(|f| 2.0 * f),
             shear: [0.0; 2],
-            moment: -drag * land.radius / (1.0 - eps * eps).sqrt(),
+            moment: -drag * land.radius * Reference::new(&land, &motion).inverse_gap(),
         };
         let error = error(land.radius, &expected, &found);
         worst.add(error, tolerance, || {

@@ -23,6 +23,9 @@ fn gauss(n: usize) -> Vec<(f64, f64)> {
     (0..n).map(node).collect()
 }
 
+/// Places of a sum around the circle.
+const PLACES: u32 = 100_000;
+
 /// Pressure y, z; shear y, z; moment.
 type Sums = [f64; 5];
 
@@ -100,6 +103,12 @@ impl<'a> Reference<'a> {
             sliding: l.radius * (m.journal_speed - m.bush_speed) - v_out * sin + v_around * cos,
             dry,
         }
+    }
+
+    /// Int dth/h, 1/m, as a sum over so many places that it is exact for films of a thousandth of the clearance.
+    pub fn inverse_gap(&self) -> f64 {
+        let width = 2.0 * PI / f64::from(PLACES);
+        (0..PLACES).map(|i| width / self.section((f64::from(i) + 0.5) * width).film[0]).sum()
     }
 
     /// alpha q at mid-width.

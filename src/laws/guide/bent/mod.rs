@@ -256,6 +256,7 @@ impl GuideLaw {
             rolling: s * self.radius * (cage - ring),
             lobe_speed: cage,
             squeeze: 2.0,
+            drift: 1.0,
             lobes,
             harmonics: &[],
         }
@@ -311,13 +312,12 @@ impl GuideLaw {
     /// Sums over the film. Returns what no gap is less than, m.
     fn sum_film(
         &self,
-        film: &BentFilm<'_>,
+        film: &Film<'_>,
         gap: &Gap<'_>,
         shape: &Shape<'_>,
         wanted: Wanted,
         out: &mut BentForces,
     ) -> Result<f64, NoFilm> {
-        let BentFilm { film, drags } = film;
         let squeeze = self.film.as_ref().map_or(0.0, GuideFilm::squeeze);
         let gap = Gap { squeeze, ..*gap };
         let mut harmonics = std::mem::take(&mut out.harmonics);
@@ -325,7 +325,7 @@ impl GuideLaw {
         let gap = Gap { harmonics: &harmonics, ..gap };
         let shape = Shape { squeeze, ..*shape };
         let [_, largest_opening] = gap.bounds();
-        let surface = FilmSurface { land: film.land, drags: *drags, rolling: gap.rolling, shape: &shape };
+        let surface = FilmSurface { land: film.land, drags: film.drags, rolling: gap.rolling, shape: &shape };
         let step = out.table.step();
         let mut sum = |aims: Aims| {
             out.sums.begin(wanted);
@@ -400,13 +400,6 @@ impl GuideLaw {
             shape.add_share(smallest.angle, -film_share_slope / share, &out.solid, &mut out.over);
         }
     }
-}
-
-/// A film in the gap of a bent cage.
-pub(super) struct BentFilm<'a> {
-    pub film: Film<'a>,
-    /// Whether its drag pushes the cage, or turns it only.
-    pub drags: bool,
 }
 
 /// The smallest gap.

@@ -54,6 +54,8 @@ pub(in crate::laws::guide) struct Gap<'a> {
     pub lobe_speed: f64,
     /// Factor of dh/dt in G: 2, or 0 for a film that is not squeezed.
     pub squeeze: f64,
+    /// Factor of the speed of the centre in u_1 - u_2 of a surface that is not bent: 1, or 0 for a drag that turns only.
+    pub drift: f64,
     /// Lobes in any order; those in ascending order take least time.
     pub lobes: &'a [Lobe],
     /// All of the gap but its mean by order, from one on, where the surface is bent; lobes do not count then. All but the first
@@ -110,6 +112,7 @@ impl<'a> Gap<'a> {
             rolling: radius * (motion.journal_speed - motion.bush_speed),
             lobe_speed: motion.profile_speed,
             squeeze: 2.0,
+            drift: 1.0,
             lobes,
             harmonics: &[],
         }
@@ -245,7 +248,8 @@ impl<'a> Gap<'a> {
             opening[k] = film[k + 1] * self.turning + rate[k] * self.squeeze;
         }
         let film = [film[0], film[1], film[2], film[3]];
-        Place { cos, sin, film, lobe_slope, opening, sliding: cos * v_2 - sin * v_1 + self.rolling }
+        let sliding = (cos * v_2 - sin * v_1) * self.drift + self.rolling;
+        Place { cos, sin, film, lobe_slope, opening, sliding }
     }
 }
 

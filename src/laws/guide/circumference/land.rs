@@ -165,9 +165,10 @@ pub(in crate::laws::guide) fn over_velocities<B: Base>(
     sliding: B,
 ) -> [B; VELOCITIES] {
     let squeezed = opening * gap.squeeze;
+    let drifting = sliding * gap.drift;
     [
-        -(squeezed * p.cos + sliding * p.sin),
-        sliding * p.cos - squeezed * p.sin,
+        -(squeezed * p.cos + drifting * p.sin),
+        drifting * p.cos - squeezed * p.sin,
         opening * p.film[1],
         sliding,
         -(squeezed * p.lobe_slope),

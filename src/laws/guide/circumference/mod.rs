@@ -71,6 +71,8 @@ pub(in crate::laws::guide) struct Film<'a> {
     pub within_arc: bool,
     /// Whether dh/dt is included.
     pub squeezed: bool,
+    /// Whether its drag pushes the surfaces, or turns them only.
+    pub drags: bool,
     pub roundness: &'a [Harmonic],
     pub instructions: Arch,
 }
@@ -100,6 +102,9 @@ impl Film<'_> {
         let mut gap = Gap::new([self.land.radius, self.clearance], &motion, e, direction, lobes);
         if !self.squeezed {
             gap.squeeze = 0.0;
+        }
+        if !self.drags {
+            gap.drift = 0.0;
         }
         let gap = gap;
         let mut rows;
@@ -223,7 +228,8 @@ impl Film<'_> {
             }
         }
         let [p_1, p_2, s_1, s_2, moment]: [T; OUTPUTS] = out;
-        FilmForce { pressure: turn([p_1, p_2]), shear: turn([s_1, s_2]), moment }
+        let shear = if self.drags { turn([s_1, s_2]) } else { [T::constant(0.0); 2] };
+        FilmForce { pressure: turn([p_1, p_2]), shear, moment }
     }
 }
 

@@ -221,3 +221,27 @@ fn friction_moment_opposes_rotation() {
         -4.0 * PI * b.viscosity * 100.0 * b.radius.powi(3) * b.land_width / b.clearance / 0.75f64.sqrt();
     assert!((m / petroff - 1.0).abs() < 1e-14);
 }
+
+/// An oval bore leaves room beyond the clearance of its mean circle, where the film of round surfaces ends.
+#[test]
+fn lobes_leave_room_beyond_the_clearance() {
+    let mut b = bearing();
+    let height = 0.12 * b.clearance;
+    b.roundness = vec![Harmonic { order: 2, amplitude: height, phase: PI }];
+    let moment = |b: &ShortBearing, eps: f64| {
+        let m = JournalMotion { profile_angle: 0.0, ..motion([eps * b.clearance, 0.0], [0.0; 2], 100.0) };
+        b.force(&m, Fluid::SAME).map(|force| force.moment)
+    };
+    for eps in [0.0, 0.5, 0.9, 0.998, 1.0, 1.05, 1.1] {
+        let n = 200_000;
+        let gap = |d: f64| b.clearance * (1.0 - eps * d.cos()) + height * (2.0 * d).cos();
+        let inverse: f64 =
+            (0..n).map(|i| TAU / f64::from(n) / gap((f64::from(i) + 0.5) * TAU / f64::from(n))).sum();
+        let expected = -2.0 * b.viscosity * 100.0 * b.radius.powi(3) * b.land_width * inverse;
+        let found = moment(&b, eps).unwrap();
+        assert!((found / expected - 1.0).abs() < 1e-9, "{eps}: {found} {expected}");
+    }
+    assert!(moment(&b, 1.13).is_err());
+    b.roundness[0].amplitude = 1e-15;
+    assert!((moment(&b, 0.9).unwrap() / moment(&bearing(), 0.9).unwrap() - 1.0).abs() < 1e-9);
+}
