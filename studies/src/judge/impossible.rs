@@ -12,14 +12,15 @@ const CAGE_BEYOND: f64 = 2.0;
 const CAGE_THROWN_BEYOND: f64 = 4.0;
 /// Slip that is more than all, beyond what rounding of a stop gives.
 const ALL: f64 = 1.001;
-/// Mean slip of what is faster than without slip; a roller on the inner ring alone is so by the slip of its orbit.
+/// Mean slip of what is faster than without slip. A roller on one ring alone is so by the slip of its orbit, and a cage on a guide
+/// that is faster may turn with it.
 const FASTER: f64 = -0.1;
+/// Records in contact without a gap after which a roller rolls on its raceway.
+const ROLLS: f64 = 5.0;
 /// Temperatures that a lubricated bearing has, K.
 const TEMPERATURES: [f64; 2] = [200.0, 700.0];
-/// Mean drag torque in units of its largest value below which a bearing drives its shaft.
+/// Mean drag torque in units of its largest value below which a bearing drives its shaft, if it gives more than it held.
 const DRIVES: f64 = -1e-2;
-/// Revolutions of the shaft within which what the bearing held at its start may drive it.
-const TURNS: f64 = 0.5;
 
 /// Sum or difference of the speeds of both rings, in units of both, below which cage or rollers rest nearly.
 const AT_REST: f64 = 0.3;
@@ -29,8 +30,9 @@ const OVERLAP: f64 = 1e-2;
 
 /// Watches the channels of a run.
 pub struct Watch {
-    /// Watched channels with the sums of their values and the number of these: of rollers, where they touch their raceway.
-    places: Vec<(usize, Quantity, [f64; 2])>,
+    /// Watched channels with the sums of their values, the number of these and how many came last without a gap: of rollers, where
+    /// they touch their raceway.
+    places: Vec<(usize, Quantity, [f64; 3])>,
     names: Vec<String>,
     /// Largest excess of each kind, and in how many records.
     found: BTreeMap<&'static str, (f64, String, u32)>,
@@ -40,22 +42,28 @@ pub struct Watch {
     steady: [bool; 2],
     /// Slip of a roller that its pocket seizes, so that it turns with the cage, or that a neighbour turns.
     seized: f64,
+    /// Mean slip of the cage below which nothing drives it.
+    cage_faster: f64,
     cage_beyond: f64,
-    /// Whether the shaft turns far enough to judge its drag.
-    turns: bool,
+    /// Mean drag torque that gives the shaft as much as rollers and cage held at the start, N m; infinite where speeds are not known.
+    holds: f64,
     /// Largest magnitude of the drag torque, N m.
     torque: f64,
     ring: [Option<usize>; 2],
     /// Orbit angles of rollers, and the radius of a roller over that of their circle.
     orbits: Vec<usize>,
     share: f64,
+    /// Orbit angles of the first and the last record, rad, and the angle between them without slip; none where that is small.
+    from: Vec<f64>,
+    to: Vec<f64>,
+    rolled: Option<f64>,
 }
 
 #[derive(Clone, Copy)]
 enum Quantity {
     CageSlip,
-    /// With the place of the load on the outer raceway.
-    RollerSlip(usize),
+    /// Of this roller, whose load on the outer raceway has this place.
+    RollerSlip(usize, usize),
     Eccentricity,
     Temperature,
     Torque,
@@ -69,13 +77,14 @@ impl Watch {
             "inner_ring.drag_torque" => Some(Quantity::Torque),
             _ if name.starts_with("roller[") && name.ends_with(".slip") => {
                 let load = name.replace(".slip", ".outer_force");
-                names.iter().position(|name| *name == load).map(Quantity::RollerSlip)
+                let number = name.split(['[', ']']).nth(1)?.parse().ok()?;
+                names.iter().position(|name| *name == load).map(|load| Quantity::RollerSlip(number, load))
             }
             _ if name.starts_with("temperature.") => Some(Quantity::Temperature),
             _ => None,
         };
         let places = names.iter().enumerate();
-        let places = places.filter_map(|(i, name)| Some((i, quantity(name)?, [0.0; 2]))).collect();
+        let places = places.filter_map(|(i, name)| Some((i, quantity(name)?, [0.0; 3]))).collect();
         let constant = |ring: &str| match &scene[ring]["speed"] {
             Value::Null => Some(0.0),
             speed => speed.as_f64().or_else(|| speed["constant"].as_f64()),
@@ -83,20 +92,32 @@ impl Watch {
         let radius = scene["rollers"]["radius"].as_f64();
         let raceway = scene["outer_ring"]["raceway_radius"].as_f64();
         let share = radius.zip(raceway).map_or(0.0, |(radius, raceway)| radius / (raceway - radius));
-        let (steady, seized) = match (constant("inner_ring"), constant("outer_ring")) {
-            (Some(inner), Some(outer)) => {
-                let enough = |sum: f64| sum.abs() > AT_REST * (inner.abs() + outer.abs());
-                let orbit = 0.5 * (inner * (1.0 - share) + outer * (1.0 + share));
-                let spin = (outer * (1.0 + share) - orbit) / share.max(f64::MIN_POSITIVE);
-                // Neighbours roll on each other, and turn one another backwards.
-                let mates = scene["rollers"]["neighbours"].is_object();
-                let seized = if mates { 2.0 } else { 1.0 + (orbit / spin).abs() };
-                ([enough(inner + outer), enough(inner - outer)], seized)
-            }
-            _ => ([false; 2], 2.0),
-        };
-        let clearance = scene["inner_ring"]["radial_clearance"].as_f64();
+        let guide = scene["cage"]["guide"].is_object();
+        let on_inner = scene["cage"]["guide"]["ring"] == "inner_ring";
         let duration = scene["record"]["duration"].as_f64().unwrap_or(0.0);
+        let number = |path: &str| scene.pointer(path).and_then(Value::as_f64).unwrap_or(0.0);
+        let (steady, seized, cage_faster, rolled, held) =
+            match (constant("inner_ring"), constant("outer_ring")) {
+                (Some(inner), Some(outer)) => {
+                    let enough = |sum: f64| sum.abs() > AT_REST * (inner.abs() + outer.abs());
+                    let orbit = 0.5 * (inner * (1.0 - share) + outer * (1.0 + share));
+                    let spin = (outer * (1.0 + share) - orbit) / share.max(f64::MIN_POSITIVE);
+                    // Neighbours roll on each other, and turn one another backwards.
+                    let mates = scene["rollers"]["neighbours"].is_object();
+                    let seized = if mates { 2.0 } else { 1.0 + (orbit / spin).abs() };
+                    let with_guide = if on_inner { 1.0 - inner / orbit } else { 1.0 - outer / orbit };
+                    let cage_faster = if guide { FASTER.min(with_guide) } else { FASTER };
+                    let steady = [enough(inner + outer), enough(inner - outer)];
+                    let travel = orbit * (raceway.unwrap_or(0.0) - radius.unwrap_or(0.0));
+                    let of_each =
+                        number("/rollers/mass") * travel * travel + number("/rollers/inertia") * spin * spin;
+                    let of_cage = number("/cage/inertia") * orbit * orbit;
+                    let held = 0.5 * (number("/rollers/count") * of_each + of_cage);
+                    (steady, seized, cage_faster, steady[0].then_some(orbit * duration), held)
+                }
+                _ => ([false; 2], 2.0, FASTER, None, f64::INFINITY),
+            };
+        let clearance = scene["inner_ring"]["radial_clearance"].as_f64();
         let is_orbit = |name: &str| name.starts_with("roller[") && name.ends_with(".orbit_angle");
         let orbits = names.iter().enumerate().filter(|(_, name)| is_orbit(name)).map(|(i, _)| i).collect();
         Self {
@@ -108,9 +129,13 @@ impl Watch {
             torque: 0.0,
             orbits,
             share,
+            from: Vec::new(),
+            to: Vec::new(),
+            rolled,
             seized,
+            cage_faster,
             cage_beyond: if constant("inner_ring").is_some() { CAGE_BEYOND } else { CAGE_THROWN_BEYOND },
-            turns: constant("inner_ring").is_some_and(|speed| speed.abs() * duration > TURNS * TAU),
+            holds: held / (constant("inner_ring").unwrap_or(0.0).abs() * duration),
             ring: ["inner_ring.y", "inner_ring.z"].map(|name| names.iter().position(|n| n == name)),
         }
     }
@@ -124,13 +149,12 @@ impl Watch {
         for k in 0..self.places.len() {
             let (i, quantity, ref mut sum) = self.places[k];
             let value = out[i];
-            if !matches!(quantity, Quantity::RollerSlip(outer) if out[outer] <= 0.0) {
-                *sum = [sum[0] + value, sum[1] + 1.0];
-            }
+            let flies = matches!(quantity, Quantity::RollerSlip(_, outer) if out[outer] <= 0.0);
+            *sum = if flies { [sum[0], sum[1], 0.0] } else { [sum[0] + value, sum[1] + 1.0, sum[2] + 1.0] };
             let kind = match quantity {
-                // What flies freely may turn as it was hit.
-                Quantity::RollerSlip(outer)
-                    if self.steady[1] && value > ALL * self.seized && out[outer] > 0.0 =>
+                // What flies or bounces may turn as it was hit.
+                Quantity::RollerSlip(..)
+                    if self.steady[1] && value > ALL * self.seized && sum[2] >= ROLLS =>
                 {
                     "roller on its raceway spins backwards"
                 }
@@ -145,6 +169,11 @@ impl Watch {
                 _ => continue,
             };
             self.note(kind, value, self.names[i].clone());
+        }
+        self.to.clear();
+        self.to.extend(self.orbits.iter().map(|&place| out[place]));
+        if self.from.is_empty() {
+            self.from.clone_from(&self.to);
         }
         let chord = |a: usize, b: usize, turn: f64| 2.0 * (0.5 * (out[b] - out[a] + turn)).sin();
         let (first, last) = (self.orbits.first(), self.orbits.last());
@@ -176,19 +205,26 @@ impl Watch {
         let mut list: Vec<String> = found
             .map(|(kind, (value, name, records))| format!("{kind}: {name} {value:.3e}, {records} records"))
             .collect();
-        let mean_of = |[sum, records]: &[f64; 2]| sum / records.max(1.0);
+        let mean_of = |[sum, records, _]: &[f64; 3]| sum / records.max(1.0);
         let cage = self.places.iter().find(|(_, quantity, _)| matches!(quantity, Quantity::CageSlip));
-        let cage_slip = cage.map_or(0.0, |(_, _, sum)| mean_of(sum).max(0.0));
+        let cage_slip = cage.map_or(0.0, |(_, _, sum)| mean_of(sum).abs());
+        // What one ring alone drives or holds turns faster by as much as its circle is slower or faster.
+        let orbit_slip = |roller: usize| match (self.rolled, self.from.get(roller), self.to.get(roller)) {
+            (Some(rolled), Some(from), Some(to)) => (1.0 - (to - from) / rolled).abs(),
+            _ => 0.0,
+        };
         for (i, quantity, sum) in &self.places {
             let mean = mean_of(sum);
             let kind = match quantity {
                 Quantity::CageSlip if self.steady[0] && mean > ALL => "cage turns against its rings",
-                Quantity::CageSlip if self.steady[0] && mean < FASTER => "cage outruns its rings",
-                Quantity::RollerSlip(_) if self.steady[1] && mean < FASTER - cage_slip => {
+                Quantity::CageSlip if self.steady[0] && mean < self.cage_faster => "cage outruns its rings",
+                Quantity::RollerSlip(roller, _)
+                    if self.steady[1] && mean < FASTER - cage_slip.max(orbit_slip(*roller)) =>
+                {
                     "roller outruns its rings"
                 }
                 Quantity::Torque
-                    if self.steady[1] && self.turns && !outer_turns && mean < DRIVES * self.torque =>
+                    if self.steady[1] && !outer_turns && mean < (DRIVES * self.torque).min(-self.holds) =>
                 {
                     "bearing drives its shaft"
                 }
