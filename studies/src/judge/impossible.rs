@@ -8,8 +8,6 @@ use std::f64::consts::TAU;
 const RING_BEYOND: f64 = 0.1;
 /// Largest distance of a cage from its guide in radial clearances: beyond one a solid contact gives way or the cage bends.
 const CAGE_BEYOND: f64 = 2.0;
-/// The same where a reversal throws the cage against a soft contact.
-const CAGE_THROWN_BEYOND: f64 = 4.0;
 /// Slip that is more than all, beyond what rounding of a stop gives.
 const ALL: f64 = 1.001;
 /// Mean slip of what is faster than without slip. A roller on one ring alone is so by the slip of its orbit, and a cage on a guide
@@ -17,6 +15,8 @@ const ALL: f64 = 1.001;
 const FASTER: f64 = -0.1;
 /// Records in contact without a gap after which a roller rolls on its raceway.
 const ROLLS: f64 = 5.0;
+/// Share of all records in contact above which the mean slip of a roller is one of rolling.
+const ROLLING: f64 = 0.5;
 /// Temperatures that a lubricated bearing has, K.
 const TEMPERATURES: [f64; 2] = [200.0, 700.0];
 /// Mean drag torque in units of its largest value below which a bearing drives its shaft, if it gives more than it held.
@@ -37,26 +37,17 @@ pub struct Watch {
     /// Largest excess of each kind, and in how many records.
     found: BTreeMap<&'static str, (f64, String, u32)>,
     clearance: Option<[f64; 2]>,
-    /// Whether slips of the cage and of rollers mean something: the rings turn steadily, and not so that what slips would rest
-    /// without slip.
-    steady: [bool; 2],
-    /// Slip of a roller that its pocket seizes, so that it turns with the cage, or that a neighbour turns.
-    seized: f64,
-    /// Mean slip of the cage below which nothing drives it.
-    cage_faster: f64,
-    cage_beyond: f64,
-    /// Mean drag torque that gives the shaft as much as rollers and cage held at the start, N m; infinite where speeds are not known.
-    holds: f64,
+    without: WithoutSlip,
+    records: f64,
     /// Largest magnitude of the drag torque, N m.
     torque: f64,
     ring: [Option<usize>; 2],
     /// Orbit angles of rollers, and the radius of a roller over that of their circle.
     orbits: Vec<usize>,
     share: f64,
-    /// Orbit angles of the first and the last record, rad, and the angle between them without slip; none where that is small.
+    /// Orbit angles of the first and the last record, rad.
     from: Vec<f64>,
     to: Vec<f64>,
-    rolled: Option<f64>,
 }
 
 #[derive(Clone, Copy)]
@@ -85,38 +76,10 @@ impl Watch {
         };
         let places = names.iter().enumerate();
         let places = places.filter_map(|(i, name)| Some((i, quantity(name)?, [0.0; 3]))).collect();
-        let constant = |ring: &str| match &scene[ring]["speed"] {
-            Value::Null => Some(0.0),
-            speed => speed.as_f64().or_else(|| speed["constant"].as_f64()),
-        };
-        let radius = scene["rollers"]["radius"].as_f64();
-        let raceway = scene["outer_ring"]["raceway_radius"].as_f64();
+        let without = WithoutSlip::of(scene);
+        let radius = number(scene, "/rollers/radius");
+        let raceway = number(scene, "/outer_ring/raceway_radius");
         let share = radius.zip(raceway).map_or(0.0, |(radius, raceway)| radius / (raceway - radius));
-        let guide = scene["cage"]["guide"].is_object();
-        let on_inner = scene["cage"]["guide"]["ring"] == "inner_ring";
-        let duration = scene["record"]["duration"].as_f64().unwrap_or(0.0);
-        let number = |path: &str| scene.pointer(path).and_then(Value::as_f64).unwrap_or(0.0);
-        let (steady, seized, cage_faster, rolled, held) =
-            match (constant("inner_ring"), constant("outer_ring")) {
-                (Some(inner), Some(outer)) => {
-                    let enough = |sum: f64| sum.abs() > AT_REST * (inner.abs() + outer.abs());
-                    let orbit = 0.5 * (inner * (1.0 - share) + outer * (1.0 + share));
-                    let spin = (outer * (1.0 + share) - orbit) / share.max(f64::MIN_POSITIVE);
-                    // Neighbours roll on each other, and turn one another backwards.
-                    let mates = scene["rollers"]["neighbours"].is_object();
-                    let seized = if mates { 2.0 } else { 1.0 + (orbit / spin).abs() };
-                    let with_guide = if on_inner { 1.0 - inner / orbit } else { 1.0 - outer / orbit };
-                    let cage_faster = if guide { FASTER.min(with_guide) } else { FASTER };
-                    let steady = [enough(inner + outer), enough(inner - outer)];
-                    let travel = orbit * (raceway.unwrap_or(0.0) - radius.unwrap_or(0.0));
-                    let of_each =
-                        number("/rollers/mass") * travel * travel + number("/rollers/inertia") * spin * spin;
-                    let of_cage = number("/cage/inertia") * orbit * orbit;
-                    let held = 0.5 * (number("/rollers/count") * of_each + of_cage);
-                    (steady, seized, cage_faster, steady[0].then_some(orbit * duration), held)
-                }
-                _ => ([false; 2], 2.0, FASTER, None, f64::INFINITY),
-            };
         let clearance = scene["inner_ring"]["radial_clearance"].as_f64();
         let is_orbit = |name: &str| name.starts_with("roller[") && name.ends_with(".orbit_angle");
         let orbits = names.iter().enumerate().filter(|(_, name)| is_orbit(name)).map(|(i, _)| i).collect();
@@ -125,17 +88,13 @@ impl Watch {
             names: names.to_vec(),
             found: BTreeMap::new(),
             clearance: clearance.and_then(|clearance| Some([0.5 * clearance.max(0.0), radius?])),
-            steady,
+            records: 0.0,
             torque: 0.0,
             orbits,
             share,
+            without,
             from: Vec::new(),
             to: Vec::new(),
-            rolled,
-            seized,
-            cage_faster,
-            cage_beyond: if constant("inner_ring").is_some() { CAGE_BEYOND } else { CAGE_THROWN_BEYOND },
-            holds: held / (constant("inner_ring").unwrap_or(0.0).abs() * duration),
             ring: ["inner_ring.y", "inner_ring.z"].map(|name| names.iter().position(|n| n == name)),
         }
     }
@@ -146,6 +105,7 @@ impl Watch {
             let name = self.names[i].clone();
             self.note("no number", 0.0, name);
         }
+        self.records += 1.0;
         for k in 0..self.places.len() {
             let (i, quantity, ref mut sum) = self.places[k];
             let value = out[i];
@@ -154,11 +114,11 @@ impl Watch {
             let kind = match quantity {
                 // What flies or bounces may turn as it was hit.
                 Quantity::RollerSlip(..)
-                    if self.steady[1] && value > ALL * self.seized && sum[2] >= ROLLS =>
+                    if self.without.steady[1] && value > ALL * self.without.seized && sum[2] >= ROLLS =>
                 {
                     "roller on its raceway spins backwards"
                 }
-                Quantity::Eccentricity if value > self.cage_beyond => "cage outside its guide",
+                Quantity::Eccentricity if value > self.without.cage_beyond => "cage outside its guide",
                 Quantity::Temperature if !(TEMPERATURES[0]..TEMPERATURES[1]).contains(&value) => {
                     "temperature"
                 }
@@ -209,22 +169,29 @@ impl Watch {
         let cage = self.places.iter().find(|(_, quantity, _)| matches!(quantity, Quantity::CageSlip));
         let cage_slip = cage.map_or(0.0, |(_, _, sum)| mean_of(sum).abs());
         // What one ring alone drives or holds turns faster by as much as its circle is slower or faster.
-        let orbit_slip = |roller: usize| match (self.rolled, self.from.get(roller), self.to.get(roller)) {
-            (Some(rolled), Some(from), Some(to)) => (1.0 - (to - from) / rolled).abs(),
-            _ => 0.0,
-        };
+        let orbit_slip =
+            |roller: usize| match (self.without.rolled, self.from.get(roller), self.to.get(roller)) {
+                (Some(rolled), Some(from), Some(to)) => (1.0 - (to - from) / rolled).abs(),
+                _ => 0.0,
+            };
         for (i, quantity, sum) in &self.places {
             let mean = mean_of(sum);
             let kind = match quantity {
-                Quantity::CageSlip if self.steady[0] && mean > ALL => "cage turns against its rings",
-                Quantity::CageSlip if self.steady[0] && mean < self.cage_faster => "cage outruns its rings",
+                Quantity::CageSlip if self.without.steady[0] && mean > ALL => "cage turns against its rings",
+                Quantity::CageSlip if self.without.steady[0] && mean < self.without.cage_faster => {
+                    "cage outruns its rings"
+                }
                 Quantity::RollerSlip(roller, _)
-                    if self.steady[1] && mean < FASTER - cage_slip.max(orbit_slip(*roller)) =>
+                    if self.without.steady[1]
+                        && sum[1] > ROLLING * self.records
+                        && mean < FASTER - cage_slip.max(orbit_slip(*roller)) =>
                 {
                     "roller outruns its rings"
                 }
                 Quantity::Torque
-                    if self.steady[1] && !outer_turns && mean < (DRIVES * self.torque).min(-self.holds) =>
+                    if self.without.steady[1]
+                        && !outer_turns
+                        && mean < (DRIVES * self.torque).min(-self.without.holds) =>
                 {
                     "bearing drives its shaft"
                 }
@@ -234,4 +201,71 @@ impl Watch {
         }
         list
     }
+}
+
+/// What the rings of a bearing would do without slip, and what follows for what is possible.
+struct WithoutSlip {
+    /// Whether slips of the cage and of rollers mean something: the rings turn steadily, and not so that what slips would rest
+    /// without slip; and no load shakes the rollers, which may turn as they were hit.
+    steady: [bool; 2],
+    /// Slip of a roller that its pocket seizes, so that it turns with the cage, or that a neighbour turns.
+    seized: f64,
+    /// Mean slip of the cage below which nothing drives it.
+    cage_faster: f64,
+    /// Largest distance of the cage from its guide in radial clearances.
+    cage_beyond: f64,
+    /// Angle of an orbit during the run, rad; none where that is small.
+    rolled: Option<f64>,
+    /// Mean drag torque that gives the shaft as much as rollers and cage hold and the load in its clearance, N m.
+    holds: f64,
+}
+
+impl WithoutSlip {
+    fn of(scene: &Value) -> Self {
+        let constant = |signal: Option<&Value>| match signal {
+            None | Some(Value::Null) => Some(0.0),
+            Some(signal) => signal.as_f64().or_else(|| signal["constant"].as_f64()),
+        };
+        let speeds = ["/inner_ring/speed", "/outer_ring/speed"].map(|path| constant(scene.pointer(path)));
+        let [Some(inner), Some(outer)] = speeds else {
+            // A ring that reverses or jumps throws the cage as far as its contact is soft.
+            let (cage_beyond, holds) = (f64::INFINITY, f64::INFINITY);
+            return Self {
+                steady: [false; 2],
+                seized: 2.0,
+                cage_faster: FASTER,
+                cage_beyond,
+                rolled: None,
+                holds,
+            };
+        };
+        let load = constant(scene.pointer("/inner_ring/motion/free/load/z"));
+        let number = |path: &str| number(scene, path).unwrap_or(0.0);
+        let (radius, duration) = (number("/rollers/radius"), number("/record/duration"));
+        let circle = number("/outer_ring/raceway_radius") - radius;
+        let share = if radius > 0.0 { radius / circle } else { 0.0 };
+        let orbit = 0.5 * (inner * (1.0 - share) + outer * (1.0 + share));
+        let spin = (outer * (1.0 + share) - orbit) / share.max(f64::MIN_POSITIVE);
+        let enough = |sum: f64| sum.abs() > AT_REST * (inner.abs() + outer.abs());
+        // Neighbours roll on each other, and turn one another backwards.
+        let mates = scene["rollers"]["neighbours"].is_object();
+        let guide = &scene["cage"]["guide"];
+        let of_guide = if guide["ring"] == "inner_ring" { inner } else { outer };
+        let travel = orbit * circle;
+        let of_each = number("/rollers/mass") * travel * travel + number("/rollers/inertia") * spin * spin;
+        let moves = 0.5 * (number("/rollers/count") * of_each + number("/cage/inertia") * orbit * orbit);
+        let sinks = load.unwrap_or(f64::INFINITY).abs() * number("/inner_ring/radial_clearance").abs();
+        Self {
+            steady: [enough(inner + outer), enough(inner - outer) && load.is_some()],
+            seized: if mates { 2.0 } else { 1.0 + (orbit / spin).abs() },
+            cage_faster: if guide.is_object() { FASTER.min(1.0 - of_guide / orbit) } else { FASTER },
+            cage_beyond: CAGE_BEYOND,
+            rolled: enough(inner + outer).then_some(orbit * duration),
+            holds: (moves + sinks) / (inner.abs() * duration),
+        }
+    }
+}
+
+fn number(scene: &Value, path: &str) -> Option<f64> {
+    scene.pointer(path).and_then(Value::as_f64)
 }
