@@ -6,7 +6,8 @@ use std::f64::consts::TAU;
 
 /// How far a free ring may leave its clearance, in radii of a roller.
 const RING_BEYOND: f64 = 0.1;
-/// Largest distance of a cage from its guide in radial clearances: beyond one a solid contact gives way or the cage bends.
+/// Largest distance of a cage from its guide in radial clearances: beyond one a solid contact gives way or the cage bends. On a
+/// soft contact friction drives its whirl until it rolls.
 const CAGE_BEYOND: f64 = 2.0;
 /// Slip that is more than all, beyond what rounding of a stop gives.
 const ALL: f64 = 1.001;
@@ -39,6 +40,9 @@ pub struct Watch {
     clearance: Option<[f64; 2]>,
     without: WithoutSlip,
     records: f64,
+    /// Slip of the cage of each record, and the least of them, 0 or less.
+    cage: Option<usize>,
+    fastest: f64,
     /// Largest magnitude of the drag torque, N m.
     torque: f64,
     ring: [Option<usize>; 2],
@@ -89,6 +93,8 @@ impl Watch {
             found: BTreeMap::new(),
             clearance: clearance.and_then(|clearance| Some([0.5 * clearance.max(0.0), radius?])),
             records: 0.0,
+            cage: names.iter().position(|name| name == "cage.slip"),
+            fastest: 0.0,
             torque: 0.0,
             orbits,
             share,
@@ -106,6 +112,8 @@ impl Watch {
             self.note("no number", 0.0, name);
         }
         self.records += 1.0;
+        self.fastest = self.cage.map_or(0.0, |cage| self.fastest.min(out[cage]));
+        let seized = 1.0 + self.without.seized * (1.0 - self.fastest);
         for k in 0..self.places.len() {
             let (i, quantity, ref mut sum) = self.places[k];
             let value = out[i];
@@ -114,7 +122,7 @@ impl Watch {
             let kind = match quantity {
                 // What flies or bounces may turn as it was hit.
                 Quantity::RollerSlip(..)
-                    if self.without.steady[1] && value > ALL * self.without.seized && sum[2] >= ROLLS =>
+                    if self.without.steady[1] && value > ALL * seized && sum[2] >= ROLLS =>
                 {
                     "roller on its raceway spins backwards"
                 }
@@ -208,7 +216,7 @@ struct WithoutSlip {
     /// Whether slips of the cage and of rollers mean something: the rings turn steadily, and not so that what slips would rest
     /// without slip; and no load shakes the rollers, which may turn as they were hit.
     steady: [bool; 2],
-    /// Slip of a roller that its pocket seizes, so that it turns with the cage, or that a neighbour turns.
+    /// Slip above all of a roller that its pocket seizes, so that it turns with a cage without slip, or that a neighbour turns.
     seized: f64,
     /// Mean slip of the cage below which nothing drives it.
     cage_faster: f64,
@@ -232,7 +240,7 @@ impl WithoutSlip {
             let (cage_beyond, holds) = (f64::INFINITY, f64::INFINITY);
             return Self {
                 steady: [false; 2],
-                seized: 2.0,
+                seized: 1.0,
                 cage_faster: FASTER,
                 cage_beyond,
                 rolled: None,
@@ -241,8 +249,13 @@ impl WithoutSlip {
         };
         let load = constant(scene.pointer("/inner_ring/motion/free/load/z"));
         let number = |path: &str| number(scene, path).unwrap_or(0.0);
-        let (radius, duration) = (number("/rollers/radius"), number("/record/duration"));
-        let circle = number("/outer_ring/raceway_radius") - radius;
+        let duration = number("/record/duration");
+        let (radius, circle) = if scene["rollers"].is_object() {
+            let radius = number("/rollers/radius");
+            (radius, number("/outer_ring/raceway_radius") - radius)
+        } else {
+            (number("/kinematic_elements/radius"), number("/kinematic_elements/pitch_radius"))
+        };
         let share = if radius > 0.0 { radius / circle } else { 0.0 };
         let orbit = 0.5 * (inner * (1.0 - share) + outer * (1.0 + share));
         let spin = (outer * (1.0 + share) - orbit) / share.max(f64::MIN_POSITIVE);
@@ -251,15 +264,19 @@ impl WithoutSlip {
         let mates = scene["rollers"]["neighbours"].is_object();
         let guide = &scene["cage"]["guide"];
         let of_guide = if guide["ring"] == "inner_ring" { inner } else { outer };
+        let clearance = 0.5 * number("/cage/guide/diametral_clearance");
+        let slides = (orbit - of_guide).abs() * number("/cage/guide/guide_radius");
+        let whirls = (number("/cage/guide/solid/contact/stiffness") / number("/cage/mass")).sqrt();
+        let soft = if whirls > 0.0 { 1.0 + slides / (whirls * clearance) } else { 0.0 };
         let travel = orbit * circle;
         let of_each = number("/rollers/mass") * travel * travel + number("/rollers/inertia") * spin * spin;
         let moves = 0.5 * (number("/rollers/count") * of_each + number("/cage/inertia") * orbit * orbit);
         let sinks = load.unwrap_or(f64::INFINITY).abs() * number("/inner_ring/radial_clearance").abs();
         Self {
             steady: [enough(inner + outer), enough(inner - outer) && load.is_some()],
-            seized: if mates { 2.0 } else { 1.0 + (orbit / spin).abs() },
+            seized: if mates { 1.0 } else { (orbit / spin).abs() },
             cage_faster: if guide.is_object() { FASTER.min(1.0 - of_guide / orbit) } else { FASTER },
-            cage_beyond: CAGE_BEYOND,
+            cage_beyond: CAGE_BEYOND.max(soft),
             rolled: enough(inner + outer).then_some(orbit * duration),
             holds: (moves + sinks) / (inner.abs() * duration),
         }
