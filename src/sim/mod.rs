@@ -114,6 +114,10 @@ impl Sim {
     }
 
     fn with_solver(model: Arc<Model>, solver: Solver, tuning: Tuning) -> Result<Self> {
+        Self::started(model.clone(), solver, tuning).map_err(|error| model.scene().suspected(error))
+    }
+
+    fn started(model: Arc<Model>, solver: Solver, tuning: Tuning) -> Result<Self> {
         let state = model.initial_state()?;
         let bearing = Bearing::new(model.clone(), tuning);
         let driver = Driver::new(method::stepper(&model, &solver, &bearing), method::limits(&model, &solver));

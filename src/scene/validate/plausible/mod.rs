@@ -3,6 +3,7 @@
 mod groups;
 mod numbers;
 
+use crate::error::Error;
 use crate::scene::check::{Range, shown, slip_hint};
 use crate::scene::validate::is_at_or_below;
 use crate::scene::{Scene, Signal};
@@ -40,6 +41,12 @@ impl Scene {
             }
         }
         told.into_iter().map(|(_, line)| line).collect()
+    }
+
+    /// An error of the start of a run with the first of the [`Scene::warnings`], which may be why.
+    pub(crate) fn suspected(&self, error: Error) -> Error {
+        let Some(first) = self.warnings().into_iter().next() else { return error };
+        Error::new(error.status, format!("{}; unlikely in this scene: {first}", error.message))
     }
 }
 
@@ -91,7 +98,10 @@ fn unlikely(path: &str, value: f64, usual: Range, is: [&str; 2]) -> Option<Strin
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::Model;
+    use crate::sim::Sim;
     use std::f64::consts::PI;
+    use std::sync::Arc;
 
     const ROLLERS: &str = include_str!("../../../../scenes/nu2310.json");
     const GREASE: &str = include_str!("../../../../scenes/grease_guide.json");
@@ -101,6 +111,16 @@ mod tests {
     fn warnings(text: &str, set: &[(&str, &str)]) -> Vec<String> {
         let scene = Scene::from_json_with(text, set.iter().copied());
         scene.unwrap_or_else(|e| panic!("{e}")).warnings()
+    }
+
+    #[test]
+    fn what_prevents_a_start_is_told_beside_what_is_unlikely() {
+        let set = [("materials.steel.young_modulus", "2.06e8")];
+        let scene = Scene::from_json_with(ROLLERS, set).unwrap();
+        let error = Sim::new(Arc::new(Model::new(scene).unwrap())).err().unwrap();
+        for part in ["the inner ring has left the bearing", "unlikely", "young_modulus", "2.06e11 Pa"] {
+            assert!(error.message.contains(part), "{error}");
+        }
     }
 
     #[test]
