@@ -8,7 +8,8 @@ use super::sim::{Running, cagedyn_sim};
 use crate::batch::{Monitor, PROGRESS, ProgressItem, advance_all};
 use crate::error::{Error, Result, Status};
 use crate::sim::{Sim, check_time};
-use std::ffi::{CString, c_char};
+use libc::c_char;
+use std::ffi::CString;
 use std::ptr::NonNull;
 use std::sync::atomic::Ordering;
 

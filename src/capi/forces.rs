@@ -1,7 +1,7 @@
 //! Contacts, bodies and force components of a model in C: what the rows and columns of force reports are.
 
 use super::model::{cagedyn_model, find, item, length};
-use std::ffi::c_char;
+use libc::c_char;
 
 /// Number of contacts: rows of cagedyn_sim_contact_forces(). Negative status code on failure.
 ///

@@ -2,7 +2,7 @@
 
 use super::guard::{index, shared, status, write_array};
 use super::model::{cagedyn_model, find, item, length};
-use std::ffi::c_char;
+use libc::c_char;
 
 /// Number of lengths and counts of the bearing that follow from its scene. Negative status code on failure.
 ///

@@ -2,8 +2,9 @@
 
 use crate::error::{Error, Result, Status};
 use crate::scene::nearest;
+use libc::c_char;
 use std::cell::{Cell, RefCell, UnsafeCell};
-use std::ffi::{CStr, CString, c_char};
+use std::ffi::{CStr, CString};
 use std::ops::{Deref, DerefMut};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -9,7 +9,8 @@ use super::model::cagedyn_model;
 use crate::error::{Error, Result, Status};
 use crate::heat::{HeatBalance, HeatState};
 use crate::registry::registry;
-use std::ffi::{CString, c_char};
+use libc::c_char;
+use std::ffi::CString;
 
 /// The heat balance of a bearing whose scene has `heat`. May be used by one thread at a time; a second one gets CAGEDYN_ERR_BUSY.
 #[allow(non_camel_case_types)]

@@ -7,7 +7,8 @@ use super::guard::{
 };
 use super::model::cagedyn_model;
 use super::sim::{cagedyn_sim, with};
-use std::ffi::{CStr, c_char};
+use libc::c_char;
+use std::ffi::CStr;
 
 /// Writes the rate of an arbitrary state at time `t` (s) to `rate`, for hosts with their own integrator: the
 /// velocities, then the accelerations. Both arrays have the length of the state and may be the same. The

@@ -3,7 +3,8 @@
 use super::guard::{check_array, count, exclusive, index, shared, static_name, status, write_array};
 use super::model::cagedyn_model;
 use super::sim::cagedyn_sim;
-use std::ffi::{CStr, c_char};
+use libc::c_char;
+use std::ffi::CStr;
 
 /// Names of the numbers of an interval, NUL-terminated.
 const INTERVAL_NAMES: [&CStr; 7] =

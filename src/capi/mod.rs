@@ -20,7 +20,7 @@ pub mod statistics;
 pub mod whirl;
 
 use crate::error::Status;
-use std::ffi::c_char;
+use libc::c_char;
 
 /// Major version of the library this header belongs to.
 pub const CAGEDYN_VERSION_MAJOR: i32 = 0;

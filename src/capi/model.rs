@@ -5,7 +5,8 @@ use crate::error::{Error, Result, Status};
 use crate::model::{CONTACT_QUANTITIES, FORCE_COMPONENTS, FORCE_SOURCES, Model};
 use crate::scene::Scene;
 use crate::sim::SparsePattern;
-use std::ffi::{CString, c_char};
+use libc::c_char;
+use std::ffi::CString;
 use std::sync::{Arc, OnceLock};
 
 /// A compiled scene. Immutable; may be used from several threads at a time.

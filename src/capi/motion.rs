@@ -6,7 +6,8 @@ use super::guard::{check_array, static_name, status, write_array};
 use crate::error::{Error, Result, Status};
 use crate::scalar::math;
 use crate::sim::{OverOrbit, WhirlRecord, WhirlSummary};
-use std::ffi::{CStr, c_char};
+use libc::c_char;
+use std::ffi::CStr;
 
 /// Names of the numbers of a motion.
 const MOTION: [&CStr; 8] = [

@@ -6,7 +6,7 @@ use super::guard::{
 use super::sim::cagedyn_sim;
 use crate::model::{LAWS, Law, POWERS, Power};
 use crate::sim::{BALANCE_ITEMS, BalanceItem, STATISTICS, Statistic};
-use std::ffi::c_char;
+use libc::c_char;
 
 /// Number of statistics.
 #[unsafe(no_mangle)]

@@ -10,7 +10,8 @@ use crate::error::{Result, Status};
 use crate::registry::registry;
 use crate::scene::Scene;
 use crate::whirl::{Branch, End, Point, follow, steady};
-use std::ffi::{CString, c_char};
+use libc::c_char;
+use std::ffi::CString;
 
 /// Steady whirls of a cage among elements of prescribed motion, without gravity: one, or a branch of them. Any number of threads may
 /// read it.

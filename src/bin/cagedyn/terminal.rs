@@ -6,8 +6,6 @@ use indicatif::{HumanDuration, MultiProgress, ProgressBar, ProgressStyle};
 use std::cell::Cell;
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::process::ExitCode;
-#[cfg(unix)]
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{LazyLock, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
@@ -74,11 +72,22 @@ pub fn listen_for_interrupt() -> Result<()> {
         }
         stop_all();
     };
-    // A file that may not grow is an error of its own; the signal for it would end the program in the middle of a row.
     #[cfg(unix)]
-    signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::new(AtomicBool::new(false)))
-        .map_err(|e| Error::new(Status::Internal, format!("signal handler: {e}")))?;
+    keep_limit_on_files_an_error()?;
     ctrlc::set_handler(handler).map_err(|e| Error::new(Status::Internal, format!("Ctrl-C handler: {e}")))
+}
+
+/// A file that may not grow is an error of its own; the signal for it would end the program in the middle of a row.
+#[cfg(unix)]
+#[expect(unsafe_code, reason = "signals are those of the C library")]
+fn keep_limit_on_files_an_error() -> Result<()> {
+    // SAFETY: a signal that is ignored runs no code.
+    match unsafe { libc::signal(libc::SIGXFSZ, libc::SIG_IGN) } {
+        libc::SIG_ERR => {
+            Err(Error::new(Status::Internal, format!("signal SIGXFSZ: {}", io::Error::last_os_error())))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Prints text to standard output. A reader that closed the pipe early is no failure.
