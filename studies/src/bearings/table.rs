@@ -149,7 +149,8 @@ pub fn page() -> String {
          in N and mm, with the number that leaves room for a cage. Where no rating is given the length is assumed. Clearances\n\
          of rollers are those of group N of ISO 5753-1, unless another one is named.\n\
          Balls have their motion prescribed and need none. Masses of rollers and inner rings are those of solid steel; cages,\n\
-         their guides, pockets and masses are drawn at random, as no maker publishes them.\n\n\
+         their guides, pockets and masses are drawn at random, as no maker publishes them. Values were not compared with printed\n\
+         copies of their sources; that ratings follow from sizes speaks for both, and tests need no more than that a row fits together.\n\n\
          | bearing | d, D, B, mm | elements | size, mm | raceways or pitch, mm | clearance, um | $C_0$, kN, given and from the size | source | assumed |\n\
          |---|---|---:|---|---|---|---|---|---|\n",
     );
