@@ -41,6 +41,9 @@ pub struct PowerBalance {
     pub work: [f64; POWERS.len()],
     /// Energy at the two times.
     pub energy: [Energy; 2],
+    /// The most that all works had brought in or taken out at any time between, J: what came in and went out again has passed
+    /// through, too.
+    pub passed: f64,
 }
 
 registry! {
@@ -85,9 +88,10 @@ impl PowerBalance {
         self.work.iter().sum::<f64>() - self.gain().iter().sum::<f64>()
     }
 
-    /// Energy that passed through, J: all that came in by work, or was stored before and is no longer.
+    /// Energy that passed through, J: all that came in by work, or was stored before and is no longer; and no less than had
+    /// come in or gone out before.
     pub fn throughput(&self) -> f64 {
-        throughput(self.work, self.gain())
+        throughput(self.work, self.gain()).max(self.passed)
     }
 
     /// The residual as a share of the throughput; zero where nothing passed but round-off of what is stored.
@@ -116,7 +120,7 @@ impl Sim {
         let mut work = [0.0; POWERS.len()];
         work.copy_from_slice(&self.works_at(to)[..POWERS.len()]);
         let Start { time, energy: start, .. } = self.balance;
-        Ok(PowerBalance { from: time, to, work, energy: [start, energy] })
+        Ok(PowerBalance { from: time, to, work, energy: [start, energy], passed: self.driver.passed() })
     }
 
     /// Works of all forces since the balance began, up to the present time, J: in the order of [`POWERS`], positive where they go

@@ -37,6 +37,29 @@ fn mean(sim: &mut Sim, channel: &str, duration: f64) -> f64 {
     values.skip(records as usize / 2).sum::<f64>() / f64::from(records / 2)
 }
 
+/// What the elements give a cage and take back has passed through, however little of it is left in the end.
+#[test]
+fn energy_that_went_out_again_has_passed() {
+    let swings = json!({"sine": {"mean": 0.0, "amplitude": 300.0, "frequency": 50.0, "phase": 0.0}});
+    let scene = grease(&[("inner_ring.speed", swings), ("initial.cage_speed", json!(0.0))]);
+    for method in ["auto", "dormand_prince"] {
+        let mut sim = sim(&scene, json!({"method": {method: {}}}));
+        let most_of = |works: [f64; POWERS.len()]| {
+            let came: f64 = works.iter().filter(|work| **work > 0.0).sum();
+            came.max(came - works.iter().sum::<f64>())
+        };
+        let mut most = 0.0f64;
+        for i in 1..=80 {
+            sim.advance_to(f64::from(i) * 0.25e-3).unwrap();
+            most = most.max(most_of(sim.works()));
+        }
+        let balance = sim.power_balance().unwrap();
+        assert!(most_of(balance.work) < 0.7 * most, "{method}: {balance:?} of {most}");
+        assert!(balance.throughput() > 0.99 * most, "{method}: {balance:?} of {most}");
+        assert_eq!(balance.relative_residual(), balance.residual() / balance.throughput());
+    }
+}
+
 /// The cage passes a layer of 0.1 um within a step of error control of the size that the rest of the way allows.
 #[test]
 fn error_control_sees_thin_layers() {

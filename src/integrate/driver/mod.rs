@@ -16,7 +16,7 @@ pub mod watch;
 pub use outcome::{Failure, Limits, Statistics};
 
 use crate::integrate::auto::Choice;
-use crate::integrate::{Applied, Observed, Stepper, Stretch, Total, Vibration, add_weighted};
+use crate::integrate::{Applied, Observed, Stepper, Stretch, Total, Vibration, add_weighted, throughput};
 use crate::stored::{Reader, Stored, stored};
 use control::{Controller, Estimate, RECOVERY_GROWTH};
 use trail::Trail;
@@ -41,6 +41,8 @@ pub struct Driver<S: Observed> {
     /// Works of the system's powers up to `from`, and over the last step; and memory for as many.
     works: [Vec<f64>; 2],
     spare: Vec<f64>,
+    /// The most that the works had brought in or taken out in all, J; looked at after stretches, or steps without them.
+    passed: f64,
     /// Of what the host watches.
     tally: Tally,
     /// Number of steps of the next stretch.
@@ -79,6 +81,7 @@ impl<S: Observed> Driver<S> {
             statistics: Statistics::default(),
             works: [works.clone(), works.clone()],
             spare: works,
+            passed: 0.0,
             tally: Tally::new(watched),
             length: 1,
             stretch: Trail::default(),
@@ -158,6 +161,7 @@ impl<S: Observed> Driver<S> {
                 self.tally_to(self.to);
                 self.make_step(system, &mut attempts)?;
             }
+            self.note_passed(system);
         }
         Ok(())
     }
@@ -309,6 +313,18 @@ impl<S: Observed> Driver<S> {
     /// Sets the works to zero; comes after [`Driver::start`].
     pub fn forget_works(&mut self) {
         self.works.iter_mut().for_each(|works| works.fill(0.0));
+        self.passed = 0.0;
+    }
+
+    /// The most that the works had brought in or taken out in all since they were forgotten, J.
+    pub fn passed(&self) -> f64 {
+        self.passed
+    }
+
+    fn note_passed(&mut self, system: &S) {
+        let ([sum, last], [powers, _]) = (&self.works, system.power_count());
+        let works = sum.iter().zip(last).map(|(sum, last)| sum + last).take(powers);
+        self.passed = self.passed.max(throughput(works, []));
     }
 
     /// Goes on with this step (s), and without memory of errors.
@@ -436,6 +452,7 @@ impl<S: Observed> Driver<S> {
         let step = |h: f64| h > 0.0 && h <= largest;
         let counts = [s.smallest_step, s.largest_step, s.vibration.squares, s.vibration.count];
         self.to >= self.from
+            && self.passed >= 0.0
             && step(self.nominal_step)
             && step(self.next_step)
             && (control.last_error > 0.0 && control.last_change > 0.0)
@@ -446,7 +463,7 @@ impl<S: Observed> Driver<S> {
 
 stored! {
     impl[S: Observed] Driver<S> {
-        from, to, nominal_step, next_step, control, needs_refresh, length, statistics, works, stepper
+        from, to, nominal_step, next_step, control, needs_refresh, length, statistics, works, passed, stepper
     }
     then { made = 0, unfinished = false }
     if Self::is_sound
