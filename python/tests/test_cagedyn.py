@@ -2,7 +2,6 @@
 
 import _thread
 import math
-import signal
 import threading
 from pathlib import Path
 
@@ -11,14 +10,6 @@ import numpy as np
 import pytest
 
 SCENES = Path(__file__).parents[2] / "scenes"
-
-
-@pytest.fixture(autouse=True)
-def interruptible():
-    """A shell starts jobs in the background with interrupts ignored, and nothing would end these tests."""
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    yield
-    signal.signal(signal.SIGINT, before)
 
 
 @pytest.fixture(scope="module")
