@@ -179,15 +179,15 @@ def test_errors(model, sim):
 
 def test_progress(model, sim):
     seen = []
-    sim.advance_to(0.2, lambda running: seen.append((running is sim, running.time, running.output("cage.y"))))
+    sim.advance_to(1.0, lambda running: seen.append((running is sim, running.time, running.output("cage.y"))))
     times = [time for same, time, _ in seen if same]
-    assert len(times) == len(seen) > 1 and times == sorted(times) and 0.0 < times[0] < times[-1] == 0.2
+    assert len(times) == len(seen) > 1 and times == sorted(times) and 0.0 < times[0] < times[-1] == 1.0
     whole = cagedyn.Sim(model)
-    whole.advance_to(0.2)
+    whole.advance_to(1.0)
     assert np.array_equal(whole.state, sim.state)
     seen.clear()
-    records = sim.record(0.4, 1e-3, ["cage.y"], progress=lambda running: seen.append(running.time))
-    assert 1 < len(seen) < 100 and seen[-1] == 0.4 and len(records) == 201
+    records = sim.record(1.4, 1e-3, ["cage.y"], progress=lambda running: seen.append(running.time))
+    assert 1 < len(seen) < 100 and seen[-1] == 1.4 and len(records) == 401
 
 
 def test_what_progress_raises_stops_and_it_goes_on(model, sim):
@@ -232,26 +232,26 @@ def test_batch(model):
         assert batch.advance_to(1e-3, threads, seen.append) == [None] * 4
         assert all(np.array_equal(a.state, b.state) for a, b in zip(alone, batch.sims))
         assert batch.progress.arrived == 4 and batch.progress.share == 1.0
-        batch.advance_to(0.1, threads, seen.append)
+        batch.advance_to(0.3, threads, seen.append)
         assert seen and all(0.0 <= progress.share <= 1.0 for progress in seen)
     batch[1].set_wall_time_limit(0.0)
-    failures = batch.advance_to(0.11, check=False)
+    failures = batch.advance_to(0.31, check=False)
     assert [failure is None for failure in failures] == [True, False, True, True]
-    assert failures[1].name == "ERR_OUT_OF_TIME" and batch[0].time == 0.11
+    assert failures[1].name == "ERR_OUT_OF_TIME" and batch[0].time == 0.31
     with pytest.raises(cagedyn.BatchError, match="1 of 4 .* number 1: ") as failure:
-        batch.advance_to(0.11)
+        batch.advance_to(0.31)
     assert failure.value.name == "ERR_OUT_OF_TIME" and failure.value.failures[0] is None
     with pytest.raises(cagedyn.Error):
         cagedyn.Batch([batch[0]])
     with pytest.raises(ValueError):
-        batch.advance_to(0.12, threads=-1)
+        batch.advance_to(0.32, threads=-1)
     for refused in (math.nan, math.inf, 1e7):
         with pytest.raises(cagedyn.Error, match="t: ") as failure:
             batch.advance_to(refused, check=False)
         assert failure.value.name == "ERR_BAD_VALUE"
     kept = batch[2]
     del batch
-    assert kept.time == 0.11
+    assert kept.time == 0.31
 
 
 def test_ctrl_c_stops_a_batch(model):
