@@ -2,7 +2,7 @@
 //!
 //! | folder | laws |
 //! |---|---|
-//! | `elastic` | normal force of a line contact, profile of its surfaces, of a spring with damper |
+//! | `elastic` | normal force of a line contact, profile of its surfaces, of a point contact, of a spring with damper |
 //! | `film` | film thickness, lubrication regimes |
 //! | `traction` | full-film traction, its self-heating, solid friction |
 //! | `rolling` | rolling resistance |

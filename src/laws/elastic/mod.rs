@@ -1,5 +1,6 @@
 //! Normal force of two surfaces that are pressed together.
 
 pub mod line;
+pub mod point;
 pub mod profile;
 pub mod solid;
