@@ -10,7 +10,8 @@
 //! rolling speed and slip are taken once and serve all power laws.
 
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
-use crate::laws::elastic::line::{ElasticLine, NormalDamping};
+use crate::laws::elastic::line::ElasticLine;
+use crate::laws::elastic::normal::NormalDamping;
 use crate::laws::elastic::profile::Profile;
 use crate::laws::film::regime::LubricationRegime;
 use crate::laws::film::thickness::{Entrainment, FilmThickness};

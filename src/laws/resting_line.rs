@@ -88,7 +88,7 @@ impl LineContact {
 
 #[cfg(test)]
 mod tests {
-    use super::super::elastic::line::NormalDamping;
+    use super::super::elastic::normal::NormalDamping;
     use super::super::elastic::profile::{Logarithm, Profile};
     use super::*;
     use crate::laws::line_contact::tests::raceway;

@@ -1,7 +1,8 @@
 //! From the blocks of a scene to laws and their constants. A law is built only if the scene asks for it.
 
 use crate::error::Result;
-use crate::laws::elastic::line::{ElasticLine, NormalDamping, effective_modulus};
+use crate::laws::elastic::line::{ElasticLine, effective_modulus};
+use crate::laws::elastic::normal::NormalDamping;
 use crate::laws::elastic::profile::{Logarithm, Profile, USUAL_SLICES};
 use crate::laws::elastic::solid::SolidContact;
 use crate::laws::film::regime::LubricationRegime;

@@ -1,16 +1,14 @@
-//! Normal force of a line contact: Palmgren's approach, contact damping, Hertz pressure.
+//! Normal force of a line contact: Palmgren's approach, Hertz pressure; with the damping of [`super::normal`].
 //!
 //! ```text
 //! delta = K Q^0.9,   K = 0.39 (8/E')^0.9 / l^0.8               (Palmgren)
-//! Q     = max(0, Q_el + tau_c s(delta) dQ_el/d(delta) delta_dot)
-//! s     = delta / (delta + delta_s)
 //! b     = sqrt(8 Q R_e / (pi l E')),  P_mean = Q / (2 b l),  P_max = (4/pi) P_mean   (Hertz)
 //! ```
 //!
 //! Valid for steel-like line contacts with b much smaller than R_e and l. Source: Sakaguchi and Ueno, NTN
-//! Technical Review 71 (2004), Eq. 1 and 4. Damping is an assumption of this library (the paper names none):
-//! it is proportional to stiffness, and the factor s lets Q start continuously at first touch.
+//! Technical Review 71 (2004), Eq. 1 and 4.
 
+use crate::laws::elastic::normal::{NormalDamping, NormalForce};
 use crate::scalar::math;
 use crate::scalar::{Base, Of};
 use std::f64::consts::PI;
@@ -35,39 +33,6 @@ pub struct ElasticLine<B = f64> {
     ln_compliance: B,
     /// 8 R_e/(pi l E'), m^2/N.
     width_factor: B,
-}
-
-/// Damping of the normal motion, proportional to the elastic stiffness.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct NormalDamping<B = f64> {
-    /// tau_c, ratio of damping to stiffness, s.
-    pub relaxation_time: B,
-    /// delta_s, approach at which half of the damping is active, m.
-    pub softening_depth: B,
-}
-
-impl NormalDamping {
-    /// No damping.
-    pub const NONE: Self = Self { relaxation_time: 0.0, softening_depth: 1.0 };
-}
-
-impl<B> NormalDamping<B> {
-    /// The same with every constant replaced.
-    #[inline(always)]
-    pub fn map<U>(&self, f: &mut impl FnMut(&B) -> U) -> NormalDamping<U> {
-        NormalDamping { relaxation_time: f(&self.relaxation_time), softening_depth: f(&self.softening_depth) }
-    }
-}
-
-/// Normal force of a contact and its slopes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct NormalForce<T> {
-    /// Q, N; zero when the surfaces are apart.
-    pub force: T,
-    /// dQ_el/d(delta), N/m.
-    pub stiffness: T,
-    /// dQ/d(delta_dot), N s/m.
-    pub damping: T,
 }
 
 impl ElasticLine {
@@ -121,21 +86,8 @@ impl<B: Base> ElasticLine<B> {
         delta: T,
         delta_dot: T,
     ) -> NormalForce<T> {
-        let zero = delta.like(0.0);
         let elastic = self.load(delta);
-        let stiffness = elastic * (10.0 / 9.0) / delta;
-        let coefficient = match damping {
-            Some(d) => stiffness * d.relaxation_time * (delta / (delta + d.softening_depth)),
-            None => zero,
-        };
-        let force = elastic + coefficient * delta_dot;
-        // Written so that a NaN is passed on and not taken for "apart".
-        let apart = delta.at_most(0.0) | force.at_most(0.0);
-        NormalForce {
-            force: T::select(apart, zero, force),
-            stiffness: T::select(apart, zero, stiffness),
-            damping: T::select(apart, zero, coefficient),
-        }
+        NormalForce::new(elastic, elastic * (10.0 / 9.0) / delta, damping, delta, delta_dot)
     }
 
     /// Half width b of the Hertz contact in m under the load `q` > 0 in N.

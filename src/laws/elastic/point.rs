@@ -13,10 +13,10 @@
 //! rho_t >= rho_l > 0 are the sums of the curvatures of both bodies in two planes at right angles; the long half axis a lies
 //! in the plane of rho_l. F and E are the complete elliptic integrals of the first and second kind. Valid for bodies that are
 //! smooth, elastic and much larger than the ellipse. Source: Hertz 1882, as in Harris and Kotzalas, Rolling Bearing Analysis,
-//! ch. 6. K is constant: with one that follows the contact angle the force would have no potential. Damping is that of line
-//! contacts, an assumption of this library.
+//! ch. 6. K is constant: with one that follows the contact angle the force would have no potential. Damping is that of
+//! [`super::normal`].
 
-use crate::laws::elastic::line::{NormalDamping, NormalForce};
+use crate::laws::elastic::normal::{NormalDamping, NormalForce};
 use crate::scalar::{Base, Of, math};
 use std::f64::consts::PI;
 
@@ -136,20 +136,7 @@ impl<B: Base> ElasticPoint<B> {
         delta: T,
         delta_dot: T,
     ) -> NormalForce<T> {
-        let zero = delta.like(0.0);
-        let stiffness = delta.sqrt() * self.rigidity * 1.5;
-        let coefficient = match damping {
-            Some(d) => stiffness * d.relaxation_time * (delta / (delta + d.softening_depth)),
-            None => zero,
-        };
-        let force = self.load(delta) + coefficient * delta_dot;
-        // Written so that a NaN is passed on and not taken for "apart".
-        let apart = delta.at_most(0.0) | force.at_most(0.0);
-        NormalForce {
-            force: T::select(apart, zero, force),
-            stiffness: T::select(apart, zero, stiffness),
-            damping: T::select(apart, zero, coefficient),
-        }
+        NormalForce::new(self.load(delta), delta.sqrt() * self.rigidity * 1.5, damping, delta, delta_dot)
     }
 
     /// Half axes a and b of the ellipse in m under the load `q` > 0 in N, of which ln is `ln_q`.
