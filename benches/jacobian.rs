@@ -36,23 +36,24 @@ fn median(mut values: Vec<f64>) -> f64 {
 fn measured(sim: &Sim) -> Option<[f64; 2]> {
     let model = sim.model();
     let host = HostInputs::default();
+    let plane = model.plane();
     let (inputs, rates) = (model.inputs_at(DEVELOPED, &host), model.input_rates_at(DEVELOPED, &host));
     let (q, v) = sim.state().split_at(model.layout().positions());
-    let (mut ws, mut a) = (Workspace::new(model), vec![0.0; v.len()]);
-    let mut out = Linearization::new(&model.structure(), v.len());
+    let (mut ws, mut a) = (Workspace::new(plane), vec![0.0; v.len()]);
+    let mut out = Linearization::new(&plane.structure(), v.len());
     let mut times = [Vec::new(), Vec::new()];
     for _ in 0..BLOCKS {
         let started = Instant::now();
         for _ in 0..REPEATS {
-            model.accelerations(&inputs, black_box(q), v, &mut ws, &mut a).ok()?;
+            plane.accelerations(&inputs, black_box(q), v, &mut ws, &mut a).ok()?;
         }
         let forces = started.elapsed().as_secs_f64() / f64::from(REPEATS);
         let started = Instant::now();
         for _ in 0..REPEATS {
             ws.set_differentiating(true);
-            model.accelerations(&inputs, black_box(q), v, &mut ws, &mut a).ok()?;
+            plane.accelerations(&inputs, black_box(q), v, &mut ws, &mut a).ok()?;
             ws.set_differentiating(false);
-            model.linearize(&mut ws, &rates, &mut out);
+            plane.linearize(&mut ws, &rates, &mut out);
         }
         let both = started.elapsed().as_secs_f64() / f64::from(REPEATS);
         times[0].push(1e9 * forces);
@@ -71,7 +72,7 @@ fn main() -> cagedyn::Result<()> {
         sim.advance_to(DEVELOPED)?;
         let changes: Vec<String> = overrides.iter().map(|(path, value)| format!(" {path}={value}")).collect();
         let Some([forces, measured]) = measured(&sim) else { continue };
-        let counted = sim.model().jacobian_cost();
+        let counted = sim.model().plane().jacobian_cost();
         println!("| {name}{} | {forces:.0} | {measured:.2} | {counted:.2} |", changes.concat());
     }
     Ok(())

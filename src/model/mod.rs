@@ -1,32 +1,18 @@
-//! The compiled model: bodies, pairs and inputs of a scene. Immutable, `Send` and `Sync`; any number of simulations in any
-//! number of threads can share one.
-//!
-//! It composes what bodies and pairs say of themselves, by the same code for all of them:
+//! The compiled model of a scene. Immutable, `Send` and `Sync`; any number of simulations in any number of threads can
+//! share one.
 //!
 //! | file | what |
 //! |---|---|
-//! | `compile`, `signals` | from the scene to bodies, pairs and inputs |
-//! | `evaluate`, `workspace` | forces and accelerations |
-//! | `linearize` | their exact derivatives |
-//! | `nodes` | rates of states that are no motion |
-//! | `integration/` | what integrators need: damping, forces of a semi-implicit step, onsets, units of errors, costs |
-//! | `works` | energies, powers |
-//! | `initial` | start of a run |
-//! | `report/` | names, force reports, channels, what is followed in every step |
+//! | `inputs`, `signals` | from the scene to inputs over time |
+//! | `names`, `selection` | what models tell: names, units, channels and those that a record has |
+//! | `plane/` | a bearing whose bodies move in the plane |
 
-mod compile;
-mod evaluate;
-mod initial;
-mod integration;
-mod inverse_inertia;
-mod linearize;
-mod nodes;
-mod report;
+mod bearing;
+mod inputs;
+mod names;
+pub(crate) mod plane;
+mod selection;
 mod signals;
-#[cfg(test)]
-mod tests;
-mod works;
-mod workspace;
 
 pub use crate::bodies::{BodyForces, FAULTS, FORCE_SOURCES, Fault, FaultCounts, INPUTS, Input, POWERS};
 pub(crate) use crate::bodies::{FaultKind, OF_ELEMENT, Power};
@@ -34,60 +20,28 @@ pub(crate) use crate::bodies::{FaultKind, OF_ELEMENT, Power};
 pub use crate::bodies::{HostInputs, InputValues, Layout};
 pub(crate) use crate::pairs::Law;
 pub use crate::pairs::{LAWS, LawCounts};
+pub(crate) use names::quantity;
+pub use names::{Channel, Energy, Quantity, StateInfo};
+pub(crate) use plane::{AT_FLOOR, RATES, Reading};
+pub use plane::{CONTACT_QUANTITIES, ContactForces, FORCE_COMPONENTS, Forces, GuideReport};
 #[doc(hidden)]
-pub use integration::costs::{PARTS, PartTimes};
-pub(crate) use report::Reading;
-pub use report::{
-    CONTACT_QUANTITIES, Channel, ContactForces, FORCE_COMPONENTS, Forces, GuideReport, Quantity, StateInfo,
-};
-pub use works::Energy;
-#[doc(hidden)]
-pub use workspace::Workspace;
-pub(crate) use workspace::{AT_FLOOR, RATES};
+pub use plane::{PARTS, PartTimes, Plane, Workspace};
 
-use crate::bodies::{
-    CAGE, CAGE_MOTION, Elements, ForceSource, INNER_RING, Node, OUTER_RING, SHARED, SharedBodies, SharedBody,
-};
-use crate::error::{Error, Result, Status};
-use crate::pairs::raceway::RacewayGeometry;
-use crate::pairs::{ContactLaw, ElementPair, PairInfo, SharedInfo, SharedPair};
-use crate::scene::{FORCE, SPEED, Scene, TEMPERATURE, TORQUE, VISCOSITY};
-use crate::space::Motion;
-use report::Selection;
+use crate::error::Result;
+use crate::scene::Scene;
 use signals::InputSignals;
-use std::ops::Range;
+use std::sync::Arc;
 
 /// A compiled scene.
 #[derive(Debug)]
 pub struct Model {
-    scene: Scene,
-    layout: Layout,
-    gravity: [f64; 2],
-    shared: SharedBodies,
-    elements: Box<dyn Elements>,
-    nodes: Vec<Box<dyn Node>>,
-    /// Place among the velocities of the temperature of the lubricant, where it is a state.
-    lubricant: Option<usize>,
-    /// Whether the outer ring, which is held in the centre, may turn.
-    outer_turns: bool,
-    /// Masses of the shared bodies, kg; infinite where one is not free.
-    masses: [f64; SHARED],
-    /// Whether the law of a pair of elements sets in abruptly.
-    onsets: bool,
-    /// Slip speed that a tangential impulse of 1 N s gives a free element, m/(N s^2).
-    mobility: f64,
-    pairs: Vec<Box<dyn ElementPair>>,
-    /// What the pairs say of themselves, for loops over contacts.
-    infos: Vec<&'static PairInfo>,
-    laws: Vec<ContactLaw>,
-    /// Optional laws in those of each pair.
-    parts: Vec<Vec<Law>>,
-    /// Pairs of shared bodies, and what they say of themselves.
-    between: Vec<Box<dyn SharedPair>>,
-    between_infos: Vec<SharedInfo>,
-    inputs: InputSignals,
+    scene: Arc<Scene>,
+    inputs: Arc<InputSignals>,
+    plane: Arc<Plane>,
     channels: Vec<Channel>,
-    selection: Selection,
+    /// Places among the channels of those that a record has, and of those that are followed in every step.
+    recorded: Vec<usize>,
+    watched: Vec<usize>,
 }
 
 impl Model {
@@ -97,7 +51,13 @@ impl Model {
     /// [`crate::Status::BadScene`] when the scene is impossible or a law lacks a constant.
     pub fn new(scene: Scene) -> Result<Self> {
         scene.validate()?;
-        compile::compile(scene)
+        let inputs = Arc::new(inputs::inputs(&scene)?);
+        let scene = Arc::new(scene);
+        let mut plane = Plane::new(scene.clone(), inputs.clone())?;
+        let channels = plane.list_channels();
+        let [recorded, watched] = selection::select(&scene.record, &channels)?;
+        plane.watch_channels(&watched, &channels);
+        Ok(Self { scene, inputs, plane: Arc::new(plane), channels, recorded, watched })
     }
 
     /// Reads, checks and compiles a scene given as JSON text.
@@ -113,187 +73,19 @@ impl Model {
         &self.scene
     }
 
+    /// The output channels of this scene.
+    pub fn channels(&self) -> &[Channel] {
+        &self.channels
+    }
+
     /// Places among [`Model::channels`] of those that a record of a run has.
     pub fn recorded(&self) -> &[usize] {
-        &self.selection.recorded
+        &self.recorded
     }
 
-    /// Order of the coordinates in the state vector.
+    /// Places of the channels among [`Model::channels`] that are followed in every step.
     #[doc(hidden)]
-    pub fn layout(&self) -> &Layout {
-        &self.layout
-    }
-
-    /// The inputs of this scene, in the order of their indices.
-    pub fn input_list(&self) -> impl ExactSizeIterator<Item = Input> {
-        self.inputs.list.iter().map(|(input, _)| *input)
-    }
-
-    /// Number of inputs.
-    pub fn input_count(&self) -> usize {
-        self.inputs.list.len()
-    }
-
-    /// Values of the inputs at time `t` in s.
-    #[doc(hidden)]
-    #[inline]
-    pub fn inputs_at(&self, t: f64, host: &HostInputs) -> InputValues {
-        self.inputs.at(t, host)
-    }
-
-    /// Rates of the inputs at time `t` in s, per second; of `orbit_travel` too. At a jump or kink they are those after it.
-    #[doc(hidden)]
-    pub fn input_rates_at(&self, t: f64, host: &HostInputs) -> InputValues {
-        self.inputs.rates_at(t, host)
-    }
-
-    /// Sets an input at time `t` (s) to `value`, or lets it follow the scene again with `None`.
-    #[doc(hidden)]
-    pub fn set_input(&self, host: &mut HostInputs, t: f64, input: Input, value: Option<f64>) {
-        self.inputs.set(host, t, input, value);
-    }
-
-    /// Whether an input may have this value: those that scenes may give it.
-    ///
-    /// # Errors
-    /// [`crate::Status::BadValue`].
-    pub fn check_input(&self, input: Input, value: f64) -> Result<()> {
-        let allowed = match input {
-            Input::RingSpeed | Input::OuterRingSpeed | Input::OrbitSpeed | Input::SpinSpeed => SPEED,
-            Input::LoadY | Input::LoadZ | Input::CageForceY | Input::CageForceZ => FORCE,
-            Input::CageTorque => TORQUE,
-            Input::Temperature => TEMPERATURE,
-        };
-        allowed.check("value", value).map_err(|e| Error::new(Status::BadValue, e.message))?;
-        match self.inputs.oil.filter(|_| input == Input::Temperature).map(|oil| oil.law.viscosity(value)) {
-            Some(viscosity) => VISCOSITY.check("value", viscosity).map_err(|e| {
-                let text =
-                    format!("value: at {value:?} K the viscosity{}", e.message.trim_start_matches("value:"));
-                Error::new(Status::BadValue, text)
-            }),
-            None => Ok(()),
-        }
-    }
-
-    /// The first jump or kink of an input after `t`, s; infinity if there is none.
-    #[doc(hidden)]
-    pub fn next_event(&self, t: f64, host: &HostInputs) -> f64 {
-        self.inputs.next_event(t, host)
-    }
-
-    /// The field of the scene by which the film of the guide can give energy to the cage, if it can.
-    pub fn energy_giving_film(&self) -> Option<String> {
-        self.between.iter().find_map(|pair| pair.energy_giving_field())
-    }
-
-    /// Number of rolling elements, whether they have states or not.
-    pub fn element_count(&self) -> usize {
-        self.elements.set().count
-    }
-
-    /// Whether the elements move freely and are rollers; otherwise their motion is prescribed.
-    pub fn has_rollers(&self) -> bool {
-        self.elements.mass().is_some()
-    }
-
-    /// Radius of the pitch circle, m.
-    pub fn pitch_radius(&self) -> f64 {
-        self.elements.set().pitch_radius
-    }
-
-    /// Radius of the inner raceway in m, where there are rollers.
-    pub fn inner_raceway_radius(&self) -> Option<f64> {
-        let g = self.raceway_geometry()?;
-        Some(g.pitch_radius - g.roller_radius - g.gap)
-    }
-
-    /// Radii of rollers and raceways, where there are rollers.
-    fn raceway_geometry(&self) -> Option<RacewayGeometry> {
-        let rollers = self.scene.rollers.as_ref()?;
-        let outer = self.scene.outer_ring.as_ref()?.raceway_radius?;
-        Some(RacewayGeometry::new(outer, rollers.radius, self.scene.radial_clearance()))
-    }
-
-    /// Orbit and spin speed of the elements without slip at these inputs, rad/s: of rollers that touch both raceways,
-    /// or as prescribed.
-    #[doc(hidden)]
-    pub fn kinematic_speeds(&self, inputs: &InputValues) -> [f64; 2] {
-        self.elements.kinematic_speeds(inputs)
-    }
-
-    /// Motion of the shared bodies at this state; of one that does not exist, none.
-    #[inline]
-    fn motions_at(&self, q: &[f64], v: &[f64], inputs: &InputValues) -> [Motion<f64>; SHARED] {
-        let mut motions = [Motion::default(); SHARED];
-        self.find_motions(q, v, inputs, &mut motions);
-        motions
-    }
-
-    /// Finds those that may move.
-    #[inline]
-    fn find_motions(&self, q: &[f64], v: &[f64], inputs: &InputValues, out: &mut [Motion<f64>; SHARED]) {
-        for body in [INNER_RING, CAGE] {
-            out[body] = self.motion_of(body, q, v, inputs);
-        }
-        if self.outer_turns {
-            out[OUTER_RING] = self.motion_of(OUTER_RING, q, v, inputs);
-        }
-    }
-
-    /// That of one of them.
-    #[inline]
-    fn motion_of(&self, body: usize, q: &[f64], v: &[f64], inputs: &InputValues) -> Motion<f64> {
-        let first = self.layout.shared(body).unwrap_or(0);
-        self.shared[body]
-            .as_ref()
-            .map_or_else(Motion::default, |b| b.motion(&q[first..], &v[first..], inputs))
-    }
-
-    /// Number of coordinates of the cage behind those of its motion.
-    fn mode_count(&self) -> usize {
-        self.layout.range(CAGE).len().saturating_sub(CAGE_MOTION)
-    }
-
-    /// Whether there is a cage.
-    fn has_cage(&self) -> bool {
-        self.shared[CAGE].is_some()
-    }
-
-    /// The shared bodies that move freely: place, body, coordinates.
-    #[inline]
-    fn free_bodies(&self) -> impl Iterator<Item = (usize, &dyn SharedBody, Range<usize>)> {
-        let free = self.layout.free();
-        free.filter_map(|place| Some((place, self.shared[place].as_deref()?, self.layout.range(place))))
-    }
-
-    /// Place of the guide among the pairs of shared bodies, and what it says of itself: the first, if there are several, whose
-    /// parts the channels show.
-    fn guide(&self) -> Option<(usize, &SharedInfo)> {
-        self.between_infos.iter().enumerate().find(|(_, info)| info.source == ForceSource::Guide)
-    }
-
-    /// Whether the rotation of this shared body is prescribed, by an input of the scene.
-    fn is_driven(&self, body: usize) -> bool {
-        self.turned_by(body).is_some()
-    }
-
-    /// The input that prescribes the rotation of this shared body, if one does.
-    fn turned_by(&self, body: usize) -> Option<Input> {
-        self.shared[body].as_ref().and_then(|body| body.turned_by())
-    }
-
-    /// The ring that guides the cage; the outer one, which is held in the centre, without a guide.
-    fn guiding_ring(&self) -> usize {
-        self.guide().map_or(OUTER_RING, |(_, info)| info.bodies[1])
-    }
-
-    /// Whether elements touch the cage.
-    fn has_pockets(&self) -> bool {
-        self.infos.iter().any(|info| info.mate == CAGE)
-    }
-
-    /// Whether rollers roll on raceways.
-    fn has_raceways(&self) -> bool {
-        self.infos.iter().any(|info| info.rolls)
+    pub fn watched(&self) -> &[usize] {
+        &self.watched
     }
 }

@@ -168,6 +168,11 @@ impl InputSignals {
             .fold(f64::INFINITY, f64::min)
     }
 
+    /// Viscosity of the lubricant in Pa s at these inputs, if it follows the temperature.
+    pub(super) fn viscosity(&self, inputs: &InputValues) -> Option<f64> {
+        self.oil.map(|oil| oil.law.viscosity(inputs.of(Input::Temperature)))
+    }
+
     /// Sets or releases an input at time `t` in s. The elements stay where they are.
     pub(super) fn set(&self, host: &mut HostInputs, t: f64, input: Input, value: Option<f64>) {
         if let Some(orbit) = &self.orbit {

@@ -10,7 +10,7 @@
 //!
 //! A pair of elements finds its touching contacts and hands motion and `Grip` of each to `Contacts`. Wrenches, powers,
 //! damping, the change of forces in a step and the reaction follow from these by the same code for all pairs
-//! (`model/evaluate`, `model/works`, `model/integration`). A pair of two shared bodies gives wrenches on both. A new pair is a
+//! (`model/plane/evaluate`, `works`, `integration`). A pair of two shared bodies gives wrenches on both. A new pair is a
 //! file with the trait `ElementPair` and a line in `element_pairs`, or with `SharedPair` and a line in `shared_pairs`; and the
 //! names that it is counted and reported by, in `Law`, `ForceSource` and `Power`.
 

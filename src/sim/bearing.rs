@@ -9,12 +9,13 @@ use crate::integrate::{
 };
 use crate::model::{
     Energy, Fault, FaultCounts, Forces, HostInputs, Input, LawCounts, Model, OF_ELEMENT, POWERS, PartTimes,
-    RATES, Reading, Workspace,
+    Plane, RATES, Reading, Workspace,
 };
 use std::sync::Arc;
 
 pub(super) struct Bearing {
     model: Arc<Model>,
+    plane: Arc<Plane>,
     workspace: Workspace,
     host: HostInputs,
     evaluations: u64,
@@ -41,7 +42,8 @@ struct StepMemory {
 
 impl Bearing {
     pub(super) fn new(model: Arc<Model>, tuning: Tuning) -> Self {
-        let workspace = Workspace::new(&model);
+        let plane = model.plane().clone();
+        let workspace = Workspace::new(&plane);
         let layout = model.layout();
         Self {
             workspace,
@@ -50,7 +52,7 @@ impl Bearing {
             jacobians: 0,
             fault_counts: FaultCounts::default(),
             last_fault: None,
-            rejections: vec![0; model.structure().groups().len()],
+            rejections: vec![0; plane.structure().groups().len()],
             limits: RunLimits::default(),
             tuning,
             start_energy: model.energy_giving_film().map(|_| 0.0),
@@ -60,6 +62,7 @@ impl Bearing {
                 a: Vec::with_capacity(layout.velocities()),
             },
             model,
+            plane,
         }
     }
 
@@ -133,7 +136,7 @@ impl Bearing {
 
     /// Name of the body of a group.
     pub(super) fn group_name(&self, group: usize) -> Option<String> {
-        self.model.group_name(group)
+        self.plane.group_name(group)
     }
 
     pub(super) fn reset(&mut self) {
@@ -148,7 +151,7 @@ impl Bearing {
         let (q, v) = state.split_at(self.model.layout().positions());
         let inputs = self.model.inputs_at(t, &self.host);
         self.workspace.set_counting(false);
-        let result = self.model.accelerations(&inputs, q, v, &mut self.workspace, a);
+        let result = self.plane.accelerations(&inputs, q, v, &mut self.workspace, a);
         self.workspace.set_counting(true);
         result
     }
@@ -166,13 +169,13 @@ impl Bearing {
         self.workspace.set_differentiating(false);
         evaluated?;
         let rates = self.model.input_rates_at(t, &self.host);
-        self.model.linearize(&mut self.workspace, &rates, &mut slopes.linearization);
+        self.plane.linearize(&mut self.workspace, &rates, &mut slopes.linearization);
         Ok(())
     }
 
     /// Energy of the last evaluated state.
     pub(super) fn energy(&self) -> Energy {
-        self.model.energy(&self.workspace)
+        self.plane.energy(&self.workspace)
     }
 
     /// Says what was stored when the works of the run began, J.
@@ -198,14 +201,14 @@ impl Bearing {
         let state = state.split_at(self.model.layout().positions());
         let inputs = self.model.inputs_at(t, &self.host);
         self.workspace.set_counting(false);
-        let times = self.model.time_parts(&inputs, state, &mut self.workspace, repeats);
+        let times = self.plane.time_parts(&inputs, state, &mut self.workspace, repeats);
         self.workspace.set_counting(true);
         times
     }
 
     pub(super) fn report(&self, state: &[f64], a: &[f64], out: &mut Forces) {
         let (q, v) = state.split_at(self.model.layout().positions());
-        self.model.report(q, v, &self.workspace, a, out);
+        self.plane.report(q, v, &self.workspace, a, out);
     }
 
     /// Writes the forces of a step that began at time `t` (s) into `out`, with the bodies at `state`.
@@ -229,7 +232,7 @@ impl Bearing {
         let evaluated = self.accelerations_at(t + 0.5 * step.h, &middle, &mut a);
         if evaluated.is_ok() {
             let change = SemiImplicit { mean: &mean, end: end_v, h: step.h };
-            self.model.apply_step(step.predicted, &change, &mut self.workspace);
+            self.plane.apply_step(step.predicted, &change, &mut self.workspace);
             self.report(state, &a, out);
         }
         self.memory = StepMemory { middle, mean, a };
@@ -240,7 +243,7 @@ impl Bearing {
     pub(super) fn reading<'a>(&'a self, t: f64, state: &'a [f64], forces: &'a Forces) -> Reading<'a> {
         let inputs = self.model.inputs_at(t, &self.host);
         let (q, v) = state.split_at(self.model.layout().positions());
-        Reading::new(&self.model, [q, v], inputs, &self.workspace, forces)
+        Reading::new(&self.plane, [q, v], inputs, &self.workspace, forces)
     }
 }
 
@@ -258,7 +261,7 @@ impl System for Bearing {
     fn accelerations(&mut self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> Result<(), Fault> {
         self.evaluations += 1;
         let inputs = self.model.inputs_at(t, &self.host);
-        self.model.accelerations(&inputs, q, v, &mut self.workspace, a)
+        self.plane.accelerations(&inputs, q, v, &mut self.workspace, a)
     }
 
     fn not_finite(&self, velocity: usize) -> Fault {
@@ -270,7 +273,7 @@ impl System for Bearing {
     }
 
     fn longest_step(&self, t: f64, q: &[f64], v: &[f64], wanted: f64) -> f64 {
-        self.model.longest_step(t, [q, v], &self.host, wanted, &self.tuning)
+        self.plane.longest_step(t, [q, v], &self.host, wanted, &self.tuning)
     }
 
     /// Rollers, then the ring, the cage and nodes, whichever exist.
@@ -281,7 +284,7 @@ impl System for Bearing {
 
 impl Structured<OF_ELEMENT> for Bearing {
     fn structure(&self) -> Structure<OF_ELEMENT> {
-        self.model.structure()
+        self.plane.structure()
     }
 }
 
@@ -300,12 +303,12 @@ impl Linearized<OF_ELEMENT> for Bearing {
         evaluated?;
         self.jacobians += 1;
         let rates = self.model.input_rates_at(t, &self.host);
-        self.model.linearize(&mut self.workspace, &rates, out);
+        self.plane.linearize(&mut self.workspace, &rates, out);
         Ok(())
     }
 
     fn linearization_cost(&self) -> f64 {
-        self.model.jacobian_cost()
+        self.plane.jacobian_cost()
     }
 }
 
@@ -318,15 +321,15 @@ impl Split<OF_ELEMENT> for Bearing {
     }
 
     fn damping(&mut self, h: f64, _q: &[f64], _v: &[f64], out: &mut GroupDamping<OF_ELEMENT>) {
-        self.model.damping(h, &mut self.workspace, out);
+        self.plane.damping(h, &mut self.workspace, out);
     }
 
     fn react(&mut self, _q: &[f64], v: &[f64], step: &SemiImplicit<'_>, a: &mut [f64]) {
-        self.model.react(v, step, &mut self.workspace, a);
+        self.plane.react(v, step, &mut self.workspace, a);
     }
 
     fn admit(&self, v: &[f64]) -> Result<(), Fault> {
-        self.model.admit(v)
+        self.plane.admit(v)
     }
 }
 
@@ -349,11 +352,11 @@ impl Observed for Bearing {
     }
 
     fn powers(&mut self, _q: &[f64], v: &[f64], step: Option<&SemiImplicit<'_>>, out: &mut [f64]) {
-        self.model.powers(v, step, &mut self.workspace, out);
+        self.plane.powers(v, step, &mut self.workspace, out);
     }
 
     fn energy(&self, _q: &[f64], _v: &[f64]) -> [f64; 3] {
-        let Energy { kinetic, elastic, potential } = self.model.energy(&self.workspace);
+        let Energy { kinetic, elastic, potential } = self.plane.energy(&self.workspace);
         [kinetic, elastic, potential]
     }
 
@@ -362,7 +365,7 @@ impl Observed for Bearing {
     }
 
     fn watch(&mut self, _q: &[f64], v: &[f64], step: Option<&SemiImplicit<'_>>, out: &mut [f64]) {
-        self.model.watch(v, step, &mut self.workspace, out);
+        self.plane.watch(v, step, &mut self.workspace, out);
     }
 
     fn interruption(&mut self) -> Option<Interruption> {

@@ -159,7 +159,7 @@ impl Averaged {
         let count = model.element_count();
         Ok(Self {
             limits: limits.clone(),
-            ws: Workspace::new(&model),
+            ws: Workspace::new(model.plane()),
             orders,
             pitch: TAU / count as f64,
             orbit: inputs.of(Input::OrbitSpeed),
@@ -375,7 +375,7 @@ impl Averaged {
             }
         }
         let Self { model, inputs, ws, a, .. } = self;
-        model.accelerations(inputs, &q, &v, ws, a).map_err(|fault| failed(fault, model))
+        model.plane().accelerations(inputs, &q, &v, ws, a).map_err(|fault| failed(fault, model))
     }
 
     /// Angle from one element to the next, rad.
@@ -456,7 +456,7 @@ impl Averaged {
             return Ok(u32::from(state.position[0] > self.clearance - layer));
         }
         self.accelerations(&state)?;
-        Ok(self.model.wet_arcs(&self.ws).0)
+        Ok(self.model.plane().wet_arcs(&self.ws).0)
     }
 }
 

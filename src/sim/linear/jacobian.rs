@@ -14,7 +14,7 @@ pub(in crate::sim) struct Slopes {
 
 impl Slopes {
     pub(in crate::sim) fn new(model: &Model) -> Self {
-        let structure = model.structure();
+        let structure = model.plane().structure();
         let linearization = Linearization::new(&structure, model.layout().velocities());
         Self { structure, linearization }
     }

@@ -20,7 +20,7 @@ pub(in crate::sim) struct Newton {
 impl Newton {
     fn new(model: &Model) -> Self {
         Self {
-            shifted: Shifted::new(&model.structure()),
+            shifted: Shifted::new(&model.plane().structure()),
             slopes: Slopes::new(model),
             linearized: false,
             shift: None,

@@ -33,7 +33,7 @@ impl Averaged {
         self.inputs.orbit_travel = self.orbit * t;
         let (q, v) = x.as_slice().split_at(n);
         let Self { model, inputs, ws, a, .. } = self;
-        model.accelerations(inputs, q, v, ws, a).map_err(|fault| failed(fault, model))?;
+        model.plane().accelerations(inputs, q, v, ws, a).map_err(|fault| failed(fault, model))?;
         Ok(DVector::from_iterator(2 * n, v.iter().chain(&self.a[..n]).copied()))
     }
 

@@ -4,14 +4,14 @@
 //! collected on the bodies, which turn them into accelerations. A contact that is apart costs its distance check.
 
 use super::workspace::Workspace;
-use super::{Fault, Input, InputValues, Model};
+use super::{Fault, Input, InputValues, Plane};
 use crate::bodies::{BodyState, CAGE, CAGE_MOTION, OF_ELEMENT, OnBody, SHARED, SOUND, WrenchLanes};
 use crate::laws::contact_pair::ContactForce;
 use crate::pairs::{ContactBlock, Law};
 use crate::scalar::{ZEROS, math};
 use crate::space::{Motion, Wrench};
 
-impl Model {
+impl Plane {
     /// Accelerations `a` (shape: velocities; m/s^2 or rad/s^2) at positions `q` and velocities `v`.
     ///
     /// # Errors
@@ -122,7 +122,7 @@ impl Model {
         }
     }
 
-    /// The first contact whose force is not finite, as a place in [`Model::contact_names`].
+    /// The first contact whose force is not finite, as a place in [`Plane::contact_names`].
     fn contact_not_finite(&self, ws: &Workspace) -> Option<usize> {
         let bad = |f: ContactForce<f64>| !(f.normal + f.friction + f.rolling_resistance).is_finite();
         let found = ws.contacts.iter().find(|c| bad(c.force))?;
@@ -259,7 +259,7 @@ impl Model {
 mod tests {
     use super::*;
     use crate::Sim;
-    use crate::model::HostInputs;
+    use crate::model::{HostInputs, Model};
     use pulp::Arch;
     use std::sync::Arc;
 
@@ -267,11 +267,11 @@ mod tests {
     fn accelerations(sim: &Sim, instructions: Arch) -> Vec<u64> {
         let model = sim.model();
         let (q, v) = sim.state().split_at(model.layout().positions());
-        let mut ws = Workspace::new(model);
+        let mut ws = Workspace::new(model.plane());
         ws.motions.instructions = instructions;
         let mut a = vec![0.0; v.len()];
         let inputs = model.inputs_at(sim.time(), &HostInputs::default());
-        model.accelerations(&inputs, q, v, &mut ws, &mut a).unwrap();
+        model.plane().accelerations(&inputs, q, v, &mut ws, &mut a).unwrap();
         a.into_iter().map(f64::to_bits).collect()
     }
 

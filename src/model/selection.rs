@@ -1,39 +1,23 @@
 //! Channels chosen by patterns.
 
-use super::channels::Channel;
-use super::watch::Watch;
+use super::Channel;
 use crate::error::Result;
-use crate::pairs::PairInfo;
 use crate::scene::{Record, bad_scene};
 
 /// What is followed in every step where the scene does not say it: engineers size cages on peaks of these.
 const USUALLY_WATCHED: &str = "*.pocket_force";
 
-/// Channels of a record and those that are followed in every step.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(in crate::model) struct Selection {
-    pub(in crate::model) recorded: Vec<usize>,
-    pub(super) watch: Watch,
-}
-
-impl Selection {
-    /// What `record` asks for among all `channels` of a bearing with these pairs and so many elements.
-    pub(in crate::model) fn new(
-        record: &Record,
-        channels: &[Channel],
-        pairs: &[&'static PairInfo],
-        elements: usize,
-    ) -> Result<Self> {
-        let recorded = match &record.channels {
-            Some(patterns) => matching("record.channels", patterns, channels, |_| true)?,
-            None => (0..channels.len()).filter(|place| !channels[*place].detail).collect(),
-        };
-        let watched = match &record.extremes {
-            Some(patterns) => matching("record.extremes", patterns, channels, Channel::can_be_watched)?,
-            None => places(USUALLY_WATCHED, channels).collect(),
-        };
-        Ok(Self { recorded, watch: Watch::new(watched, channels, pairs, elements) })
-    }
+/// Places among all `channels` of those that a record has and of those that are followed in every step, as `record` asks.
+pub(super) fn select(record: &Record, channels: &[Channel]) -> Result<[Vec<usize>; 2]> {
+    let recorded = match &record.channels {
+        Some(patterns) => matching("record.channels", patterns, channels, |_| true)?,
+        None => (0..channels.len()).filter(|place| !channels[*place].detail).collect(),
+    };
+    let watched = match &record.extremes {
+        Some(patterns) => matching("record.extremes", patterns, channels, |channel| channel.can_be_watched)?,
+        None => places(USUALLY_WATCHED, channels).collect(),
+    };
+    Ok([recorded, watched])
 }
 
 /// Places of the channels that match one of the patterns and will do, in their own order.

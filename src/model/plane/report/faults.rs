@@ -1,9 +1,9 @@
 //! Faults in words.
 
 use crate::bodies::{Fault, SOUND};
-use crate::model::Model;
+use crate::model::plane::Plane;
 
-impl Model {
+impl Plane {
     /// A fault in words.
     #[doc(hidden)]
     pub fn describe(&self, fault: Fault) -> String {

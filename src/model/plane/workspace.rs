@@ -2,7 +2,7 @@
 
 use super::integration::step_forces::StepMemory;
 use super::inverse_inertia::InverseInertia;
-use super::{InputValues, Model};
+use super::{InputValues, Plane};
 use crate::bodies::{BodyState, CAGE, Motions, OF_ELEMENT, POWERS, SHARED, WrenchLanes};
 use crate::integrate::Vibration;
 use crate::laws::fluid::Fluid;
@@ -60,7 +60,7 @@ pub struct Workspace {
 
 impl Workspace {
     /// Memory for evaluations of `model`.
-    pub fn new(model: &Model) -> Self {
+    pub fn new(model: &Plane) -> Self {
         let contacts = Contacts::new(&model.pairs, model.element_count());
         Self {
             step: StepMemory::new(model.layout.count, model.mode_count()),
@@ -133,13 +133,13 @@ impl Workspace {
         self.counting = counting;
     }
 
-    /// Whether the next evaluations find what [`Model::linearize`] needs along with the forces, which is quicker than finding
+    /// Whether the next evaluations find what [`Plane::linearize`] needs along with the forces, which is quicker than finding
     /// it then; they do not at first.
     pub fn set_differentiating(&mut self, differentiating: bool) {
         self.differentiating = differentiating;
     }
 
-    /// Whether the next evaluations find what [`Model::damping`] needs along with the forces; they do not at first.
+    /// Whether the next evaluations find what [`Plane::damping`] needs along with the forces; they do not at first.
     pub(crate) fn set_splitting(&mut self, splitting: bool) {
         self.splitting = splitting;
     }

@@ -3,20 +3,19 @@
 //! With a semi-implicit step the forces are those that moved the bodies in it, also where damping pulls for a moment. That of
 //! the guide is what is left of the momentum of the cage after all others.
 
-use super::channels::{Channel, GuidePart, Source};
+use super::channels::{GuidePart, Source};
 use super::reading::{along, radius};
 use crate::bodies::{CAGE, ForceSource, INNER_RING, OUTER_RING, SHARED};
 use crate::integrate::SemiImplicit;
-use crate::model::Model;
-use crate::model::Workspace;
+use crate::model::Channel;
+use crate::model::plane::Plane;
+use crate::model::plane::Workspace;
 use crate::pairs::{ContactBlock, NEIGHBOUR, PairInfo};
 use crate::space::Wrench;
 
 /// What is followed.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Watch {
-    /// Places of the channels among all.
-    channels: Vec<usize>,
+pub(in crate::model::plane) struct Watch {
     /// Places among the watched channels of the force of every pair on every element: pairs, then elements.
     contacts: Vec<Vec<Option<usize>>>,
     /// Places of the others, and what they show.
@@ -29,8 +28,8 @@ pub(super) struct Watch {
 
 impl Watch {
     /// Of these places among all `channels` of a bearing with these pairs and so many elements; all of them can be watched.
-    pub(super) fn new(
-        places: Vec<usize>,
+    pub(in crate::model::plane) fn new(
+        places: &[usize],
         channels: &[Channel],
         pairs: &[&'static PairInfo],
         elements: usize,
@@ -60,43 +59,11 @@ impl Watch {
         let guide = torques || any(|s| matches!(s, Source::GuideY | Source::GuideZ | Source::GuideMoment));
         (watch.torques, watch.guide) = (torques, guide);
         watch.raceways |= torques;
-        watch.channels = places;
         watch
     }
 }
 
-impl Channel {
-    /// Whether it is a force, or something else that may peak between two records and is known in every step.
-    pub(super) fn can_be_watched(&self) -> bool {
-        use Source as S;
-        matches!(
-            self.source,
-            S::OuterForce(_)
-                | S::InnerForce(_)
-                | S::PocketForce(_)
-                | S::PocketSum(_)
-                | S::PocketMoment
-                | S::GuideY
-                | S::GuideZ
-                | S::GuideMoment
-                | S::Guide(..)
-                | S::GuideFilm
-                | S::DragTorque
-                | S::OuterRingTorque
-                | S::OuterDragTorque
-                | S::CageEccentricity
-                | S::WhirlRadius
-        )
-    }
-}
-
-impl Model {
-    /// Places of the watched channels among [`Model::channels`].
-    #[doc(hidden)]
-    pub fn watched(&self) -> &[usize] {
-        &self.selection.watch.channels
-    }
-
+impl Plane {
     /// Values of the watched channels at the last evaluated state of `ws`, whose velocities are `v`, or in a step from there.
     pub(crate) fn watch(
         &self,
@@ -108,7 +75,7 @@ impl Model {
         out.fill(0.0);
         self.find_step(v, step, ws);
         let ws = &*ws;
-        let watch = &self.selection.watch;
+        let watch = &self.watch;
         let (direction, motions) = (self.direction(&ws.inputs), &ws.motions);
         let mut on = [Wrench::default(); SHARED];
         for (pair, (batch, info, contacts)) in ws.contacts.by_pair(&self.infos).enumerate() {
@@ -146,7 +113,7 @@ impl Model {
         let guide = if watch.guide { self.guide_in_step(step, &on[CAGE], ws) } else { Wrench::default() };
         let on_cage = on[CAGE];
         on[guiding].moment -= guide.moment + offset[0] * guide.force[1] - offset[1] * guide.force[0];
-        for (place, source) in &self.selection.watch.others {
+        for (place, source) in &self.watch.others {
             out[*place] = match source {
                 Source::PocketSum(k) => along(offset, on_cage.force)[*k],
                 Source::PocketMoment => on_cage.moment,

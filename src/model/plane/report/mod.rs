@@ -6,11 +6,9 @@ mod forces;
 mod geometry;
 mod names;
 mod reading;
-mod selection;
 mod watch;
 
-pub use channels::Channel;
-pub use forces::{CONTACT_QUANTITIES, ContactForces, FORCE_COMPONENTS, Forces, GuideReport, Quantity};
-pub use names::StateInfo;
+pub(crate) use channels::Source;
+pub use forces::{CONTACT_QUANTITIES, ContactForces, FORCE_COMPONENTS, Forces, GuideReport};
 pub(crate) use reading::Reading;
-pub(super) use selection::Selection;
+pub(super) use watch::Watch;

@@ -1,71 +1,92 @@
-//! From the scene to bodies, pairs, coordinates and inputs.
+//! Inputs of a model: from the scene to functions of time, and what hosts may set.
 
-use super::report::Selection;
 use super::signals::{Drive, InputSignals, InputSource, Oil, Orbit};
-use super::{Input, Model};
-use crate::bodies::{self, OUTER_RING, SharedBodies};
-use crate::error::Result;
+use super::{HostInputs, Input, InputValues, Model, StateInfo};
+use crate::error::{Error, Result, Status};
 use crate::laws::fluid::walther::Walther;
 use crate::pairs;
 use crate::scalar::math;
-use crate::scene::{ElementMotion, RingMotion, Scene, Signal, SignalIntegral};
+use crate::scene::{
+    ElementMotion, FORCE, RingMotion, SPEED, Scene, Signal, SignalIntegral, TEMPERATURE, TORQUE,
+};
 use crate::scene::{Temperature, VISCOSITY, Viscosity, bad_scene, interpolate};
 
-/// Builds the model of a checked scene.
-pub(super) fn compile(scene: Scene) -> Result<Model> {
-    let elements = bodies::elements(&scene);
-    let shared = bodies::shared_bodies(&scene, elements.set());
-    let nodes = bodies::nodes(&scene);
-    let inputs = inputs(&scene)?;
-    let viscosity = viscosity_at_start(&scene, &inputs);
-    let (pairs, between) =
-        (pairs::element_pairs(&scene, viscosity)?, pairs::shared_pairs(&scene, viscosity)?);
-    let mut model = Model {
-        masses: shared.each_ref().map(|body| body.as_ref().and_then(|b| b.mass()).unwrap_or(f64::INFINITY)),
-        outer_turns: turns(&shared, OUTER_RING),
-        onsets: pairs.iter().any(|pair| pair.has_onset()),
-        layout: bodies::layout_of(&shared, &*elements, &nodes),
-        gravity: scene.gravity.map_or([0.0; 2], |g| [g.y, g.z]),
-        shared,
-        mobility: elements.mobility(),
-        elements,
-        lubricant: None,
-        nodes,
-        infos: pairs.iter().map(|pair| pair.info()).collect(),
-        parts: pairs.iter().map(|pair| pair.law().parts()).collect(),
-        laws: pairs.iter().map(|pair| pair.law()).collect(),
-        pairs,
-        between_infos: between.iter().map(|pair| pair.info()).collect(),
-        between,
-        inputs,
-        channels: Vec::new(),
-        selection: Selection::default(),
-        scene,
-    };
-    let lubricant = model.nodes_in().find_map(|(node, at)| Some(at.start + node.lubricant()?));
-    model.lubricant = lubricant;
-    model.channels = model.list_channels();
-    model.selection =
-        Selection::new(&model.scene.record, &model.channels, &model.infos, model.element_count())?;
-    Ok(model)
-}
+impl Model {
+    /// The inputs of this scene, in the order of their indices.
+    pub fn input_list(&self) -> impl ExactSizeIterator<Item = Input> {
+        self.inputs.list.iter().map(|(input, _)| *input)
+    }
 
-/// Whether the rotation of a shared body is prescribed.
-fn turns(shared: &SharedBodies, place: usize) -> bool {
-    shared[place].as_ref().is_some_and(|body| body.turned_by().is_some())
-}
+    /// Number of inputs.
+    pub fn input_count(&self) -> usize {
+        self.inputs.list.len()
+    }
 
-/// Viscosity that laws are built with, Pa s.
-fn viscosity_at_start(scene: &Scene, inputs: &InputSignals) -> Option<f64> {
-    match (&inputs.oil, scene.lubricant.as_ref().map(|l| &l.viscosity)) {
-        (Some(oil), _) => Some(oil.built_at.1),
-        (None, Some(Viscosity::Constant(value))) => Some(*value),
-        _ => None,
+    /// Values of the inputs at time `t` in s.
+    #[doc(hidden)]
+    #[inline]
+    pub fn inputs_at(&self, t: f64, host: &HostInputs) -> InputValues {
+        self.inputs.at(t, host)
+    }
+
+    /// Rates of the inputs at time `t` in s, per second; of `orbit_travel` too. At a jump or kink they are those after it.
+    #[doc(hidden)]
+    pub fn input_rates_at(&self, t: f64, host: &HostInputs) -> InputValues {
+        self.inputs.rates_at(t, host)
+    }
+
+    /// Sets an input at time `t` (s) to `value`, or lets it follow the scene again with `None`.
+    #[doc(hidden)]
+    pub fn set_input(&self, host: &mut HostInputs, t: f64, input: Input, value: Option<f64>) {
+        self.inputs.set(host, t, input, value);
+    }
+
+    /// Whether an input may have this value: those that scenes may give it.
+    ///
+    /// # Errors
+    /// [`crate::Status::BadValue`].
+    pub fn check_input(&self, input: Input, value: f64) -> Result<()> {
+        let allowed = match input {
+            Input::RingSpeed | Input::OuterRingSpeed | Input::OrbitSpeed | Input::SpinSpeed => SPEED,
+            Input::LoadY | Input::LoadZ | Input::CageForceY | Input::CageForceZ => FORCE,
+            Input::CageTorque => TORQUE,
+            Input::Temperature => TEMPERATURE,
+        };
+        allowed.check("value", value).map_err(|e| Error::new(Status::BadValue, e.message))?;
+        match self.inputs.oil.filter(|_| input == Input::Temperature).map(|oil| oil.law.viscosity(value)) {
+            Some(viscosity) => VISCOSITY.check("value", viscosity).map_err(|e| {
+                let text =
+                    format!("value: at {value:?} K the viscosity{}", e.message.trim_start_matches("value:"));
+                Error::new(Status::BadValue, text)
+            }),
+            None => Ok(()),
+        }
+    }
+
+    /// The first jump or kink of an input after `t`, s; infinity if there is none.
+    #[doc(hidden)]
+    pub fn next_event(&self, t: f64, host: &HostInputs) -> f64 {
+        self.inputs.next_event(t, host)
+    }
+
+    /// The inputs.
+    pub fn input_infos(&self) -> Vec<StateInfo> {
+        let named = self.input_list().map(|input| {
+            let [unit, description] = input.meaning();
+            StateInfo { name: input.name().to_owned(), unit, description }
+        });
+        named.collect()
+    }
+
+    /// Viscosity of the lubricant in Pa s at these inputs, if it follows the temperature.
+    #[doc(hidden)]
+    pub fn viscosity(&self, inputs: &InputValues) -> Option<f64> {
+        self.inputs.viscosity(inputs)
     }
 }
 
 /// The inputs in the order of [`Input`].
-fn inputs(scene: &Scene) -> Result<InputSignals> {
+pub(super) fn inputs(scene: &Scene) -> Result<InputSignals> {
     let mut list = Vec::new();
     let mut add = |input: Input, signal: &Signal| list.push((input, InputSource::Time(signal.clone())));
     let outer_speed = scene.outer_ring.as_ref().and_then(|ring| ring.speed.as_ref());

@@ -1,10 +1,10 @@
 //! A body with coordinates of its own behind those of its motion, as modes are: everything but its file takes them as they are.
 
-use super::{InputValues, Model, Workspace};
+use super::{InputValues, Workspace};
 use crate::bodies::{
     BodyEnergy, BodyForces, BodyState, CAGE, Coordinate, Fault, Input, Moves, OnBody, SharedBody, layout_of,
 };
-use crate::model::HostInputs;
+use crate::model::{HostInputs, Model};
 use crate::space::{Motion, Wrench};
 use crate::{Scene, Sim};
 use nalgebra::DMatrixViewMut;
@@ -115,7 +115,8 @@ fn model(file: &str, method: &str) -> Model {
     let solver = format!(r#"{{"method": {method}}}"#);
     let text = std::fs::read_to_string(path).unwrap();
     let mut model = Model::new(Scene::from_json_with(&text, [("solver", solver.as_str())]).unwrap()).unwrap();
-    let cage = model.shared[CAGE].take().unwrap();
+    let plane = Arc::get_mut(&mut model.plane).unwrap();
+    let cage = plane.shared[CAGE].take().unwrap();
     let names = [
         (["a", "m", "first mode"], ["a_rate", "m/s", "its rate"]),
         (["b", "m", "second mode"], ["b_rate", "m/s", "its rate"]),
@@ -123,8 +124,8 @@ fn model(file: &str, method: &str) -> Model {
     let own =
         names.map(|(position, rate)| Coordinate { position: Some(position), rate, moves: Moves::Itself });
     let coordinates = cage.coordinates().iter().copied().chain(own).collect();
-    model.shared[CAGE] = Some(Box::new(VibratingCage { cage, coordinates }));
-    model.layout = layout_of(&model.shared, &*model.elements, &model.nodes);
+    plane.shared[CAGE] = Some(Box::new(VibratingCage { cage, coordinates }));
+    plane.layout = layout_of(&plane.shared, &*plane.elements, &plane.nodes);
     model
 }
 
@@ -183,15 +184,15 @@ fn its_derivatives_are_those_of_the_accelerations() {
     let names: Vec<_> = model.state_infos().into_iter().map(|info| info.name).collect();
     assert_eq!((&*names[at], &*names[positions + at + 1]), ("cage.a", "cage.b_rate"));
     // Nothing else takes notice of them.
-    let (mut ws, mut a) = (Workspace::new(&model), vec![0.0; model.layout().velocities()]);
+    let (mut ws, mut a) = (Workspace::new(model.plane()), vec![0.0; model.layout().velocities()]);
     let inputs = model.inputs_at(1e-3, &HostInputs::default());
     let (q, v) = state.split_at(positions);
-    model.accelerations(&inputs, q, v, &mut ws, &mut a).unwrap();
+    model.plane().accelerations(&inputs, q, v, &mut ws, &mut a).unwrap();
     let before = a.clone();
     let mut moved = state.clone();
     moved[at] += 1e-4;
     let (q, v) = moved.split_at(positions);
-    model.accelerations(&inputs, q, v, &mut ws, &mut a).unwrap();
+    model.plane().accelerations(&inputs, q, v, &mut ws, &mut a).unwrap();
     a[at] = before[at];
     assert_eq!(a, before);
 }

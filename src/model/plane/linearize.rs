@@ -7,14 +7,14 @@
 //! to nothing else.
 
 use super::workspace::Workspace;
-use super::{Input, InputValues, Model};
+use super::{Input, InputValues, Plane};
 use crate::bodies::{ElementSlopes, OF_ELEMENT, OnBody};
 use crate::integrate::{Linearization, Structure};
 use crate::pairs::SlopeSums;
 use crate::scalar::place_of;
 use crate::space::Wrench;
 
-impl Model {
+impl Plane {
     /// Which velocities are coupled: shared bodies and nodes are the hub, elements the spokes.
     #[doc(hidden)]
     pub fn structure(&self) -> Structure<OF_ELEMENT> {
@@ -22,7 +22,7 @@ impl Model {
     }
 
     /// Derivatives of the accelerations at the last evaluated state of `ws`, while the inputs change at `rates` (see
-    /// [`Model::input_rates_at`]).
+    /// [`Plane::input_rates_at`]).
     ///
     /// # Panics
     /// When `ws` or `out` was made for another model.

@@ -1,21 +1,11 @@
 //! Names of bodies, states, inputs and contacts.
 
 use crate::bodies::{ForceSource, Owner, State, states_of};
-use crate::model::Model;
+use crate::model::StateInfo;
+use crate::model::plane::Plane;
 use crate::pairs::{ContactLaw, Law, Site};
 
-/// Name, unit and meaning of a state or an input.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct StateInfo {
-    /// Name, for example `roller[3].orbit_travel`.
-    pub name: String,
-    /// SI unit; "1" for ratios.
-    pub unit: &'static str,
-    /// What it is.
-    pub description: &'static str,
-}
-
-impl Model {
+impl Plane {
     /// Names of the bodies, in the order of force reports: outer ring, inner ring, cage, rollers.
     pub fn body_names(&self) -> Vec<String> {
         let kind = self.element_kind();
@@ -66,15 +56,6 @@ impl Model {
         named.chain(of_nodes).collect()
     }
 
-    /// The inputs.
-    pub fn input_infos(&self) -> Vec<StateInfo> {
-        let named = self.input_list().map(|input| {
-            let [unit, description] = input.meaning();
-            StateInfo { name: input.name().to_owned(), unit, description }
-        });
-        named.collect()
-    }
-
     /// Contacts per element in force reports.
     pub(super) fn contacts_per_element(&self) -> usize {
         self.infos.iter().map(|info| info.contacts.len()).sum()
@@ -91,12 +72,12 @@ impl Model {
     }
 
     /// Law of the pair with this force source.
-    pub(in crate::model) fn law_of(&self, source: ForceSource) -> Option<&ContactLaw> {
+    pub(in crate::model::plane) fn law_of(&self, source: ForceSource) -> Option<&ContactLaw> {
         self.infos.iter().zip(&self.laws).find(|(info, _)| info.source == source).map(|(_, law)| law)
     }
 
-    /// Place of a contact in [`Model::contact_names`].
-    pub(in crate::model) fn contact_place(&self, site: &Site) -> usize {
+    /// Place of a contact in [`Plane::contact_names`].
+    pub(in crate::model::plane) fn contact_place(&self, site: &Site) -> usize {
         site.element * self.contacts_per_element() + self.first_contact(site.pair) + site.contact
     }
 

@@ -1,11 +1,12 @@
 //! Values of output channels at one state.
 
-use super::channels::{Channel, GuidePart, Source};
+use super::channels::{GuidePart, Source};
 use super::forces::{
     ContactForces, FILM_THICKNESS, FRICTION, Forces, GuideReport, MEAN_PRESSURE, NORMAL_FORCE, SLIP_SPEED,
 };
 use crate::bodies::{CAGE, CAGE_MOTION, ForceSource, INNER_RING, Input, InputValues, OUTER_RING, displaced};
-use crate::model::{Model, Workspace};
+use crate::model::Channel;
+use crate::model::plane::{Plane, Workspace};
 use crate::pairs::{ContactLaw, ElementPlace};
 use crate::scalar::math;
 use crate::space::Motion;
@@ -19,7 +20,7 @@ const NO_SPEED: f64 = 1e-9;
 
 /// A state with what many channels show of it.
 pub(crate) struct Reading<'a> {
-    model: &'a Model,
+    model: &'a Plane,
     q: &'a [f64],
     v: &'a [f64],
     inputs: InputValues,
@@ -35,7 +36,7 @@ pub(crate) struct Reading<'a> {
 impl<'a> Reading<'a> {
     /// Of (`q`, `v`) at these inputs, with `forces` that `ws` was evaluated for.
     pub fn new(
-        model: &'a Model,
+        model: &'a Plane,
         [q, v]: [&'a [f64]; 2],
         inputs: InputValues,
         ws: &'a Workspace,
@@ -116,7 +117,7 @@ impl<'a> Reading<'a> {
                 forces.guide.along([y, z])[k]
             }
             Source::PocketMoment => pocket[2],
-            Source::Viscosity => model.viscosity(&model.with_lumps(inputs, v)).unwrap_or(f64::NAN),
+            Source::Viscosity => model.inputs.viscosity(&model.with_lumps(inputs, v)).unwrap_or(f64::NAN),
             Source::Node(place) => v[place],
             Source::RingY => model.motion_of(INNER_RING, q, v, inputs).position[0],
             Source::RingZ => model.motion_of(INNER_RING, q, v, inputs).position[1],
@@ -167,7 +168,7 @@ impl<'a> Reading<'a> {
     }
 }
 
-impl Model {
+impl Plane {
     /// Largest pressure of Hertz's line contact of an element, by the place of the contact among those of the element, Pa; with a
     /// profile that of the middle. Of a straight one under the load Q: sqrt(Q E'/(2 pi R l)). E' = 2/((1 - nu1^2)/E1 + (1 - nu2^2)/E2), 1/R curvature, l length.
     fn hertz_pressure(&self, place: usize, contact: &ContactForces) -> Option<f64> {
@@ -199,16 +200,10 @@ impl Model {
     pub(crate) fn wet_arcs(&self, ws: &Workspace) -> (u32, f64) {
         self.guide().map_or((0, 0.0), |(place, _)| self.between[place].wet_arcs(&ws.motions))
     }
-
-    /// Viscosity of the lubricant in Pa s at these inputs, if it follows the temperature.
-    #[doc(hidden)]
-    pub fn viscosity(&self, inputs: &InputValues) -> Option<f64> {
-        self.inputs.oil.map(|oil| oil.law.viscosity(inputs.of(Input::Temperature)))
-    }
 }
 
 /// Number of elements with a force on the cage.
-fn touching_elements(model: &Model, ws: &Workspace) -> usize {
+fn touching_elements(model: &Plane, ws: &Workspace) -> usize {
     let touches = |j: usize| {
         ws.contacts.iter().any(|c| c.site.mate == CAGE && c.site.element == j && c.force.normal > 0.0)
     };

@@ -1,7 +1,7 @@
 //! Where the time of a force evaluation goes, and what its derivatives take.
 
 use crate::bodies::{INNER_RING, OUTER_RING};
-use crate::model::{Fault, InputValues, Model, Workspace};
+use crate::model::plane::{Fault, InputValues, Plane, Workspace};
 use crate::pairs::Cost;
 use std::hint::black_box;
 use std::time::Instant;
@@ -19,7 +19,7 @@ const ROUNDS: u32 = 5;
 /// An element whose contacts are looked for.
 const ELEMENT: Cost = Cost { value: 10.0, slopes: 5.0, per_element: true };
 
-impl Model {
+impl Plane {
     /// Time that the derivatives of the forces take beside their values, in force evaluations, counted from elements, contacts
     /// and films. Never clocked, so that equal runs choose equally.
     #[doc(hidden)]
@@ -40,10 +40,10 @@ impl Model {
     /// together share their time by their numbers.
     ///
     /// # Errors
-    /// As [`Model::accelerations`].
+    /// As [`Plane::accelerations`].
     ///
     /// # Panics
-    /// As [`Model::accelerations`].
+    /// As [`Plane::accelerations`].
     #[doc(hidden)]
     pub fn time_parts(
         &self,

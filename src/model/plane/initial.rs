@@ -1,6 +1,6 @@
 //! Start of a run: kinematic speeds, and on request the static equilibrium of ring and rollers.
 
-use super::{HostInputs, Input, InputValues, Model};
+use super::{HostInputs, Input, InputValues, Plane};
 use crate::bodies::{ElementMotion, ForceSource, INNER_RING};
 use crate::error::{Error, Result, Status};
 use crate::laws::line_contact::LineContact;
@@ -21,13 +21,13 @@ const NEGLIGIBLE_FORCE: f64 = 1e-9;
 /// Accepted residual force relative to the load.
 const TOLERANCE: f64 = 1e-10;
 
-impl Model {
+impl Plane {
     /// State vector at the start of the run.
     ///
     /// # Errors
     /// [`Status::BadScene`] when no static equilibrium is found, or it leaves no room for the cage.
     pub fn initial_state(&self) -> Result<Vec<f64>> {
-        let inputs = self.inputs_at(0.0, &HostInputs::default());
+        let inputs = self.inputs.at(0.0, &HostInputs::default());
         let layout = &self.layout;
         let mut state = vec![0.0; layout.states()];
         let (q, v) = state.split_at_mut(layout.positions());
@@ -112,7 +112,7 @@ impl Model {
 
 /// The rollers of a bearing in which nothing moves but for the centrifugal force.
 struct StillBearing<'a> {
-    model: &'a Model,
+    model: &'a Plane,
     geometry: RacewayGeometry,
     /// Of outer and inner ring.
     laws: [&'a LineContact; 2],
@@ -188,7 +188,7 @@ impl StillBearing<'_> {
 
     /// Equilibrium of roller `j` with the ring at `x` in m, and its frame.
     fn roller(&self, j: usize, x: [f64; 2]) -> (RollerBalance, Frame<f64>) {
-        let Model { layout, elements, .. } = self.model;
+        let Plane { layout, elements, .. } = self.model;
         let frame = elements.frame(layout, self.q, &InputValues::default(), j);
         (self.roller_balance(frame.to_local(x), elements.set().radius_excess[j]), frame)
     }

@@ -1,12 +1,12 @@
 //! States that are no motion: their rates from the powers of the last evaluated state, and what methods ask of them.
 
-use super::{Input, InputValues, Model, Workspace};
+use super::{Input, InputValues, Plane, Workspace};
 use crate::bodies::{Damping, Fault, Node, OF_ELEMENT};
 use crate::integrate::Linearization;
 use crate::scene::TEMPERATURE;
 use std::ops::Range;
 
-impl Model {
+impl Plane {
     /// The nodes, with their states in `v`.
     pub(super) fn nodes_in(&self) -> impl Iterator<Item = (&dyn Node, Range<usize>)> {
         self.nodes.iter().map(|node| &**node).zip(self.layout.nodes())
@@ -87,6 +87,7 @@ impl Model {
 mod tests {
     use super::*;
     use crate::bodies::{NodeState, Power, layout_of};
+    use crate::model::Model;
     use crate::{Scene, Sim};
     use nalgebra::DMatrixViewMut;
     use std::sync::Arc;
@@ -134,12 +135,13 @@ mod tests {
 
     /// A simulation of the greased guide with the layer.
     fn greased_guide(method: &str) -> Sim {
-        let text = include_str!("../../scenes/grease_guide.json");
+        let text = include_str!("../../../scenes/grease_guide.json");
         let solver = format!(r#"{{"method": {method}}}"#);
         let mut model =
             Model::new(Scene::from_json_with(text, [("solver", solver.as_str())]).unwrap()).unwrap();
-        model.nodes.push(Box::new(Layer(["film", "wall"].map(temperature))));
-        model.layout = layout_of(&model.shared, &*model.elements, &model.nodes);
+        let plane = Arc::get_mut(&mut model.plane).unwrap();
+        plane.nodes.push(Box::new(Layer(["film", "wall"].map(temperature))));
+        plane.layout = layout_of(&plane.shared, &*plane.elements, &plane.nodes);
         Sim::new(Arc::new(model)).unwrap()
     }
 
@@ -204,8 +206,8 @@ mod tests {
             [("layer.film".to_owned(), "K"), ("layer.wall".to_owned(), "K")]
         );
         assert_eq!(model.state_scales()[names.len() - 1], 1.0);
-        let groups = model.structure().groups();
-        assert_eq!(model.group_name(groups.len() - 1).as_deref(), Some("layer"));
+        let groups = model.plane().structure().groups();
+        assert_eq!(model.plane().group_name(groups.len() - 1).as_deref(), Some("layer"));
         assert_eq!(groups.last().map(Vec::len), Some(2));
     }
 }

@@ -1,9 +1,9 @@
 //! Lengths that follow from a scene, by name.
 
-use super::forces::{Quantity, quantity};
-use crate::model::Model;
+use crate::model::plane::Plane;
+use crate::model::{Quantity, quantity};
 
-impl Model {
+impl Plane {
     /// Lengths and counts of the bearing that follow from its scene, those that it has: name, unit and meaning with the value, SI.
     pub fn geometry(&self) -> Vec<(Quantity, f64)> {
         let set = self.elements.set();

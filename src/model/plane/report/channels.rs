@@ -1,12 +1,13 @@
 //! Output channels: the named quantities that a run records.
 
 use crate::bodies::ForceSource;
-use crate::model::Model;
+use crate::model::Channel;
+use crate::model::plane::Plane;
 use crate::pairs::ContactLaw;
 
 /// What a channel shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Source {
+pub(crate) enum Source {
     CageY,
     CageZ,
     CageYRatio,
@@ -59,32 +60,38 @@ pub(super) enum Source {
 
 /// Part of the guide force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum GuidePart {
+pub(crate) enum GuidePart {
     Pressure,
     Shear,
     Solid,
 }
 
-/// A named output.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Channel {
-    /// Name, for example `cage.y` or `roller[3].slip`.
-    pub name: String,
-    /// SI unit; "1" for ratios.
-    pub unit: &'static str,
-    /// What it is.
-    pub description: &'static str,
-    pub(super) source: Source,
-    /// Whether records leave it out unless they name it.
-    pub(super) detail: bool,
+impl Source {
+    /// Whether it is a force, or something else that may peak between two records and is known in every step.
+    fn can_be_watched(self) -> bool {
+        matches!(
+            self,
+            Self::OuterForce(_)
+                | Self::InnerForce(_)
+                | Self::PocketForce(_)
+                | Self::PocketSum(_)
+                | Self::PocketMoment
+                | Self::GuideY
+                | Self::GuideZ
+                | Self::GuideMoment
+                | Self::Guide(..)
+                | Self::GuideFilm
+                | Self::DragTorque
+                | Self::OuterRingTorque
+                | Self::OuterDragTorque
+                | Self::CageEccentricity
+                | Self::WhirlRadius
+        )
+    }
 }
 
-impl Model {
-    /// The output channels of this scene.
-    pub fn channels(&self) -> &[Channel] {
-        &self.channels
-    }
-
+impl Plane {
+    /// All channels, details behind the others.
     pub(in crate::model) fn list_channels(&self) -> Vec<Channel> {
         let mut list = ChannelList(Vec::new());
         self.add_cage_channels(&mut list);
@@ -248,10 +255,22 @@ struct ChannelList(Vec<Channel>);
 
 impl ChannelList {
     fn add(&mut self, name: &str, unit: &'static str, description: &'static str, source: Source) {
-        self.0.push(Channel { name: name.to_owned(), unit, description, source, detail: false });
+        self.push(name, unit, description, source, false);
     }
 
     fn add_detail(&mut self, name: &str, unit: &'static str, description: &'static str, source: Source) {
-        self.0.push(Channel { name: name.to_owned(), unit, description, source, detail: true });
+        self.push(name, unit, description, source, true);
+    }
+
+    fn push(
+        &mut self,
+        name: &str,
+        unit: &'static str,
+        description: &'static str,
+        source: Source,
+        detail: bool,
+    ) {
+        let can_be_watched = source.can_be_watched();
+        self.0.push(Channel { name: name.to_owned(), unit, description, source, detail, can_be_watched });
     }
 }

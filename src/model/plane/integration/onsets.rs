@@ -9,10 +9,10 @@
 
 use crate::bodies::OUTER_RING;
 use crate::integrate::Tuning;
-use crate::model::{HostInputs, InputValues, Model};
+use crate::model::plane::{HostInputs, InputValues, Plane};
 use crate::pairs::Ahead;
 
-impl Model {
+impl Plane {
     /// The longest step (s) from the state (q, v) at time `t` that passes no narrow law unseen, or any longer one than
     /// `wanted`.
     #[doc(hidden)]
@@ -30,7 +30,7 @@ impl Model {
         }
         // A ring that stands guides at no input.
         let moved = self.between_infos.iter().any(|info| info.bodies[1] != OUTER_RING || self.outer_turns);
-        let inputs = if moved || self.onsets { self.inputs_at(t, host) } else { InputValues::default() };
+        let inputs = if moved || self.onsets { self.inputs.at(t, host) } else { InputValues::default() };
         let shared = self.motions_at(q, v, &inputs);
         let ahead = Ahead {
             shared: &shared,
@@ -56,17 +56,19 @@ impl Model {
 mod tests {
     use super::*;
     use crate::model::{Input, Model};
+    use std::sync::Arc;
 
-    fn model(changes: &[(&str, &str)]) -> Model {
+    fn model(changes: &[(&str, &str)]) -> Arc<Plane> {
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/grease_guide.json");
         let text = std::fs::read_to_string(path).unwrap();
-        Model::new(crate::Scene::from_json_with(&text, changes.iter().copied()).unwrap()).unwrap()
+        let scene = crate::Scene::from_json_with(&text, changes.iter().copied()).unwrap();
+        Model::new(scene).unwrap().plane().clone()
     }
 
     /// Longest step of a cage at `y` m that moves to the right with `speed` m/s in a guide without reachable pockets.
-    fn longest(model: &Model, y: f64, speed: f64) -> f64 {
+    fn longest(model: &Plane, y: f64, speed: f64) -> f64 {
         let (mut q, mut v) = ([y, 0.0, 0.0], [speed, 0.0, 0.0]);
-        let inputs = model.inputs_at(0.0, &HostInputs::default());
+        let inputs = model.inputs.at(0.0, &HostInputs::default());
         (q[2], v[2]) = (inputs.orbit_travel, inputs.of(Input::OrbitSpeed));
         model.longest_step(0.0, [&q, &v], &HostInputs::default(), f64::INFINITY, &Tuning::default())
     }
@@ -118,7 +120,7 @@ mod tests {
         assert!(
             (fast.longest_step(0.0, [&q, &v], &host, 1.0, &Tuning::default()) / 5e-7 - 1.0).abs() < 1e-12
         );
-        fast.set_input(&mut host, 0.0, Input::RingSpeed, Some(300.0));
+        fast.inputs.set(&mut host, 0.0, Input::RingSpeed, Some(300.0));
         assert!(fast.longest_step(0.0, [&q, &v], &host, 1.0, &Tuning::default()) > 1e-6);
     }
 
@@ -126,7 +128,7 @@ mod tests {
     fn walls_of_plane_pockets_are_met_in_time() {
         let model = model(&[("cage.guide", "null")]);
         // The cage turns ahead of its elements at 0.09 m/s: half the clearance of 0.555 mm is left to each wall.
-        let inputs = model.inputs_at(0.0, &HostInputs::default());
+        let inputs = model.inputs.at(0.0, &HostInputs::default());
         let v = [0.0, 0.0, inputs.of(Input::OrbitSpeed) + 2.0];
         let h = model.longest_step(0.0, [&[0.0; 3], &v], &HostInputs::default(), 1.0, &Tuning::default());
         let turn = 0.25 * (12.34e-3f64 / 1e6).sqrt();

@@ -3,15 +3,15 @@
 
 use crate::bodies::{CAGE, CAGE_MOTION, OF_ELEMENT, SHARED};
 use crate::integrate::SemiImplicit;
-use crate::model::Model;
-use crate::model::workspace::Workspace;
+use crate::model::plane::Plane;
+use crate::model::plane::workspace::Workspace;
 use crate::pairs::{ContactBlock, SpeedChanges};
 use crate::scalar::{ZEROS, blocks_for, place_of};
 use crate::space::Wrench;
 
 /// What is known of the step from the last evaluated state.
 #[derive(Clone, Debug)]
-pub(in crate::model) struct StepMemory {
+pub(in crate::model::plane) struct StepMemory {
     of_elements: Vec<SpeedChanges>,
     /// What it has added to the forces over the coordinates of the cage behind those of its motion.
     on_modes: Vec<f64>,
@@ -21,7 +21,7 @@ pub(in crate::model) struct StepMemory {
 
 impl StepMemory {
     /// Memory for these elements and a cage with so many modes.
-    pub(in crate::model) fn new(elements: usize, modes: usize) -> Self {
+    pub(in crate::model::plane) fn new(elements: usize, modes: usize) -> Self {
         Self {
             of_elements: vec![[[ZEROS; OF_ELEMENT]; 2]; blocks_for(elements)],
             on_modes: vec![0.0; modes],
@@ -31,12 +31,12 @@ impl StepMemory {
 
     /// Forgets it, as another state is evaluated.
     #[inline]
-    pub(in crate::model) fn forget(&mut self) {
+    pub(in crate::model::plane) fn forget(&mut self) {
         self.found = None;
     }
 }
 
-impl Model {
+impl Plane {
     /// Adds to the accelerations `a` of the shared bodies what the forces on them have become in the step of the elements.
     ///
     /// The forces between an element and its mates are the same on both of them in this way. With those of the evaluation on
@@ -78,7 +78,12 @@ impl Model {
 
     /// Finds the forces and powers of all contacts in a step from the last evaluated state, whose velocities are `v`, or at that
     /// state, unless they are known. Steps of elements whose motion is prescribed change nothing.
-    pub(in crate::model) fn find_step(&self, v: &[f64], step: Option<&SemiImplicit<'_>>, ws: &mut Workspace) {
+    pub(in crate::model::plane) fn find_step(
+        &self,
+        v: &[f64],
+        step: Option<&SemiImplicit<'_>>,
+        ws: &mut Workspace,
+    ) {
         let step = step.filter(|_| self.layout.count > 0);
         let wanted = step.map_or(0.0, |step| step.h);
         let Workspace { contacts, motions, step: StepMemory { of_elements, found, .. }, .. } = ws;

@@ -4,12 +4,12 @@
 //! of its contacts with elements of prescribed motion.
 
 use crate::bodies::{CAGE, CAGE_MOTION, Damping, SHARED, UPPER};
-use crate::model::Model;
-use crate::model::workspace::Workspace;
+use crate::model::plane::Plane;
+use crate::model::plane::workspace::Workspace;
 use crate::scalar::ZEROS;
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
-impl Model {
+impl Plane {
     /// Damping of every group for a step of size `h` (s), after an evaluation with [`Workspace::set_splitting`].
     pub(crate) fn damping(&self, h: f64, ws: &mut Workspace, out: &mut Damping) {
         self.element_damping(h, ws, out);

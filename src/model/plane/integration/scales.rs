@@ -2,7 +2,7 @@
 //! steps.
 
 use crate::bodies::{CAGE, ForceSource, INNER_RING, Moves, states_of};
-use crate::model::{Input, Model};
+use crate::model::plane::{Input, Plane};
 use crate::pairs::{ContactLaw, NEIGHBOUR};
 use crate::scalar::math;
 
@@ -10,7 +10,7 @@ use crate::scalar::math;
 /// against the cage (1e2 1/s).
 const RATE_SCALE: f64 = 1e4;
 
-impl Model {
+impl Plane {
     /// Radial guide clearance in m, if the cage is guided.
     pub fn guide_clearance(&self) -> Option<f64> {
         let guide = self.scene.cage.as_ref()?.guide.as_ref()?;

@@ -11,10 +11,11 @@
 //! error of the integration. Rings whose rotation is prescribed have no kinetic energy of their own: what turns them is
 //! the power that the bearing takes from the shaft.
 
-use super::Model;
+use super::Plane;
 use super::workspace::{AT_FLOOR, Workspace};
 use crate::bodies::{CAGE, INNER_RING, OUTER_RING, Power, SharedBody};
 use crate::integrate::SemiImplicit;
+use crate::model::Energy;
 use crate::pairs::{Batch, ContactBlock, Loaded};
 use crate::space::Wrench;
 
@@ -22,25 +23,7 @@ use crate::space::Wrench;
 const RINGS: [usize; 2] = [OUTER_RING, INNER_RING];
 const DRIVES: [Power; 2] = [Power::OuterRingDrive, Power::RingDrive];
 
-/// Energy of a state, J.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Energy {
-    /// Kinetic energy.
-    pub kinetic: f64,
-    /// Energy of contacts that are pressed together.
-    pub elastic: f64,
-    /// Potential energy of the weight; zero with all bodies at the centre.
-    pub potential: f64,
-}
-
-impl Energy {
-    /// All of it, J.
-    pub fn total(&self) -> f64 {
-        self.kinetic + self.elastic + self.potential
-    }
-}
-
-impl Model {
+impl Plane {
     /// Powers at the last evaluated state of `ws`, whose velocities are `v`, W, in the order of [`POWERS`], and last whether a law
     /// is at a floor (1 or 0). With a semi-implicit step those of its forces, which differ from the evaluated ones.
     ///
@@ -100,7 +83,7 @@ impl Model {
     }
 
     /// Power of the film and of the solid contact of a pair of shared bodies, W.
-    pub(in crate::model) fn power_between(&self, place: usize, ws: &Workspace) -> [f64; 2] {
+    pub(in crate::model::plane) fn power_between(&self, place: usize, ws: &Workspace) -> [f64; 2] {
         let (pair, force, motions) = (&self.between[place], &ws.between[place], &ws.motions);
         let [a, b] = self.between_infos[place].bodies.map(|body| &motions.shared[body]);
         let power = |[on_a, on_b]: [Wrench<f64>; 2]| on_a.power(a) + on_b.power(b);
@@ -114,7 +97,7 @@ impl Model {
     }
 
     /// Energy of the deformed cage at the last evaluated state, J.
-    pub(in crate::model) fn elastic_energy_of_cage(&self, ws: &Workspace) -> f64 {
+    pub(in crate::model::plane) fn elastic_energy_of_cage(&self, ws: &Workspace) -> f64 {
         let energy =
             |body: &dyn SharedBody| body.energy(&ws.body(CAGE, self.layout.range(CAGE)), self.gravity);
         self.shared[CAGE].as_ref().map_or(0.0, |cage| energy(&**cage).elastic)
@@ -165,8 +148,8 @@ mod tests {
     use super::*;
     use crate::Sim;
     use crate::bodies::POWERS;
-    use crate::model::HostInputs;
-    use crate::model::workspace::RATES;
+    use crate::model::plane::workspace::RATES;
+    use crate::model::{HostInputs, Model};
     use std::sync::Arc;
 
     /// Runs a scene and compares the powers with the change of the energy along the motion.
@@ -177,15 +160,15 @@ mod tests {
         let mut sim = Sim::new(Arc::new(Model::new(scene).unwrap())).unwrap();
         let nq = sim.model().layout().positions();
         let model = sim.model().clone();
-        let mut ws = Workspace::new(&model);
+        let mut ws = Workspace::new(model.plane());
         let mut a = vec![0.0; model.layout().velocities()];
         let mut evaluate = |state: &[f64], t: f64| {
             let (q, v) = state.split_at(nq);
             let inputs = model.inputs_at(t, &HostInputs::default());
-            model.accelerations(&inputs, q, v, &mut ws, &mut a).unwrap();
+            model.plane().accelerations(&inputs, q, v, &mut ws, &mut a).unwrap();
             let mut powers = [0.0; RATES];
-            model.powers(v, None, &mut ws, &mut powers);
-            (powers, model.energy(&ws))
+            model.plane().powers(v, None, &mut ws, &mut powers);
+            (powers, model.plane().energy(&ws))
         };
         for step in 1..=40 {
             sim.advance_to(0.25e-3 * f64::from(step)).unwrap();

@@ -3,25 +3,11 @@
 use crate::bodies::{BodyForces, BodyState, CAGE, Element};
 use crate::laws::guide::GuideForce;
 use crate::laws::line_contact::Loading;
-use crate::model::Model;
-use crate::model::Workspace;
+use crate::model::plane::Plane;
+use crate::model::plane::Workspace;
+use crate::model::{Quantity, quantity};
 use crate::pairs::{Loaded, NEIGHBOUR};
 use crate::space::Wrench;
-
-/// Name, unit and meaning of a reported quantity.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Quantity {
-    /// Name.
-    pub name: &'static str,
-    /// SI unit; "1" for ratios.
-    pub unit: &'static str,
-    /// What it is.
-    pub description: &'static str,
-}
-
-pub(super) const fn quantity(name: &'static str, unit: &'static str, description: &'static str) -> Quantity {
-    Quantity { name, unit, description }
-}
 
 /// What is reported of a contact. All zero when the surfaces are apart. A contact that touches but whose damping
 /// would pull has a normal force of zero, its approach, its speeds and its place.
@@ -94,9 +80,9 @@ pub const FORCE_COMPONENTS: [Quantity; 3] = [
 /// All forces at one state.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Forces {
-    /// Per contact, in the order of [`Model::contact_names`].
+    /// Per contact, in the order of [`Plane::contact_names`].
     pub contacts: Vec<ContactForces>,
-    /// Per body, in the order of [`Model::body_names`]. Inertia forces of the rotating frame are not included.
+    /// Per body, in the order of [`Plane::body_names`]. Inertia forces of the rotating frame are not included.
     pub bodies: Vec<BodyForces>,
     /// Acceleration of every velocity state, m/s^2 or rad/s^2.
     pub accelerations: Vec<f64>,
@@ -123,7 +109,7 @@ pub struct GuideReport {
     pub velocity: [f64; 2],
 }
 
-impl Model {
+impl Plane {
     /// Writes the results of the last evaluation of `ws` into `out`, with the accelerations `a` and the bodies at (`q`, `v`).
     pub(crate) fn report(&self, q: &[f64], v: &[f64], ws: &Workspace, a: &[f64], out: &mut Forces) {
         let per_element = self.contacts_per_element();

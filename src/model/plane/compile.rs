@@ -1,0 +1,68 @@
+//! From the scene to bodies, pairs and coordinates.
+
+use super::Plane;
+use super::report::Watch;
+use crate::bodies::{self, OUTER_RING, SharedBodies};
+use crate::error::Result;
+use crate::model::Channel;
+use crate::model::signals::InputSignals;
+use crate::pairs;
+use crate::scene::{Scene, Viscosity};
+use std::sync::Arc;
+
+impl Plane {
+    /// Builds that of a checked scene with these inputs; it watches nothing yet.
+    pub(in crate::model) fn new(scene: Arc<Scene>, inputs: Arc<InputSignals>) -> Result<Self> {
+        let elements = bodies::elements(&scene);
+        let shared = bodies::shared_bodies(&scene, elements.set());
+        let nodes = bodies::nodes(&scene);
+        let viscosity = viscosity_at_start(&scene, &inputs);
+        let (pairs, between) =
+            (pairs::element_pairs(&scene, viscosity)?, pairs::shared_pairs(&scene, viscosity)?);
+        let mut model = Plane {
+            masses: shared
+                .each_ref()
+                .map(|body| body.as_ref().and_then(|b| b.mass()).unwrap_or(f64::INFINITY)),
+            outer_turns: turns(&shared, OUTER_RING),
+            onsets: pairs.iter().any(|pair| pair.has_onset()),
+            layout: bodies::layout_of(&shared, &*elements, &nodes),
+            gravity: scene.gravity.map_or([0.0; 2], |g| [g.y, g.z]),
+            shared,
+            mobility: elements.mobility(),
+            elements,
+            lubricant: None,
+            nodes,
+            infos: pairs.iter().map(|pair| pair.info()).collect(),
+            parts: pairs.iter().map(|pair| pair.law().parts()).collect(),
+            laws: pairs.iter().map(|pair| pair.law()).collect(),
+            pairs,
+            between_infos: between.iter().map(|pair| pair.info()).collect(),
+            between,
+            inputs,
+            watch: Watch::default(),
+            scene,
+        };
+        let lubricant = model.nodes_in().find_map(|(node, at)| Some(at.start + node.lubricant()?));
+        model.lubricant = lubricant;
+        Ok(model)
+    }
+
+    /// Follows the channels at these places of all in every step.
+    pub(in crate::model) fn watch_channels(&mut self, places: &[usize], channels: &[Channel]) {
+        self.watch = Watch::new(places, channels, &self.infos, self.element_count());
+    }
+}
+
+/// Whether the rotation of a shared body is prescribed.
+fn turns(shared: &SharedBodies, place: usize) -> bool {
+    shared[place].as_ref().is_some_and(|body| body.turned_by().is_some())
+}
+
+/// Viscosity that laws are built with, Pa s.
+fn viscosity_at_start(scene: &Scene, inputs: &InputSignals) -> Option<f64> {
+    match (&inputs.oil, scene.lubricant.as_ref().map(|l| &l.viscosity)) {
+        (Some(oil), _) => Some(oil.built_at.1),
+        (None, Some(Viscosity::Constant(value))) => Some(*value),
+        _ => None,
+    }
+}
