@@ -16,6 +16,7 @@
 
 mod contacts;
 pub(crate) mod grip;
+pub(crate) mod groove;
 pub mod guide;
 pub(crate) mod line_laws;
 mod neighbours;
