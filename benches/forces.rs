@@ -45,12 +45,12 @@ fn benches(c: &mut Criterion) {
         });
         let model = sim.model().clone();
         let (q, v) = state.split_at(model.layout().positions());
-        let (mut workspace, mut a) = (Workspace::new(model.plane()), vec![0.0; v.len()]);
+        let (mut workspace, mut a) = (Workspace::new(model.plane().unwrap()), vec![0.0; v.len()]);
         let inputs = model.inputs_at(DEVELOPED, &HostInputs::default());
-        if model.plane().accelerations(&inputs, q, v, &mut workspace, &mut a).is_ok() {
+        if model.plane().unwrap().accelerations(&inputs, q, v, &mut workspace, &mut a).is_ok() {
             c.bench_function(&format!("{scene}/{name}/power balance"), |b| {
                 let mut powers = [0.0; POWERS.len() + 1];
-                b.iter(|| model.plane().powers(black_box(v), None, &mut workspace, &mut powers));
+                b.iter(|| model.plane().unwrap().powers(black_box(v), None, &mut workspace, &mut powers));
             });
         }
         c.bench_function(&format!("{scene}/{name}/1 ms"), |b| {

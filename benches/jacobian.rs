@@ -36,7 +36,7 @@ fn median(mut values: Vec<f64>) -> f64 {
 fn measured(sim: &Sim) -> Option<[f64; 2]> {
     let model = sim.model();
     let host = HostInputs::default();
-    let plane = model.plane();
+    let plane = model.plane().unwrap();
     let (inputs, rates) = (model.inputs_at(DEVELOPED, &host), model.input_rates_at(DEVELOPED, &host));
     let (q, v) = sim.state().split_at(model.layout().positions());
     let (mut ws, mut a) = (Workspace::new(plane), vec![0.0; v.len()]);
@@ -72,7 +72,7 @@ fn main() -> cagedyn::Result<()> {
         sim.advance_to(DEVELOPED)?;
         let changes: Vec<String> = overrides.iter().map(|(path, value)| format!(" {path}={value}")).collect();
         let Some([forces, measured]) = measured(&sim) else { continue };
-        let counted = sim.model().plane().jacobian_cost();
+        let counted = sim.model().plane().unwrap().jacobian_cost();
         println!("| {name}{} | {forces:.0} | {measured:.2} | {counted:.2} |", changes.concat());
     }
     Ok(())

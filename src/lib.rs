@@ -26,6 +26,7 @@ mod bodies;
 #[doc(hidden)]
 pub mod capi;
 mod check;
+pub mod equilibrium;
 mod error;
 pub mod heat;
 #[doc(hidden)]

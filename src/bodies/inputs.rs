@@ -11,10 +11,16 @@ registry! {
         RingSpeed = "inner_ring.speed",
         /// Rotation speed of the outer ring, rad/s.
         OuterRingSpeed = "outer_ring.speed",
+        /// External load on the inner ring along the axis of the bearing, N.
+        LoadX = "load.x",
         /// External load on the inner ring to the right, N.
         LoadY = "load.y",
         /// External load on the inner ring upwards, N.
         LoadZ = "load.z",
+        /// External moment on the inner ring about the axis to the right, N m.
+        MomentY = "load.moment_y",
+        /// External moment on the inner ring about the upward axis, N m.
+        MomentZ = "load.moment_z",
         /// External force on the cage to the right, N.
         CageForceY = "cage.force_y",
         /// External force on the cage upwards, N.
@@ -47,6 +53,9 @@ impl Input {
             Self::OrbitSpeed => ["rad/s", "orbit speed of the rolling elements"],
             Self::SpinSpeed => ["rad/s", "spin speed of the rolling elements"],
             Self::Temperature => ["K", "temperature of the lubricant"],
+            Self::LoadX => ["N", "external load on the inner ring, along the axis of the bearing"],
+            Self::MomentY => ["N m", "external moment on the inner ring, about the axis to the right"],
+            Self::MomentZ => ["N m", "external moment on the inner ring, about the upward axis"],
         }
     }
 }

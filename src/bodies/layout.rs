@@ -5,6 +5,8 @@
 //! v = the rates of q in the same order, then [spin speed of element 0] [of element 1] ... [states of node 0] ...
 //! ```
 //!
+//! That is in the plane; in space a ring has up to five coordinates, and a ball x, rho and travel with three spin speeds.
+//!
 //! Blocks in brackets exist only if the scene has them: a fixed ring and an absent cage add nothing. The spin angle
 //! of an element enters no force, so only its speed is a state. The rate of position `i` is velocity `i`.
 //!
@@ -17,10 +19,8 @@ use super::{CAGE, INNER_RING, SHARED};
 use crate::integrate::Structure;
 use std::ops::Range;
 
-/// Velocities of a free element.
+/// Velocities of a free element in the plane.
 pub(crate) const OF_ELEMENT: usize = 3;
-/// Positions of a free element.
-const POSITIONS: usize = 2;
 
 /// Places of the bodies in `q` and `v`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -31,6 +31,8 @@ pub struct Layout {
     pub(in crate::bodies) elements: usize,
     /// Number of elements that move freely.
     pub count: usize,
+    /// Positions of one of them, and velocities without position.
+    of_element: [usize; 2],
     /// Whether elements touch their neighbours.
     touching: bool,
     /// Number of states of each node.
@@ -38,15 +40,20 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// The layout of shared bodies with so many coordinates each, so many free elements, which may touch their neighbours, and
-    /// nodes with so many states each.
-    pub(crate) fn new(widths: [usize; SHARED], count: usize, touching: bool, nodes: Vec<usize>) -> Self {
+    /// The layout of shared bodies with so many coordinates each, so many free elements with so many positions and speeds without
+    /// position, which may touch their neighbours, and nodes with so many states each.
+    pub(crate) fn new(
+        widths: [usize; SHARED],
+        [count, positions, spins]: [usize; 3],
+        touching: bool,
+        nodes: Vec<usize>,
+    ) -> Self {
         let mut next = 0;
         let shared = widths.map(|width| {
             next += width;
             (next - width, width)
         });
-        Self { shared, elements: next, count, touching, nodes }
+        Self { shared, elements: next, count, of_element: [positions, spins], touching, nodes }
     }
 
     /// First coordinate of the inner ring, if it is free.
@@ -75,7 +82,7 @@ impl Layout {
 
     /// Index of the first state of the nodes in `v`.
     fn first_of_nodes(&self) -> usize {
-        self.positions() + self.count
+        self.positions() + self.of_element[1] * self.count
     }
 
     /// Number of states of all nodes.
@@ -117,7 +124,7 @@ impl Layout {
 
     /// Number of positions.
     pub fn positions(&self) -> usize {
-        self.elements + POSITIONS * self.count
+        self.elements + self.of_element[0] * self.count
     }
 
     /// Number of velocities.
@@ -132,22 +139,23 @@ impl Layout {
 
     /// Index of rho (and of its rate in `v`) of element `j`; the travel follows.
     pub fn element(&self, j: usize) -> usize {
-        self.elements + POSITIONS * j
+        self.elements + self.of_element[0] * j
     }
 
-    /// Index of the spin speed of element `j` in `v`.
+    /// Index of the first spin speed of element `j` in `v`.
     pub fn spin(&self, j: usize) -> usize {
-        self.positions() + j
+        self.positions() + self.of_element[1] * j
     }
 
     /// Velocities of element `j`.
     #[inline]
-    pub(crate) fn of_element(&self, j: usize) -> [usize; OF_ELEMENT] {
-        [self.element(j), self.element(j) + 1, self.spin(j)]
+    pub(crate) fn of_element<const N: usize>(&self, j: usize) -> [usize; N] {
+        let (first, spin, positions) = (self.element(j), self.spin(j), self.of_element[0]);
+        std::array::from_fn(|k| if k < positions { first + k } else { spin + k - positions })
     }
 
     /// Which velocities are coupled: shared bodies are the hub, elements the spokes.
-    pub(crate) fn structure(&self) -> Structure<OF_ELEMENT> {
+    pub(crate) fn structure<const N: usize>(&self) -> Structure<N> {
         let of_nodes = self.nodes().map(|states| self.in_hub(states.start)..self.in_hub(states.end));
         Structure {
             hub: (0..self.elements).chain(self.first_of_nodes()..self.velocities()).collect(),

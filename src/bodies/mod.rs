@@ -21,6 +21,7 @@ mod layout;
 mod motions;
 mod nodes;
 mod ring;
+mod spatial;
 mod states;
 
 pub use fault::{FAULTS, Fault, FaultCounts};
@@ -34,6 +35,7 @@ pub(crate) use heat::HeatBudget;
 pub(crate) use layout::{OF_ELEMENT, Owner};
 pub(crate) use motions::{Element, ElementBlock, ElementMotion, ElementSet, Motions, WrenchLanes};
 pub(crate) use nodes::{Node, NodeState, nodes};
+pub(crate) use spatial::{Balls, OF_RING, RING_COORDINATES, RingInSpace};
 pub(crate) use states::{State, layout_of, states_of};
 
 use crate::registry::registry;

@@ -54,7 +54,7 @@ impl Ring {
     /// The inner ring of a scene.
     pub(super) fn inner(scene: &Scene) -> Self {
         let held = match scene.inner_ring.as_ref().map(|ring| &ring.motion) {
-            None => Held::At([0.0; 2]),
+            None | Some(RingMotion::Space(_)) => Held::At([0.0; 2]),
             Some(RingMotion::Fixed(position)) => Held::At([position.y, position.z]),
             Some(RingMotion::Free(free)) => {
                 Held::Free { mass: free.mass, damping: free.support_damping.unwrap_or(0.0) }

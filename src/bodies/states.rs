@@ -12,7 +12,9 @@ pub(crate) fn layout_of(bodies: &SharedBodies, elements: &dyn Elements, nodes: &
     );
     let nodes = nodes.iter().map(|node| node.states().len()).collect();
     let set = elements.set();
-    Layout::new(widths, if free { set.count } else { 0 }, set.touching, nodes)
+    let spins = elements.coordinates().iter().filter(|c| c.position.is_none()).count();
+    let count = if free { set.count } else { 0 };
+    Layout::new(widths, [count, elements.coordinates().len() - spins, spins], set.touching, nodes)
 }
 
 /// What a state of a coordinate is.

@@ -6,6 +6,7 @@
 #![allow(unsafe_code)]
 
 pub mod batch;
+pub mod equilibrium;
 pub mod forces;
 pub mod geometry;
 mod guard;

@@ -25,7 +25,7 @@ pub struct cagedyn_model {
     pub(super) geometry: Vec<Item>,
     pub(super) geometry_values: Vec<f64>,
     warnings: Vec<Item>,
-    pattern: OnceLock<SparsePattern>,
+    pattern: OnceLock<Result<SparsePattern>>,
 }
 
 /// Texts of a named item.
@@ -36,7 +36,7 @@ pub(super) struct Item {
 }
 
 impl Item {
-    fn new(name: &str, unit: &str, description: &str) -> Self {
+    pub(super) fn new(name: &str, unit: &str, description: &str) -> Self {
         Self { name: to_c_string(name), unit: to_c_string(unit), description: to_c_string(description) }
     }
 }
@@ -68,8 +68,9 @@ impl cagedyn_model {
 
 impl cagedyn_model {
     /// Pattern of its Jacobian.
-    pub(super) fn pattern(&self) -> &SparsePattern {
-        self.pattern.get_or_init(|| self.model.jacobian_pattern())
+    pub(super) fn pattern(&self) -> Result<&SparsePattern> {
+        let made = self.pattern.get_or_init(|| self.model.jacobian_pattern());
+        made.as_ref().map_err(Clone::clone)
     }
 }
 

@@ -1,15 +1,27 @@
 //! What a model knows of its bearing, in whatever space that moves: asked of the one that it has.
 
 use super::plane::Plane;
-use super::{Fault, InputValues, Layout, Model, Quantity, StateInfo};
-use crate::error::Result;
+use super::space::Space;
+use super::{InputValues, Layout, Model, Quantity, StateInfo};
+use crate::error::{Error, Result, Status};
+use std::sync::Arc;
+
+/// A bearing by the space in which it moves.
+#[derive(Debug)]
+pub(super) enum Bearing {
+    Plane(Arc<Plane>),
+    Space(Arc<Space>),
+}
 
 /// Methods of a model that its bearing has by the same name.
 macro_rules! of_bearing {
     ($($(#[$about:meta])* $name:ident($($argument:ident: $type:ty),*) $(-> $output:ty)?;)+) => {
         impl Model {
             $($(#[$about])* pub fn $name(&self $(, $argument: $type)*) $(-> $output)? {
-                self.plane.$name($($argument),*)
+                match &self.bearing {
+                    Bearing::Plane(bearing) => bearing.$name($($argument),*),
+                    Bearing::Space(bearing) => bearing.$name($($argument),*),
+                }
             })+
         }
     };
@@ -19,11 +31,6 @@ of_bearing! {
     /// Order of the coordinates in the state vector.
     #[doc(hidden)]
     layout() -> &Layout;
-    /// State vector at the start of the run.
-    ///
-    /// # Errors
-    /// [`crate::Status::BadScene`] when no static equilibrium is found, or it leaves no room for the cage.
-    initial_state() -> Result<Vec<f64>>;
     /// The state vector: positions, then velocities.
     state_infos() -> Vec<StateInfo>;
     /// What counts as one unit of error for every state: see [`Plane::state_scales`].
@@ -41,22 +48,12 @@ of_bearing! {
     has_rollers() -> bool;
     /// Radius of the pitch circle, m.
     pitch_radius() -> f64;
-    /// Radius of the inner raceway in m, where there are rollers.
-    inner_raceway_radius() -> Option<f64>;
     /// Lengths and counts of the bearing that follow from its scene, those that it has: name, unit and meaning with the value, SI.
     geometry() -> Vec<(Quantity, f64)>;
-    /// Radial guide clearance in m, if the cage is guided.
-    guide_clearance() -> Option<f64>;
-    /// Clearance in m of an element to the pillar before or behind it, if there are pockets.
-    pocket_clearance() -> Option<f64>;
     /// Length in m that errors are measured by: see [`Plane::reference_length`].
     reference_length() -> f64;
-    /// Orders and frequencies in rad/s of the waves of an elastic ring of the cage, free and at rest.
-    ring_waves() -> Vec<(u32, f64)>;
     /// The laws that this scene uses, each with the largest number of contacts it can act in.
     laws_in_use() -> Vec<(&'static str, usize)>;
-    /// The field of the scene by which the film of the guide can give energy to the cage, if it can.
-    energy_giving_film() -> Option<String>;
     /// Orbit and spin speed of the elements without slip at these inputs, rad/s: of rollers that touch both raceways,
     /// or as prescribed.
     #[doc(hidden)]
@@ -68,15 +65,78 @@ of_bearing! {
     /// Whether the contacts that set the highest frequency are damped.
     #[doc(hidden)]
     damped() -> bool;
-    /// A fault in words.
-    #[doc(hidden)]
-    describe(fault: Fault) -> String;
 }
 
 impl Model {
     /// The bearing, if it moves in the plane.
+    ///
+    /// # Errors
+    /// [`Status::BadScene`] of one in space.
     #[doc(hidden)]
-    pub fn plane(&self) -> &std::sync::Arc<Plane> {
-        &self.plane
+    pub fn plane(&self) -> Result<&Arc<Plane>> {
+        match &self.bearing {
+            Bearing::Plane(plane) => Ok(plane),
+            Bearing::Space(_) => {
+                let text = "balls: their motion over time is not computed, their equilibrium is";
+                Err(Error::new(Status::BadScene, text))
+            }
+        }
+    }
+
+    /// The same before it is shared.
+    #[cfg(test)]
+    pub(in crate::model) fn plane_mut(&mut self) -> &mut Plane {
+        match &mut self.bearing {
+            Bearing::Plane(plane) => Arc::get_mut(plane).unwrap(),
+            Bearing::Space(_) => unreachable!(),
+        }
+    }
+
+    fn in_plane(&self) -> Option<&Plane> {
+        match &self.bearing {
+            Bearing::Plane(plane) => Some(plane),
+            Bearing::Space(_) => None,
+        }
+    }
+
+    /// The bearing, if it moves in space.
+    pub(crate) fn space(&self) -> Option<&Space> {
+        match &self.bearing {
+            Bearing::Plane(_) => None,
+            Bearing::Space(space) => Some(space),
+        }
+    }
+
+    /// Radius of the inner raceway in m, where there are rollers.
+    pub fn inner_raceway_radius(&self) -> Option<f64> {
+        self.in_plane().and_then(|plane| plane.inner_raceway_radius())
+    }
+
+    /// Radial guide clearance in m, if the cage is guided.
+    pub fn guide_clearance(&self) -> Option<f64> {
+        self.in_plane().and_then(|plane| plane.guide_clearance())
+    }
+
+    /// Clearance in m of an element to the pillar before or behind it, if there are pockets.
+    pub fn pocket_clearance(&self) -> Option<f64> {
+        self.in_plane().and_then(|plane| plane.pocket_clearance())
+    }
+
+    /// Orders and frequencies in rad/s of the waves of an elastic ring of the cage, free and at rest.
+    pub fn ring_waves(&self) -> Vec<(u32, f64)> {
+        self.in_plane().map_or_else(Vec::new, |plane| plane.ring_waves())
+    }
+
+    /// The field of the scene by which the film of the guide can give energy to the cage, if it can.
+    pub fn energy_giving_film(&self) -> Option<String> {
+        self.in_plane().and_then(|plane| plane.energy_giving_film())
+    }
+
+    /// State vector at the start of the run.
+    ///
+    /// # Errors
+    /// [`crate::Status::BadScene`] when no static equilibrium is found, or it leaves no room for the cage.
+    pub fn initial_state(&self) -> Result<Vec<f64>> {
+        self.plane()?.initial_state()
     }
 }

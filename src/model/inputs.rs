@@ -7,7 +7,7 @@ use crate::laws::fluid::walther::Walther;
 use crate::pairs;
 use crate::scalar::math;
 use crate::scene::{
-    ElementMotion, FORCE, RingMotion, SPEED, Scene, Signal, SignalIntegral, TEMPERATURE, TORQUE,
+    ElementMotion, FORCE, MOMENT, RingMotion, SPEED, Scene, Signal, SignalIntegral, TEMPERATURE, TORQUE,
 };
 use crate::scene::{Temperature, VISCOSITY, Viscosity, bad_scene, interpolate};
 
@@ -48,8 +48,9 @@ impl Model {
     pub fn check_input(&self, input: Input, value: f64) -> Result<()> {
         let allowed = match input {
             Input::RingSpeed | Input::OuterRingSpeed | Input::OrbitSpeed | Input::SpinSpeed => SPEED,
-            Input::LoadY | Input::LoadZ | Input::CageForceY | Input::CageForceZ => FORCE,
+            Input::LoadX | Input::LoadY | Input::LoadZ | Input::CageForceY | Input::CageForceZ => FORCE,
             Input::CageTorque => TORQUE,
+            Input::MomentY | Input::MomentZ => MOMENT,
             Input::Temperature => TEMPERATURE,
         };
         allowed.check("value", value).map_err(|e| Error::new(Status::BadValue, e.message))?;
@@ -101,6 +102,13 @@ pub(super) fn inputs(scene: &Scene) -> Result<InputSignals> {
         let (y, z) = free.load.as_ref().map_or((&none, &none), |load| (&load.y, &load.z));
         add(Input::LoadY, y);
         add(Input::LoadZ, z);
+    }
+    if let Some(RingMotion::Space(ring)) = scene.inner_ring.as_ref().map(|ring| &ring.motion) {
+        let none = Signal::Constant(0.0);
+        let loads = [Input::LoadX, Input::LoadY, Input::LoadZ, Input::MomentY, Input::MomentZ];
+        for (input, signal) in loads.into_iter().zip(ring.loads()) {
+            add(input, signal.unwrap_or(&none));
+        }
     }
     if let Some(load) = scene.cage.as_ref().and_then(|cage| cage.load.as_ref()) {
         add(Input::CageForceY, &load.force_y);

@@ -5,7 +5,9 @@
 //! |---|---|
 //! | `inputs`, `signals` | from the scene to inputs over time |
 //! | `names`, `selection` | what models tell: names, units, channels and those that a record has |
+//! | `bearing` | what both kinds of bearings answer |
 //! | `plane/` | a bearing whose bodies move in the plane |
+//! | `space/` | one whose balls and ring move in space |
 
 mod bearing;
 mod inputs;
@@ -13,6 +15,7 @@ mod names;
 pub(crate) mod plane;
 mod selection;
 mod signals;
+pub(crate) mod space;
 
 pub use crate::bodies::{BodyForces, FAULTS, FORCE_SOURCES, Fault, FaultCounts, INPUTS, Input, POWERS};
 pub(crate) use crate::bodies::{FaultKind, OF_ELEMENT, Power};
@@ -29,7 +32,9 @@ pub use plane::{PARTS, PartTimes, Plane, Workspace};
 
 use crate::error::Result;
 use crate::scene::Scene;
+use bearing::Bearing;
 use signals::InputSignals;
+use space::Space;
 use std::sync::Arc;
 
 /// A compiled scene.
@@ -37,7 +42,7 @@ use std::sync::Arc;
 pub struct Model {
     scene: Arc<Scene>,
     inputs: Arc<InputSignals>,
-    plane: Arc<Plane>,
+    bearing: Bearing,
     channels: Vec<Channel>,
     /// Places among the channels of those that a record has, and of those that are followed in every step.
     recorded: Vec<usize>,
@@ -53,11 +58,16 @@ impl Model {
         scene.validate()?;
         let inputs = Arc::new(inputs::inputs(&scene)?);
         let scene = Arc::new(scene);
+        if let Some(space) = Space::new(scene.clone(), inputs.clone())? {
+            let bearing = Bearing::Space(Arc::new(space));
+            let [recorded, watched] = Default::default();
+            return Ok(Self { scene, inputs, bearing, channels: Vec::new(), recorded, watched });
+        }
         let mut plane = Plane::new(scene.clone(), inputs.clone())?;
         let channels = plane.list_channels();
         let [recorded, watched] = selection::select(&scene.record, &channels)?;
         plane.watch_channels(&watched, &channels);
-        Ok(Self { scene, inputs, plane: Arc::new(plane), channels, recorded, watched })
+        Ok(Self { scene, inputs, bearing: Bearing::Plane(Arc::new(plane)), channels, recorded, watched })
     }
 
     /// Reads, checks and compiles a scene given as JSON text.

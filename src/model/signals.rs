@@ -55,7 +55,7 @@ impl Oil {
 
 /// The inputs that a scene has.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct InputSignals {
+pub(crate) struct InputSignals {
     /// In the order of [`Input`]; the ring speed comes first where it exists.
     pub(super) list: Vec<(Input, InputSource)>,
     pub(super) orbit: Option<Orbit>,
@@ -100,7 +100,7 @@ impl InputSignals {
 
     /// All values at time `t` in s.
     #[inline]
-    pub(super) fn at(&self, t: f64, host: &HostInputs) -> InputValues {
+    pub(crate) fn at(&self, t: f64, host: &HostInputs) -> InputValues {
         let mut now = self.listed_at(t, host);
         if let Some(orbit) = &self.orbit {
             orbit.follow(&mut now);

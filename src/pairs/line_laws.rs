@@ -127,7 +127,7 @@ impl<'a> LawBuilder<'a> {
         Ok(ThermalLoad::new(self.temperature_viscosity(by)?, viscosity, self.conductivity(by)?))
     }
 
-    fn material(&self, path: &str, name: &str) -> Result<&'a Material> {
+    pub(in crate::pairs) fn material(&self, path: &str, name: &str) -> Result<&'a Material> {
         self.scene
             .materials
             .get(name)

@@ -129,7 +129,7 @@ impl SlopeSums<'_> {
                 }
             }
         }
-        for (place, rate) in self.layout.of_element(j).into_iter().zip(rates) {
+        for (place, rate) in self.layout.of_element::<OF_ELEMENT>(j).into_iter().zip(rates) {
             self.out.over_time[place] += rate;
         }
     }
@@ -179,7 +179,7 @@ impl SlopeSums<'_> {
         add(&mut self.out.over_time[places.clone()], &on_mate[ContactColumns::TIME], lane);
         if j < self.layout.count {
             let rates = own[ContactColumns::TIME].each_ref().map(|column| column[lane]);
-            for (place, rate) in self.layout.of_element(j).into_iter().zip(rates) {
+            for (place, rate) in self.layout.of_element::<OF_ELEMENT>(j).into_iter().zip(rates) {
                 self.out.over_time[place] += rate;
             }
             return;

@@ -46,23 +46,24 @@ pub struct Neighbours {
     pub contact: ContactLaws,
 }
 
-/// Deviations of the radii of rollers, which are numbered from 0 on counter-clockwise from the first.
+/// Deviations of the radii of rollers or balls, which are numbered from 0 on counter-clockwise from the first.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum RadiusDeviations {
-    /// Of every roller in the order of their numbers, m.
+    /// Of every roller or ball in the order of their numbers, m.
     Each(Vec<f64>),
-    /// Of groups of rollers; the others have none.
+    /// Of groups of them; the others have none.
     Groups(Vec<RollerGroup>),
 }
 
-/// Rollers whose radii deviate by the same.
+/// Rollers or balls whose radii deviate by the same.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct RollerGroup {
     /// Their numbers.
+    #[serde(alias = "balls")]
     pub rollers: Vec<u32>,
     /// By how much their radii are larger than `radius`, m.
     #[cfg_attr(feature = "schema", schemars(range(min = -1e-3, max = 1e-3)))]

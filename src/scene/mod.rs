@@ -3,6 +3,7 @@
 //! What a scene does not write is not simulated. Every physical effect is an optional block of its own; the
 //! doc comments here are also the descriptions in the JSON Schema.
 
+mod balls;
 mod cage;
 mod cases;
 mod catalogue;
@@ -20,13 +21,14 @@ mod run;
 mod signal;
 mod validate;
 
+pub use balls::{Balls, Preload, RingCoordinate, SpatialLoad, SpatialRing};
 pub use cage::{
     Cage, CageLoad, CylinderPocket, FilmShare, Friction, Guide, GuideFilm, GuideRing, GuideSolid, LayerFilm,
     PlanePocket, Pocket, PressureShear, RoundnessHarmonic, ShortBearingFilm, SolidContact,
 };
 pub use cases::{CASES_SCHEMA, Case, CaseSet};
 pub use catalogue::catalogue;
-pub(crate) use check::{bad as bad_scene, needed};
+pub(crate) use check::{bad as bad_scene, needed, shown};
 pub use contact_laws::{
     BoundaryFriction, ContactDamping, ContactLaws, Extent, FilmLaw, InletSliding, Raceways, RollingLaw,
     RollingResistance, SelfHeating, ThermalCorrection, TractionLaw,
@@ -48,7 +50,7 @@ pub use lubricant::{Lubricant, Temperature, Viscosity, ViscosityPoint, WaltherVi
 pub use rings::{FreeRing, InnerRing, Load, OuterRing, RingMotion};
 pub use run::{Auto, ErrorControl, Initial, Leapfrog, Method, Preset, Record, RingStart, Solver};
 pub use signal::{Signal, SignalIntegral, interpolate, slope};
-pub(crate) use validate::{FORCE, SPEED, TEMPERATURE, TORQUE, VISCOSITY};
+pub(crate) use validate::{FORCE, MOMENT, SPEED, TEMPERATURE, TORQUE, VISCOSITY};
 
 use crate::error::{Error, Result, Status};
 use cases::CASES_NAME;
@@ -79,19 +81,22 @@ pub struct Scene {
     /// The lubricant. Needed by films, traction, rolling resistance and lubricated guides.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lubricant: Option<Lubricant>,
-    /// Cylindrical rollers that move freely. Either these or `kinematic_elements`.
+    /// Cylindrical rollers that move freely in the plane. Either these, `balls` or `kinematic_elements`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rollers: Option<Rollers>,
-    /// Rolling elements with prescribed motion. Either these or `rollers`.
+    /// Balls that move in space. Either these, `rollers` or `kinematic_elements`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub balls: Option<Balls>,
+    /// Rolling elements with prescribed motion. Either these, `rollers` or `balls`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kinematic_elements: Option<KinematicElements>,
-    /// The outer ring. Needed by rollers; beside kinematic elements it gives the speed of a ring that turns.
+    /// The outer ring. Needed by rollers and balls; beside kinematic elements it gives the speed of a ring that turns.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub outer_ring: Option<OuterRing>,
-    /// The inner ring. Needed by rollers, by elements that roll on it and by a cage that it guides.
+    /// The inner ring. Needed by rollers and balls, by elements that roll on it and by a cage that it guides.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inner_ring: Option<InnerRing>,
-    /// Contacts between rollers and raceways. Needed by rollers.
+    /// Contacts between rollers or balls and raceways. Needed by both.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub raceways: Option<Raceways>,
     /// The cage. Absent: rollers without a cage; they do not touch each other. Needed by kinematic elements.

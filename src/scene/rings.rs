@@ -1,6 +1,6 @@
 //! Rings of a scene.
 
-use super::{PlaneVector, Signal};
+use super::{PlaneVector, Signal, SpatialRing};
 use serde::{Deserialize, Serialize};
 
 /// The outer ring: held with its centre at the origin. It stands still unless it is given a speed.
@@ -19,7 +19,15 @@ pub struct OuterRing {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 1e-05, max = 1000000.0)))]
     pub raceway_crown_radius: Option<f64>,
-    /// Name of the material. Needed by rollers.
+    /// Radius r_o of the groove across its length, m. Needed by balls.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0001, max = 10.0)))]
+    pub groove_radius: Option<f64>,
+    /// Height of the shoulder above the bottom of the groove, m. Absent: contacts are not held against it. Needs balls.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-06, max = 10.0)))]
+    pub shoulder_height: Option<f64>,
+    /// Name of the material. Needed by rollers and balls.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
 }
@@ -42,7 +50,7 @@ pub struct InnerRing {
     #[serde(default)]
     pub motion: RingMotion,
     /// Radial internal clearance G_r (the diametral play), m; negative for preload. The raceway radius is
-    /// R_i = R_o - 2 R_b - G_r/2. Needed by rollers.
+    /// R_i = R_o - 2 R_b - G_r/2. Needed by rollers, and by balls without a contact angle.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = -0.0002, max = 0.002)))]
     pub radial_clearance: Option<f64>,
@@ -50,7 +58,15 @@ pub struct InnerRing {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 1e-05, max = 1000000.0)))]
     pub raceway_crown_radius: Option<f64>,
-    /// Name of the material. Needed by rollers.
+    /// Radius r_i of the groove across its length, m. Needed by balls.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0001, max = 10.0)))]
+    pub groove_radius: Option<f64>,
+    /// Height of the shoulder above the bottom of the groove, m. Absent: contacts are not held against it. Needs balls.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-06, max = 10.0)))]
+    pub shoulder_height: Option<f64>,
+    /// Name of the material. Needed by rollers and balls.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
 }
@@ -64,6 +80,8 @@ pub enum RingMotion {
     Fixed(PlaneVector),
     /// Free in the plane under load and contact forces. Needs rollers.
     Free(FreeRing),
+    /// In space, with every coordinate by itself. Needs balls.
+    Space(SpatialRing),
 }
 
 impl Default for RingMotion {

@@ -41,11 +41,11 @@ struct StepMemory {
 }
 
 impl Bearing {
-    pub(super) fn new(model: Arc<Model>, tuning: Tuning) -> Self {
-        let plane = model.plane().clone();
+    pub(super) fn new(model: Arc<Model>, tuning: Tuning) -> crate::Result<Self> {
+        let plane = model.plane()?.clone();
         let workspace = Workspace::new(&plane);
         let layout = model.layout();
-        Self {
+        Ok(Self {
             workspace,
             host: HostInputs::default(),
             evaluations: 0,
@@ -63,11 +63,19 @@ impl Bearing {
             },
             model,
             plane,
-        }
+        })
     }
 
     pub(super) fn model(&self) -> &Arc<Model> {
         &self.model
+    }
+
+    pub(super) fn plane(&self) -> &Plane {
+        &self.plane
+    }
+
+    pub(super) fn describe(&self, fault: Fault) -> String {
+        self.plane.describe(fault)
     }
 
     pub(super) fn tuning(&self) -> Tuning {

@@ -8,7 +8,7 @@ use crate::model::Fault;
 
 impl Sim {
     pub(in crate::sim) fn bad_state(&self, time: f64, fault: Fault) -> Error {
-        Error::new(Status::BadState, format!("at t = {time:?} s: {}", self.model().describe(fault)))
+        Error::new(Status::BadState, format!("at t = {time:?} s: {}", self.bearing.describe(fault)))
     }
 
     pub(in crate::sim) fn failure(&self, failure: Failure<Fault>) -> Error {
@@ -18,7 +18,7 @@ impl Sim {
             }
             Failure::StepTooSmall { time, step, fault, group } => {
                 let why = match (fault, group.and_then(|group| self.bearing.group_name(group))) {
-                    (Some(fault), _) => self.model().describe(fault),
+                    (Some(fault), _) => self.bearing.describe(fault),
                     (None, Some(body)) => format!("the error of {body} stays above the tolerance"),
                     (None, None) => "the error stays above the tolerance".to_owned(),
                 };

@@ -119,7 +119,7 @@ impl Sim {
 
     fn started(model: Arc<Model>, solver: Solver, tuning: Tuning) -> Result<Self> {
         let state = model.initial_state()?;
-        let bearing = Bearing::new(model.clone(), tuning);
+        let bearing = Bearing::new(model.clone(), tuning)?;
         let driver = Driver::new(method::stepper(&model, &solver, &bearing), method::limits(&model, &solver));
         let mut sim = Self {
             fingerprint: snapshot::fingerprint(&model, &solver, &tuning),
@@ -462,7 +462,7 @@ impl Sim {
             text += &format!("; {count} failed attempts: {name}");
         }
         if let Some((t, fault)) = self.bearing.last_fault() {
-            text += &format!("; the last one at t = {t:?} s: {}", self.model().describe(fault));
+            text += &format!("; the last one at t = {t:?} s: {}", self.bearing.describe(fault));
         }
         if let Some((body, count)) = self.bearing.most_rejections() {
             text += &format!("; most rejected steps, {count}, for {body}");

@@ -13,13 +13,14 @@ mod at_rest;
 
 use crate::bodies::CAGE_MOTION;
 use crate::error::{Error, Result, Status};
-use crate::model::{Fault, HostInputs, Input, InputValues, Model, Workspace};
+use crate::model::{Fault, HostInputs, Input, InputValues, Model, Plane, Workspace};
 use crate::scalar::math;
 use crate::scene::{GuideFilm, Pocket, Scene, Signal};
 use crate::sim::RunLimits;
 use crate::space::rotate;
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 /// Places of the train in a pitch at which contacts are counted, and halvings of a step in which one begins or ends.
 const SCAN: usize = 48;
@@ -53,6 +54,7 @@ pub(super) struct Averaged {
     /// What may end a search with it.
     limits: RunLimits,
     model: Model,
+    plane: Arc<Plane>,
     ws: Workspace,
     inputs: InputValues,
     /// Orders of the waves.
@@ -156,10 +158,11 @@ impl Averaged {
         if inputs.of(Input::OrbitSpeed) == 0.0 {
             return refused("inner_ring.speed", "the elements do not go round, so nothing drives a whirl");
         }
+        let plane = model.plane()?.clone();
         let count = model.element_count();
         Ok(Self {
             limits: limits.clone(),
-            ws: Workspace::new(model.plane()),
+            ws: Workspace::new(&plane),
             orders,
             pitch: TAU / count as f64,
             orbit: inputs.of(Input::OrbitSpeed),
@@ -172,6 +175,7 @@ impl Averaged {
             train: None,
             inputs,
             model,
+            plane,
         })
     }
 
@@ -374,8 +378,8 @@ impl Averaged {
                 out[at..at + 2].copy_from_slice(&rotate([waves[2 * k], waves[2 * k + 1]], -sin, cos));
             }
         }
-        let Self { model, inputs, ws, a, .. } = self;
-        model.plane().accelerations(inputs, &q, &v, ws, a).map_err(|fault| failed(fault, model))
+        let Self { plane, inputs, ws, a, .. } = self;
+        plane.accelerations(inputs, &q, &v, ws, a).map_err(|fault| failed(fault, plane))
     }
 
     /// Angle from one element to the next, rad.
@@ -456,7 +460,7 @@ impl Averaged {
             return Ok(u32::from(state.position[0] > self.clearance - layer));
         }
         self.accelerations(&state)?;
-        Ok(self.model.plane().wet_arcs(&self.ws).0)
+        Ok(self.plane.wet_arcs(&self.ws).0)
     }
 }
 
@@ -479,6 +483,6 @@ impl State {
     }
 }
 
-fn failed(fault: Fault, model: &Model) -> Error {
-    Error::new(Status::BadState, format!("a trial whirl has no forces: {}", model.describe(fault)))
+fn failed(fault: Fault, plane: &Plane) -> Error {
+    Error::new(Status::BadState, format!("a trial whirl has no forces: {}", plane.describe(fault)))
 }

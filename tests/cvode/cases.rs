@@ -214,7 +214,7 @@ impl System for Fixed {
     fn accelerations(&mut self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> Result<(), Fault> {
         self.evaluations += 1;
         let inputs = self.model.inputs_at(t, &HostInputs::default());
-        self.model.plane().accelerations(&inputs, q, v, &mut self.workspace, a)
+        self.model.plane().unwrap().accelerations(&inputs, q, v, &mut self.workspace, a)
     }
     fn not_finite(&self, velocity: usize) -> Fault {
         Fault::NotFinite { velocity, contact: None }
@@ -223,7 +223,7 @@ impl System for Fixed {
 
 impl Structured<3> for Fixed {
     fn structure(&self) -> Structure<3> {
-        self.model.plane().structure()
+        self.model.plane().unwrap().structure()
     }
 }
 
@@ -238,7 +238,7 @@ impl Linearized<3> for Fixed {
     ) -> Result<(), Fault> {
         self.accelerations(t, q, v, a)?;
         let rates = self.model.input_rates_at(t, &HostInputs::default());
-        self.model.plane().linearize(&mut self.workspace, &rates, out);
+        self.model.plane().unwrap().linearize(&mut self.workspace, &rates, out);
         Ok(())
     }
 }
@@ -255,7 +255,7 @@ impl Case {
     pub fn fixed(&self, method: &str, step: f64) -> End {
         let sim = self.sim(&json!({}));
         let (model, start) = (sim.model().clone(), sim.state().to_vec());
-        let mut system = Fixed { workspace: Workspace::new(model.plane()), model, evaluations: 0 };
+        let mut system = Fixed { workspace: Workspace::new(model.plane().unwrap()), model, evaluations: 0 };
         let any = vec![f64::INFINITY; start.len()];
         let stepper: Box<dyn Stepper<Fixed> + Send> = match method {
             "rosenbrock" => Box::new(Rosenbrock::new(&system, &any)),

@@ -18,7 +18,7 @@ const TOLERANCE: f64 = 1e-7;
 
 /// Rows: accelerations; columns: positions, velocities, time.
 fn dense(model: &Model, slope: &Linearization<3>) -> Vec<Vec<f64>> {
-    let structure = model.plane().structure();
+    let structure = model.plane().unwrap().structure();
     let (nq, nv) = (model.layout().positions(), model.layout().velocities());
     let mut out = vec![vec![0.0; nq + nv + 1]; nv];
     for (row, rate) in out.iter_mut().zip(&slope.over_time) {
@@ -78,14 +78,14 @@ struct Difference {
 /// slope ahead less that behind is jump + h f'' + O(h^3), and three steps leave the jump, with an error of fifth order.
 fn difference(model: &Model, t: f64, state: &[f64], column: usize, h: f64) -> Option<Difference> {
     let nq = model.layout().positions();
-    let mut ws = Workspace::new(model.plane());
+    let mut ws = Workspace::new(model.plane().unwrap());
     let mut at = |offset: f64| {
         let (mut moved, mut time) = (state.to_vec(), t);
         *moved.get_mut(column).unwrap_or(&mut time) += offset * h;
         let inputs = model.inputs_at(time, &HostInputs::default());
         let (q, v) = moved.split_at(nq);
         let mut a = vec![0.0; v.len()];
-        model.plane().accelerations(&inputs, q, v, &mut ws, &mut a).ok().map(|()| a)
+        model.plane().unwrap().accelerations(&inputs, q, v, &mut ws, &mut a).ok().map(|()| a)
     };
     let here = at(0.0)?;
     let zero = vec![0.0; here.len()];
@@ -103,11 +103,15 @@ fn difference(model: &Model, t: f64, state: &[f64], column: usize, h: f64) -> Op
 /// Derivatives of the accelerations at one state.
 fn linearization(model: &Model, t: f64, state: &[f64]) -> Linearization<3> {
     let (q, v) = state.split_at(model.layout().positions());
-    let mut ws = Workspace::new(model.plane());
+    let mut ws = Workspace::new(model.plane().unwrap());
     let mut a = vec![0.0; v.len()];
-    model.plane().accelerations(&model.inputs_at(t, &HostInputs::default()), q, v, &mut ws, &mut a).unwrap();
-    let mut slope = Linearization::new(&model.plane().structure(), v.len());
-    model.plane().linearize(&mut ws, &model.input_rates_at(t, &HostInputs::default()), &mut slope);
+    model
+        .plane()
+        .unwrap()
+        .accelerations(&model.inputs_at(t, &HostInputs::default()), q, v, &mut ws, &mut a)
+        .unwrap();
+    let mut slope = Linearization::new(&model.plane().unwrap().structure(), v.len());
+    model.plane().unwrap().linearize(&mut ws, &model.input_rates_at(t, &HostInputs::default()), &mut slope);
     slope
 }
 
@@ -249,11 +253,11 @@ fn all_instructions_give_the_same_derivatives() {
         let (inputs, rates) = (model.inputs_at(sim.time(), &host), model.input_rates_at(sim.time(), &host));
         let (q, v) = sim.state().split_at(model.layout().positions());
         let [vector, plain] = [true, false].map(|vector| {
-            let (mut ws, mut a) = (Workspace::new(model.plane()), vec![0.0; v.len()]);
+            let (mut ws, mut a) = (Workspace::new(model.plane().unwrap()), vec![0.0; v.len()]);
             ws.set_vector_instructions(vector);
-            model.plane().accelerations(&inputs, q, v, &mut ws, &mut a).unwrap();
-            let mut slope = Linearization::new(&model.plane().structure(), v.len());
-            model.plane().linearize(&mut ws, &rates, &mut slope);
+            model.plane().unwrap().accelerations(&inputs, q, v, &mut ws, &mut a).unwrap();
+            let mut slope = Linearization::new(&model.plane().unwrap().structure(), v.len());
+            model.plane().unwrap().linearize(&mut ws, &rates, &mut slope);
             dense(model, &slope)
         });
         for (a, b) in vector.iter().flatten().zip(plain.iter().flatten()) {

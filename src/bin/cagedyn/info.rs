@@ -8,7 +8,7 @@ use crate::results::table::{self, Align, number};
 use crate::run::{in_file, read, stem, table_size};
 use crate::{InfoArgs, terminal};
 use cagedyn::model::{HostInputs, Input};
-use cagedyn::scene::{ElementMotion, Method, RingMotion};
+use cagedyn::scene::{ElementMotion, Method, RingCoordinate, RingMotion};
 use cagedyn::{Model, Result, Scene, Sim};
 use std::f64::consts::TAU;
 use std::process::ExitCode;
@@ -75,6 +75,8 @@ fn bodies(model: &Model) -> Vec<Vec<String>> {
     }
     let text = if model.has_rollers() {
         "each: radial offset, orbit travel, their rates, spin speed"
+    } else if model.scene().balls.is_some() {
+        "each: axial and radial offset, orbit travel, their rates, three spin speeds"
     } else {
         "prescribed orbit and spin, no states"
     };
@@ -90,6 +92,16 @@ fn ring(model: &Model) -> String {
         None => "does not turn".to_owned(),
         Some(RingMotion::Fixed(at)) => format!("held at ({}, {}) m, turns at its given speed", at.y, at.z),
         Some(RingMotion::Free(_)) => "moves in the plane, turns at its given speed".to_owned(),
+        Some(RingMotion::Space(ring)) => {
+            let coordinates = ring.coordinates();
+            let free: Vec<&str> = coordinates
+                .iter()
+                .filter_map(|(name, coordinate)| (**coordinate == RingCoordinate::Free).then_some(*name))
+                .collect();
+            let free =
+                if free.is_empty() { "held".to_owned() } else { format!("free in {}", free.join(", ")) };
+            format!("{free}, turns at its given speed")
+        }
     }
 }
 

@@ -4,6 +4,7 @@ mod cases;
 mod catalogue;
 mod check;
 mod effects;
+mod equilibrium;
 mod heat;
 mod info;
 mod init;
@@ -58,6 +59,8 @@ enum Command {
     Heat(HeatArgs),
     /// Steady whirl of the cage without time stepping: speed, place, stability; a branch over a number of the scene.
     Whirl(WhirlArgs),
+    /// Equilibrium without time stepping: displacement of the inner ring, contact loads and angles, stiffness.
+    Equilibrium(EquilibriumArgs),
     /// Show what a scene contains: bodies, states, effects, channels, geometry.
     Info(InfoArgs),
     /// List the materials and lubricants that scenes can name, or show the values and sources of one.
@@ -288,6 +291,27 @@ pub struct WhirlArgs {
     sets: Sets,
 }
 
+/// Arguments of `equilibrium`.
+#[derive(Args)]
+pub struct EquilibriumArgs {
+    /// Scene file of a bearing with balls or rollers.
+    scene: PathBuf,
+    /// One equilibrium for each of N values of the scene from a number to another, or of a list.
+    #[arg(long, value_name = "PATH=FROM:TO:N", value_parser = sweep::parse_vary)]
+    vary: Option<sweep::Vary>,
+    /// Which race controls the balls at speed: outer, inner or none.
+    #[arg(long, value_name = "RACE", default_value = "outer", value_parser = equilibrium::parse_control)]
+    control: cagedyn::equilibrium::RaceControl,
+    /// Folder for equilibrium.json and contacts.csv, with --vary equilibrium.csv; made if it does not exist.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print the result as JSON.
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    sets: Sets,
+}
+
 /// Arguments of `schema`.
 #[derive(Args)]
 pub struct SchemaArgs {
@@ -365,6 +389,7 @@ fn dispatch(command: &Command) -> Result<ExitCode> {
         Command::Report(args) => report::command(args),
         Command::Heat(args) => heat::command(args),
         Command::Whirl(args) => whirl::command(args),
+        Command::Equilibrium(args) => equilibrium::command(args),
         Command::Check(args) => check::command(args),
         Command::Init(args) => init::command(args),
         Command::Info(args) => info::command(args),

@@ -5,7 +5,7 @@ mod pictures;
 mod store;
 mod table;
 
-pub use grid::{MOST_POINTS, Vary, parse_vary};
+pub use grid::{MOST_POINTS, Vary, parse_vary, points};
 
 use crate::SweepArgs;
 use crate::points::Row;
@@ -99,7 +99,7 @@ impl<'a> Sweep<'a> {
         doubled(args.until.is_some(), "record.duration", "--until")?;
         doubled(args.preset.is_some(), "solver.preset", "--preset")?;
         args.sets.pairs().try_for_each(|(path, _)| doubled(true, path, "--set"))?;
-        let points = grid::points(&args.vary, args.latin, args.seed)?;
+        let points = points(&args.vary, args.latin, args.seed)?;
         let sweep = Self { args, text: run::read(&args.scene)?, points };
         let (mut first, mut valid, mut listed) = (None, false, HashSet::new());
         for (point, values) in sweep.points.iter().enumerate() {

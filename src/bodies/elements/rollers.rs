@@ -115,7 +115,7 @@ impl Rollers {
     /// The fault of the roller with the largest of these velocities.
     fn too_fast(&self, layout: &Layout, v: &[f64]) -> Fault {
         let lever = [1.0, self.set.pitch_radius, self.set.radius];
-        let all = (0..layout.count).flat_map(|j| layout.of_element(j).into_iter().zip(lever));
+        let all = (0..layout.count).flat_map(|j| layout.of_element::<OF_ELEMENT>(j).into_iter().zip(lever));
         let speeds = all.map(|(velocity, lever)| (velocity, v[velocity].abs() * lever));
         let (velocity, speed) = speeds.fold((0, 0.0), |a, b| if b.1 > a.1 { b } else { a });
         Fault::TooFast { velocity, speed }

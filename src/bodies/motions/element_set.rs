@@ -34,8 +34,8 @@ impl ElementSet {
             column
         };
         let directions = [column(math::sin), column(math::cos)];
-        let deviations = scene.rollers.as_ref().and_then(|rollers| rollers.radius_deviations.as_ref());
-        let radius_excess = deviations.map_or_else(|| vec![0.0; count], |list| list.of_each(count));
+        let radius_excess =
+            scene.radius_deviations().map_or_else(|| vec![0.0; count], |list| list.of_each(count));
         let (radius, pitch_radius) = (scene.element_radius(), scene.pitch_radius());
         let touching = scene.rollers.as_ref().is_some_and(|rollers| rollers.neighbours.is_some());
         Self { count, touching, radius, radius_excess, pitch_radius, reference_angles, directions }

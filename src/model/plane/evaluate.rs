@@ -267,11 +267,11 @@ mod tests {
     fn accelerations(sim: &Sim, instructions: Arch) -> Vec<u64> {
         let model = sim.model();
         let (q, v) = sim.state().split_at(model.layout().positions());
-        let mut ws = Workspace::new(model.plane());
+        let mut ws = Workspace::new(model.plane().unwrap());
         ws.motions.instructions = instructions;
         let mut a = vec![0.0; v.len()];
         let inputs = model.inputs_at(sim.time(), &HostInputs::default());
-        model.plane().accelerations(&inputs, q, v, &mut ws, &mut a).unwrap();
+        model.plane().unwrap().accelerations(&inputs, q, v, &mut ws, &mut a).unwrap();
         a.into_iter().map(f64::to_bits).collect()
     }
 

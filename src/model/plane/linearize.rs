@@ -114,7 +114,7 @@ impl Plane {
                 }
             });
             let inverse = self.elements.slopes(&element, on_element, self.gravity, k, d);
-            for (place, factor) in self.layout.of_element(j).into_iter().zip(inverse) {
+            for (place, factor) in self.layout.of_element::<OF_ELEMENT>(j).into_iter().zip(inverse) {
                 over_time[place] *= factor;
             }
         }

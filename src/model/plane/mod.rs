@@ -8,7 +8,7 @@
 //! | `nodes` | rates of states that are no motion |
 //! | `integration/` | what integrators need: damping, forces of a semi-implicit step, onsets, units of errors, costs |
 //! | `works` | energies, powers |
-//! | `initial` | start of a run |
+//! | `initial`, `still` | start of a run, equilibrium of ring and rollers |
 //! | `report/` | names, force reports, channels, what is followed in every step |
 
 mod compile;
@@ -19,6 +19,7 @@ mod inverse_inertia;
 mod linearize;
 mod nodes;
 mod report;
+mod still;
 #[cfg(test)]
 mod tests;
 mod works;
@@ -27,6 +28,7 @@ mod workspace;
 pub use integration::costs::{PARTS, PartTimes};
 pub use report::{CONTACT_QUANTITIES, ContactForces, FORCE_COMPONENTS, Forces, GuideReport};
 pub(crate) use report::{Reading, Source};
+pub(crate) use still::StillBearing;
 pub use workspace::Workspace;
 pub(crate) use workspace::{AT_FLOOR, RATES};
 

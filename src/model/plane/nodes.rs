@@ -139,7 +139,7 @@ mod tests {
         let solver = format!(r#"{{"method": {method}}}"#);
         let mut model =
             Model::new(Scene::from_json_with(text, [("solver", solver.as_str())]).unwrap()).unwrap();
-        let plane = Arc::get_mut(&mut model.plane).unwrap();
+        let plane = model.plane_mut();
         plane.nodes.push(Box::new(Layer(["film", "wall"].map(temperature))));
         plane.layout = layout_of(&plane.shared, &*plane.elements, &plane.nodes);
         Sim::new(Arc::new(model)).unwrap()
@@ -206,8 +206,8 @@ mod tests {
             [("layer.film".to_owned(), "K"), ("layer.wall".to_owned(), "K")]
         );
         assert_eq!(model.state_scales()[names.len() - 1], 1.0);
-        let groups = model.plane().structure().groups();
-        assert_eq!(model.plane().group_name(groups.len() - 1).as_deref(), Some("layer"));
+        let groups = model.plane().unwrap().structure().groups();
+        assert_eq!(model.plane().unwrap().group_name(groups.len() - 1).as_deref(), Some("layer"));
         assert_eq!(groups.last().map(Vec::len), Some(2));
     }
 }

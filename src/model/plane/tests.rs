@@ -115,7 +115,7 @@ fn model(file: &str, method: &str) -> Model {
     let solver = format!(r#"{{"method": {method}}}"#);
     let text = std::fs::read_to_string(path).unwrap();
     let mut model = Model::new(Scene::from_json_with(&text, [("solver", solver.as_str())]).unwrap()).unwrap();
-    let plane = Arc::get_mut(&mut model.plane).unwrap();
+    let plane = model.plane_mut();
     let cage = plane.shared[CAGE].take().unwrap();
     let names = [
         (["a", "m", "first mode"], ["a_rate", "m/s", "its rate"]),
@@ -184,15 +184,15 @@ fn its_derivatives_are_those_of_the_accelerations() {
     let names: Vec<_> = model.state_infos().into_iter().map(|info| info.name).collect();
     assert_eq!((&*names[at], &*names[positions + at + 1]), ("cage.a", "cage.b_rate"));
     // Nothing else takes notice of them.
-    let (mut ws, mut a) = (Workspace::new(model.plane()), vec![0.0; model.layout().velocities()]);
+    let (mut ws, mut a) = (Workspace::new(model.plane().unwrap()), vec![0.0; model.layout().velocities()]);
     let inputs = model.inputs_at(1e-3, &HostInputs::default());
     let (q, v) = state.split_at(positions);
-    model.plane().accelerations(&inputs, q, v, &mut ws, &mut a).unwrap();
+    model.plane().unwrap().accelerations(&inputs, q, v, &mut ws, &mut a).unwrap();
     let before = a.clone();
     let mut moved = state.clone();
     moved[at] += 1e-4;
     let (q, v) = moved.split_at(positions);
-    model.plane().accelerations(&inputs, q, v, &mut ws, &mut a).unwrap();
+    model.plane().unwrap().accelerations(&inputs, q, v, &mut ws, &mut a).unwrap();
     a[at] = before[at];
     assert_eq!(a, before);
 }

@@ -160,15 +160,15 @@ mod tests {
         let mut sim = Sim::new(Arc::new(Model::new(scene).unwrap())).unwrap();
         let nq = sim.model().layout().positions();
         let model = sim.model().clone();
-        let mut ws = Workspace::new(model.plane());
+        let mut ws = Workspace::new(model.plane().unwrap());
         let mut a = vec![0.0; model.layout().velocities()];
         let mut evaluate = |state: &[f64], t: f64| {
             let (q, v) = state.split_at(nq);
             let inputs = model.inputs_at(t, &HostInputs::default());
-            model.plane().accelerations(&inputs, q, v, &mut ws, &mut a).unwrap();
+            model.plane().unwrap().accelerations(&inputs, q, v, &mut ws, &mut a).unwrap();
             let mut powers = [0.0; RATES];
-            model.plane().powers(v, None, &mut ws, &mut powers);
-            (powers, model.plane().energy(&ws))
+            model.plane().unwrap().powers(v, None, &mut ws, &mut powers);
+            (powers, model.plane().unwrap().energy(&ws))
         };
         for step in 1..=40 {
             sim.advance_to(0.25e-3 * f64::from(step)).unwrap();

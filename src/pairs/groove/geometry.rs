@@ -89,20 +89,15 @@ impl Groove {
         let (sin, cos) = crate::scalar::math::sin_cos(angle);
         Self { pitch_radius, ball_radius, radius, centre: [outwards * sin, outwards * cos], excess }
     }
-}
 
-impl<B> Groove<B> {
-    /// The same with every constant replaced.
-    #[inline(always)]
-    pub(crate) fn map<U>(&self, f: &mut impl FnMut(&B) -> U) -> Groove<U> {
-        let [along, outwards] = &self.centre;
-        Groove {
-            pitch_radius: f(&self.pitch_radius),
-            ball_radius: f(&self.ball_radius),
-            radius: f(&self.radius),
-            centre: [f(along), f(outwards)],
-            excess: f(&self.excess),
-        }
+    /// L of a ball without deviation, m: distance of the centres of ball and arc where they just touch.
+    pub(crate) fn length(&self) -> f64 {
+        self.radius - self.ball_radius
+    }
+
+    /// v0, m.
+    pub(crate) fn from_centre(&self) -> [f64; 2] {
+        self.centre
     }
 }
 

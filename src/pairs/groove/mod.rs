@@ -1,5 +1,100 @@
-//! Balls in the grooves of the raceways.
+//! Balls in the grooves of the raceways: geometry of both rings by the same formulas, elastic contacts.
 
 mod geometry;
 
 pub(crate) use geometry::{Fit, Groove, RingPlace, Side, Touch};
+
+use super::line_laws::LawBuilder;
+use crate::error::Result;
+use crate::laws::elastic::line::effective_modulus;
+use crate::laws::elastic::point::ElasticPoint;
+use crate::scalar::math;
+use crate::scene::{Scene, bad_scene, needed};
+
+/// The contacts of all balls with one ring.
+#[derive(Debug)]
+pub(crate) struct Race {
+    pub(crate) groove: Groove,
+    /// Of each ball.
+    pub(crate) elastic: Vec<ElasticPoint>,
+    /// Angle of the contact at which a point would lie on the edge of the shoulder, rad.
+    pub(crate) shoulder: Option<f64>,
+}
+
+impl Race {
+    /// Radius of the pressed surface across the race, between those of ball and groove, m (Heathcote).
+    pub(crate) fn pressed_radius(&self) -> f64 {
+        let Groove { radius, ball_radius, .. } = self.groove;
+        2.0 * radius * ball_radius / (radius + ball_radius)
+    }
+
+    /// How far the ellipse with the half axis `long` (m) reaches beyond the shoulder when its middle stands at `angle` (rad), as an angle, rad;
+    /// negative where there is room.
+    pub(crate) fn beyond_shoulder(&self, angle: f64, long: f64) -> Option<f64> {
+        let half = math::asin((long / self.pressed_radius()).min(1.0));
+        Some(angle.abs() + half - self.shoulder?)
+    }
+}
+
+/// The angle of which 1 - cos is this; zero below it.
+pub(crate) fn angle_of_drop(drop: f64) -> f64 {
+    2.0 * math::asin((0.5 * drop.max(0.0)).sqrt().min(1.0))
+}
+
+/// How the grooves of a scene lie to each other.
+pub(crate) fn fit(scene: &Scene) -> Fit {
+    let angle = scene.balls.as_ref().and_then(|balls| balls.contact_angle);
+    angle.map_or_else(|| Fit::RadialClearance(scene.radial_clearance()), Fit::ContactAngle)
+}
+
+/// Outer and inner race of the balls of a scene with these deviations of their radii, m.
+///
+/// K and the ellipse are those at the free contact angle of an angular contact bearing and in the middle of a deep groove: a K that followed
+/// the angle would leave the force without a potential, and it changes by less than 1 % over 60 degrees.
+pub(crate) fn races(scene: &Scene, deviations: &[f64]) -> Result<Option<[Race; 2]>> {
+    let Some(balls) = &scene.balls else { return Ok(None) };
+    let builder = LawBuilder::new(scene, None);
+    let fit = fit(scene);
+    let cos = match fit {
+        Fit::ContactAngle(angle) => math::cos(angle),
+        Fit::RadialClearance(_) => 1.0,
+    };
+    let (outer, inner) = (scene.outer_ring.as_ref(), scene.inner_ring.as_ref());
+    let race = |side: Side,
+                ring: &str,
+                groove: Option<f64>,
+                shoulder: Option<f64>,
+                material: Option<&str>| {
+        let path = format!("{ring}.groove_radius");
+        let radius = needed(&path, groove, "balls")?;
+        let material_path = format!("{ring}.material");
+        let a = builder.material("balls.material", &balls.material)?;
+        let b = builder.material(&material_path, needed(&material_path, material, "balls")?)?;
+        let modulus = effective_modulus(a.young_modulus, a.poisson_ratio, b.young_modulus, b.poisson_ratio);
+        let elastic = deviations.iter().map(|deviation| {
+            let ball = balls.radius + deviation;
+            let along = match side {
+                Side::Outer => -cos / (balls.pitch_radius + ball * cos),
+                Side::Inner => cos / (balls.pitch_radius - ball * cos),
+            };
+            ElasticPoint::new(modulus, [1.0 / ball + along, 1.0 / ball - 1.0 / radius]).ok_or_else(|| {
+                let text = format!(
+                    "{radius:?} m gives a ball of radius {ball:?} m no elliptic contact that is longer across the groove than along it; \
+                     a little more than the radius of the ball is usual"
+                );
+                bad_scene(&path, text)
+            })
+        });
+        Ok(Race {
+            groove: Groove::new(side, balls.pitch_radius, balls.radius, radius, fit),
+            elastic: elastic.collect::<Result<_>>()?,
+            shoulder: shoulder.map(|height| angle_of_drop(height / radius)),
+        })
+    };
+    let parts = outer.map(|ring| (ring.groove_radius, ring.shoulder_height, ring.material.as_deref()));
+    let (groove, shoulder, material) = parts.unwrap_or_default();
+    let on_outer = race(Side::Outer, "outer_ring", groove, shoulder, material)?;
+    let parts = inner.map(|ring| (ring.groove_radius, ring.shoulder_height, ring.material.as_deref()));
+    let (groove, shoulder, material) = parts.unwrap_or_default();
+    Ok(Some([on_outer, race(Side::Inner, "inner_ring", groove, shoulder, material)?]))
+}

@@ -17,7 +17,7 @@ const COMPLETE: &str = "fva_3";
 /// Where a scene names an oil.
 const PATH: &str = "lubricant.catalogue";
 /// Blocks whose `material` names one.
-const BODIES: [&str; 5] = ["rollers", "kinematic_elements", "outer_ring", "inner_ring", "cage"];
+const BODIES: [&str; 6] = ["rollers", "balls", "kinematic_elements", "outer_ring", "inner_ring", "cage"];
 
 /// The whole catalogue: `{"materials": {name: {title, values, sources}}, "lubricants": ...}`. Values are those of scenes, in SI
 /// units.

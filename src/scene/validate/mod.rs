@@ -6,6 +6,7 @@
 //! The ranges are wide for engineering and narrow for unit slips. What a law needs from other parts of the scene is
 //! checked where the law is built, in the model.
 
+mod balls;
 mod cage;
 mod elastic_ring;
 mod heat;
@@ -15,6 +16,7 @@ mod plausible;
 mod profile;
 mod sizes;
 
+pub(crate) use balls::MOMENT;
 pub(crate) use cage::TORQUE;
 pub(in crate::scene) use judge::{Judge, is_at_or_below};
 
@@ -93,11 +95,12 @@ impl Scene {
         if let Some(heat) = &self.heat {
             self.validate_heat(judge, heat)?;
         }
-        match (&self.rollers, &self.kinematic_elements) {
-            (Some(_), None) | (None, Some(_)) => {}
-            (None, None) => judge.refuse("rollers", "missing; give these or 'kinematic_elements'")?,
-            (Some(_), Some(_)) => {
-                judge.refuse("kinematic_elements", "not allowed beside 'rollers'; remove one of them")?;
+        let kinds = self.element_kinds();
+        match kinds[..] {
+            [_] => {}
+            [] => judge.refuse("rollers", "missing; give these, 'balls' or 'kinematic_elements'")?,
+            [first, .., last] => {
+                judge.refuse(last, format!("not allowed beside '{first}'; remove one of them"))?;
             }
         }
         if let Some(ring) = &self.inner_ring {
@@ -108,15 +111,17 @@ impl Scene {
         }
         // What elements of an unknown kind need is unknown.
         let known = |path: &str| !judge.excuses(path);
-        let either = self.rollers.is_none() || self.kinematic_elements.is_none();
-        if let Some(rollers) = self.rollers.as_ref().filter(|_| either && known("rollers")) {
+        let single = |path: &str| kinds.len() == 1 && known(path);
+        if let Some(rollers) = self.rollers.as_ref().filter(|_| single("rollers")) {
             self.validate_rollers(judge, rollers)?;
         }
-        if let Some(elements) =
-            self.kinematic_elements.as_ref().filter(|_| either && known("kinematic_elements"))
-        {
+        if let Some(balls) = self.balls.as_ref().filter(|_| single("balls")) {
+            self.validate_balls(judge, balls)?;
+        }
+        if let Some(elements) = self.kinematic_elements.as_ref().filter(|_| single("kinematic_elements")) {
             self.validate_kinematic(judge, elements)?;
         }
+        self.grooves_need_balls(judge)?;
         if let Some(cage) = &self.cage {
             self.validate_cage(judge, cage)?;
         }
@@ -149,6 +154,7 @@ impl Scene {
                 }
                 Ok(())
             }
+            RingMotion::Space(ring) => self.validate_spatial_ring(judge, ring),
         }
     }
 
@@ -169,7 +175,7 @@ impl Scene {
         let ring = r.mass * r.radius * r.radius;
         fitting_mass(judge, "rollers.mass", r.mass, r.inertia, [0.2 * ring, 1.1 * ring])?;
         judge.number("rollers.inertia", r.inertia, range(0.2 * ring, 1.1 * ring, "kg m^2"))?;
-        self.validate_sizes(judge, r)?;
+        self.validate_sizes(judge, "rollers", (r.count, r.radius), r.radius_deviations.as_ref())?;
         if let Some(neighbours) = &r.neighbours {
             contact(judge, "rollers.neighbours.contact", &neighbours.contact)?;
             if r.count < 3 {
@@ -288,22 +294,37 @@ impl Scene {
         Ok(())
     }
 
+    /// The kinds of rolling elements that it has; a checked one has one.
+    fn element_kinds(&self) -> Vec<&'static str> {
+        let kinds = [
+            ("rollers", self.rollers.is_some()),
+            ("balls", self.balls.is_some()),
+            ("kinematic_elements", self.kinematic_elements.is_some()),
+        ];
+        kinds.into_iter().filter_map(|(kind, is)| is.then_some(kind)).collect()
+    }
+
     /// Number of rolling elements.
     pub fn element_count(&self) -> u32 {
-        let kinematic = self.kinematic_elements.as_ref().map_or(0, |e| e.count);
-        self.rollers.as_ref().map_or(kinematic, |r| r.count)
+        let kinematic = self.kinematic_elements.as_ref().map(|e| e.count);
+        let of_balls = self.balls.as_ref().map(|b| b.count);
+        self.rollers.as_ref().map(|r| r.count).or(of_balls).or(kinematic).unwrap_or(0)
     }
 
     /// Radius of a rolling element, m.
     pub fn element_radius(&self) -> f64 {
-        let kinematic = self.kinematic_elements.as_ref().map_or(0.0, |e| e.radius);
-        self.rollers.as_ref().map_or(kinematic, |r| r.radius)
+        let kinematic = self.kinematic_elements.as_ref().map(|e| e.radius);
+        let of_balls = self.balls.as_ref().map(|b| b.radius);
+        self.rollers.as_ref().map(|r| r.radius).or(of_balls).or(kinematic).unwrap_or(0.0)
     }
 
     /// Radius of the pitch circle, m; for rollers the mean of the raceway radii.
     pub fn pitch_radius(&self) -> f64 {
         if let Some(elements) = &self.kinematic_elements {
             return elements.pitch_radius;
+        }
+        if let Some(balls) = &self.balls {
+            return balls.pitch_radius;
         }
         let outer = self.outer_ring.as_ref().and_then(|r| r.raceway_radius).unwrap_or(0.0);
         // A clearance that is not known yet changes the circle by less than what checks of a scene can tell.

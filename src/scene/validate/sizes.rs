@@ -1,4 +1,4 @@
-//! Checks of the deviations of rollers' radii.
+//! Checks of the deviations of the radii of rollers and balls.
 
 use crate::scene::check::range;
 use crate::scene::validate::Judge;
@@ -8,10 +8,17 @@ use crate::scene::*;
 const LARGEST: f64 = 0.01;
 
 impl Scene {
-    /// Checks how the radii of rollers deviate.
-    pub(in crate::scene) fn validate_sizes(&self, judge: Judge<'_>, rollers: &Rollers) -> Result<()> {
-        let Some(deviations) = &rollers.radius_deviations else { return Ok(()) };
-        let bound = LARGEST * rollers.radius;
+    /// Checks how the radii of `count` rollers or balls, which are `elements`, deviate from `radius` (m).
+    pub(in crate::scene) fn validate_sizes(
+        &self,
+        judge: Judge<'_>,
+        elements: &str,
+        (count, radius): (u32, f64),
+        deviations: Option<&RadiusDeviations>,
+    ) -> Result<()> {
+        let Some(deviations) = deviations else { return Ok(()) };
+        let one = elements.trim_end_matches('s');
+        let bound = LARGEST * radius;
         let pocket = self.cage.as_ref().and_then(|cage| cage.pocket.as_ref()).map(|pocket| match pocket {
             Pocket::LubricatedCylinder(pocket) => pocket.radial_clearance,
             Pocket::SolidPlane(pocket) => pocket.diametral_clearance / 2.0,
@@ -21,10 +28,10 @@ impl Scene {
         let allowed = range(-bound, largest, "m");
         match deviations {
             RadiusDeviations::Each(list) => {
-                let path = "rollers.radius_deviations.each";
-                if list.len() != rollers.count as usize {
-                    let text = format!("has {} numbers for {} rollers", list.len(), rollers.count);
-                    judge.refuse(path, text)?;
+                let path = format!("{elements}.radius_deviations.each");
+                if list.len() != count as usize {
+                    let text = format!("has {} numbers for {count} {elements}", list.len());
+                    judge.refuse(&path, text)?;
                 }
                 for (j, deviation) in list.iter().enumerate() {
                     judge.number(&format!("{path}.{j}"), *deviation, allowed)?;
@@ -33,16 +40,16 @@ impl Scene {
             RadiusDeviations::Groups(groups) => {
                 let mut seen = std::collections::BTreeSet::new();
                 for (g, group) in groups.iter().enumerate() {
-                    let path = format!("rollers.radius_deviations.groups.{g}");
+                    let path = format!("{elements}.radius_deviations.groups.{g}");
                     judge.number(&format!("{path}.deviation"), group.deviation, allowed)?;
-                    for (i, roller) in group.rollers.iter().enumerate() {
-                        let path = format!("{path}.rollers.{i}");
-                        if *roller >= rollers.count {
-                            let last = rollers.count.saturating_sub(1);
-                            judge.refuse(&path, format!("there is no roller {roller}; 0 to {last}"))?;
+                    for (i, number) in group.rollers.iter().enumerate() {
+                        let path = format!("{path}.{elements}.{i}");
+                        if *number >= count {
+                            let last = count.saturating_sub(1);
+                            judge.refuse(&path, format!("there is no {one} {number}; 0 to {last}"))?;
                         }
-                        if !seen.insert(*roller) {
-                            judge.refuse(&path, format!("roller {roller} stands in the list twice"))?;
+                        if !seen.insert(*number) {
+                            judge.refuse(&path, format!("{one} {number} stands in the list twice"))?;
                         }
                     }
                 }
@@ -51,10 +58,18 @@ impl Scene {
         Ok(())
     }
 
-    /// How much larger than nominal the largest roller is, m; at least 0.
+    /// How the radii of its rollers or balls deviate.
+    pub(crate) fn radius_deviations(&self) -> Option<&RadiusDeviations> {
+        let of_rollers = self.rollers.as_ref().and_then(|rollers| rollers.radius_deviations.as_ref());
+        let of_balls = self.balls.as_ref().and_then(|balls| balls.radius_deviations.as_ref());
+        of_rollers.or(of_balls)
+    }
+
+    /// How much larger than nominal the largest roller or ball is, m; at least 0.
     pub(crate) fn largest_deviation(&self) -> f64 {
-        let deviations = self.rollers.as_ref().and_then(|rollers| rollers.radius_deviations.as_ref());
-        let each = deviations.map_or_else(Vec::new, |list| list.of_each(self.element_count() as usize));
+        let each = self
+            .radius_deviations()
+            .map_or_else(Vec::new, |list| list.of_each(self.element_count() as usize));
         each.into_iter().fold(0.0, f64::max)
     }
 }

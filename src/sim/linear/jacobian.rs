@@ -3,7 +3,7 @@
 use crate::error::Result;
 use crate::integrate::linear::Arrowhead;
 use crate::integrate::{Linearization, Structure};
-use crate::model::{Fault, Model, OF_ELEMENT};
+use crate::model::{Fault, OF_ELEMENT, Plane};
 use crate::sim::{Evaluated, Sim, check_time, wrong_size};
 
 /// Memory for derivatives of the accelerations.
@@ -13,8 +13,8 @@ pub(in crate::sim) struct Slopes {
 }
 
 impl Slopes {
-    pub(in crate::sim) fn new(model: &Model) -> Self {
-        let structure = model.plane().structure();
+    pub(in crate::sim) fn new(model: &Plane) -> Self {
+        let structure = model.structure();
         let linearization = Linearization::new(&structure, model.layout().velocities());
         Self { structure, linearization }
     }
@@ -126,10 +126,10 @@ impl Sim {
         check_time("t", t)?;
         self.check_state(state)?;
         self.evaluated = Evaluated::Other;
-        let slopes = self.slopes.get_or_insert_with(|| Slopes::new(self.bearing.model()));
+        let slopes = self.slopes.get_or_insert_with(|| Slopes::new(self.bearing.plane()));
         let linearized = self.bearing.linearize_at(t, state, &mut self.accelerations, slopes);
         match linearized.and_then(|()| slopes.check()) {
-            Ok(()) => Ok(self.slopes.get_or_insert_with(|| Slopes::new(self.bearing.model()))),
+            Ok(()) => Ok(self.slopes.get_or_insert_with(|| Slopes::new(self.bearing.plane()))),
             Err(fault) => Err(self.bad_state(t, fault)),
         }
     }
@@ -138,15 +138,17 @@ impl Sim {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Model;
 
     #[test]
     fn what_is_not_finite_is_found_and_named() {
         let model = Model::from_json(include_str!("../../../scenes/nu2310.json")).unwrap();
-        let mut slopes = Slopes::new(&model);
+        let plane = model.plane().unwrap();
+        let mut slopes = Slopes::new(plane);
         assert_eq!(slopes.check(), Ok(()));
         slopes.linearization.over_velocities.to_hub[(4, 3 * OF_ELEMENT + 1)] = f64::NAN;
         let fault = slopes.check().unwrap_err();
-        let text = model.describe(fault);
+        let text = plane.describe(fault);
         assert!(text.contains("derivative of the rate of cage.speed is not a finite number"), "{text}");
     }
 }

@@ -3,7 +3,7 @@
 
 use crate::error::{Error, Result, Status};
 use crate::integrate::linear::shifted::Shifted;
-use crate::model::{Model, OF_ELEMENT};
+use crate::model::{OF_ELEMENT, Plane};
 use crate::sim::linear::jacobian::Slopes;
 use crate::sim::{Evaluated, Sim, check_time, wrong_size};
 
@@ -18,9 +18,9 @@ pub(in crate::sim) struct Newton {
 }
 
 impl Newton {
-    fn new(model: &Model) -> Self {
+    fn new(model: &Plane) -> Self {
         Self {
-            shifted: Shifted::new(&model.plane().structure()),
+            shifted: Shifted::new(&model.structure()),
             slopes: Slopes::new(model),
             linearized: false,
             shift: None,
@@ -40,7 +40,7 @@ impl Sim {
         check_time("t", t)?;
         self.check_state(state)?;
         self.evaluated = Evaluated::Other;
-        let newton = self.newton.get_or_insert_with(|| Box::new(Newton::new(self.bearing.model())));
+        let newton = self.newton.get_or_insert_with(|| Box::new(Newton::new(self.bearing.plane())));
         let slopes = &mut newton.slopes;
         let evaluated = self.bearing.linearize_at(t, state, &mut self.accelerations, slopes);
         let linearized = evaluated.and_then(|()| slopes.check());

@@ -41,8 +41,11 @@ impl SparsePattern {
 impl Model {
     /// Places of the derivatives that [`Sim::sparse_jacobian`] gives: those that the structure of the bearing allows, whatever
     /// the state.
-    pub fn jacobian_pattern(&self) -> SparsePattern {
-        SparsePattern::new(&Slopes::new(self), self.layout().positions())
+    ///
+    /// # Errors
+    /// [`Status::BadScene`](crate::Status::BadScene) of a bearing in space.
+    pub fn jacobian_pattern(&self) -> Result<SparsePattern> {
+        Ok(SparsePattern::new(&Slopes::new(self.plane()?), self.layout().positions()))
     }
 }
 
@@ -84,7 +87,7 @@ mod tests {
             [include_str!("../../../scenes/nu2310.json"), include_str!("../../../scenes/grease_guide.json")]
         {
             let model = Arc::new(Model::from_json(text).unwrap());
-            let pattern = model.jacobian_pattern();
+            let pattern = model.jacobian_pattern().unwrap();
             let mut sim = Sim::new(model).unwrap();
             sim.advance_to(2e-3).unwrap();
             let (t, state) = (sim.time(), sim.state().to_vec());

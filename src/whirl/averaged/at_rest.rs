@@ -32,8 +32,8 @@ impl Averaged {
         let n = x.len() / 2;
         self.inputs.orbit_travel = self.orbit * t;
         let (q, v) = x.as_slice().split_at(n);
-        let Self { model, inputs, ws, a, .. } = self;
-        model.plane().accelerations(inputs, q, v, ws, a).map_err(|fault| failed(fault, model))?;
+        let Self { plane, inputs, ws, a, .. } = self;
+        plane.accelerations(inputs, q, v, ws, a).map_err(|fault| failed(fault, plane))?;
         Ok(DVector::from_iterator(2 * n, v.iter().chain(&self.a[..n]).copied()))
     }
 

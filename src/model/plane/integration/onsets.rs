@@ -62,7 +62,7 @@ mod tests {
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/grease_guide.json");
         let text = std::fs::read_to_string(path).unwrap();
         let scene = crate::Scene::from_json_with(&text, changes.iter().copied()).unwrap();
-        Model::new(scene).unwrap().plane().clone()
+        Model::new(scene).unwrap().plane().unwrap().clone()
     }
 
     /// Longest step of a cage at `y` m that moves to the right with `speed` m/s in a guide without reachable pockets.

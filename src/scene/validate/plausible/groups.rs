@@ -416,7 +416,7 @@ impl Scene {
     fn free_ring(&self) -> Option<&FreeRing> {
         match &self.inner_ring.as_ref()?.motion {
             RingMotion::Free(ring) => Some(ring),
-            RingMotion::Fixed(_) => None,
+            RingMotion::Fixed(_) | RingMotion::Space(_) => None,
         }
     }
 

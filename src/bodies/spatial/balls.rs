@@ -1,0 +1,73 @@
+//! Balls, each at (x, r_p + rho, psi) in cylindrical coordinates about the axis of the bearing, with the angular velocity in the axes
+//! of its azimuth.
+//!
+//! ```text
+//! m x'' = F_x,   m (rho'' - r psi'^2) = F_r,   m (r psi'' + 2 rho' psi') = F_psi,   r = r_p + rho
+//! I w_x' = M_x,   I (w_r' - psi' w_psi) = M_r,   I (w_psi' + psi' w_r) = M_psi,   I = (2/5) m R^2
+//! ```
+//!
+//! The terms with psi' are the whole gyroscopic effect. A sphere has no orientation.
+
+use crate::bodies::{Coordinate, ElementSet, Moves};
+use crate::scene::Scene;
+
+/// Balls with states of their own.
+#[derive(Debug)]
+pub(crate) struct Balls {
+    pub(crate) set: ElementSet,
+    /// Of one without deviation, kg.
+    mass: f64,
+}
+
+const COORDINATES: [Coordinate; 6] = [
+    Coordinate {
+        position: Some(["axial_offset", "m", "place along the axis of the bearing"]),
+        rate: ["axial_speed", "m/s", "rate of the axial offset"],
+        moves: Moves::Itself,
+    },
+    Coordinate {
+        position: Some(["radial_offset", "m", "distance outside the pitch circle"]),
+        rate: ["radial_speed", "m/s", "rate of the radial offset"],
+        moves: Moves::Itself,
+    },
+    Coordinate {
+        position: Some(["orbit_travel", "rad", "orbit angle travelled since the start"]),
+        rate: ["orbit_speed", "rad/s", "rate of the orbit angle"],
+        moves: Moves::PitchCircle,
+    },
+    Coordinate {
+        position: None,
+        rate: ["spin_x", "rad/s", "angular velocity about the axis of the bearing"],
+        moves: Moves::Surface,
+    },
+    Coordinate {
+        position: None,
+        rate: ["spin_r", "rad/s", "angular velocity about the outward axis"],
+        moves: Moves::Surface,
+    },
+    Coordinate {
+        position: None,
+        rate: ["spin_t", "rad/s", "angular velocity about the axis along the orbit"],
+        moves: Moves::Surface,
+    },
+];
+
+impl Balls {
+    /// Those of a scene, if it has any.
+    pub(crate) fn new(scene: &Scene) -> Option<Self> {
+        let balls = scene.balls.as_ref()?;
+        Some(Self { set: ElementSet::new(scene), mass: balls.mass })
+    }
+
+    /// Its coordinates.
+    pub(crate) fn coordinates(&self) -> &'static [Coordinate] {
+        &COORDINATES
+    }
+
+    /// Mass (kg) and moment of inertia (kg m^2) of a ball: those of its own radius.
+    pub(crate) fn inertia(&self, j: usize) -> [f64; 2] {
+        let scale = 1.0 + self.set.radius_excess[j] / self.set.radius;
+        let (mass, radius) = (self.mass * scale * scale * scale, self.set.radius * scale);
+        [mass, 0.4 * mass * radius * radius]
+    }
+}

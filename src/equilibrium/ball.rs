@@ -1,0 +1,214 @@
+//! One ball between its races, standing still or going round: where its forces vanish, and what it then does to the inner ring.
+//!
+//! ```text
+//! elastic        -Q_o n_o - Q_i n_i
+//! centrifugal    m psi'^2 r outwards, weight
+//! rolling        R (w - phi' a) . l = (Omega - phi') rho_c on both races, phi' = psi' r t_psi/vr, and (w - Omega a) . n = 0 on the
+//!                race that controls, or w_r = 0 without control: three equations for psi', w_x, w_r
+//! gyroscopic     the friction F of the race that controls gives the moment I psi' w_r:  F = -I psi' w_r/R along l
+//! ```
+//!
+//! Source: Jones 1959, as in Harris and Kotzalas, Advanced Concepts of Bearing Technology, ch. 3, with the exact geometry of both
+//! grooves instead of theirs for an untilted ring.
+
+use super::settle::{Balance, settle};
+use crate::laws::elastic::point::ElasticPoint;
+use crate::pairs::groove::{Groove, RingPlace, Touch};
+use crate::scalar::{Dual, Of};
+use crate::space::solid::{Tilt, Vector, cross, difference, dot, scaled, sum};
+use nalgebra::{SMatrix, SVector};
+
+/// Which race keeps balls from spinning on it, and gives them their gyroscopic moment.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum RaceControl {
+    /// The outer one, as on fast balls.
+    #[default]
+    Outer,
+    /// The inner one, as on slow ones.
+    Inner,
+    /// Neither: balls turn about axes parallel to that of the bearing, where there is no gyroscopic moment.
+    None,
+}
+
+impl RaceControl {
+    /// All, with their names.
+    pub const ALL: [(&'static str, Self); 3] =
+        [("outer", Self::Outer), ("inner", Self::Inner), ("none", Self::None)];
+}
+
+/// Coordinates of the ring beside a ball: x, outwards, along the orbit, and the rotation vector of its axis outwards and along the orbit.
+pub(super) const OF_RING: usize = 5;
+/// With those of the ball, which come first: x and rho.
+const ALL: usize = 2 + OF_RING;
+
+/// A ball and what acts on it beside the ring.
+pub(super) struct Ball<'a> {
+    /// Of outer and inner race.
+    pub(super) grooves: [&'a Groove; 2],
+    pub(super) elastic: [&'a ElasticPoint; 2],
+    /// By how much its radius is larger than nominal, m.
+    pub(super) excess: f64,
+    /// Mass, kg, and moment of inertia, kg m^2.
+    pub(super) inertia: [f64; 2],
+    /// Speeds of outer and inner ring, rad/s.
+    pub(super) speeds: [f64; 2],
+    /// Acceleration of gravity outwards, m/s^2.
+    pub(super) gravity: f64,
+    pub(super) control: RaceControl,
+}
+
+/// How a ball goes round.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rolling<T> {
+    /// psi', rad/s.
+    pub(super) orbit: T,
+    /// w_x and w_r, rad/s.
+    pub(super) spin: [T; 2],
+}
+
+/// Forces at one place of ball and ring.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Forces<T> {
+    /// On the ball along x and outwards, N.
+    on_ball: [T; 2],
+    /// On the ring over its coordinates, N and N m.
+    on_ring: [T; OF_RING],
+    pub(super) touches: [Touch<T>; 2],
+    /// Q of outer and inner contact, N.
+    pub(super) loads: [T; 2],
+    pub(super) rolling: Rolling<T>,
+}
+
+/// What a ball at rest does to the ring.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct OnRing {
+    pub(super) force: SVector<f64, OF_RING>,
+    /// -d(force)/d(coordinates) while the ball stays at rest.
+    pub(super) stiffness: SMatrix<f64, OF_RING, OF_RING>,
+    pub(super) energy: f64,
+}
+
+/// Solution of three linear equations, given by their rows.
+fn solved<T: Of<f64>>([a, b, c]: [Vector<T>; 3], right: Vector<T>) -> Vector<T> {
+    let [bc, ca, ab] = [cross(b, c), cross(c, a), cross(a, b)];
+    let determinant = dot(a, bc);
+    let combined = sum(sum(scaled(bc, right[0]), scaled(ca, right[1])), scaled(ab, right[2]));
+    scaled(combined, determinant.like(1.0) / determinant)
+}
+
+impl Ball<'_> {
+    fn radius(&self) -> f64 {
+        self.grooves[0].ball_radius + self.excess
+    }
+
+    fn controlling(&self) -> usize {
+        usize::from(self.control == RaceControl::Inner)
+    }
+
+    /// How it goes round without slip in the middle of both contacts.
+    fn rolling<T: Of<f64>>(&self, rho: T, touches: &[Touch<T>; 2], axes: [Vector<T>; 2]) -> Rolling<T> {
+        let zero = rho.like(0.0);
+        if self.speeds == [0.0; 2] {
+            return Rolling { orbit: zero, spin: [zero; 2] };
+        }
+        let radius = self.radius();
+        let row = |k: usize| {
+            let (touch, axis) = (&touches[k], axes[k]);
+            let turning = (rho + self.grooves[k].pitch_radius) * touch.along[2] / touch.ball_distance;
+            let orbit = turning * (touch.contact_distance - dot(axis, touch.across) * radius);
+            [orbit, touch.across[0] * radius, touch.across[1] * radius]
+        };
+        let k = self.controlling();
+        let [nx, nr, _] = touches[k].normal;
+        let (pivot, turning) = match self.control {
+            RaceControl::None => ([zero, zero, rho.like(1.0)], zero),
+            _ => ([zero, nx, nr], dot(axes[k], touches[k].normal) * self.speeds[k]),
+        };
+        let race = |k: usize| touches[k].contact_distance * self.speeds[k];
+        let [orbit, x, r] = solved([row(0), row(1), pivot], [race(0), race(1), turning]);
+        Rolling { orbit, spin: [x, r] }
+    }
+
+    /// Forces with the ball at (x, rho) and the ring at these coordinates.
+    pub(super) fn forces<T: Of<f64>>(&self, [x, rho]: [T; 2], ring: [T; OF_RING]) -> Forces<T> {
+        let zero = x.like(0.0);
+        let tilt = Tilt::new([ring[3], ring[4]]);
+        let places = [
+            RingPlace { centre: [zero; 3], axis: [x.like(1.0), zero, zero] },
+            RingPlace { centre: [ring[0], ring[1], ring[2]], axis: tilt.axis },
+        ];
+        let touches = [0, 1].map(|k| self.grooves[k].touch([x, rho], self.excess, &places[k]));
+        let loads = [0, 1].map(|k| self.elastic[k].load(touches[k].delta));
+        let rolling = self.rolling(rho, &touches, places.map(|place| place.axis));
+        let [mass, inertia] = self.inertia;
+        let orbit_radius = rho + self.grooves[0].pitch_radius;
+        let outwards = rolling.orbit * rolling.orbit * orbit_radius * mass + mass * self.gravity;
+        let lateral = match self.control {
+            RaceControl::None => zero,
+            _ => -(rolling.orbit * rolling.spin[1]) * (inertia / self.radius()),
+        };
+        let friction = [0, 1].map(|k| if k == self.controlling() { lateral } else { zero });
+        let on_ball = [0, 1].map(|k| {
+            let Touch { normal, across, .. } = touches[k];
+            difference(scaled(across, friction[k]), scaled(normal, loads[k]))
+        });
+        let force = scaled(on_ball[1], x.like(-1.0));
+        let inner = &touches[1];
+        let arm = sum(inner.from_ring, scaled(inner.normal, x.like(self.radius())));
+        let [over_r, over_psi] = tilt.moments_over_angles(cross(arm, force));
+        Forces {
+            on_ball: [on_ball[0][0] + on_ball[1][0], on_ball[0][1] + on_ball[1][1] + outwards],
+            on_ring: [force[0], force[1], force[2], over_r, over_psi],
+            touches,
+            loads,
+            rolling,
+        }
+    }
+
+    /// Derivatives of the forces on ball and ring over (x, rho) and the coordinates of the ring, with the forces.
+    fn slopes(&self, at: [f64; 2], ring: [f64; OF_RING]) -> Forces<Dual<ALL>> {
+        let variable = |k: usize| Dual::<ALL>::variable(if k < 2 { at[k] } else { ring[k - 2] }, k);
+        self.forces([0, 1].map(variable), std::array::from_fn(|k| variable(2 + k)))
+    }
+
+    /// Elastic energy of both contacts less the works of weight and centrifugal force, J.
+    fn energy(&self, rho: f64, forces: &Forces<Dual<ALL>>) -> f64 {
+        let elastic: f64 = (0..2).map(|k| 0.4 * forces.loads[k].re * forces.touches[k].delta.re).sum();
+        let (mass, orbit) = (self.inertia[0], forces.rolling.orbit.re);
+        let off = rho * (0.5 * rho + self.grooves[0].pitch_radius);
+        elastic - mass * (self.gravity * rho + orbit * orbit * off)
+    }
+
+    /// Where the ball rests beside a ring at these coordinates, from a place (m) nearby; `None` where it finds none.
+    pub(super) fn rest(&self, from: [f64; 2], ring: [f64; OF_RING]) -> Option<[f64; 2]> {
+        let soft = 1e-3 * self.elastic[0].rigidity * (1e-3 * self.radius()).sqrt();
+        let reach = 3.0 * self.grooves[0].length();
+        let settled = settle(SVector::from(from), soft, |at| {
+            if at.norm() > reach {
+                return None;
+            }
+            let forces = self.slopes((*at).into(), ring);
+            let stiffness = SMatrix::from_fn(|i, k| -forces.on_ball[i].eps[k]);
+            let size = forces.loads.iter().map(|load| load.re).sum();
+            let force = SVector::from(forces.on_ball.map(|force| force.re));
+            Some(Balance { force, stiffness, energy: self.energy(at[1], &forces), size })
+        });
+        settled.ok().map(|rest| rest.x.into())
+    }
+
+    /// What it does to the ring from a place of rest.
+    pub(super) fn on_ring(&self, at: [f64; 2], ring: [f64; OF_RING]) -> OnRing {
+        let forces = self.slopes(at, ring);
+        let own = SMatrix::<f64, 2, 2>::from_fn(|i, k| -forces.on_ball[i].eps[k]);
+        let by_ring = SMatrix::<f64, 2, OF_RING>::from_fn(|i, k| forces.on_ball[i].eps[2 + k]);
+        let on_ring = SMatrix::<f64, OF_RING, 2>::from_fn(|i, k| forces.on_ring[i].eps[k]);
+        let direct = SMatrix::<f64, OF_RING, OF_RING>::from_fn(|i, k| -forces.on_ring[i].eps[2 + k]);
+        // A ball that nothing touches does not follow.
+        let following = own.lu().solve(&by_ring).unwrap_or_else(SMatrix::zeros);
+        OnRing {
+            force: SVector::from(forces.on_ring.map(|force| force.re)),
+            stiffness: direct - on_ring * following,
+            energy: self.energy(at[1], &forces),
+        }
+    }
+}

@@ -1,0 +1,69 @@
+//! Equilibrium of a bearing without stepping through time: displacement of the inner ring under its load, the load of every contact, and the
+//! stiffness of the bearing, exact by dual numbers.
+//!
+//! | file | what |
+//! |---|---|
+//! | `settle` | where forces vanish |
+//! | `ball` | one ball between its races, standing still or going round under race control |
+//! | `balls` | ring and balls in space |
+//! | `rollers` | ring and rollers in the plane |
+
+mod ball;
+mod balls;
+mod rollers;
+mod settle;
+
+pub use ball::RaceControl;
+
+use crate::error::Result;
+use crate::model::{Model, Quantity};
+
+/// An equilibrium. Vectors are over `coordinates`, which are those of the inner ring.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Equilibrium {
+    /// Names, SI units and meanings of the coordinates.
+    pub coordinates: Vec<Quantity>,
+    /// Whether each is free, or held.
+    pub free: Vec<bool>,
+    /// Displacements, m and rad.
+    pub displacement: Vec<f64>,
+    /// Forces (N) and moments (N m) of the bearing on the ring, opposite to the load that it carries, over these coordinates: their power is that of
+    /// the forces.
+    pub reaction: Vec<f64>,
+    /// Derivatives of the load over the displacements, row by row, N/m and its kin: those of the bearing, without those of springs.
+    pub stiffness: Vec<f64>,
+    /// What is known of every element.
+    pub element_quantities: &'static [Quantity],
+    /// Values, element by element.
+    pub elements: Vec<Vec<f64>>,
+    /// Names of the contacts: those of an element together.
+    pub contacts: Vec<String>,
+    /// What is known of every contact.
+    pub contact_quantities: &'static [Quantity],
+    /// Values, contact by contact.
+    pub contact_values: Vec<Vec<f64>>,
+    /// What is amiss without preventing the equilibrium, one line each.
+    pub warnings: Vec<String>,
+    /// Rest of the forces on the ring over their size.
+    pub residual: f64,
+}
+
+impl Equilibrium {
+    /// Load that the bearing carries, N and N m, over the coordinates: that of the scene where the ring is free, else what holds it.
+    pub fn load(&self) -> Vec<f64> {
+        self.reaction.iter().map(|force| -force).collect()
+    }
+}
+
+/// Finds the equilibrium of a model at its start: speeds and loads are those of the scene at t = 0, balls and rollers at the azimuths
+/// that they start at. Which race controls balls matters at speed only.
+///
+/// # Errors
+/// [`crate::Status::BadState`] where there is none, or none was found, as the message says; [`crate::Status::BadScene`] of elements of
+/// prescribed motion.
+pub fn equilibrium(model: &Model, control: RaceControl) -> Result<Equilibrium> {
+    match model.space() {
+        Some(space) => balls::equilibrium(space, control),
+        None => rollers::equilibrium(model, model.plane()?),
+    }
+}

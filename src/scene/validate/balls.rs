@@ -1,0 +1,163 @@
+//! Checks of balls, their grooves, and a ring that moves in space.
+
+use super::*;
+
+/// Largest free contact angle of a deep groove bearing, rad: clearance beyond it lets balls climb out of their grooves.
+const DEEPEST: f64 = 1.0;
+/// Largest radius of a groove over that of the ball.
+const WIDEST_GROOVE: f64 = 2.0;
+const TILT: Range = range(-0.1, 0.1, "rad");
+pub(crate) const MOMENT: Range = range(-1e9, 1e9, "N m");
+const STIFFNESS: Range = range(0.0, 1e12, "N/m");
+const CONTACT_ANGLE: Range = range(0.0, 1.5, "rad");
+
+impl Scene {
+    pub(super) fn validate_balls(&self, judge: Judge<'_>, balls: &Balls) -> Result<()> {
+        count(judge, "balls.count", balls.count)?;
+        judge.number("balls.pitch_radius", balls.pitch_radius, RADIUS)?;
+        judge.number("balls.radius", balls.radius, range(RADIUS.min, 0.5 * balls.pitch_radius, "m"))?;
+        judge.number("balls.mass", balls.mass, MASS)?;
+        self.material_exists(judge, "balls.material", &balls.material)?;
+        let missing = |path: &str| bad(path, "missing; 'balls' need it");
+        let outer = self.outer_ring.as_ref().ok_or_else(|| missing("outer_ring"))?;
+        let inner = self.inner_ring.as_ref().ok_or_else(|| missing("inner_ring"))?;
+        let mut grooves = [0.0; 2];
+        for (groove, (ring, radius, shoulder, material)) in grooves.iter_mut().zip([
+            ("outer_ring", outer.groove_radius, outer.shoulder_height, &outer.material),
+            ("inner_ring", inner.groove_radius, inner.shoulder_height, &inner.material),
+        ]) {
+            let path = format!("{ring}.groove_radius");
+            *groove = radius.ok_or_else(|| missing(&path))?;
+            if *groove <= balls.radius {
+                let text = format!(
+                    "{groove:?} m is not larger than the radius {:?} m of the balls, which would touch its edges; 1.03 to 1.06 times \
+                     as large is usual",
+                    balls.radius
+                );
+                judge.refuse(&path, text)?;
+            }
+            judge.number(&path, *groove, range(balls.radius, WIDEST_GROOVE * balls.radius, "m"))?;
+            judge.optional(&format!("{ring}.shoulder_height"), shoulder, range(1e-6, *groove, "m"))?;
+            let path = format!("{ring}.material");
+            self.material_exists(judge, &path, material.as_ref().ok_or_else(|| missing(&path))?)?;
+        }
+        self.validate_fit(judge, balls, inner, grooves)?;
+        for (path, present) in [
+            ("outer_ring.raceway_radius", outer.raceway_radius.is_some()),
+            ("outer_ring.raceway_crown_radius", outer.raceway_crown_radius.is_some()),
+            ("inner_ring.raceway_crown_radius", inner.raceway_crown_radius.is_some()),
+            ("cage", self.cage.is_some()),
+            ("heat", self.heat.is_some()),
+        ] {
+            if present {
+                judge.refuse(path, "not allowed beside 'balls'; remove it")?;
+            }
+        }
+        let raceways = self.raceways.as_ref().ok_or_else(|| missing("raceways"))?;
+        contact(judge, "raceways.contact", &raceways.contact)?;
+        let deviations = balls.radius_deviations.as_ref();
+        self.validate_sizes(judge, "balls", (balls.count, balls.radius), deviations)?;
+        self.neighbours_apart(judge, "balls.count", balls.radius + self.largest_deviation(), "balls")
+    }
+
+    /// What only balls need stands beside balls only.
+    pub(super) fn grooves_need_balls(&self, judge: Judge<'_>) -> Result<()> {
+        if self.balls.is_some() || judge.excuses("balls") {
+            return Ok(());
+        }
+        let (outer, inner) = (self.outer_ring.as_ref(), self.inner_ring.as_ref());
+        for (path, present) in [
+            ("outer_ring.groove_radius", outer.is_some_and(|ring| ring.groove_radius.is_some())),
+            ("outer_ring.shoulder_height", outer.is_some_and(|ring| ring.shoulder_height.is_some())),
+            ("inner_ring.groove_radius", inner.is_some_and(|ring| ring.groove_radius.is_some())),
+            ("inner_ring.shoulder_height", inner.is_some_and(|ring| ring.shoulder_height.is_some())),
+        ] {
+            if present {
+                judge.refuse(path, "needs 'balls'; remove it")?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Contact angle or clearance: one of both, and one that can be.
+    fn validate_fit(
+        &self,
+        judge: Judge<'_>,
+        balls: &Balls,
+        inner: &InnerRing,
+        grooves: [f64; 2],
+    ) -> Result<()> {
+        match (balls.contact_angle, inner.radial_clearance) {
+            (None, None) => {
+                let text = "missing; give it, or 'inner_ring.radial_clearance' of a deep groove bearing";
+                judge.refuse("balls.contact_angle", text)
+            }
+            (Some(_), Some(_)) => {
+                let text =
+                    "not allowed beside 'balls.contact_angle', from which it follows; remove one of them";
+                judge.refuse("inner_ring.radial_clearance", text)
+            }
+            (Some(angle), None) => judge.number("balls.contact_angle", angle, CONTACT_ANGLE),
+            (None, Some(clearance)) => {
+                // cos a0 = 1 - P_d/(2 A), A the distance of the centres of both arcs.
+                let distance: f64 = grooves.iter().map(|groove| groove - balls.radius).sum();
+                let largest = 2.0 * distance * (1.0 - math::cos(DEEPEST));
+                if clearance > largest {
+                    let text = format!(
+                        "{clearance:?} m lets balls climb to a free contact angle of more than {DEEPEST} rad in these grooves; at most \
+                         {} m",
+                        shown(largest)
+                    );
+                    judge.refuse("inner_ring.radial_clearance", text)?;
+                }
+                Ok(())
+            }
+        }
+    }
+
+    pub(super) fn validate_spatial_ring(&self, judge: Judge<'_>, ring: &SpatialRing) -> Result<()> {
+        let at = |field: &str| format!("inner_ring.motion.space.{field}");
+        if self.balls.is_none() && !judge.excuses("balls") {
+            return judge.refuse("inner_ring.motion.space", "needs 'balls'; write 'fixed' or 'free'");
+        }
+        for (name, coordinate) in ring.coordinates() {
+            if let RingCoordinate::Held(value) = coordinate {
+                let allowed = if name.starts_with("tilt") { TILT } else { POSITION };
+                judge.number(&format!("{}.held", at(name)), *value, allowed)?;
+            }
+        }
+        for (name, load) in ring.load.iter().flat_map(SpatialLoad::components) {
+            if let Some(load) = load {
+                let allowed = if name.starts_with("moment") { MOMENT } else { FORCE };
+                signal(judge, &at(&format!("load.{name}")), load, allowed)?;
+            }
+        }
+        if let Some(preload) = &ring.preload {
+            judge.number(&at("preload.force"), preload.force, FORCE)?;
+            judge.number(&at("preload.stiffness"), preload.stiffness, STIFFNESS)?;
+        }
+        self.has_axial_stop(judge, ring)
+    }
+
+    /// A single row of balls with a contact angle holds one axial direction only.
+    fn has_axial_stop(&self, judge: Judge<'_>, ring: &SpatialRing) -> Result<()> {
+        let one_sided =
+            self.balls.as_ref().and_then(|balls| balls.contact_angle).is_some_and(|angle| angle > 0.0);
+        if !one_sided || ring.x != RingCoordinate::Free {
+            return Ok(());
+        }
+        let load = ring.load.as_ref().and_then(|load| load.x.as_ref());
+        let (smallest, _) = load.map_or((0.0, 0.0), Signal::bounds);
+        let preload = ring.preload.map_or(0.0, |preload| preload.force);
+        let elastic = ring.preload.is_some_and(|preload| preload.stiffness > 0.0);
+        if smallest + preload > 0.0 || elastic || smallest.is_nan() {
+            return Ok(());
+        }
+        let text = format!(
+            "the axial load, {} N at least, does not press the ring into the bearing, which has no axial stop the other way; more than \
+             0 N, a 'preload', or 'x' held",
+            shown(smallest + preload)
+        );
+        judge.refuse("inner_ring.motion.space.load.x", text)
+    }
+}
