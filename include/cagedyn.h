@@ -128,6 +128,9 @@ typedef struct cagedyn_batch cagedyn_batch;
 /* Asks one simulation to stop. May be used by any number of threads at a time. */
 typedef struct cagedyn_canceller cagedyn_canceller;
 
+/* The equilibrium of a bearing at its start. Any number of threads may read it. */
+typedef struct cagedyn_equilibrium cagedyn_equilibrium;
+
 /* The heat balance of a bearing whose scene has `heat`. May be used by one thread at a time; a second one gets CAGEDYN_ERR_BUSY. */
 typedef struct cagedyn_heat cagedyn_heat;
 
@@ -226,6 +229,86 @@ const char *cagedyn_progress_name(int64_t index);
 int32_t cagedyn_monitor_progress(const cagedyn_monitor *monitor,
                                  double *out,
                                  int64_t length);
+
+/* Finds the equilibrium of the model's scene at its start: displacement of the inner ring under its load, or the load at a displacement
+ * where the scene holds it, loads of all contacts, stiffness. `control` says which race controls balls at speed: "outer", "inner" or "none";
+ * NULL for "outer". Returns NULL where there is no equilibrium, or none was found, with the reason in cagedyn_error_message(). Takes
+ * milliseconds. Free it with cagedyn_equilibrium_free(). */
+cagedyn_equilibrium *cagedyn_equilibrium_find(const cagedyn_model *model,
+                                              const char *control);
+
+/* Frees an equilibrium. NULL is ignored, and the stored error stays. */
+void cagedyn_equilibrium_free(cagedyn_equilibrium *found);
+
+/* Number of coordinates of the inner ring: x, y, z, tilt_y and tilt_z with balls, y and z with rollers. Negative status code on failure. */
+int64_t cagedyn_equilibrium_coordinate_count(const cagedyn_equilibrium *found);
+
+/* Name of one of them; "" on failure. Lives as long as the equilibrium. */
+const char *cagedyn_equilibrium_coordinate_name(const cagedyn_equilibrium *found, int64_t index);
+
+/* SI unit ("1" for ratios) of one of them; "" on failure. Lives as long as the equilibrium. */
+const char *cagedyn_equilibrium_coordinate_unit(const cagedyn_equilibrium *found, int64_t index);
+
+/* Number of numbers that cagedyn_equilibrium_element() writes. Negative status code on failure. */
+int64_t cagedyn_equilibrium_element_quantity_count(const cagedyn_equilibrium *found);
+
+/* Name of one of them; "" on failure. Lives as long as the equilibrium. */
+const char *cagedyn_equilibrium_element_quantity_name(const cagedyn_equilibrium *found, int64_t index);
+
+/* SI unit ("1" for ratios) of one of them; "" on failure. Lives as long as the equilibrium. */
+const char *cagedyn_equilibrium_element_quantity_unit(const cagedyn_equilibrium *found, int64_t index);
+
+/* Number of numbers that cagedyn_equilibrium_contact() writes. Negative status code on failure. */
+int64_t cagedyn_equilibrium_contact_quantity_count(const cagedyn_equilibrium *found);
+
+/* Name of one of them; "" on failure. Lives as long as the equilibrium. */
+const char *cagedyn_equilibrium_contact_quantity_name(const cagedyn_equilibrium *found, int64_t index);
+
+/* SI unit ("1" for ratios) of one of them; "" on failure. Lives as long as the equilibrium. */
+const char *cagedyn_equilibrium_contact_quantity_unit(const cagedyn_equilibrium *found, int64_t index);
+
+/* Number of contacts, those of an element together. Negative status code on failure. */
+int64_t cagedyn_equilibrium_contact_count(const cagedyn_equilibrium *found);
+
+/* Name of one of them; "" on failure. Lives as long as the equilibrium. */
+const char *cagedyn_equilibrium_contact_name(const cagedyn_equilibrium *found, int64_t index);
+
+/* Number of rolling elements. Negative status code on failure. */
+int64_t cagedyn_equilibrium_element_count(const cagedyn_equilibrium *found);
+
+/* Number of things that are amiss without preventing the equilibrium: an ellipse beyond the shoulder, a pressure above the static limit of
+ * ISO 76, balls without load. Negative status code on failure. */
+int64_t cagedyn_equilibrium_warning_count(const cagedyn_equilibrium *found);
+
+/* One of these, as one line. "" on failure. Lives as long as the equilibrium. */
+const char *cagedyn_equilibrium_warning(const cagedyn_equilibrium *found, int64_t index);
+
+/* Writes the displacement of the inner ring over its coordinates, m and rad (length: coordinate count). */
+int32_t cagedyn_equilibrium_displacement(const cagedyn_equilibrium *found, double *out, int64_t length);
+
+/* Writes the load that the bearing carries over these coordinates, N and N m: that of the scene where the ring is free, else what holds
+ * it (length: coordinate count). */
+int32_t cagedyn_equilibrium_load(const cagedyn_equilibrium *found,
+                                 double *out,
+                                 int64_t length);
+
+/* Writes the stiffness of the bearing, row by row: the derivative of the load over coordinate i by that of the displacement over
+ * coordinate k stands at i * n + k, N/m and its kin (length: n * n, n the coordinate count). Springs that act on the ring are not in it. */
+int32_t cagedyn_equilibrium_stiffness(const cagedyn_equilibrium *found,
+                                      double *out,
+                                      int64_t length);
+
+/* Writes what is known of an element (length: element quantity count). */
+int32_t cagedyn_equilibrium_element(const cagedyn_equilibrium *found,
+                                    int64_t element,
+                                    double *out,
+                                    int64_t length);
+
+/* Writes what is known of a contact (length: contact quantity count). */
+int32_t cagedyn_equilibrium_contact(const cagedyn_equilibrium *found,
+                                    int64_t contact,
+                                    double *out,
+                                    int64_t length);
 
 /* Number of contacts: rows of cagedyn_sim_contact_forces(). Negative status code on failure. */
 int64_t cagedyn_model_contact_count(const cagedyn_model *model);

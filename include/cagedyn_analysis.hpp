@@ -1,4 +1,4 @@
-// cagedyn for C++17 and later, beside cagedyn.hpp, whose conventions hold here, too: steady whirl without time stepping, temperatures,
+// cagedyn for C++17 and later, beside cagedyn.hpp, whose conventions hold here, too: steady whirl and equilibrium without time stepping, temperatures,
 // and what a host's own records say of a motion. cagedyn.h says what each function does, in which units, and how it can fail.
 
 #ifndef CAGEDYN_ANALYSIS_HPP
@@ -207,6 +207,98 @@ private:
     }
 
     std::unique_ptr<cagedyn_heat, detail::Deleter<cagedyn_heat_free>> handle_;
+};
+
+// Which race controls balls at speed.
+enum class RaceControl : std::int32_t { outer, inner, none };
+
+// The equilibrium of a bearing at the start of its scene, found without time stepping.
+class Equilibrium {
+public:
+    explicit Equilibrium(const Model &model, RaceControl control = RaceControl::outer)
+        : handle_(detail::made(cagedyn_equilibrium_find(model.get(), name(control))))
+    {
+    }
+
+    explicit operator bool() const noexcept { return handle_ != nullptr; }
+    const cagedyn_equilibrium *get() const noexcept { return handle_.get(); }
+
+    // Coordinates of the inner ring: those of a bearing with balls are x, y, z, tilt_y and tilt_z, with rollers y and z.
+    std::vector<std::string_view> coordinates() const
+    {
+        return listed(cagedyn_equilibrium_coordinate_count, cagedyn_equilibrium_coordinate_name);
+    }
+    std::vector<std::string_view> coordinate_units() const
+    {
+        return listed(cagedyn_equilibrium_coordinate_count, cagedyn_equilibrium_coordinate_unit);
+    }
+    // Over these, m and rad; N and N m; their derivative row by row.
+    std::vector<double> displacement() const { return read(dimension(), cagedyn_equilibrium_displacement); }
+    std::vector<double> load() const { return read(dimension(), cagedyn_equilibrium_load); }
+    std::vector<double> stiffness() const { return read(dimension() * dimension(), cagedyn_equilibrium_stiffness); }
+
+    std::int64_t elements() const { return detail::counted(cagedyn_equilibrium_element_count(get())); }
+    std::vector<std::string_view> contacts() const
+    {
+        return listed(cagedyn_equilibrium_contact_count, cagedyn_equilibrium_contact_name);
+    }
+    std::vector<std::string_view> element_quantities() const
+    {
+        return listed(cagedyn_equilibrium_element_quantity_count, cagedyn_equilibrium_element_quantity_name);
+    }
+    std::vector<std::string_view> element_units() const
+    {
+        return listed(cagedyn_equilibrium_element_quantity_count, cagedyn_equilibrium_element_quantity_unit);
+    }
+    std::vector<std::string_view> contact_quantities() const
+    {
+        return listed(cagedyn_equilibrium_contact_quantity_count, cagedyn_equilibrium_contact_quantity_name);
+    }
+    std::vector<std::string_view> contact_units() const
+    {
+        return listed(cagedyn_equilibrium_contact_quantity_count, cagedyn_equilibrium_contact_quantity_unit);
+    }
+    // In the order of these quantities.
+    std::vector<double> element(std::int64_t index) const
+    {
+        const std::int64_t n = detail::counted(cagedyn_equilibrium_element_quantity_count(get()));
+        return read(n, [index](auto *e, double *out, std::int64_t length) {
+            return cagedyn_equilibrium_element(e, index, out, length);
+        });
+    }
+    std::vector<double> contact(std::int64_t index) const
+    {
+        const std::int64_t n = detail::counted(cagedyn_equilibrium_contact_quantity_count(get()));
+        return read(n, [index](auto *e, double *out, std::int64_t length) {
+            return cagedyn_equilibrium_contact(e, index, out, length);
+        });
+    }
+    // What is amiss without preventing the equilibrium.
+    std::vector<std::string_view> warnings() const
+    {
+        return listed(cagedyn_equilibrium_warning_count, cagedyn_equilibrium_warning);
+    }
+
+private:
+    static const char *name(RaceControl control) noexcept
+    {
+        return control == RaceControl::outer ? "outer" : control == RaceControl::inner ? "inner" : "none";
+    }
+    std::int64_t dimension() const { return detail::counted(cagedyn_equilibrium_coordinate_count(get())); }
+    template <class Count, class Name> std::vector<std::string_view> listed(Count count, Name name) const
+    {
+        std::vector<std::string_view> names;
+        for (std::int64_t i = 0, n = detail::counted(count(get())); i < n; i++) names.push_back(name(get(), i));
+        return names;
+    }
+    template <class Read> std::vector<double> read(std::int64_t length, Read read) const
+    {
+        std::vector<double> out = detail::zeros(length);
+        detail::check(read(get(), out.data(), static_cast<std::int64_t>(out.size())));
+        return out;
+    }
+
+    std::unique_ptr<cagedyn_equilibrium, detail::Deleter<cagedyn_equilibrium_free>> handle_;
 };
 
 // How a cage moves: the classes of cagedyn_motion_name().

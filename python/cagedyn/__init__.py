@@ -8,7 +8,7 @@ SI units everywhere, angles in rad. y points right, z up, rotation is counter-cl
 >>> sim.outputs()["cage.y_ratio"]
 """
 
-from ._analysis import HeatBalance, Motion, WhirlBranch, cage_motion, over_orbit
+from ._analysis import Equilibrium, HeatBalance, Motion, WhirlBranch, cage_motion, over_orbit
 from ._batch import Batch, BatchError, Progress
 from ._model import Model, Names, SparsePattern
 from ._native import Error, version
@@ -17,6 +17,7 @@ from ._sim import Inputs, Interval, Sim
 __all__ = [
     "Batch",
     "BatchError",
+    "Equilibrium",
     "Error",
     "HeatBalance",
     "Inputs",

@@ -121,6 +121,51 @@ class WhirlBranch:
         self.why: str = text(lib.cagedyn_whirl_why(handle))
 
 
+class Equilibrium:
+    """The equilibrium of a bearing at the start of its model's scene, found without time stepping.
+
+    control: which race controls balls at speed: "outer", "inner" or "none".
+
+    Raises Error where there is none, or none was found.
+    """
+
+    def __init__(self, model: Model, control: str = "outer") -> None:
+        handle = made(lib.cagedyn_equilibrium_find(model._handle, control.encode()), lib.cagedyn_equilibrium_free)
+
+        def names(part: str, field: str = "name") -> tuple[str, ...]:
+            count = counted(getattr(lib, f"cagedyn_equilibrium_{part}_count")(handle))
+            return tuple(_names(count, lambda i: getattr(lib, f"cagedyn_equilibrium_{part}_{field}")(handle, i)))
+
+        def table(part: str, count: int, read: Any) -> NDArray[np.void]:
+            columns = names(f"{part}_quantity")
+            rows = [filled(len(columns), lambda p, n, i=i: read(handle, i, p, n)) for i in range(count)]
+            return np.array([tuple(row) for row in rows], dtype=[(name, np.float64) for name in columns])
+
+        #: Coordinates of the inner ring: x, y, z, tilt_y and tilt_z with balls, y and z with rollers.
+        self.coordinates: tuple[str, ...] = names("coordinate")
+        n = len(self.coordinates)
+        #: Over these, m and rad.
+        self.displacement: Array = filled(n, lambda p, n: lib.cagedyn_equilibrium_displacement(handle, p, n))
+        #: Over these, N and N m: what the bearing carries.
+        self.load: Array = filled(n, lambda p, n: lib.cagedyn_equilibrium_load(handle, p, n))
+        #: Derivatives of the load over the displacement, N/m and its kin; shape (coordinates, coordinates).
+        self.stiffness: Array = filled(n * n, lambda p, n: lib.cagedyn_equilibrium_stiffness(handle, p, n)).reshape(n, n)
+        #: One record per element.
+        self.elements: NDArray[np.void] = table(
+            "element", counted(lib.cagedyn_equilibrium_element_count(handle)), lib.cagedyn_equilibrium_element
+        )
+        #: Names of the contacts, those of an element together.
+        self.contact_names: tuple[str, ...] = names("contact")
+        #: One record per contact: normal_force (N), approach (m), largest_pressure (Pa) and more, by kind of bearing.
+        self.contacts: NDArray[np.void] = table("contact", len(self.contact_names), lib.cagedyn_equilibrium_contact)
+        #: SI units of what is known of elements and contacts.
+        self.element_units: dict[str, str] = dict(zip(names("element_quantity"), names("element_quantity", "unit"), strict=True))
+        self.contact_units: dict[str, str] = dict(zip(names("contact_quantity"), names("contact_quantity", "unit"), strict=True))
+        count = counted(lib.cagedyn_equilibrium_warning_count(handle))
+        #: What is amiss without preventing the equilibrium, one line each.
+        self.warnings: tuple[str, ...] = tuple(_names(count, lambda i: lib.cagedyn_equilibrium_warning(handle, i)))
+
+
 def _eigenvalues(handle: Any, point: int) -> NDArray[np.complex128]:
     count = counted(lib.cagedyn_whirl_eigenvalue_count(handle))
     rates, frequencies = np.zeros(count), np.zeros(count)

@@ -14,8 +14,8 @@
 use super::settle::{Balance, settle};
 use crate::laws::elastic::point::ElasticPoint;
 use crate::pairs::groove::{Groove, RingPlace, Touch};
-use crate::scalar::{Dual, Of};
-use crate::space::solid::{Tilt, Vector, cross, difference, dot, scaled, sum};
+use crate::scalar::{Dual, Of, math};
+use crate::space::solid::{Tilt, Vector, cross, dot, scaled, sum};
 use nalgebra::{SMatrix, SVector};
 
 /// Which race keeps balls from spinning on it, and gives them their gyroscopic moment.
@@ -35,6 +35,9 @@ impl RaceControl {
     pub const ALL: [(&'static str, Self); 3] =
         [("outer", Self::Outer), ("inner", Self::Inner), ("none", Self::None)];
 }
+
+/// How often forces that are not elastic follow the ball to its rest; a few times are usual.
+const FOLLOWINGS: usize = 60;
 
 /// Coordinates of the ring beside a ball: x, outwards, along the orbit, and the rotation vector of its axis outwards and along the orbit.
 pub(super) const OF_RING: usize = 5;
@@ -69,14 +72,55 @@ pub(super) struct Rolling<T> {
 /// Forces at one place of ball and ring.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Forces<T> {
-    /// On the ball along x and outwards, N.
+    /// On the ball along x and outwards, N: all, and those that are not elastic.
     on_ball: [T; 2],
+    outside: [T; 2],
     /// On the ring over its coordinates, N and N m.
     on_ring: [T; OF_RING],
     pub(super) touches: [Touch<T>; 2],
     /// Q of outer and inner contact, N.
     pub(super) loads: [T; 2],
     pub(super) rolling: Rolling<T>,
+}
+
+/// Places of a ball (x, rho), m, by the angle about the centre of the outer groove's arc, times the length of its arm, and the distance from
+/// there, m: a ball that only the outer race holds swings along one of them, however soft that is.
+struct Polar {
+    from_centre: [f64; 2],
+    length: f64,
+}
+
+impl Polar {
+    fn about(groove: &Groove) -> Self {
+        Self { from_centre: groove.from_centre(), length: groove.length() }
+    }
+
+    fn of(&self, at: &SVector<f64, 2>) -> SVector<f64, 2> {
+        let [x, r] = [0, 1].map(|k| at[k] + self.from_centre[k]);
+        SVector::from([self.length * math::atan2(x, r), math::hypot(x, r) - self.length])
+    }
+
+    /// Sine and cosine of the angle, and the distance.
+    fn arm(&self, polar: &SVector<f64, 2>) -> (f64, f64, f64) {
+        let (sin, cos) = math::sin_cos(polar[0] / self.length);
+        (sin, cos, self.length + polar[1])
+    }
+
+    fn place(&self, polar: &SVector<f64, 2>) -> SVector<f64, 2> {
+        let (sin, cos, distance) = self.arm(polar);
+        SVector::from([distance * sin - self.from_centre[0], distance * cos - self.from_centre[1]])
+    }
+
+    /// Forces and stiffness over these coordinates, from those over x and rho.
+    fn turned(&self, polar: &SVector<f64, 2>, balance: Balance<2>) -> Balance<2> {
+        let (sin, cos, distance) = self.arm(polar);
+        let share = distance / self.length;
+        let rows = SMatrix::<f64, 2, 2>::new(share * cos, sin, -share * sin, cos);
+        let force = rows.transpose() * balance.force;
+        let mixed = balance.force[0] * cos - balance.force[1] * sin;
+        let curved = SMatrix::<f64, 2, 2>::new(-force[1] * share, mixed, mixed, 0.0) / self.length;
+        Balance { force, stiffness: rows.transpose() * balance.stiffness * rows - curved, ..balance }
+    }
 }
 
 /// What a ball at rest does to the ring.
@@ -148,16 +192,20 @@ impl Ball<'_> {
             _ => -(rolling.orbit * rolling.spin[1]) * (inertia / self.radius()),
         };
         let friction = [0, 1].map(|k| if k == self.controlling() { lateral } else { zero });
-        let on_ball = [0, 1].map(|k| {
-            let Touch { normal, across, .. } = touches[k];
-            difference(scaled(across, friction[k]), scaled(normal, loads[k]))
+        let [rubbed, pressed] = [0, 1].map(|part| {
+            [0, 1].map(|k| match part {
+                0 => scaled(touches[k].across, friction[k]),
+                _ => scaled(touches[k].normal, -loads[k]),
+            })
         });
-        let force = scaled(on_ball[1], x.like(-1.0));
+        let outside = [rubbed[0][0] + rubbed[1][0], rubbed[0][1] + rubbed[1][1] + outwards];
+        let force = scaled(sum(rubbed[1], pressed[1]), x.like(-1.0));
         let inner = &touches[1];
         let arm = sum(inner.from_ring, scaled(inner.normal, x.like(self.radius())));
         let [over_r, over_psi] = tilt.moments_over_angles(cross(arm, force));
         Forces {
-            on_ball: [on_ball[0][0] + on_ball[1][0], on_ball[0][1] + on_ball[1][1] + outwards],
+            on_ball: [0, 1].map(|i| outside[i] + pressed[0][i] + pressed[1][i]),
+            outside,
             on_ring: [force[0], force[1], force[2], over_r, over_psi],
             touches,
             loads,
@@ -171,29 +219,65 @@ impl Ball<'_> {
         self.forces([0, 1].map(variable), std::array::from_fn(|k| variable(2 + k)))
     }
 
-    /// Elastic energy of both contacts less the works of weight and centrifugal force, J.
-    fn energy(&self, rho: f64, forces: &Forces<Dual<ALL>>) -> f64 {
+    /// Elastic energy of both contacts less the work of what else acts on the ball, as if that were constant, J.
+    fn energy(&self, [x, rho]: [f64; 2], [along, outwards]: [f64; 2], forces: &Forces<Dual<ALL>>) -> f64 {
         let elastic: f64 = (0..2).map(|k| 0.4 * forces.loads[k].re * forces.touches[k].delta.re).sum();
-        let (mass, orbit) = (self.inertia[0], forces.rolling.orbit.re);
-        let off = rho * (0.5 * rho + self.grooves[0].pitch_radius);
-        elastic - mass * (self.gravity * rho + orbit * orbit * off)
+        elastic - along * x - outwards * rho
     }
 
     /// Where the ball rests beside a ring at these coordinates, from a place (m) nearby; `None` where it finds none.
+    ///
+    /// Under constant forces beside the elastic ones that is a place of least energy, which is always found; these forces follow, again and
+    /// again, until Newton's method finds the rest.
     pub(super) fn rest(&self, from: [f64; 2], ring: [f64; OF_RING]) -> Option<[f64; 2]> {
         let soft = 1e-3 * self.elastic[0].rigidity * (1e-3 * self.radius()).sqrt();
         let reach = 3.0 * self.grooves[0].length();
-        let settled = settle(SVector::from(from), soft, |at| {
+        let balance = |at: &SVector<f64, 2>, outside: Option<[f64; 2]>| {
             if at.norm() > reach {
                 return None;
             }
             let forces = self.slopes((*at).into(), ring);
-            let stiffness = SMatrix::from_fn(|i, k| -forces.on_ball[i].eps[k]);
+            let follows = outside.is_none();
+            let outside = outside.unwrap_or_else(|| forces.outside.map(|force| force.re));
+            let force = SVector::from_fn(|i, _| forces.on_ball[i].re - forces.outside[i].re + outside[i]);
+            let stiffness = SMatrix::from_fn(|i, k| {
+                let elastic = forces.outside[i].eps[k] - forces.on_ball[i].eps[k];
+                if follows { elastic - forces.outside[i].eps[k] } else { elastic }
+            });
             let size = forces.loads.iter().map(|load| load.re).sum();
-            let force = SVector::from(forces.on_ball.map(|force| force.re));
-            Some(Balance { force, stiffness, energy: self.energy(at[1], &forces), size })
-        });
-        settled.ok().map(|rest| rest.x.into())
+            Some(Balance { force, stiffness, energy: self.energy((*at).into(), outside, &forces), size })
+        };
+        let mut at = SVector::from(from);
+        for _ in 0..FOLLOWINGS {
+            let outside = self.forces::<f64>(at.into(), ring).outside;
+            let groove = Polar::about(self.grooves[0]);
+            let found = settle(groove.of(&at), soft, |polar| {
+                Some(groove.turned(polar, balance(&groove.place(polar), Some(outside))?))
+            });
+            at = groove.place(&found.ok()?.x);
+            if let Some(rest) = self.newton(at, |at| balance(at, None)) {
+                return Some(rest.into());
+            }
+        }
+        None
+    }
+
+    /// The rest that plain Newton steps find from a place nearby, if each brings them nearer.
+    fn newton(
+        &self,
+        mut at: SVector<f64, 2>,
+        balance: impl Fn(&SVector<f64, 2>) -> Option<Balance<2>>,
+    ) -> Option<SVector<f64, 2>> {
+        let mut here = balance(&at)?;
+        while !here.is_rest() {
+            let to = here.stiffness.lu().solve(&here.force).map(|step| at + step);
+            let there = to.and_then(|to| Some((to, balance(&to)?)));
+            match there.filter(|(_, there)| there.force.norm() <= 0.5 * here.force.norm()) {
+                Some(nearer) => (at, here) = nearer,
+                None => return here.is_nearly_rest().then_some(at),
+            }
+        }
+        Some(at)
     }
 
     /// What it does to the ring from a place of rest.
@@ -208,7 +292,7 @@ impl Ball<'_> {
         OnRing {
             force: SVector::from(forces.on_ring.map(|force| force.re)),
             stiffness: direct - on_ring * following,
-            energy: self.energy(at[1], &forces),
+            energy: self.energy(at, forces.outside.map(|force| force.re), &forces),
         }
     }
 }

@@ -15,9 +15,9 @@ use crate::space::solid::{LARGEST_TILT, Tilt, dot};
 use nalgebra::{Matrix5, Vector5};
 
 /// Smallest and largest part of the speed by which it grows from one equilibrium to the next.
-const SMALLEST_PART: f64 = 1.0 / 4096.0;
+const SMALLEST_PART: f64 = 1.0 / 1024.0;
 const LARGEST_PART: f64 = 0.25;
-/// A direction of the ring with less than this share of the largest stiffness has none.
+/// A direction of the ring with less than this share of the stiffness of a lightly pressed contact has none.
 const NO_STIFFNESS: f64 = 1e-9;
 /// Largest pressure that bearing steel is rated for, Pa (ISO 76, ball bearings).
 const RATED_PRESSURE: f64 = 4.2e9;
@@ -104,29 +104,29 @@ impl<'a> Bearing<'a> {
         [line[0] / distance * length - ox, line[1] / distance * length - or]
     }
 
-    /// Places of all balls at rest beside a ring at these coordinates; `None` where one finds none.
-    fn places(&self, ring: &Vector5<f64>) -> Option<Vec<[f64; 2]>> {
-        let place = |j: usize| {
-            let beside: [f64; OF_RING] = (self.beside(j) * ring).into();
-            self.ball(j).rest(self.between(&beside), beside)
+    /// All balls with their places (m) of rest beside a ring at these coordinates; `None` where one finds none.
+    fn balls(&self, ring: &Vector5<f64>) -> Option<Vec<(Ball<'a>, [f64; 2])>> {
+        let at_rest = |j: usize| {
+            let (ball, beside) = (self.ball(j), (self.beside(j) * ring).into());
+            let place = ball.rest(self.between(&beside), beside)?;
+            Some((ball, place))
         };
-        (0..self.space.balls.set.count).map(place).collect()
+        (0..self.space.balls.set.count).map(at_rest).collect()
     }
 
-    /// Force of the bearing on the ring over its coordinates, its stiffness, and the energy of the balls, J, with the size of the forces.
-    fn on_ring(&self, ring: &Vector5<f64>) -> Option<(Balance<OF_RING>, Vec<[f64; 2]>)> {
-        let places = self.places(ring)?;
+    /// Force of these balls on the ring over its coordinates, the stiffness, and their energy, J, with the size of the forces.
+    fn on_ring(&self, ring: &Vector5<f64>, balls: &[(Ball<'a>, [f64; 2])]) -> Balance<OF_RING> {
         let mut sum =
             Balance { force: Vector5::zeros(), stiffness: Matrix5::zeros(), energy: 0.0, size: 0.0 };
-        for (j, place) in places.iter().enumerate() {
+        for (j, (ball, place)) in balls.iter().enumerate() {
             let turned = self.beside(j);
-            let of = self.ball(j).on_ring(*place, (turned * ring).into());
+            let of = ball.on_ring(*place, (turned * ring).into());
             sum.force += turned.transpose() * of.force;
             sum.stiffness += turned.transpose() * of.stiffness * turned;
             sum.energy += of.energy;
             sum.size += of.force.fixed_rows::<3>(0).norm();
         }
-        Some((sum, places))
+        sum
     }
 
     /// The same with load and spring, over coordinates that are lengths: tilts times the pitch radius; those that are held have no force.
@@ -135,7 +135,7 @@ impl<'a> Bearing<'a> {
         if scaled.norm() > self.reach() || math::hypot(ring[3], ring[4]) > LARGEST_TILT {
             return None;
         }
-        let (mut sum, _) = self.on_ring(&ring)?;
+        let mut sum = self.on_ring(&ring, &self.balls(&ring)?);
         let [spring, stiffness] = self.space.ring.spring(ring[0]);
         let [lx, ly, lz, my, mz] = self.load;
         // A moment that keeps its direction, over the angles.
@@ -181,6 +181,16 @@ impl<'a> Bearing<'a> {
         elastic.rigidity * (1e-5 * self.space.balls.set.radius).sqrt()
     }
 
+    /// Largest centrifugal force of a ball beside a ring at these coordinates, N.
+    fn largest_centrifugal(&self, ring: &Vector5<f64>) -> f64 {
+        let forces =
+            self.balls(ring).unwrap_or_default().into_iter().enumerate().map(|(j, (ball, place))| {
+                let orbit = ball.forces::<f64>(place, (self.beside(j) * ring).into()).rolling.orbit;
+                ball.inertia[0] * orbit * orbit * (self.space.balls.set.pitch_radius + place[1])
+            });
+        forces.fold(0.0, f64::max)
+    }
+
     fn unscaled(&self, scaled: &Vector5<f64>) -> Vector5<f64> {
         let radius = self.space.balls.set.pitch_radius;
         Vector5::new(scaled[0], scaled[1], scaled[2], scaled[3] / radius, scaled[4] / radius)
@@ -197,39 +207,42 @@ fn none(bearing: &Bearing<'_>, at: &Vector5<f64>, share: f64) -> Error {
     let far = (0..OF_RING)
         .filter(|k| bearing.space.ring.held[*k].is_none())
         .find(|k| at[*k].abs() > 0.4 * bearing.reach());
-    let why = match far {
-        Some(k) => {
+    let restless = (0..bearing.space.balls.set.count).find(|j| {
+        let beside = (bearing.beside(*j) * ring).into();
+        bearing.ball(*j).rest(bearing.between(&beside), beside).is_none()
+    });
+    let why = match (far, restless) {
+        (None, _) if bearing.control == RaceControl::Inner && share > 0.0 => {
+            "the inner race controls no balls that it hardly presses; 'outer' or 'none' instead of 'inner'"
+                .to_owned()
+        }
+        (None, Some(j)) => format!("ball[{j}] finds no rest"),
+        (Some(k), _) => {
             let [name, unit, _] = RING_COORDINATES[k].position.unwrap_or_default();
             format!(
                 "inner_ring.{name} goes beyond {} {unit}: nothing holds the ring that way",
                 shown(ring[k])
             )
         }
-        None => "Newton's method found no place of rest".to_owned(),
+        (None, None) if share > 0.0 => format!(
+            "Newton's method found none near that of a lower speed; where the centrifugal force of balls, here up to {} N, outweighs \
+             their load there may be none",
+            shown(bearing.largest_centrifugal(&ring))
+        ),
+        (None, None) => "Newton's method found none".to_owned(),
     };
     let at = if share > 0.0 { format!(" at {} of the speed", shown(share)) } else { " at rest".to_owned() };
     Error::new(Status::BadState, format!("no equilibrium{at}: {why}"))
 }
 
-/// Refuses a ring with a free direction that nothing holds.
-fn is_held(stiffness: &Matrix5<f64>) -> Result<()> {
-    let symmetric = 0.5 * (stiffness + stiffness.transpose());
-    let eigen = symmetric.symmetric_eigen();
-    let largest = eigen.eigenvalues.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
-    for (k, value) in eigen.eigenvalues.iter().enumerate() {
-        if *value < NO_STIFFNESS * largest {
-            let direction = eigen.eigenvectors.column(k);
-            let most = direction.iter().enumerate().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-            let [name, ..] = RING_COORDINATES[most.map_or(0, |(k, _)| k)].position.unwrap_or_default();
-            let text = format!(
-                "inner_ring.motion.space.{name}: free, and nothing holds it (stiffness {} N/m of {} N/m); hold it, or load the bearing",
-                shown(*value),
-                shown(largest)
-            );
-            return Err(Error::new(Status::BadState, text));
-        }
-    }
-    Ok(())
+/// The free direction of the ring with the least stiffness: stiffness (N/m) as that of a move at the pitch circle, and the coordinate that
+/// moves most.
+fn softest(stiffness: &Matrix5<f64>) -> (f64, &'static str) {
+    let eigen = stiffness.symmetric_part().symmetric_eigen();
+    let (place, value) = eigen.eigenvalues.argmin();
+    let (most, _) = eigen.eigenvectors.column(place).abs().argmax();
+    let [name, ..] = RING_COORDINATES[most].position.unwrap_or_default();
+    (value, name)
 }
 
 /// The equilibrium of ring and balls.
@@ -260,9 +273,18 @@ pub(super) fn equilibrium(space: &Space, control: RaceControl) -> Result<Equilib
         }
     }
     let bearing = at_speed(1.0);
-    is_held(&rest.balance.stiffness)?;
+    let (least, softest) = softest(&rest.balance.stiffness);
+    if least.abs() <= NO_STIFFNESS * bearing.soft() {
+        let text = format!(
+            "inner_ring.motion.space.{softest}: free, and nothing holds it (stiffness {} N/m at the pitch circle); hold it, or load the \
+             bearing",
+            shown(least)
+        );
+        return Err(Error::new(Status::BadState, text));
+    }
     let ring = bearing.unscaled(&rest.x);
-    let (sum, places) = bearing.on_ring(&ring).ok_or_else(|| none(&bearing, &rest.x, 1.0))?;
+    let balls = bearing.balls(&ring).ok_or_else(|| none(&bearing, &rest.x, 1.0))?;
+    let sum = bearing.on_ring(&ring, &balls);
     let mut found = Equilibrium {
         coordinates: coordinates(),
         free: space.ring.held.iter().map(Option::is_none).collect(),
@@ -277,10 +299,15 @@ pub(super) fn equilibrium(space: &Space, control: RaceControl) -> Result<Equilib
         warnings: Vec::new(),
         residual: rest.balance.force.norm() / rest.balance.size.max(f64::MIN_POSITIVE),
     };
-    for (j, place) in places.into_iter().enumerate() {
-        tell(&bearing, j, place, &ring, &mut found);
+    for (j, (ball, place)) in balls.into_iter().enumerate() {
+        tell(&bearing, j, (&ball, place), &ring, &mut found);
     }
     warn(&bearing, &mut found);
+    if least < 0.0 {
+        let text =
+            format!("the ring is pushed away from this equilibrium along {softest} ({} N/m)", shown(least));
+        found.warnings.push(text);
+    }
     Ok(found)
 }
 
@@ -290,9 +317,14 @@ fn coordinates() -> Vec<Quantity> {
 }
 
 /// Writes what is known of a ball and its contacts.
-fn tell(bearing: &Bearing<'_>, j: usize, place: [f64; 2], ring: &Vector5<f64>, out: &mut Equilibrium) {
+fn tell(
+    bearing: &Bearing<'_>,
+    j: usize,
+    (ball, place): (&Ball<'_>, [f64; 2]),
+    ring: &Vector5<f64>,
+    out: &mut Equilibrium,
+) {
     let beside: [f64; OF_RING] = (bearing.beside(j) * ring).into();
-    let ball = bearing.ball(j);
     let forces = ball.forces::<f64>(place, beside);
     let [x, r] = forces.rolling.spin;
     let pitch = if x == 0.0 { 0.0 } else { math::atan2(r * x.signum(), x.abs()) };

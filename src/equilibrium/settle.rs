@@ -34,6 +34,18 @@ pub(super) struct Balance<const N: usize> {
     pub(super) size: f64,
 }
 
+impl<const N: usize> Balance<N> {
+    /// Whether what is left of the force is round-off.
+    pub(super) fn is_rest(&self) -> bool {
+        self.force.norm() <= ROUND_OFF * (self.size + NEGLIGIBLE)
+    }
+
+    /// Whether it may count as one where no step makes it smaller.
+    pub(super) fn is_nearly_rest(&self) -> bool {
+        self.force.norm() <= ACCEPTED * self.size + NEGLIGIBLE
+    }
+}
+
 /// A point of rest.
 pub(super) struct Rest<const N: usize> {
     pub(super) x: SVector<f64, N>,
@@ -55,7 +67,7 @@ pub(super) fn settle<const N: usize>(
     let mut parameter = soft;
     for _ in 0..MAX_STEPS {
         let rest = here.force.norm();
-        if rest <= ROUND_OFF * here.size + NEGLIGIBLE * ROUND_OFF {
+        if here.is_rest() {
             return Ok(Rest { x, balance: here });
         }
         let pressed = here.stiffness + SMatrix::identity() * parameter;
@@ -75,7 +87,7 @@ pub(super) fn settle<const N: usize>(
             None => parameter = GROWS * parameter.max(1e-6 * soft),
         }
     }
-    if here.force.norm() <= ACCEPTED * here.size + NEGLIGIBLE {
+    if here.is_nearly_rest() {
         return Ok(Rest { x, balance: here });
     }
     Err(x)

@@ -74,6 +74,16 @@ fn c_whirl() {
 }
 
 #[test]
+fn c_equilibrium() {
+    run_c_test("ctests/test_equilibrium.c", "scenes/angular_contact_218.json");
+}
+
+#[test]
+fn cpp_equilibrium() {
+    run_cpp_test("ctests/test_cpp_equilibrium.cpp", "scenes/angular_contact_218.json", &[]);
+}
+
+#[test]
 fn c_heat() {
     run_c_test("ctests/test_heat.c", "scenes/grease_guide_heat.json");
 }
