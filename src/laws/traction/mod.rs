@@ -1,5 +1,6 @@
 //! Friction of sliding surfaces.
 
+pub mod ellipse;
 pub mod muraki_kimura;
 pub mod self_heating;
 pub mod solid_friction;

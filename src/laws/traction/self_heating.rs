@@ -19,6 +19,7 @@
 use crate::laws::traction::muraki_kimura::{MeanShear, ShearState};
 use crate::scalar::{Base, Numeric, Of};
 use std::f64::consts::PI;
+use std::ops::Mul;
 
 /// Steps before bisection takes over.
 const FAST_STEPS: usize = 12;
@@ -157,7 +158,7 @@ impl<B: Base> SelfHeating<B> {
 /// sqrt(pi e U/2b), per K and m^2. A floor far below any speed of interest keeps it differentiable when a surface stands
 /// still.
 #[inline(always)]
-fn heat_flow<B, T: Of<B>>(thermal_product: B, u: T, half_width: T) -> T {
+pub(super) fn heat_flow<P, T: Numeric + Mul<P, Output = T>>(thermal_product: P, u: T, half_width: T) -> T {
     ((u.abs() + 1e-9) * (PI / 2.0) * thermal_product / half_width).sqrt()
 }
 

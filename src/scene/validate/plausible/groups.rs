@@ -48,11 +48,18 @@ const LOOSEST: [f64; 2] = [1e-4, 1.5e-3];
 /// Turns of a ring in a run.
 const TURNS: f64 = 1e4;
 
-const SIZE: &[&str] = &["rollers.radius", "kinematic_elements.radius", "kinematic_elements.pitch_radius"];
+const SIZE: &[&str] = &[
+    "rollers.radius",
+    "balls.radius",
+    "balls.pitch_radius",
+    "kinematic_elements.radius",
+    "kinematic_elements.pitch_radius",
+];
 const UNUSUAL: [&str; 2] = ["unusually small for this size", "unusually large for this size"];
 const FAST: [&str; 2] = ["", "a speed that only special bearings of this size reach"];
 const SOFT: [&str; 2] =
     ["so soft that the weight of the cage takes the clearance", "stiffer than solid steel of this size"];
+const GROOVE: [&str; 2] = ["hardly wider than the ball", "unusually wide for the ball"];
 const WEAK: [&str; 2] =
     ["hardly any damping of this mass on this stiffness", "many times the critical damping"];
 
@@ -89,6 +96,70 @@ pub(super) const GROUPS: &[Group] = &[
             Some((r.mass, range(800.0 * volume, 2e4 * volume, "kg")))
         },
         ["lighter than any material of this volume", "heavier than any material of this volume"],
+    ),
+    group(
+        "balls.mass",
+        &["balls.radius"],
+        |s| {
+            let b = s.balls.as_ref()?;
+            let volume = 4.0 / 3.0 * PI * b.radius.powi(3);
+            Some((b.mass, range(800.0 * volume, 2e4 * volume, "kg")))
+        },
+        ["lighter than any material of this volume", "heavier than any material of this volume"],
+    ),
+    group(
+        "balls.pitch_radius",
+        &["balls.radius"],
+        |s| {
+            let b = s.balls.as_ref()?;
+            Some((b.pitch_radius, range(2.2, 60.0, "m").times(b.radius)))
+        },
+        UNUSUAL,
+    ),
+    group(
+        "outer_ring.groove_radius",
+        &["balls.radius"],
+        |s| s.groove(s.outer_ring.as_ref()?.groove_radius),
+        GROOVE,
+    ),
+    group(
+        "inner_ring.groove_radius",
+        &["balls.radius"],
+        |s| s.groove(s.inner_ring.as_ref()?.groove_radius),
+        GROOVE,
+    ),
+    group(
+        "outer_ring.shoulder_height",
+        &["balls.radius"],
+        |s| s.shoulder(s.outer_ring.as_ref()?.shoulder_height),
+        UNUSUAL,
+    ),
+    group(
+        "inner_ring.shoulder_height",
+        &["balls.radius"],
+        |s| s.shoulder(s.inner_ring.as_ref()?.shoulder_height),
+        UNUSUAL,
+    ),
+    group(
+        "inner_ring.motion.space.load",
+        &["balls.radius", "balls.count"],
+        |s| {
+            let RingMotion::Space(ring) = &s.inner_ring.as_ref()?.motion else { return None };
+            let arms = [1.0, 1.0, 1.0, 1.0 / s.pitch_radius(), 1.0 / s.pitch_radius()];
+            let loads = ring.loads().into_iter().zip(arms);
+            let size = loads.map(|(load, arm)| load.map_or(0.0, |load| arm * load.largest()));
+            Some((size.fold(0.0, f64::max), s.carried()))
+        },
+        ["", "beyond what such a bearing carries at rest"],
+    ),
+    group(
+        "inner_ring.motion.space.preload.force",
+        &["balls.radius", "balls.count"],
+        |s| {
+            let RingMotion::Space(ring) = &s.inner_ring.as_ref()?.motion else { return None };
+            Some((ring.preload?.force.abs(), s.carried()))
+        },
+        ["", "beyond what such a bearing carries at rest"],
     ),
     group(
         "cage.mass",
@@ -388,6 +459,20 @@ impl Scene {
         let given = self.kinematic_elements.as_ref().and_then(|elements| elements.effective_length);
         let given = self.rollers.as_ref().map(|rollers| rollers.effective_length).or(given);
         given.unwrap_or(2.0 * self.element_radius())
+    }
+
+    /// A groove beside its balls: 1.005 to 1.3 times as large.
+    fn groove(&self, radius: Option<f64>) -> Option<(f64, Range)> {
+        Some((radius?, range(1.005, 1.3, "m").times(self.balls.as_ref()?.radius)))
+    }
+
+    fn shoulder(&self, height: Option<f64>) -> Option<(f64, Range)> {
+        Some((height?, range(0.1, 1.2, "m").times(self.balls.as_ref()?.radius)))
+    }
+
+    /// Loads of a ball bearing: up to some five times a static rating of 14 MPa Z D^2.
+    fn carried(&self) -> Range {
+        range(0.0, 7e7 * f64::from(self.element_count()) * (2.0 * self.element_radius()).powi(2), "N")
     }
 
     fn speeds(&self) -> Range {

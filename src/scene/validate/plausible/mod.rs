@@ -246,6 +246,8 @@ mod tests {
             "rollers.inertia",
             "outer_ring.raceway_radius",
             "cage.inertia",
+            "balls.count",
+            "balls.radius",
             "kinematic_elements.count",
             "kinematic_elements.radius",
             "kinematic_elements.pitch_radius",

@@ -32,6 +32,15 @@ pub(super) const NUMBERS: &[(&str, Range)] = &[
     ("rollers.radius_deviations.groups.*.deviation", range(1e-9, 1e-4, "m")),
     ("rollers.profile.logarithmic.load_factor", range(0.1, 10.0, "")),
     ("rollers.profile.logarithmic.end_drop", range(1e-8, 1e-3, "m")),
+    ("balls.contact_angle", range(0.05, 1.1, "rad")),
+    ("balls.radius_deviations.each.*", range(1e-9, 1e-4, "m")),
+    ("balls.radius_deviations.groups.*.deviation", range(1e-9, 1e-4, "m")),
+    ("inner_ring.motion.space.x.held", PLACE),
+    ("inner_ring.motion.space.y.held", PLACE),
+    ("inner_ring.motion.space.z.held", PLACE),
+    ("inner_ring.motion.space.tilt_y.held", MISALIGNMENT),
+    ("inner_ring.motion.space.tilt_z.held", MISALIGNMENT),
+    ("inner_ring.motion.space.preload.stiffness", range(1e3, 1e10, "N/m")),
     ("kinematic_elements.motion.rolling.contact_angle", range(0.0, 1.1, "rad")),
     ("**.contact.damping.relaxation_time", range(1e-9, 1e-4, "s")),
     ("**.contact.damping.softening_depth", range(1e-11, 1e-5, "m")),
@@ -69,6 +78,8 @@ pub(super) const NUMBERS: &[(&str, Range)] = &[
     ("initial.first_roller_angle", TURN),
 ];
 
+const PLACE: Range = range(1e-9, 2e-3, "m");
+const MISALIGNMENT: Range = range(1e-6, 0.03, "rad");
 const FRICTION: Range = range(1e-3, 1.0, "");
 const TRANSITION: Range = range(1e-5, 1.0, "m/s");
 const ROUGHNESS: Range = range(2e-9, 2e-5, "m");

@@ -1,0 +1,540 @@
+//! Traction over the ellipse of a point contact: a stack of line contacts side by side, with slip that spin and the curvature of the
+//! surface change from place to place.
+//!
+//! ```text
+//! place s = x t + y l - H n,   H = y^2/(R_d + sqrt(R_d^2 - y^2)),   R_d radius of the pressed surface across the race (Heathcote)
+//! D_t(y)   = D_t - w_n y - w_l H,    D_l(x, y) = D_l + w_n x + w_t H,    d = |D|
+//! strip    P = (pi/4) p0 c,  c = sqrt(1 - (y/a)^2):  Sigma = eta d/(tau0 h),  eta = eta0 exp(alpha P - beta dT)
+//!          1/k = u tau0 h/(G_l b c d),   S = asinh(Sigma)(1 - asinh(Sigma)/(4 k)) up to asinh = 2 k, then k
+//! stress   g = tau/d = (1 - w) tau0 S/d + w mu_bd tanh(d/v_s)/d p0 sqrt(c^2 - (x/b)^2)
+//! sums     S0 = sum G, Sx = sum G x, ..., G = g dA
+//! F_t = -(S0 D_t - Sy w_n - Sh w_l),   F_l = -(S0 D_l + Sx w_n + Sh w_t)
+//! M_t = -(Sh D_l + Sxh w_n + Shh w_t),   M_l = Sh D_t - Syh w_n - Shh w_l
+//! M_n = -(Sx D_l + Sxx w_n + Sxh w_t - Sy D_t + Syy w_n + Syh w_l)
+//! dT = R_th tau0/(pi a b) sum S d dA,   R_th = h/(12 k') + (4/3)/(sqrt(pi e1 U1/2b) + sqrt(pi e2 U2/2b))
+//! ```
+//!
+//! Everything is linear in the secants g, so nothing is divided by a slip that may be zero, the power of forces and couple is the
+//! dissipation, and the symmetric matrix of the sums is the damping that a semi-implicit step takes. Each strip follows the law of line
+//! contacts ([`super::muraki_kimura`]) under its own mean pressure; film, regime and temperature are those of the middle. Places are those of
+//! Gauss and Chebyshev across the race and of Gauss and Legendre along it. Valid for lubricated ellipses that are smaller than R_d; the
+//! creep of the solids is left out. Combination of the library from laws of the literature: the limit of uniform slip and one
+//! strip is the line contact.
+
+use crate::laws::traction::self_heating::{SelfHeating, heat_flow};
+use crate::laws::traction::solid_friction::SolidFriction;
+use crate::scalar::{Base, Numeric, Of, math};
+use std::f64::consts::PI;
+
+/// ln of the largest factor by which pressure thickens the oil, far beyond what any film carries.
+const LARGEST_LN_VISCOSITY: f64 = 300.0;
+/// Added to the square of the slip, m^2/s^2, so that friction is defined without slip.
+const SLIP_FLOOR: f64 = 1e-24;
+/// Newton steps for the temperature before bisection takes over, and steps at all.
+const FAST_STEPS: usize = 12;
+const MOST_STEPS: usize = 80;
+/// Error of the logarithm of the viscosity at which the temperature is found.
+const ACCURACY: f64 = 1e-10;
+
+/// Places and weights on the unit disc: strips across the race, each with places along it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EllipseRule {
+    /// y/a >= 0 of a strip and, if it is not the middle one, of its mirror image; c, and the weight of one of both.
+    strips: Vec<[f64; 3]>,
+    /// x/(b c) of the places along a strip, their weights, and those of a stress like Hertz's pressure.
+    places: Vec<[f64; 3]>,
+}
+
+impl EllipseRule {
+    /// So many strips, and places along each.
+    ///
+    /// # Panics
+    /// Without strips or places.
+    pub fn new(strips: usize, places: usize) -> Self {
+        assert!(strips > 0 && places > 0);
+        let step = PI / (strips + 1) as f64;
+        let strip = |j: usize| {
+            let (sin, cos) = math::sin_cos(j as f64 * step);
+            [if 2 * j == strips + 1 { 0.0 } else { cos }, sin, step * sin * sin]
+        };
+        let along = legendre(places);
+        let share: f64 = along.iter().map(|[s, w]| w * (1.0 - s * s).sqrt()).sum();
+        let pressed = |[s, w]: [f64; 2]| [s, w, w * (1.0 - s * s).sqrt() * (0.5 * PI) / share];
+        Self {
+            strips: (1..=strips.div_ceil(2)).map(strip).collect(),
+            places: along.into_iter().map(pressed).collect(),
+        }
+    }
+}
+
+/// Places and weights of Gauss and Legendre on (-1, 1).
+fn legendre(n: usize) -> Vec<[f64; 2]> {
+    let place = |i: usize| {
+        let mut x = math::cos(PI * (i as f64 + 0.75) / (n as f64 + 0.5));
+        let mut slope = 1.0;
+        for _ in 0..100 {
+            let (mut before, mut value) = (1.0, x);
+            for k in 2..=n {
+                let k = k as f64;
+                (before, value) = (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k);
+            }
+            slope = n as f64 * (x * value - before) / (x * x - 1.0);
+            let step = value / slope;
+            x -= step;
+            if step.abs() < 1e-16 {
+                break;
+            }
+        }
+        [x, 2.0 / ((1.0 - x * x) * slope * slope)]
+    };
+    (0..n).map(place).collect()
+}
+
+/// Lubricant and surfaces of the contacts of one race.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EllipseTraction {
+    /// Places of the sums, and those of the temperature.
+    pub rule: EllipseRule,
+    pub temperature_rule: EllipseRule,
+    /// ln(eta0/tau0), ln s.
+    pub ln_time: f64,
+    /// alpha, 1/Pa.
+    pub pressure_viscosity: f64,
+    /// tau0, Pa.
+    pub eyring_stress: f64,
+    /// G_l, Pa.
+    pub shear_modulus: f64,
+    /// R_d, m.
+    pub pressed_radius: f64,
+    /// Self-heating, if there is any.
+    pub self_heating: Option<SelfHeating>,
+}
+
+/// An ellipse, its film and how both surfaces move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EllipseState<T> {
+    /// p0, Pa.
+    pub pressure: T,
+    /// a and b, m.
+    pub half_axes: [T; 2],
+    /// h, m.
+    pub film: T,
+    /// ln of eta0 over that of the law.
+    pub ln_viscosity: T,
+    /// |u| > 0, m/s.
+    pub rolling_speed: T,
+    /// u1 and u2 of the surfaces past the contact, m/s.
+    pub surface_speeds: [T; 2],
+    /// D_t and D_l in the middle, m/s.
+    pub slip: [T; 2],
+    /// w_t, w_l, w_n, rad/s.
+    pub turning: [T; 3],
+    /// Share w of boundary friction.
+    pub boundary_share: T,
+}
+
+/// Moments of the secants over the ellipse, N s/m and its kin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Secants<T> {
+    /// S0, Sx, Sy, Sh.
+    pub first: [T; 4],
+    /// Sxx, Syy, Shh, Sxh, Syh.
+    pub second: [T; 5],
+}
+
+/// Friction of an ellipse on the body whose slip is meant; the other one has the opposite at the same point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EllipseFriction<T> {
+    /// F_t and F_l, N.
+    pub force: [T; 2],
+    /// M_t, M_l, M_n about the middle of the contact, N m.
+    pub couple: [T; 3],
+    /// Their secants.
+    pub secants: Secants<T>,
+    /// dT, K.
+    pub temperature_rise: T,
+}
+
+impl<T: Numeric> Secants<T> {
+    /// Force and couple by these slips and turning speeds.
+    #[inline(always)]
+    pub fn friction(&self, [dt, dl]: [T; 2], [wt, wl, wn]: [T; 3]) -> ([T; 2], [T; 3]) {
+        let ([s0, sx, sy, sh], [sxx, syy, shh, sxh, syh]) = (self.first, self.second);
+        let force = [sy * wn + sh * wl - s0 * dt, -(s0 * dl + sx * wn + sh * wt)];
+        let couple = [
+            -(sh * dl + sxh * wn + shh * wt),
+            sh * dt - syh * wn - shh * wl,
+            sy * dt - (sx * dl + sxx * wn + sxh * wt + syy * wn + syh * wl),
+        ];
+        (force, couple)
+    }
+}
+
+/// What a strip has in common.
+struct Strip<T> {
+    y: T,
+    height: T,
+    slip_t: T,
+    slip_l: T,
+}
+
+impl EllipseTraction {
+    /// Friction of an ellipse; `boundary` is that without film, with the Hertz pressure as its load.
+    #[inline(always)]
+    pub fn friction<B, T>(
+        &self,
+        at: &EllipseState<T>,
+        boundary: Option<&SolidFriction<B>>,
+    ) -> EllipseFriction<T>
+    where
+        B: Base,
+        T: Of<B>,
+    {
+        let zero = at.pressure.like(0.0);
+        let rise = match &self.self_heating {
+            None => zero,
+            Some(heating) => self.temperature_rise(at, heating),
+        };
+        let secants = self.secants(at, rise, boundary);
+        let (force, couple) = secants.friction(at.slip, at.turning);
+        EllipseFriction { force, couple, secants, temperature_rise: rise }
+    }
+
+    /// ln(eta/(tau0 h)) of a strip, and 1/k times its slip.
+    #[inline(always)]
+    fn strip_constants<T: Numeric>(&self, at: &EllipseState<T>, c: f64, rise: T) -> [T; 2] {
+        let beta = self.self_heating.map_or(0.0, |heating| heating.temperature_viscosity);
+        let ln_eta = at.pressure * (0.25 * PI * c * self.pressure_viscosity) + at.ln_viscosity + self.ln_time
+            - rise * beta;
+        let held = T::select(ln_eta.above(LARGEST_LN_VISCOSITY), ln_eta.like(LARGEST_LN_VISCOSITY), ln_eta);
+        let compliance = at.rolling_speed * at.film * (self.eyring_stress / (self.shear_modulus * c));
+        [held.exp() / at.film, compliance / at.half_axes[1]]
+    }
+
+    /// Slip of the strip at `t` half axes across the race.
+    #[inline(always)]
+    fn strip<T: Numeric>(&self, at: &EllipseState<T>, t: f64) -> Strip<T> {
+        let y = at.half_axes[0] * t;
+        let square = y * y;
+        let radius = self.pressed_radius;
+        let height = square / ((-square + radius * radius).sqrt() + radius);
+        let ([dt, dl], [wt, wl, wn]) = (at.slip, at.turning);
+        Strip { y, height, slip_t: dt - wn * y - wl * height, slip_l: dl + wt * height }
+    }
+
+    /// S at a place with this slip (m/s), with dS over d(ln eta).
+    #[inline(always)]
+    fn stress<T: Numeric>([thickness, compliance]: [T; 2], slip: T) -> [T; 2] {
+        let sigma = thickness * slip;
+        let arc = sigma.asinh();
+        let share = arc * compliance / slip;
+        let elastic = share.at_least(2.0);
+        let one = slip.like(1.0);
+        let viscous = arc * (-share * 0.25 + 1.0);
+        let stress = T::select(elastic, slip / compliance, viscous);
+        let slope = sigma / (sigma * sigma + 1.0).sqrt() * (-share * 0.5 + 1.0);
+        [stress, T::select(elastic, one.like(0.0), slope)]
+    }
+
+    /// R(dT), the rise that the friction at the rise dT sustains, K, and -dR/d(ln eta).
+    #[inline(always)]
+    fn sustained<T: Numeric>(&self, at: &EllipseState<T>, per_power: T, rise: T) -> [T; 2] {
+        let zero = rise.like(0.0);
+        let (mut sum, mut slope) = (zero, zero);
+        for &[t, c, weight] in &self.temperature_rule.strips {
+            let constants = self.strip_constants(at, c, rise);
+            for side in sides(t) {
+                let strip = self.strip(at, side * t);
+                for &[s, w, _] in &self.temperature_rule.places {
+                    let along = strip.slip_l + at.turning[2] * at.half_axes[1] * (c * s);
+                    let slip = (strip.slip_t * strip.slip_t + along * along + SLIP_FLOOR).sqrt();
+                    let [stress, steep] = Self::stress(constants, slip);
+                    sum += stress * slip * (weight * w);
+                    slope += steep * slip * (weight * w);
+                }
+            }
+        }
+        [sum * per_power, slope * per_power]
+    }
+
+    /// dT. It is the one root of dT = R(dT), whose right side falls: Newton's method from 0, bisection where that swings, and a last step
+    /// in the law's own numbers, with dual numbers the implicit-function rule.
+    #[inline(always)]
+    fn temperature_rise<T: Numeric>(&self, at: &EllipseState<T>, heating: &SelfHeating) -> T {
+        let [u1, u2] = at.surface_speeds;
+        let half_width = at.half_axes[1];
+        let surfaces = heat_flow(heating.thermal_product_1, u1, half_width)
+            + heat_flow(heating.thermal_product_2, u2, half_width);
+        let resistance = at.film * (1.0 / (12.0 * heating.conductivity)) + at.film.like(4.0 / 3.0) / surfaces;
+        let per_power = resistance * (heating.eyring_stress / PI);
+        let beta = heating.temperature_viscosity;
+        let (plain, plain_power) = (at.base(), per_power.base());
+        let zero = plain_power.splat(0.0);
+        let (mut rise, mut low, mut high) = (zero, zero, zero);
+        let mut open = plain_power.splat(1.0);
+        let mut derivative = open;
+        for step in 0..MOST_STEPS {
+            let [sustained, slope] = self.sustained(&plain, plain_power, rise);
+            if step == 0 {
+                high = sustained;
+            }
+            let missing = sustained - rise;
+            derivative = slope * beta + 1.0;
+            let colder = missing.at_least(0.0);
+            low = <T::Base as Numeric>::select(colder, rise, low);
+            high = <T::Base as Numeric>::select(colder, high, rise);
+            let middle = (low + high) * 0.5;
+            let next = if step < FAST_STEPS {
+                let near = rise + missing / derivative;
+                <T::Base as Numeric>::select(low.less_or_equal(near) & near.less_or_equal(high), near, middle)
+            } else {
+                middle
+            };
+            let done = (missing * beta).abs().at_most(ACCURACY);
+            open = <T::Base as Numeric>::select(done, zero, open);
+            // Contacts that are done take their last step below.
+            rise = <T::Base as Numeric>::select(done, rise, next);
+            if !<T::Base as Base>::any(open.above(0.0)) {
+                break;
+            }
+        }
+        let root = T::lift(rise);
+        let [sustained, _] = self.sustained(at, per_power, root);
+        let rise = root + (sustained - root) / T::lift(derivative);
+        let lost = open.above(0.0);
+        T::select(lost, rise.like(f64::NAN), rise)
+    }
+
+    #[inline(always)]
+    fn secants<B, T>(&self, at: &EllipseState<T>, rise: T, boundary: Option<&SolidFriction<B>>) -> Secants<T>
+    where
+        B: Base,
+        T: Of<B>,
+    {
+        let zero = rise.like(0.0);
+        let mut sums = Secants { first: [zero; 4], second: [zero; 5] };
+        let area = at.half_axes[0] * at.half_axes[1];
+        let wet = (-at.boundary_share + 1.0) * area * self.eyring_stress;
+        let dry = boundary.map(|law| (law, at.boundary_share * at.pressure * area));
+        for &[t, c, weight] in &self.rule.strips {
+            let constants = self.strip_constants(at, c, rise);
+            for side in sides(t) {
+                let strip = self.strip(at, side * t);
+                // Over the strip: the secants, and their first and second moments along it.
+                let (mut g0, mut g1, mut g2) = (zero, zero, zero);
+                for &[s, w, pressed] in &self.rule.places {
+                    let x = at.half_axes[1] * (c * s);
+                    let along = strip.slip_l + at.turning[2] * x;
+                    let slip = (strip.slip_t * strip.slip_t + along * along + SLIP_FLOOR).sqrt();
+                    let [stress, _] = Self::stress(constants, slip);
+                    let mut g = stress * wet * (weight * w) / slip;
+                    if let Some((law, load)) = &dry {
+                        g += law.at(slip) * *load * (weight * c * pressed) / slip;
+                    }
+                    g0 += g;
+                    g1 += g * x;
+                    g2 += g * x * x;
+                }
+                let Strip { y, height, .. } = strip;
+                let moments = [g0, g1, g0 * y, g0 * height];
+                for (sum, moment) in sums.first.iter_mut().zip(moments) {
+                    *sum += moment;
+                }
+                let moments = [g2, g0 * y * y, g0 * height * height, g1 * height, g0 * y * height];
+                for (sum, moment) in sums.second.iter_mut().zip(moments) {
+                    *sum += moment;
+                }
+            }
+        }
+        sums
+    }
+}
+
+/// The strip itself and, unless it is the middle one, its mirror image.
+#[inline(always)]
+fn sides(t: f64) -> impl Iterator<Item = f64> {
+    [1.0, -1.0].into_iter().take(if t == 0.0 { 1 } else { 2 })
+}
+
+impl<T: Numeric> EllipseState<T> {
+    /// The same without derivatives.
+    #[inline(always)]
+    fn base(&self) -> EllipseState<T::Base> {
+        EllipseState {
+            pressure: self.pressure.base(),
+            half_axes: self.half_axes.map(Numeric::base),
+            film: self.film.base(),
+            ln_viscosity: self.ln_viscosity.base(),
+            rolling_speed: self.rolling_speed.base(),
+            surface_speeds: self.surface_speeds.map(Numeric::base),
+            slip: self.slip.map(Numeric::base),
+            turning: self.turning.map(Numeric::base),
+            boundary_share: self.boundary_share.base(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scalar::Dual;
+
+    const STEEL: f64 = 46.0 * 7830.0 * 460.0;
+
+    fn law(strips: usize, places: usize) -> EllipseTraction {
+        let heating = SelfHeating {
+            temperature_viscosity: 0.04,
+            conductivity: 0.13,
+            eyring_stress: 5e6,
+            thermal_product_1: STEEL,
+            thermal_product_2: STEEL,
+            acts: 1.0,
+        };
+        EllipseTraction {
+            rule: EllipseRule::new(strips, places),
+            temperature_rule: EllipseRule::new(strips, places),
+            ln_time: (0.03_f64 / 5e6).ln(),
+            pressure_viscosity: 2e-8,
+            eyring_stress: 5e6,
+            shear_modulus: 3e8,
+            pressed_radius: 11.37e-3,
+            self_heating: Some(heating),
+        }
+    }
+
+    const AXES: [f64; 2] = [2e-3, 0.25e-3];
+
+    fn state(film: f64, boundary_share: f64) -> EllipseState<f64> {
+        EllipseState {
+            pressure: 1.5 * 1500.0 / (PI * AXES[0] * AXES[1]),
+            half_axes: AXES,
+            film,
+            ln_viscosity: 0.0,
+            rolling_speed: (32.0_f64 * 32.0 + 1e-12).sqrt(),
+            surface_speeds: [31.0, 33.0],
+            slip: [0.1, 0.3],
+            turning: [50.0, -5000.0, 1300.0],
+            boundary_share,
+        }
+    }
+
+    fn power(at: &EllipseState<f64>, found: &EllipseFriction<f64>) -> f64 {
+        let of_forces: f64 = found.force.iter().zip(at.slip).map(|(f, d)| f * d).sum();
+        of_forces + found.couple.iter().zip(at.turning).map(|(m, w)| m * w).sum::<f64>()
+    }
+
+    #[test]
+    fn an_example_of_an_independent_program() {
+        let boundary = SolidFriction { coefficient: 0.1, transition_speed: 0.02 };
+        let at = state(0.9e-6, 0.0);
+        let found = law(16, 4).friction(&at, Some(&boundary));
+        for (found, expected) in found.force.into_iter().chain(found.couple).zip([
+            -7.171_064_090_68,
+            -38.249_218_046_8,
+            -7.309_180_331_47e-4,
+            1.529_951_463_99e-4,
+            -0.071_038_279_985_7,
+        ]) {
+            assert!((found / expected - 1.0).abs() < 1e-8, "{found} {expected}");
+        }
+        assert!((found.temperature_rise / 46.437_698_945_7 - 1.0).abs() < 1e-9, "{}", found.temperature_rise);
+        assert!((power(&at, &found) / -105.343_157_438 - 1.0).abs() < 1e-8);
+
+        let mixed = law(16, 4).friction(&state(0.12e-6, 0.052_668_5), Some(&boundary));
+        for (found, expected) in mixed.force.into_iter().zip([-8.244_057_284_98, -48.016_432_509]) {
+            assert!((found / expected - 1.0).abs() < 2e-7, "{found} {expected}");
+        }
+    }
+
+    #[test]
+    fn it_never_drives_and_vanishes_without_slip() {
+        let law = law(16, 2);
+        let mut at = state(0.9e-6, 0.3);
+        let boundary = SolidFriction { coefficient: 0.1, transition_speed: 0.02 };
+        for k in 0..400 {
+            let random = |i: usize| (12.9898 * (k * 7 + i) as f64).sin();
+            at.slip = [random(0), random(1)];
+            at.turning = [100.0 * random(2), 6000.0 * random(3), 2000.0 * random(4)];
+            assert!(power(&at, &law.friction(&at, Some(&boundary))) < 0.0);
+        }
+        (at.slip, at.turning) = ([0.0; 2], [0.0; 3]);
+        let still = law.friction(&at, Some(&boundary));
+        assert_eq!((still.force, still.couple), ([0.0; 2], [0.0; 3]));
+        assert!(still.secants.first[0] > 0.0 && still.temperature_rise.abs() < 1e-12);
+    }
+
+    #[test]
+    fn one_uniform_strip_is_a_line_contact() {
+        use crate::laws::film::thickness::Entrainment;
+        use crate::laws::traction::muraki_kimura::Traction;
+        let mut one = law(1, 2);
+        one.self_heating = None;
+        let at = EllipseState { slip: [0.4, 0.0], turning: [0.0; 3], ..state(0.9e-6, 0.0) };
+        let line = Traction::new(0.03, 2e-8, 5e6, 3e8);
+        let e = Entrainment { slip: 0.4, ln_slip: 0.4_f64.ln(), ..Entrainment::new(32.2, 31.8, 0.0) };
+        let shear = line.shear_state(0.25 * PI * at.pressure, at.film, at.film.ln(), AXES[1], &e);
+        // One strip of the rule has the width pi/2 a.
+        let expected = -5e6 * shear.mean_shear(0.0).stress * 2.0 * AXES[1] * 0.5 * PI * AXES[0];
+        let found = one.friction::<f64, f64>(&at, None).force[0];
+        assert!((found / expected - 1.0).abs() < 1e-10, "{found} {expected}");
+    }
+
+    #[test]
+    fn derivatives_are_those_of_the_values() {
+        let law = law(16, 2);
+        let boundary = SolidFriction { coefficient: 0.1, transition_speed: 0.02 };
+        let at = |x: [f64; 6]| {
+            let mut at = state(0.9e-6 * x[5], 0.01);
+            at.slip = [x[0], x[1]];
+            at.turning = [x[2], x[3], x[4]];
+            at
+        };
+        let x = [0.1, 0.3, 50.0, -5000.0, 1300.0, 1.0];
+        let dual = |k: usize| Dual::<6>::variable(x[k], k);
+        let constant = |value: f64| Dual::<6>::lift(value);
+        let plain = at(x);
+        let varied = EllipseState {
+            pressure: constant(plain.pressure),
+            half_axes: AXES.map(constant),
+            film: dual(5) * 0.9e-6,
+            ln_viscosity: constant(0.0),
+            rolling_speed: constant(plain.rolling_speed),
+            surface_speeds: [31.0, 33.0].map(constant),
+            slip: [dual(0), dual(1)],
+            turning: [dual(2), dual(3), dual(4)],
+            boundary_share: constant(0.01),
+        };
+        let exact = law.friction(&varied, Some(&boundary));
+        let values = |x: [f64; 6]| {
+            let found = law.friction(&at(x), Some(&boundary));
+            [
+                found.force[0],
+                found.force[1],
+                found.couple[0],
+                found.couple[1],
+                found.couple[2],
+                found.temperature_rise,
+            ]
+        };
+        let [f0, f1] = exact.force;
+        let [m0, m1, m2] = exact.couple;
+        for k in 0..6 {
+            let h = 1e-5 * x[k];
+            let moved = |s: f64| {
+                let mut x = x;
+                x[k] += s * h;
+                values(x)
+            };
+            let (before, after) = (moved(-1.0), moved(1.0));
+            for (i, exact) in [f0, f1, m0, m1, m2, exact.temperature_rise].into_iter().enumerate() {
+                let difference = (after[i] - before[i]) / (2.0 * h);
+                let size = values(x)[i].abs() / x[k].abs();
+                assert!(
+                    (exact.eps[k] - difference).abs() < 1e-6 * size,
+                    "{i} {k}: {} {difference}",
+                    exact.eps[k]
+                );
+            }
+        }
+    }
+}
