@@ -92,7 +92,7 @@ struct Polar {
 
 impl Polar {
     fn about(groove: &Groove) -> Self {
-        Self { from_centre: groove.from_centre(), length: groove.length() }
+        Self { from_centre: groove.centre(), length: groove.length() }
     }
 
     fn of(&self, at: &SVector<f64, 2>) -> SVector<f64, 2> {

@@ -95,7 +95,7 @@ impl<'a> Bearing<'a> {
     /// A place (m) of a ball between both grooves, on the line that joins the centres of their arcs.
     fn between(&self, ring: &[f64; OF_RING]) -> [f64; 2] {
         let [outer, inner] = self.space.races.each_ref().map(|race| &race.groove);
-        let ([ox, or], [ix, ir]) = (outer.from_centre(), inner.from_centre());
+        let ([ox, or], [ix, ir]) = (outer.centre(), inner.centre());
         let line = [ring[0] - ring[4] * outer.pitch_radius - ix + ox, ring[1] - ir + or];
         let distance = math::hypot(line[0], line[1]);
         let squeezed = distance - outer.length() - inner.length();

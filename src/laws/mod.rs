@@ -26,6 +26,7 @@ pub mod fluid;
 pub mod guide;
 pub mod heat_network;
 pub mod line_contact;
+pub mod point_contact;
 mod resting_line;
 pub mod rolling;
 pub mod traction;

@@ -81,7 +81,7 @@ pub enum RingMotion {
     /// Free in the plane under load and contact forces. Needs rollers.
     Free(FreeRing),
     /// In space, with every coordinate by itself. Needs balls.
-    Space(SpatialRing),
+    Space(Box<SpatialRing>),
 }
 
 impl Default for RingMotion {

@@ -33,8 +33,9 @@ fn check(file: &str, control: RaceControl, found: &Equilibrium, others: &[(&str,
             at[k] += steps * h;
             held(file, control, &at, others)
         });
+        let load = |step: usize, i: usize| loads[step][i];
         for i in 0..n {
-            let difference = (loads[0][i] - 8.0 * loads[1][i] + 8.0 * loads[2][i] - loads[3][i]) / (12.0 * h);
+            let difference = (load(0, i) - 8.0 * load(1, i) + 8.0 * load(2, i) - load(3, i)) / (12.0 * h);
             let exact = found.stiffness[n * i + k];
             let error = (difference - exact).abs() * unit(i) * unit(k);
             assert!(error < 2e-6 * largest, "{file} {i} {k}: {difference} {exact}");

@@ -1,4 +1,5 @@
 //! Films between rolling surfaces.
 
+pub mod ellipse;
 pub mod regime;
 pub mod thickness;

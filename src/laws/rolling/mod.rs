@@ -15,6 +15,7 @@
 //! A new law is a file with `new`, `none`, `map` and `force`, and its name in `rolling_laws!`.
 
 mod inlet_sliding;
+pub mod point;
 mod rigid_limit;
 mod zhou_hoeprich;
 
