@@ -81,25 +81,38 @@ impl InputValues {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct HostInputs {
     /// By [`Input`]; `None` follows the scene.
-    pub values: [Option<f64>; INPUTS],
+    values: [Option<f64>; INPUTS],
+    /// How many are set.
+    set: u64,
     /// Time (s) and orbit travel (rad) from which the travel of kinematic elements counts on.
     pub anchor: [f64; 2],
 }
 
 impl HostInputs {
     /// Value that the host has set, if it has.
+    #[inline]
     pub fn of(&self, input: Input) -> Option<f64> {
         self.values[input as usize]
+    }
+
+    /// Sets a value, or lets it follow the scene again with `None`.
+    pub(crate) fn hold(&mut self, input: Input, value: Option<f64>) {
+        self.values[input as usize] = value;
+        self.set = self.count();
+    }
+
+    fn count(&self) -> u64 {
+        self.values.iter().flatten().count() as u64
     }
 
     /// Whether it has set any.
     #[inline]
     pub fn sets_any(&self) -> bool {
-        // Without branches: this is asked in every evaluation.
-        self.values.iter().fold(false, |any, value| any | value.is_some())
+        self.set > 0
     }
 }
 
 stored! {
-    impl[] HostInputs { values, anchor }
+    impl[] HostInputs { values, set, anchor }
+    if |host| host.set == host.count()
 }

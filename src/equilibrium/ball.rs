@@ -173,6 +173,13 @@ impl Ball<'_> {
         Rolling { orbit, spin: [x, r] }
     }
 
+    /// Speed of both surfaces of outer (0) or inner (1) contact past it, m/s, with the ball at `rho` (m).
+    pub(super) fn rolling_speed(&self, k: usize, rho: f64, forces: &Forces<f64>) -> f64 {
+        let touch = &forces.touches[k];
+        let orbit = forces.rolling.orbit * (rho + self.grooves[k].pitch_radius);
+        (self.speeds[k] - orbit * touch.along[2] / touch.ball_distance) * touch.contact_distance
+    }
+
     /// Forces with the ball at (x, rho) and the ring at these coordinates.
     pub(super) fn forces<T: Of<f64>>(&self, [x, rho]: [T; 2], ring: [T; OF_RING]) -> Forces<T> {
         let zero = x.like(0.0);

@@ -7,6 +7,8 @@ use super::ball::{Ball, OF_RING, RaceControl};
 use super::settle::{Balance, Rest, settle};
 use crate::bodies::{HostInputs, Input, RING_COORDINATES};
 use crate::error::{Error, Result, Status};
+use crate::laws::film::thickness::Entrainment;
+use crate::laws::point_contact::PointContact;
 use crate::model::space::Space;
 use crate::model::{Quantity, quantity};
 use crate::scalar::{Dual, math};
@@ -37,7 +39,7 @@ const BALL: [Quantity; 7] = [
     ),
 ];
 /// What is known of every contact.
-const CONTACT: [Quantity; 7] = [
+const CONTACT: [Quantity; 10] = [
     quantity("normal_force", "N", "normal force Q"),
     quantity("contact_angle", "rad", "angle of the normal to the plane across the axis of the ring"),
     quantity("approach", "m", "elastic approach delta; negative where they are apart"),
@@ -49,6 +51,9 @@ const CONTACT: [Quantity; 7] = [
         "1",
         "angular velocity about the normal over that of rolling, of the ball against the ring",
     ),
+    quantity("rolling_speed", "m/s", "speed of both surfaces along the race past the contact"),
+    quantity("film_thickness", "m", "central film thickness; 0 without film"),
+    quantity("film_ratio", "1", "film ratio Lambda; 0 without boundary friction, which has the roughness"),
 ];
 
 /// The bearing at one speed.
@@ -340,8 +345,19 @@ fn tell(
         let turning: [f64; 3] = std::array::from_fn(|i| [x, r, 0.0][i] - bearing.speeds[k] * axis[i]);
         let (spin, roll) = (dot(turning, touch.normal), dot(turning, touch.across));
         let ratio = if roll == 0.0 { 0.0 } else { (spin / roll).abs() };
-        out.contact_values.push(vec![load, angle, touch.delta, pressure, long, short, ratio]);
+        let speed = ball.rolling_speed(k, place[1], &forces);
+        let [film, film_ratio] = film(&bearing.space.races[k].laws, load, pressure, speed);
+        let values = [load, angle, touch.delta, pressure, long, short, ratio, speed.abs(), film, film_ratio];
+        out.contact_values.push(values.to_vec());
     }
+}
+
+/// Film thickness (m) and film ratio of a contact that rolls without slip, zero without such laws.
+fn film(laws: &PointContact, load: f64, pressure: f64, speed: f64) -> [f64; 2] {
+    let Some(film) = laws.film.as_ref().filter(|_| load > 0.0 && speed != 0.0) else { return [0.0; 2] };
+    let rolling = Entrainment::new(speed, speed, 0.0);
+    let thickness = math::exp(film.ln_central(math::ln(load), pressure, &rolling));
+    [thickness, laws.regime.as_ref().map_or(0.0, |regime| regime.film_ratio(thickness))]
 }
 
 /// Says what a bearing should not do.

@@ -5,7 +5,7 @@ use crate::bodies::{HostInputs, Input, InputValues};
 use crate::laws::fluid::Fluid;
 use crate::laws::fluid::grease::Thickener;
 use crate::laws::fluid::walther::Walther;
-use crate::scene::{Signal, SignalIntegral, interpolate, slope};
+use crate::scene::{Scene, Signal, SignalIntegral, Viscosity, interpolate, slope};
 
 /// Where the value of an input comes from when the host does not set it.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,7 +87,7 @@ impl InputSignals {
         let mut now = InputValues::default();
         for (input, source) in &self.list {
             let i = *input as usize;
-            now.values[i] = match (host.values[i], source) {
+            now.values[i] = match (host.of(*input), source) {
                 (Some(value), _) => value,
                 (None, InputSource::Time(signal)) => signal.at(t),
                 (None, InputSource::RingSpeed(speed, value)) => {
@@ -113,7 +113,7 @@ impl InputSignals {
     pub(super) fn rates_at(&self, t: f64, host: &HostInputs) -> InputValues {
         let mut rates = InputValues::default();
         for (input, source) in &self.list {
-            rates.values[*input as usize] = match (host.values[*input as usize], source) {
+            rates.values[*input as usize] = match (host.of(*input), source) {
                 (Some(_), _) => 0.0,
                 (None, InputSource::Time(signal)) => signal.rate(t),
                 (None, InputSource::RingSpeed(speed, value)) => {
@@ -134,7 +134,7 @@ impl InputSignals {
         if self.constant.is_some() {
             return f64::INFINITY;
         }
-        let followed = self.list.iter().filter(|(input, _)| host.values[*input as usize].is_none());
+        let followed = self.list.iter().filter(|(input, _)| host.of(*input).is_none());
         followed
             .map(|(_, source)| match source {
                 InputSource::Time(signal) => signal.next_event(t),
@@ -147,7 +147,7 @@ impl InputSignals {
     fn next_speed(&self, t: f64, speeds: &[f64], host: &HostInputs) -> f64 {
         let ring = self.list.iter().find(|(input, _)| *input == Input::RingSpeed);
         let Some((_, InputSource::Time(signal))) = ring else { return f64::INFINITY };
-        if host.values[Input::RingSpeed as usize].is_some() {
+        if host.of(Input::RingSpeed).is_some() {
             return f64::INFINITY;
         }
         let both = speeds.iter().flat_map(|speed| [*speed, -speed]);
@@ -159,13 +159,22 @@ impl InputSignals {
         if self.constant.is_some() {
             return f64::INFINITY;
         }
-        let followed = self.list.iter().filter(|(input, _)| host.values[*input as usize].is_none());
+        let followed = self.list.iter().filter(|(input, _)| host.of(*input).is_none());
         followed
             .map(|(_, source)| match source {
                 InputSource::Time(signal) => signal.period(),
                 InputSource::RingSpeed(..) => f64::INFINITY,
             })
             .fold(f64::INFINITY, f64::min)
+    }
+
+    /// Viscosity that the laws of a scene are built with, Pa s.
+    pub(super) fn viscosity_at_start(&self, scene: &Scene) -> Option<f64> {
+        match (&self.oil, scene.lubricant.as_ref().map(|l| &l.viscosity)) {
+            (Some(oil), _) => Some(oil.built_at.1),
+            (None, Some(Viscosity::Constant(value))) => Some(*value),
+            _ => None,
+        }
     }
 
     /// Viscosity of the lubricant in Pa s at these inputs, if it follows the temperature.
@@ -178,7 +187,7 @@ impl InputSignals {
         if let Some(orbit) = &self.orbit {
             host.anchor = [t, orbit.travel(t, host)];
         }
-        host.values[input as usize] = value;
+        host.hold(input, value);
     }
 
     /// Largest magnitude of an input by the scene; zero for one it does not have.
@@ -210,7 +219,7 @@ impl Orbit {
     #[inline]
     fn travel(&self, t: f64, host: &HostInputs) -> f64 {
         let [since, before] = host.anchor;
-        let turned = |drive: &Drive| match host.values[drive.input as usize] {
+        let turned = |drive: &Drive| match host.of(drive.input) {
             Some(speed) => speed * (t - since),
             None => drive.integral.at(t) - drive.integral.at(since),
         };

@@ -70,7 +70,7 @@ impl<'a> LawBuilder<'a> {
         Self { path, ..*self }
     }
 
-    fn lubricant(&self, by: &str) -> Result<&'a Lubricant> {
+    pub(in crate::pairs) fn lubricant(&self, by: &str) -> Result<&'a Lubricant> {
         self.scene
             .lubricant
             .as_ref()
@@ -96,7 +96,7 @@ impl<'a> LawBuilder<'a> {
         Ok(Element { path, material, effective_length })
     }
 
-    fn law(&self, field: &str) -> String {
+    pub(in crate::pairs) fn law(&self, field: &str) -> String {
         format!("{}.{field}", self.path)
     }
 
@@ -110,19 +110,19 @@ impl<'a> LawBuilder<'a> {
         needed("lubricant.pressure_viscosity", self.lubricant(by)?.pressure_viscosity, &self.law(by))
     }
 
-    fn temperature_viscosity(&self, by: &str) -> Result<f64> {
+    pub(in crate::pairs) fn temperature_viscosity(&self, by: &str) -> Result<f64> {
         needed("lubricant.temperature_viscosity", self.lubricant(by)?.temperature_viscosity, &self.law(by))
     }
 
-    fn conductivity(&self, by: &str) -> Result<f64> {
+    pub(in crate::pairs) fn conductivity(&self, by: &str) -> Result<f64> {
         needed("lubricant.conductivity", self.lubricant(by)?.conductivity, &self.law(by))
     }
 
-    fn eyring_stress(&self, by: &str) -> Result<f64> {
+    pub(in crate::pairs) fn eyring_stress(&self, by: &str) -> Result<f64> {
         needed("lubricant.eyring_stress", self.lubricant(by)?.eyring_stress, &self.law(by))
     }
 
-    fn thermal_load(&self, by: &str) -> Result<ThermalLoad> {
+    pub(in crate::pairs) fn thermal_load(&self, by: &str) -> Result<ThermalLoad> {
         let viscosity = self.viscosity(by)?;
         Ok(ThermalLoad::new(self.temperature_viscosity(by)?, viscosity, self.conductivity(by)?))
     }
@@ -135,7 +135,7 @@ impl<'a> LawBuilder<'a> {
     }
 
     /// k rho c of a material.
-    fn thermal_product(&self, name: &str, by: &str) -> Result<f64> {
+    pub(in crate::pairs) fn thermal_product(&self, name: &str, by: &str) -> Result<f64> {
         let path = format!("materials.{name}.thermal");
         let t = self.material(&path, name)?.thermal.as_ref();
         let t = t.ok_or_else(|| bad_scene(&path, format!("missing; {} needs it", self.law(by))))?;
@@ -169,6 +169,9 @@ impl<'a> LawBuilder<'a> {
                 let viscosity = self.viscosity("film")?;
                 Some(FilmThickness::new(&elastic, viscosity, self.pressure_viscosity("film")?, thermal))
             }
+            Some(scene::FilmLaw::HamrockDowson) => {
+                return Err(bad_scene(&self.law("film"), "a law of balls; of line contacts 'pan_hamrock'"));
+            }
         };
         let traction = match laws.traction {
             None => None,
@@ -183,27 +186,9 @@ impl<'a> LawBuilder<'a> {
                 ))
             }
         };
-        let self_heating = match laws.self_heating {
-            None => None,
-            Some(scene::SelfHeating::FilmAndFlash) => Some(SelfHeating {
-                temperature_viscosity: self.temperature_viscosity("self_heating")?,
-                conductivity: self.conductivity("self_heating")?,
-                eyring_stress: self.eyring_stress("self_heating")?,
-                thermal_product_1: self.thermal_product(element.material, "self_heating")?,
-                thermal_product_2: self.thermal_product(mate, "self_heating")?,
-                acts: 1.0,
-            }),
-        };
-        let damping = laws.damping.as_ref().map(|d| NormalDamping {
-            relaxation_time: d.relaxation_time,
-            softening_depth: d.softening_depth,
-        });
-        let regime = laws.boundary_friction.as_ref().map(|b| LubricationRegime {
-            boundary: SolidFriction { coefficient: b.coefficient, transition_speed: b.transition_speed },
-            lambda_boundary: b.lambda_boundary,
-            lambda_full: b.lambda_full,
-            roughness: b.roughness,
-        });
+        let self_heating = self.self_heating(laws, [element.material, mate])?;
+        let damping = laws.damping.as_ref().map(NormalDamping::from);
+        let regime = laws.boundary_friction.as_ref().map(LubricationRegime::from);
         Ok(LineContact {
             elastic,
             profile: None,
@@ -215,6 +200,23 @@ impl<'a> LawBuilder<'a> {
             rolling_resistance: None,
             edge_friction: None,
         })
+    }
+
+    /// Self-heating of a film between an element and a mate of these materials.
+    pub(in crate::pairs) fn self_heating(
+        &self,
+        laws: &ContactLaws,
+        [element, mate]: [&str; 2],
+    ) -> Result<Option<SelfHeating>> {
+        let Some(scene::SelfHeating::FilmAndFlash) = laws.self_heating else { return Ok(None) };
+        Ok(Some(SelfHeating {
+            temperature_viscosity: self.temperature_viscosity("self_heating")?,
+            conductivity: self.conductivity("self_heating")?,
+            eyring_stress: self.eyring_stress("self_heating")?,
+            thermal_product_1: self.thermal_product(element, "self_heating")?,
+            thermal_product_2: self.thermal_product(mate, "self_heating")?,
+            acts: 1.0,
+        }))
     }
 
     /// Profile of the contact of a roller with a raceway whose crown has this radius, m.
@@ -247,10 +249,7 @@ impl<'a> LawBuilder<'a> {
         let mut law = self.line_contact(&laws.contact, mate, equivalent_radius)?;
         law.profile = self.profile(laws, crown)?;
         if let Some(rolling) = &laws.rolling_resistance {
-            let extent = match rolling.extent {
-                scene::Extent::All => Extent::All,
-                scene::Extent::Loaded { threshold } => Extent::Loaded { threshold },
-            };
+            let extent = Extent::from(&rolling.extent);
             let builder = self.at("raceways");
             let by = "rolling_resistance";
             let film = RollingFilm {
@@ -259,8 +258,14 @@ impl<'a> LawBuilder<'a> {
                 pressure_viscosity: builder.pressure_viscosity(by)?,
             };
             let isothermal = match rolling.law {
-                scene::RollingLaw::ZhouHoeprich => Isothermal::ZhouHoeprich(ZhouHoeprich::new(&film)),
-                scene::RollingLaw::RigidLimit => Isothermal::RigidLimit(RigidLimit::new(&film)),
+                None | Some(scene::RollingLaw::ZhouHoeprich) => {
+                    Isothermal::ZhouHoeprich(ZhouHoeprich::new(&film))
+                }
+                Some(scene::RollingLaw::RigidLimit) => Isothermal::RigidLimit(RigidLimit::new(&film)),
+                Some(scene::RollingLaw::BibouletHoupert | scene::RollingLaw::Houpert) => {
+                    let text = "a law of balls; of rollers 'zhou_hoeprich' or 'rigid_limit'";
+                    return Err(bad_scene("raceways.rolling_resistance.law", text));
+                }
             };
             let sliding = rolling.inlet_sliding.as_ref().map(|of| {
                 let (rigid, elastic) = (of.rigid_ratio, of.elastic_ratio);
@@ -271,6 +276,32 @@ impl<'a> LawBuilder<'a> {
             law.rolling_resistance = Some(RollingResistance { sliding, ..resistance });
         }
         Ok(law)
+    }
+}
+
+impl From<&scene::ContactDamping> for NormalDamping {
+    fn from(law: &scene::ContactDamping) -> Self {
+        Self { relaxation_time: law.relaxation_time, softening_depth: law.softening_depth }
+    }
+}
+
+impl From<&scene::BoundaryFriction> for LubricationRegime {
+    fn from(law: &scene::BoundaryFriction) -> Self {
+        Self {
+            boundary: SolidFriction { coefficient: law.coefficient, transition_speed: law.transition_speed },
+            lambda_boundary: law.lambda_boundary,
+            lambda_full: law.lambda_full,
+            roughness: law.roughness,
+        }
+    }
+}
+
+impl From<&scene::Extent> for Extent {
+    fn from(extent: &scene::Extent) -> Self {
+        match *extent {
+            scene::Extent::All => Self::All,
+            scene::Extent::Loaded { threshold } => Self::Loaded { threshold },
+        }
     }
 }
 

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Raceways {
-    /// Laws besides elasticity. Normal forces follow Palmgren's line contact.
+    /// Laws besides elasticity. Normal forces of rollers follow Palmgren's line contact, of balls Hertz's ellipse.
     #[serde(default)]
     pub contact: ContactLaws,
     /// Rolling resistance of the film. Absent: off.
@@ -17,6 +17,23 @@ pub struct Raceways {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 2, max = 32)))]
     pub slices: Option<u32>,
+    /// Places at which the stress in the ellipse of a ball is summed. Absent: `standard`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ellipse: Option<EllipseNodes>,
+}
+
+/// Places at which the stress in an ellipse is summed: strips across the race times places along each.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum EllipseNodes {
+    /// 8 x 2.
+    Coarse,
+    /// 16 x 2, of the temperature 8 x 2.
+    #[default]
+    Standard,
+    /// 32 x 4.
+    Fine,
 }
 
 /// Optional laws of a line contact.
@@ -62,8 +79,10 @@ pub struct ContactDamping {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum FilmLaw {
-    /// Central film thickness of Pan and Hamrock (1989).
+    /// Central film thickness of Pan and Hamrock (1989), of rollers.
     PanHamrock,
+    /// Central film thickness of Hamrock and Dowson (1977), of balls.
+    HamrockDowson,
 }
 
 /// Thermal correction of the film thickness.
@@ -71,7 +90,7 @@ pub enum FilmLaw {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum ThermalCorrection {
-    /// Ghosh and Pandey (1998).
+    /// Ghosh and Pandey (1998), of rollers.
     GhoshPandey,
     /// Gupta's form, the one of the rolling resistance.
     Gupta,
@@ -122,9 +141,9 @@ pub struct BoundaryFriction {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct RollingResistance {
-    /// Law of the rolling resistance.
-    #[serde(default, skip_serializing_if = "is_usual")]
-    pub law: RollingLaw,
+    /// Law of the rolling resistance. Absent: `zhou_hoeprich` of rollers, `biboulet_houpert` of balls.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub law: Option<RollingLaw>,
     /// Contacts in which it acts.
     pub extent: Extent,
     /// Drag of the inlet on surfaces that slip. Absent: off, as in the first paper.
@@ -148,19 +167,25 @@ pub struct InletSliding {
 }
 
 /// Law of the rolling resistance.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum RollingLaw {
-    /// Zhou and Hoeprich, for loaded contacts.
-    #[default]
+    /// Zhou and Hoeprich, for loaded contacts of rollers.
     ZhouHoeprich,
     /// The same with the limit of rigid surfaces at low load, which follows from Reynolds' equation.
     RigidLimit,
+    /// Biboulet and Houpert, for contacts of balls under any load.
+    BibouletHoupert,
+    /// Houpert, for loaded contacts of balls.
+    Houpert,
 }
 
-fn is_usual(law: &RollingLaw) -> bool {
-    *law == RollingLaw::default()
+impl RollingLaw {
+    /// Whether it is one of balls; the others are of rollers.
+    pub fn is_of_balls(self) -> bool {
+        matches!(self, Self::BibouletHoupert | Self::Houpert)
+    }
 }
 
 /// Contacts with rolling resistance.

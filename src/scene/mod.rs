@@ -30,8 +30,8 @@ pub use cases::{CASES_SCHEMA, Case, CaseSet};
 pub use catalogue::catalogue;
 pub(crate) use check::{bad as bad_scene, needed, shown};
 pub use contact_laws::{
-    BoundaryFriction, ContactDamping, ContactLaws, Extent, FilmLaw, InletSliding, Raceways, RollingLaw,
-    RollingResistance, SelfHeating, ThermalCorrection, TractionLaw,
+    BoundaryFriction, ContactDamping, ContactLaws, EllipseNodes, Extent, FilmLaw, InletSliding, Raceways,
+    RollingLaw, RollingResistance, SelfHeating, ThermalCorrection, TractionLaw,
 };
 pub(crate) use elastic_ring::MOST_RING_ORDERS;
 pub use elastic_ring::{ElasticRing, FiniteElementModes, RingSection, RingStiffness};

@@ -163,3 +163,25 @@ fn what_is_amiss_is_told() {
     let text = of(DEEP, RaceControl::Outer, &heavy).unwrap().warnings.join("\n");
     assert!(text.contains("above 4.2e9 Pa") && text.contains("balls carry no load"), "{text}");
 }
+
+#[test]
+fn films_are_those_of_rolling() {
+    let fast =
+        [("inner_ring.speed.constant", json!(FAST)), ("raceways.contact.thermal_correction", json!(null))];
+    let found = of(ANGULAR, RaceControl::Outer, &fast).unwrap();
+    let [speeds, films, ratios, loads] =
+        ["rolling_speed", "film_thickness", "film_ratio", "normal_force"].map(|name| values(&found, name));
+    // Past the outer contact the ring moves by the orbit speed, past the inner one by what is left of that of the ring.
+    let [_, _, rho, orbit, ..] = found.elements[0][..] else { unreachable!() };
+    let angles = values(&found, "contact_angle");
+    close(speeds[0], orbit * (62.63e-3 + rho + 11.115e-3 * angles[0].cos()), 1e-9);
+    close(speeds[1], (FAST - orbit) * (62.63e-3 + rho - 11.115e-3 * angles[1].cos()), 1e-9);
+    for k in 0..2 {
+        // h ~ u^0.67 Q^-0.067 R_x^0.464, about a micrometre.
+        assert!((0.5e-6..3e-6).contains(&films[k]), "{films:?}");
+        close(ratios[k], films[k] / 1e-7, 1e-9 * ratios[k]);
+    }
+    assert!(films[0] > films[1] && loads[0] > loads[1], "the outer race is the flatter one");
+    let still = of(ANGULAR, RaceControl::Outer, &[]).unwrap();
+    assert!(values(&still, "film_thickness").iter().all(|h| *h == 0.0));
+}

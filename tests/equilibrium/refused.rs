@@ -77,6 +77,41 @@ fn bearings_that_cannot_be() {
 }
 
 #[test]
+fn laws_of_the_other_kind() {
+    let bad = |file: &str, path: &str, value: Value, words: &[&str]| {
+        refused(file, &[(path, value)], Status::BadScene, words);
+    };
+    bad(ANGULAR, "raceways.contact.film", json!("pan_hamrock"), &["raceways.contact.film: a law of rollers"]);
+    bad(ANGULAR, "raceways.contact.thermal_correction", json!("ghosh_pandey"), &["of balls 'gupta'"]);
+    bad(
+        ANGULAR,
+        "raceways.rolling_resistance.law",
+        json!("zhou_hoeprich"),
+        &["raceways.rolling_resistance.law: a law of rollers"],
+    );
+    bad(
+        ANGULAR,
+        "raceways.rolling_resistance.inlet_sliding",
+        json!({}),
+        &["inlet_sliding: a law of rollers"],
+    );
+    bad(ANGULAR, "raceways.slices", json!(4), &["raceways.slices: balls have no profile"]);
+    bad(
+        "scenes/nu2310.json",
+        "raceways.contact.film",
+        json!("hamrock_dowson"),
+        &["raceways.contact.film: a law of balls"],
+    );
+    bad(
+        "scenes/nu2310.json",
+        "raceways.rolling_resistance.law",
+        json!("houpert"),
+        &["a law of balls; of rollers"],
+    );
+    bad("scenes/nu2310.json", "raceways.ellipse", json!("fine"), &["raceways.ellipse: needs 'balls'"]);
+}
+
+#[test]
 fn an_axial_load_needs_a_stop() {
     for load in [-100.0, 0.0] {
         let changes = [("inner_ring.motion.space.load.x.constant", json!(load))];

@@ -59,6 +59,7 @@ fn for_people(unit: &str) -> (&'static str, f64) {
         "N" => ("N", 1.0),
         "N m" => ("N m", 1.0),
         "rad/s" => ("rad/s", 1.0),
+        "m/s" => ("m/s", 1.0),
         _ => ("", 1.0),
     }
 }
@@ -119,7 +120,7 @@ fn in_words(title: &str, found: &Equilibrium) -> String {
         });
         let rows: Vec<Vec<String>> = std::iter::once(head).chain(rows).collect();
         text.push('\n');
-        add(&mut text, &rows, &[&[Align::Left][..], &[Align::Right; 8]].concat());
+        add(&mut text, &rows, &[&[Align::Left][..], &[Align::Right; 12]].concat());
     }
     for warning in &found.warnings {
         text.push_str(&format!("\n  {warning}"));

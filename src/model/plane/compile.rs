@@ -7,7 +7,7 @@ use crate::error::Result;
 use crate::model::Channel;
 use crate::model::signals::InputSignals;
 use crate::pairs;
-use crate::scene::{Scene, Viscosity};
+use crate::scene::Scene;
 use std::sync::Arc;
 
 impl Plane {
@@ -16,7 +16,7 @@ impl Plane {
         let elements = bodies::elements(&scene);
         let shared = bodies::shared_bodies(&scene, elements.set());
         let nodes = bodies::nodes(&scene);
-        let viscosity = viscosity_at_start(&scene, &inputs);
+        let viscosity = inputs.viscosity_at_start(&scene);
         let (pairs, between) =
             (pairs::element_pairs(&scene, viscosity)?, pairs::shared_pairs(&scene, viscosity)?);
         let mut model = Plane {
@@ -56,13 +56,4 @@ impl Plane {
 /// Whether the rotation of a shared body is prescribed.
 fn turns(shared: &SharedBodies, place: usize) -> bool {
     shared[place].as_ref().is_some_and(|body| body.turned_by().is_some())
-}
-
-/// Viscosity that laws are built with, Pa s.
-fn viscosity_at_start(scene: &Scene, inputs: &InputSignals) -> Option<f64> {
-    match (&inputs.oil, scene.lubricant.as_ref().map(|l| &l.viscosity)) {
-        (Some(oil), _) => Some(oil.built_at.1),
-        (None, Some(Viscosity::Constant(value))) => Some(*value),
-        _ => None,
-    }
 }

@@ -33,7 +33,8 @@ impl Space {
     /// Builds that of a checked scene with these inputs, if it has balls.
     pub(in crate::model) fn new(scene: Arc<Scene>, inputs: Arc<InputSignals>) -> Result<Option<Self>> {
         let Some(balls) = Balls::new(&scene) else { return Ok(None) };
-        let Some(races) = races(&scene, &balls.set.radius_excess)? else { return Ok(None) };
+        let viscosity = inputs.viscosity_at_start(&scene);
+        let Some(races) = races(&scene, &balls.set.radius_excess, viscosity)? else { return Ok(None) };
         let ring = RingInSpace::new(&scene);
         let spins = balls.coordinates().iter().filter(|c| c.position.is_none()).count();
         let of_balls = [balls.set.count, balls.coordinates().len() - spins, spins];

@@ -1,6 +1,7 @@
 //! Balls in the grooves of the raceways: geometry of both rings by the same formulas, elastic contacts.
 
 mod geometry;
+mod laws;
 
 pub(crate) use geometry::{Fit, Groove, RingPlace, Side, Touch};
 
@@ -8,6 +9,7 @@ use super::line_laws::LawBuilder;
 use crate::error::Result;
 use crate::laws::elastic::line::effective_modulus;
 use crate::laws::elastic::point::ElasticPoint;
+use crate::laws::point_contact::PointContact;
 use crate::scalar::math;
 use crate::scene::{Scene, bad_scene, needed};
 
@@ -17,15 +19,16 @@ pub(crate) struct Race {
     pub(crate) groove: Groove,
     /// Of each ball.
     pub(crate) elastic: Vec<ElasticPoint>,
+    /// Laws besides elasticity.
+    pub(crate) laws: PointContact,
     /// Angle of the contact at which a point would lie on the edge of the shoulder, rad.
     pub(crate) shoulder: Option<f64>,
 }
 
 impl Race {
     /// Radius of the pressed surface across the race, between those of ball and groove, m (Heathcote).
-    pub(crate) fn pressed_radius(&self) -> f64 {
-        let Groove { radius, ball_radius, .. } = self.groove;
-        2.0 * radius * ball_radius / (radius + ball_radius)
+    fn pressed_radius(&self) -> f64 {
+        pressed_radius(self.groove.radius, self.groove.ball_radius)
     }
 
     /// How far the ellipse with the half axis `long` (m) reaches beyond the shoulder when its middle stands at `angle` (rad), as an angle, rad;
@@ -34,6 +37,11 @@ impl Race {
         let half = math::asin((long / self.pressed_radius()).min(1.0));
         Some(angle.abs() + half - self.shoulder?)
     }
+}
+
+/// R_d, m, of a groove and a ball.
+fn pressed_radius(groove: f64, ball: f64) -> f64 {
+    2.0 * groove * ball / (groove + ball)
 }
 
 /// The angle of which 1 - cos is this; zero below it.
@@ -47,13 +55,13 @@ pub(crate) fn fit(scene: &Scene) -> Fit {
     angle.map_or_else(|| Fit::RadialClearance(scene.radial_clearance()), Fit::ContactAngle)
 }
 
-/// Outer and inner race of the balls of a scene with these deviations of their radii, m.
+/// Outer and inner race of the balls of a scene with these deviations of their radii (m), in a lubricant with this viscosity, Pa s.
 ///
 /// K and the ellipse are those at the free contact angle of an angular contact bearing and in the middle of a deep groove: a K that followed
 /// the angle would leave the force without a potential, and it changes by less than 1 % over 60 degrees.
-pub(crate) fn races(scene: &Scene, deviations: &[f64]) -> Result<Option<[Race; 2]>> {
-    let Some(balls) = &scene.balls else { return Ok(None) };
-    let builder = LawBuilder::new(scene, None);
+pub(crate) fn races(scene: &Scene, deviations: &[f64], viscosity: Option<f64>) -> Result<Option<[Race; 2]>> {
+    let (Some(balls), Some(raceways)) = (&scene.balls, &scene.raceways) else { return Ok(None) };
+    let builder = LawBuilder::new(scene, viscosity);
     let fit = fit(scene);
     let cos = match fit {
         Fit::ContactAngle(angle) => math::cos(angle),
@@ -69,9 +77,10 @@ pub(crate) fn races(scene: &Scene, deviations: &[f64]) -> Result<Option<[Race; 2
         let radius = needed(&path, groove, "balls")?;
         let material_path = format!("{ring}.material");
         let a = builder.material("balls.material", &balls.material)?;
-        let b = builder.material(&material_path, needed(&material_path, material, "balls")?)?;
+        let name = needed(&material_path, material, "balls")?;
+        let b = builder.material(&material_path, name)?;
         let modulus = effective_modulus(a.young_modulus, a.poisson_ratio, b.young_modulus, b.poisson_ratio);
-        let elastic = deviations.iter().map(|deviation| {
+        let point = |deviation: f64| {
             let ball = balls.radius + deviation;
             let along = match side {
                 Side::Outer => -cos / (balls.pitch_radius + ball * cos),
@@ -84,10 +93,13 @@ pub(crate) fn races(scene: &Scene, deviations: &[f64]) -> Result<Option<[Race; 2
                 );
                 bad_scene(&path, text)
             })
-        });
+        };
+        let pressed = pressed_radius(radius, balls.radius);
+        let laws = laws::point_contact(&builder, raceways, [&balls.material, name], &point(0.0)?, pressed)?;
         Ok(Race {
             groove: Groove::new(side, balls.pitch_radius, balls.radius, radius, fit),
-            elastic: elastic.collect::<Result<_>>()?,
+            elastic: deviations.iter().map(|deviation| point(*deviation)).collect::<Result<_>>()?,
+            laws,
             shoulder: shoulder.map(|height| angle_of_drop(height / radius)),
         })
     };

@@ -55,6 +55,19 @@ impl Scene {
         }
         let raceways = self.raceways.as_ref().ok_or_else(|| missing("raceways"))?;
         contact(judge, "raceways.contact", &raceways.contact)?;
+        if raceways.slices.is_some() {
+            judge.refuse(
+                "raceways.slices",
+                "balls have no profile; 'raceways.ellipse' says where their stress is summed",
+            )?;
+        }
+        if let Some(resistance) = &raceways.rolling_resistance {
+            rolling_resistance(judge, resistance)?;
+            if resistance.inlet_sliding.is_some() {
+                let text = "a law of rollers; remove it";
+                judge.refuse("raceways.rolling_resistance.inlet_sliding", text)?;
+            }
+        }
         let deviations = balls.radius_deviations.as_ref();
         self.validate_sizes(judge, "balls", (balls.count, balls.radius), deviations)?;
         self.neighbours_apart(judge, "balls.count", balls.radius + self.largest_deviation(), "balls")
@@ -71,6 +84,7 @@ impl Scene {
             ("outer_ring.shoulder_height", outer.is_some_and(|ring| ring.shoulder_height.is_some())),
             ("inner_ring.groove_radius", inner.is_some_and(|ring| ring.groove_radius.is_some())),
             ("inner_ring.shoulder_height", inner.is_some_and(|ring| ring.shoulder_height.is_some())),
+            ("raceways.ellipse", self.raceways.as_ref().is_some_and(|raceways| raceways.ellipse.is_some())),
         ] {
             if present {
                 judge.refuse(path, "needs 'balls'; remove it")?;
