@@ -1,8 +1,10 @@
 //! Balls in the grooves of the raceways: geometry of both rings by the same formulas, elastic contacts.
 
+mod contact;
 mod geometry;
 mod laws;
 
+pub(crate) use contact::{Moving, MovingRing, OnBody, motion, wrenches};
 pub(crate) use geometry::{Fit, Groove, RingPlace, Side, Touch};
 
 use super::line_laws::LawBuilder;
