@@ -41,6 +41,7 @@ int main(int argc, char **argv)
     CHECK(std::fabs(degrees(RaceControl::outer) - 48.74) < 0.01);
     CHECK(std::fabs(degrees(RaceControl::none) - 47.75) < 0.01);
     CHECK(degrees(RaceControl::inner) < 46.0);
+    CHECK(std::fabs(degrees(RaceControl::friction) - 47.90) < 0.05);
     Equilibrium taken = std::move(still);
     CHECK(!still && taken);
     return failures > 0;

@@ -231,8 +231,8 @@ int32_t cagedyn_monitor_progress(const cagedyn_monitor *monitor,
                                  int64_t length);
 
 /* Finds the equilibrium of the model's scene at its start: displacement of the inner ring under its load, or the load at a displacement
- * where the scene holds it, loads of all contacts, stiffness. `control` says which race controls balls at speed: "outer", "inner" or "none";
- * NULL for "outer". Returns NULL where there is no equilibrium, or none was found, with the reason in cagedyn_error_message(). Takes
+ * where the scene holds it, loads of all contacts, stiffness. `control` says what balls follow at speed: the hypothesis that the "outer" or the "inner" race controls
+ * them, axes parallel to that of the bearing with "none", or their own "friction" in steady motion; NULL for "outer". Returns NULL where there is no equilibrium, or none was found, with the reason in cagedyn_error_message(). Takes
  * milliseconds. Free it with cagedyn_equilibrium_free(). */
 cagedyn_equilibrium *cagedyn_equilibrium_find(const cagedyn_model *model,
                                               const char *control);

@@ -209,8 +209,8 @@ private:
     std::unique_ptr<cagedyn_heat, detail::Deleter<cagedyn_heat_free>> handle_;
 };
 
-// Which race controls balls at speed.
-enum class RaceControl : std::int32_t { outer, inner, none };
+// What balls follow at speed: control of a race, axes parallel to that of the bearing, or their friction.
+enum class RaceControl : std::int32_t { outer, inner, none, friction };
 
 // The equilibrium of a bearing at the start of its scene, found without time stepping.
 class Equilibrium {
@@ -282,7 +282,8 @@ public:
 private:
     static const char *name(RaceControl control) noexcept
     {
-        return control == RaceControl::outer ? "outer" : control == RaceControl::inner ? "inner" : "none";
+        static constexpr const char *names[] = {"outer", "inner", "none", "friction"};
+        return names[static_cast<std::size_t>(control)];
     }
     std::int64_t dimension() const { return detail::counted(cagedyn_equilibrium_coordinate_count(get())); }
     template <class Count, class Name> std::vector<std::string_view> listed(Count count, Name name) const

@@ -124,7 +124,8 @@ class WhirlBranch:
 class Equilibrium:
     """The equilibrium of a bearing at the start of its model's scene, found without time stepping.
 
-    control: which race controls balls at speed: "outer", "inner" or "none".
+    control: what balls follow at speed: the hypothesis that the "outer" or the "inner" race controls them, axes parallel to that of the
+    bearing with "none", or their own "friction" in steady motion.
 
     Raises Error where there is none, or none was found.
     """

@@ -28,10 +28,11 @@ def test_race_control():
     )
     angles = {
         control: np.degrees(cagedyn.Equilibrium(model, control).contacts["contact_angle"][1::-1])
-        for control in ("outer", "none")
+        for control in ("outer", "none", "friction")
     }
     assert np.allclose(angles["outer"], [48.74, 33.58], atol=0.005) and np.allclose(angles["none"], [47.75, 34.98], atol=0.005)
-    with pytest.raises(cagedyn.Error, match="control: 'both' is not one of outer, inner, none"):
+    assert np.allclose(angles["friction"], [47.90, 34.67], atol=0.05)
+    with pytest.raises(cagedyn.Error, match="control: 'both' is not one of outer, inner, none, friction"):
         cagedyn.Equilibrium(model, "both")
 
 

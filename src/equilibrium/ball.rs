@@ -18,7 +18,7 @@ use crate::scalar::{Dual, Of, math};
 use crate::space::solid::{Tilt, Vector, cross, dot, scaled, sum};
 use nalgebra::{SMatrix, SVector};
 
-/// Which race keeps balls from spinning on it, and gives them their gyroscopic moment.
+/// What keeps balls from turning about the normals of their contacts, and gives them their gyroscopic moment.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RaceControl {
     /// The outer one, as on fast balls.
@@ -28,12 +28,14 @@ pub enum RaceControl {
     Inner,
     /// Neither: balls turn about axes parallel to that of the bearing, where there is no gyroscopic moment.
     None,
+    /// No hypothesis: the steady motion under the traction of both contacts.
+    Friction,
 }
 
 impl RaceControl {
     /// All, with their names.
-    pub const ALL: [(&'static str, Self); 3] =
-        [("outer", Self::Outer), ("inner", Self::Inner), ("none", Self::None)];
+    pub const ALL: [(&'static str, Self); 4] =
+        [("outer", Self::Outer), ("inner", Self::Inner), ("none", Self::None), ("friction", Self::Friction)];
 }
 
 /// How often forces that are not elastic follow the ball to its rest; a few times are usual.
@@ -141,7 +143,7 @@ fn solved<T: Of<f64>>([a, b, c]: [Vector<T>; 3], right: Vector<T>) -> Vector<T> 
 }
 
 impl Ball<'_> {
-    fn radius(&self) -> f64 {
+    pub(super) fn radius(&self) -> f64 {
         self.grooves[0].ball_radius + self.excess
     }
 
@@ -173,11 +175,10 @@ impl Ball<'_> {
         Rolling { orbit, spin: [x, r] }
     }
 
-    /// Speed of both surfaces of outer (0) or inner (1) contact past it, m/s, with the ball at `rho` (m).
-    pub(super) fn rolling_speed(&self, k: usize, rho: f64, forces: &Forces<f64>) -> f64 {
-        let touch = &forces.touches[k];
-        let orbit = forces.rolling.orbit * (rho + self.grooves[k].pitch_radius);
-        (self.speeds[k] - orbit * touch.along[2] / touch.ball_distance) * touch.contact_distance
+    /// Speed of the outer (0) or inner (1) race past its contact with a ball at `rho` (m) that goes round at `orbit` (rad/s), m/s.
+    pub(super) fn passing_speed(&self, k: usize, rho: f64, orbit: f64, touch: &Touch<f64>) -> f64 {
+        let along = orbit * (rho + self.grooves[k].pitch_radius) * touch.along[2];
+        (self.speeds[k] - along / touch.ball_distance) * touch.contact_distance
     }
 
     /// Forces with the ball at (x, rho) and the ring at these coordinates.

@@ -3,8 +3,9 @@
 //! First without speed, by the least energy; then the speed grows to that of the scene, from each equilibrium to the next.
 
 use super::Equilibrium;
-use super::ball::{Ball, OF_RING, RaceControl};
+use super::ball::{Ball, OF_RING, OnRing, RaceControl, Rolling};
 use super::settle::{Balance, Rest, settle};
+use super::steady::SteadyBall;
 use crate::bodies::{HostInputs, Input, RING_COORDINATES};
 use crate::error::{Error, Result, Status};
 use crate::laws::film::thickness::Entrainment;
@@ -25,17 +26,18 @@ const NO_STIFFNESS: f64 = 1e-9;
 const RATED_PRESSURE: f64 = 4.2e9;
 
 /// What is known of every ball.
-const BALL: [Quantity; 7] = [
+const BALL: [Quantity; 8] = [
     quantity("azimuth", "rad", "angle about the axis of the bearing"),
     quantity("axial_offset", "m", "place along the axis of the bearing"),
     quantity("radial_offset", "m", "distance outside the pitch circle"),
     quantity("orbit_speed", "rad/s", "speed about the axis of the bearing"),
     quantity("spin_x", "rad/s", "angular velocity about the axis of the bearing"),
     quantity("spin_r", "rad/s", "angular velocity about the outward axis"),
+    quantity("spin_t", "rad/s", "angular velocity about the axis along the orbit"),
     quantity(
         "pitch_angle",
         "rad",
-        "angle of the axis of rotation to that of the bearing, in the plane of both",
+        "angle of the axis about which it turns against the train to that of the bearing, in the plane of both",
     ),
 ];
 /// What is known of every contact.
@@ -51,15 +53,54 @@ const CONTACT: [Quantity; 10] = [
         "1",
         "angular velocity about the normal over that of rolling, of the ball against the ring",
     ),
-    quantity("rolling_speed", "m/s", "speed of both surfaces along the race past the contact"),
+    quantity(
+        "rolling_speed",
+        "m/s",
+        "speed of the race past the contact, and of the ball where it does not slip",
+    ),
     quantity("film_thickness", "m", "central film thickness; 0 without film"),
     quantity("film_ratio", "1", "film ratio Lambda; 0 without boundary friction, which has the roughness"),
 ];
+
+/// A ball at rest or in steady motion.
+enum AtRest<'a> {
+    Controlled(Ball<'a>, [f64; 2]),
+    Steady(SteadyBall<'a>, [f64; 6]),
+}
+
+impl<'a> AtRest<'a> {
+    fn on_ring(&self, beside: [f64; OF_RING]) -> OnRing {
+        match self {
+            Self::Controlled(ball, place) => ball.on_ring(*place, beside),
+            Self::Steady(ball, motion) => ball.on_ring(*motion, beside),
+        }
+    }
+
+    fn ball(&self) -> &Ball<'a> {
+        match self {
+            Self::Controlled(ball, _) => ball,
+            Self::Steady(ball, _) => &ball.ball,
+        }
+    }
+
+    /// x and rho, m; psi', w_x, w_r, w_psi, rad/s.
+    fn motion(&self, beside: [f64; OF_RING]) -> [f64; 6] {
+        match self {
+            Self::Controlled(ball, place) => {
+                let Rolling { orbit, spin } = ball.forces::<f64>(*place, beside).rolling;
+                [place[0], place[1], orbit, spin[0], spin[1], 0.0]
+            }
+            Self::Steady(_, motion) => *motion,
+        }
+    }
+}
 
 /// The bearing at one speed.
 struct Bearing<'a> {
     space: &'a Space,
     control: RaceControl,
+    /// Whether balls are in the steady motion of their friction.
+    steady: bool,
     /// Loads on the ring, N and N m.
     load: [f64; OF_RING],
     /// Speeds of outer and inner ring, rad/s.
@@ -77,7 +118,11 @@ impl<'a> Bearing<'a> {
             inertia: balls.inertia(j),
             speeds: self.speeds,
             gravity: gy * cos + gz * sin,
-            control: if self.speeds == [0.0; 2] { RaceControl::None } else { self.control },
+            control: match self.control {
+                _ if self.speeds == [0.0; 2] => RaceControl::None,
+                RaceControl::Friction => RaceControl::Outer,
+                control => control,
+            },
         }
     }
 
@@ -109,23 +154,29 @@ impl<'a> Bearing<'a> {
         [line[0] / distance * length - ox, line[1] / distance * length - or]
     }
 
-    /// All balls with their places (m) of rest beside a ring at these coordinates; `None` where one finds none.
-    fn balls(&self, ring: &Vector5<f64>) -> Option<Vec<(Ball<'a>, [f64; 2])>> {
+    /// All balls at rest beside a ring at these coordinates; `None` where one finds none.
+    fn balls(&self, ring: &Vector5<f64>) -> Option<Vec<AtRest<'a>>> {
         let at_rest = |j: usize| {
             let (ball, beside) = (self.ball(j), (self.beside(j) * ring).into());
-            let place = ball.rest(self.between(&beside), beside)?;
-            Some((ball, place))
+            let from = self.between(&beside);
+            if !self.steady {
+                let place = ball.rest(from, beside)?;
+                return Some(AtRest::Controlled(ball, place));
+            }
+            let ball = SteadyBall { ball, laws: self.space.races.each_ref().map(|race| &race.laws) };
+            let motion = ball.steady(from, beside)?;
+            Some(AtRest::Steady(ball, motion))
         };
         (0..self.space.balls.set.count).map(at_rest).collect()
     }
 
     /// Force of these balls on the ring over its coordinates, the stiffness, and their energy, J, with the size of the forces.
-    fn on_ring(&self, ring: &Vector5<f64>, balls: &[(Ball<'a>, [f64; 2])]) -> Balance<OF_RING> {
+    fn on_ring(&self, ring: &Vector5<f64>, balls: &[AtRest<'a>]) -> Balance<OF_RING> {
         let mut sum =
             Balance { force: Vector5::zeros(), stiffness: Matrix5::zeros(), energy: 0.0, size: 0.0 };
-        for (j, (ball, place)) in balls.iter().enumerate() {
+        for (j, ball) in balls.iter().enumerate() {
             let turned = self.beside(j);
-            let of = ball.on_ring(*place, (turned * ring).into());
+            let of = ball.on_ring((turned * ring).into());
             sum.force += turned.transpose() * of.force;
             sum.stiffness += turned.transpose() * of.stiffness * turned;
             sum.energy += of.energy;
@@ -188,11 +239,10 @@ impl<'a> Bearing<'a> {
 
     /// Largest centrifugal force of a ball beside a ring at these coordinates, N.
     fn largest_centrifugal(&self, ring: &Vector5<f64>) -> f64 {
-        let forces =
-            self.balls(ring).unwrap_or_default().into_iter().enumerate().map(|(j, (ball, place))| {
-                let orbit = ball.forces::<f64>(place, (self.beside(j) * ring).into()).rolling.orbit;
-                ball.inertia[0] * orbit * orbit * (self.space.balls.set.pitch_radius + place[1])
-            });
+        let forces = self.balls(ring).unwrap_or_default().into_iter().enumerate().map(|(j, ball)| {
+            let [_, rho, orbit, ..] = ball.motion((self.beside(j) * ring).into());
+            ball.ball().inertia[0] * orbit * orbit * (self.space.balls.set.pitch_radius + rho)
+        });
         forces.fold(0.0, f64::max)
     }
 
@@ -260,6 +310,7 @@ pub(super) fn equilibrium(space: &Space, control: RaceControl) -> Result<Equilib
     let at_speed = |share: f64| Bearing {
         space,
         control,
+        steady: false,
         load: space.ring.load(&inputs),
         speeds: speeds.map(|speed| share * speed),
     };
@@ -277,7 +328,12 @@ pub(super) fn equilibrium(space: &Space, control: RaceControl) -> Result<Equilib
             Err(_) => part *= 0.5,
         }
     }
-    let bearing = at_speed(1.0);
+    let mut bearing = at_speed(1.0);
+    if control == RaceControl::Friction && speeds != [0.0; 2] {
+        has_traction(space)?;
+        bearing.steady = true;
+        rest = bearing.settled(rest.x).map_err(|at| none(&bearing, &at, 1.0))?;
+    }
     let (least, softest) = softest(&rest.balance.stiffness);
     if least.abs() <= NO_STIFFNESS * bearing.soft() {
         let text = format!(
@@ -304,8 +360,8 @@ pub(super) fn equilibrium(space: &Space, control: RaceControl) -> Result<Equilib
         warnings: Vec::new(),
         residual: rest.balance.force.norm() / rest.balance.size.max(f64::MIN_POSITIVE),
     };
-    for (j, (ball, place)) in balls.into_iter().enumerate() {
-        tell(&bearing, j, (&ball, place), &ring, &mut found);
+    for (j, ball) in balls.iter().enumerate() {
+        tell(&bearing, j, ball, &ring, &mut found);
     }
     warn(&bearing, &mut found);
     if least < 0.0 {
@@ -321,20 +377,25 @@ fn coordinates() -> Vec<Quantity> {
     named.map(|[name, unit, description]| quantity(name, unit, description)).collect()
 }
 
+/// The steady motion needs what drives balls.
+fn has_traction(space: &Space) -> Result<()> {
+    if space.races.iter().all(|race| race.laws.traction.is_some()) {
+        return Ok(());
+    }
+    let text = "raceways.contact.traction: missing; the steady motion of balls under friction needs it";
+    Err(Error::new(Status::BadScene, text))
+}
+
 /// Writes what is known of a ball and its contacts.
-fn tell(
-    bearing: &Bearing<'_>,
-    j: usize,
-    (ball, place): (&Ball<'_>, [f64; 2]),
-    ring: &Vector5<f64>,
-    out: &mut Equilibrium,
-) {
+fn tell(bearing: &Bearing<'_>, j: usize, at_rest: &AtRest<'_>, ring: &Vector5<f64>, out: &mut Equilibrium) {
     let beside: [f64; OF_RING] = (bearing.beside(j) * ring).into();
-    let forces = ball.forces::<f64>(place, beside);
-    let [x, r] = forces.rolling.spin;
-    let pitch = if x == 0.0 { 0.0 } else { math::atan2(r * x.signum(), x.abs()) };
+    let (ball, motion) = (at_rest.ball(), at_rest.motion(beside));
+    let [x, rho, orbit, wx, wr, wpsi] = motion;
+    let forces = ball.forces::<f64>([x, rho], beside);
+    let own = orbit - wx;
+    let pitch = if own == 0.0 { 0.0 } else { math::atan2(wr * own.signum(), own.abs()) };
     let azimuth = bearing.space.balls.set.reference_angles[j];
-    out.elements.push(vec![azimuth, place[0], place[1], forces.rolling.orbit, x, r, pitch]);
+    out.elements.push(vec![azimuth, x, rho, orbit, wx, wr, wpsi, pitch]);
     let axis = Tilt::new([beside[3], beside[4]]).axis;
     for (k, axis) in [[1.0, 0.0, 0.0], axis].into_iter().enumerate() {
         let (touch, load, elastic) = (&forces.touches[k], forces.loads[k], ball.elastic[k]);
@@ -342,10 +403,10 @@ fn tell(
         let angle = math::atan2(side * touch.in_meridian[0], side * touch.in_meridian[1]);
         let [long, short] = if load > 0.0 { elastic.half_axes(math::ln(load)) } else { [0.0; 2] };
         let pressure = if load > 0.0 { elastic.largest_pressure(load, [long, short]) } else { 0.0 };
-        let turning: [f64; 3] = std::array::from_fn(|i| [x, r, 0.0][i] - bearing.speeds[k] * axis[i]);
+        let turning: [f64; 3] = std::array::from_fn(|i| [wx, wr, wpsi][i] - bearing.speeds[k] * axis[i]);
         let (spin, roll) = (dot(turning, touch.normal), dot(turning, touch.across));
         let ratio = if roll == 0.0 { 0.0 } else { (spin / roll).abs() };
-        let speed = ball.rolling_speed(k, place[1], &forces);
+        let speed = ball.passing_speed(k, rho, orbit, touch);
         let [film, film_ratio] = film(&bearing.space.races[k].laws, load, pressure, speed);
         let values = [load, angle, touch.delta, pressure, long, short, ratio, speed.abs(), film, film_ratio];
         out.contact_values.push(values.to_vec());

@@ -5,6 +5,7 @@
 //! |---|---|
 //! | `settle` | where forces vanish |
 //! | `ball` | one ball between its races, standing still or going round under race control |
+//! | `steady` | one ball that goes round under all forces of its contacts |
 //! | `balls` | ring and balls in space |
 //! | `rollers` | ring and rollers in the plane |
 
@@ -12,6 +13,7 @@ mod ball;
 mod balls;
 mod rollers;
 mod settle;
+mod steady;
 
 pub use ball::RaceControl;
 

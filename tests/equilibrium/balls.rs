@@ -59,13 +59,40 @@ fn race_control_has_the_speeds_of_the_textbook() {
     let found = of(ANGULAR, RaceControl::Outer, &fast).unwrap();
     let angles = values(&found, "contact_angle");
     let (outer, inner) = (angles[0], angles[1]);
-    let [_, _, rho, orbit, spin_x, spin_r, _] = found.elements[0][..] else { unreachable!() };
+    let [_, _, rho, orbit, spin_x, spin_r, _, pitch] = found.elements[0][..] else { unreachable!() };
     let gamma = 11.115e-3 / (62.63e-3 + rho);
     let tangent = outer.sin() / (outer.cos() + gamma);
     close(spin_r / (orbit - spin_x), tangent, 1e-12);
+    close(pitch.tan(), tangent, 1e-12);
     let lever = |angle: f64| angle.cos() + tangent * angle.sin();
     let ratio = (1.0 + gamma * outer.cos()) * lever(inner) / ((1.0 - gamma * inner.cos()) * lever(outer));
     close(orbit / FAST, 1.0 / (1.0 + ratio), 1e-12);
+}
+
+/// The steady motion under the model's own friction, against that of an independent program over time: neither race controls.
+#[test]
+fn friction_lies_between_both_races() {
+    let fast = [
+        ("inner_ring.speed.constant", json!(FAST)),
+        ("inner_ring.motion.space.load.x.constant", json!(22_250.0)),
+    ];
+    let found = of(ANGULAR, RaceControl::Friction, &fast).unwrap();
+    let [angles, loads, spin] =
+        ["contact_angle", "normal_force", "spin_to_roll"].map(|name| values(&found, name));
+    close(angles[1].to_degrees(), 47.90, 0.05);
+    close(angles[0].to_degrees(), 34.67, 0.05);
+    close(loads[1], 1838.0, 2.0);
+    close(loads[0], 2276.0, 2.0);
+    let [_, _, _, orbit, .., pitch] = found.elements[0][..] else { unreachable!() };
+    close(orbit / FAST, 0.4411, 1e-4);
+    close(pitch.to_degrees(), 34.3, 0.1);
+    assert!(spin.iter().all(|ratio| *ratio > 0.05), "{spin:?}");
+    // All balls do the same, and a speed the other way round mirrors them.
+    assert!(found.elements.iter().all(|ball| (ball[3] / orbit - 1.0).abs() < 1e-9));
+    let backwards = [("inner_ring.speed.constant", json!(-FAST)), fast[1].clone()];
+    let mirrored = of(ANGULAR, RaceControl::Friction, &backwards).unwrap();
+    close(mirrored.elements[0][3], -orbit, 1e-7 * orbit);
+    close(mirrored.displacement[0], found.displacement[0], 1e-9 * found.displacement[0]);
 }
 
 #[test]

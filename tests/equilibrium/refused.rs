@@ -112,6 +112,14 @@ fn laws_of_the_other_kind() {
 }
 
 #[test]
+fn friction_needs_traction() {
+    let changes = [("raceways", json!({})), ("inner_ring.speed.constant", json!(500.0))];
+    let Err(error) = of(ANGULAR, RaceControl::Friction, &changes) else { panic!("nothing drives the balls") };
+    assert!(error.message.starts_with("raceways.contact.traction: missing"), "{error}");
+    assert!(of(ANGULAR, RaceControl::Friction, &[("raceways", json!({}))]).is_ok(), "nothing turns");
+}
+
+#[test]
 fn an_axial_load_needs_a_stop() {
     for load in [-100.0, 0.0] {
         let changes = [("inner_ring.motion.space.load.x.constant", json!(load))];

@@ -299,7 +299,7 @@ pub struct EquilibriumArgs {
     /// One equilibrium for each of N values of the scene from a number to another, or of a list.
     #[arg(long, value_name = "PATH=FROM:TO:N", value_parser = sweep::parse_vary)]
     vary: Option<sweep::Vary>,
-    /// Which race controls the balls at speed: outer, inner or none.
+    /// What balls follow at speed: outer or inner race control, none (axes parallel to that of the bearing), or friction, their steady motion.
     #[arg(long, value_name = "RACE", default_value = "outer", value_parser = equilibrium::parse_control)]
     control: cagedyn::equilibrium::RaceControl,
     /// Folder for equilibrium.json and contacts.csv, with --vary equilibrium.csv; made if it does not exist.

@@ -1,0 +1,146 @@
+//! One ball that goes round steadily under all forces of its contacts: normal forces, traction over the ellipses with spin, rolling resistance.
+//!
+//! ```text
+//! F_x = 0,   F_r + m psi'^2 r + weight = 0,   F_psi = 0
+//! M_x = 0,   M_r + I psi' w_psi = 0,   M_psi - I psi' w_r = 0
+//! ```
+//!
+//! Six equations for x, rho, psi', w_x, w_r, w_psi beside a ring that is where it is. In a bearing that is the same all around that is its steady
+//! motion; under a load across the axis each ball is taken as if it had been at its azimuth for long. Newton's method starts from outer race
+//! control.
+
+use super::ball::{Ball, OF_RING, OnRing};
+use crate::laws::point_contact::PointContact;
+use crate::pairs::groove::{Moving, MovingRing, OnBody, RingPlace, Touch, motion, wrenches};
+use crate::scalar::{Dual, Of};
+use crate::space::solid::{Tilt, scaled};
+use nalgebra::{SMatrix, SVector};
+
+/// Unknowns of a ball: x, rho, psi', w_x, w_r, w_psi.
+const OF_BALL: usize = 6;
+const ALL: usize = OF_BALL + OF_RING;
+/// Newton steps, and halvings of one.
+const MOST_STEPS: usize = 80;
+const MOST_HALVINGS: usize = 24;
+/// Rest of the forces, over their size, that is round-off, and the one that is accepted where no step makes it smaller.
+const ROUND_OFF: f64 = 1e-13;
+const ACCEPTED: f64 = 1e-8;
+
+/// A ball with the laws of its contacts beside elasticity.
+pub(super) struct SteadyBall<'a> {
+    pub(super) ball: Ball<'a>,
+    /// Of outer and inner race.
+    pub(super) laws: [&'a PointContact; 2],
+}
+
+/// Forces on ball and ring.
+struct Forces<T> {
+    /// What must vanish, N; moments over the radius.
+    rest: [T; OF_BALL],
+    /// On the ring over its coordinates.
+    on_ring: [T; OF_RING],
+    /// Q of both contacts, N, and the gyroscopic moment that each race gives, N m.
+    loads: [T; 2],
+}
+
+impl SteadyBall<'_> {
+    fn forces<T: Of<f64>>(&self, y: [T; OF_BALL], ring: [T; OF_RING]) -> Forces<T> {
+        let [x, rho, orbit, wx, wr, wpsi] = y;
+        let zero = x.like(0.0);
+        let radius = self.ball.radius();
+        let tilt = Tilt::new([ring[3], ring[4]]);
+        let places = [
+            RingPlace { centre: [zero; 3], axis: [x.like(1.0), zero, zero] },
+            RingPlace { centre: [ring[0], ring[1], ring[2]], axis: tilt.axis },
+        ];
+        let around = rho + self.ball.grooves[0].pitch_radius;
+        let ball = Moving { velocity: [zero, zero, around * orbit], turning: [wx, wr, wpsi] };
+        let contact = |k: usize| {
+            let touch: Touch<T> = self.ball.grooves[k].touch([x, rho], self.ball.excess, &places[k]);
+            let (axis, speed) = (places[k].axis, x.like(self.ball.speeds[k]));
+            let moving = Moving { velocity: [zero; 3], turning: scaled(axis, speed) };
+            let ring = MovingRing { moving, axis, speed };
+            let motion = motion(&touch, radius, &ball, &ring);
+            let force = self.laws[k].force(self.ball.elastic[k], &motion, zero);
+            (wrenches(&touch, radius, &force), force.normal)
+        };
+        let ([on_ball, _], outer_load) = contact(0);
+        let ([by_inner, on_ring], inner_load) = contact(1);
+        let [mass, inertia] = self.ball.inertia;
+        let all = OnBody {
+            force: crate::space::solid::sum(on_ball.force, by_inner.force),
+            moment: crate::space::solid::sum(on_ball.moment, by_inner.moment),
+        };
+        let ([fx, fr, fpsi], [mx, mr, mpsi]) = (all.force, all.moment);
+        let gyroscopic = orbit * inertia;
+        let [over_r, over_psi] = tilt.moments_over_angles(on_ring.moment);
+        Forces {
+            rest: [
+                fx,
+                fr + orbit * orbit * around * mass + mass * self.ball.gravity,
+                fpsi,
+                mx / radius,
+                (mr + gyroscopic * wpsi) / radius,
+                (mpsi - gyroscopic * wr) / radius,
+            ],
+            on_ring: [on_ring.force[0], on_ring.force[1], on_ring.force[2], over_r, over_psi],
+            loads: [outer_load, inner_load],
+        }
+    }
+
+    fn slopes(&self, y: &SVector<f64, OF_BALL>, ring: [f64; OF_RING]) -> Forces<Dual<ALL>> {
+        let variable =
+            |k: usize| Dual::<ALL>::variable(if k < OF_BALL { y[k] } else { ring[k - OF_BALL] }, k);
+        self.forces(std::array::from_fn(variable), std::array::from_fn(|k| variable(OF_BALL + k)))
+    }
+
+    /// The steady motion beside a ring at these coordinates; `None` where none is found.
+    pub(super) fn steady(&self, from: [f64; 2], ring: [f64; OF_RING]) -> Option<[f64; OF_BALL]> {
+        let [x, rho] = self.ball.rest(from, ring)?;
+        let rolling = self.ball.forces::<f64>([x, rho], ring).rolling;
+        let mut y = SVector::from([x, rho, rolling.orbit, rolling.spin[0], rolling.spin[1], 0.0]);
+        let size = |forces: &Forces<f64>| forces.loads.iter().sum::<f64>();
+        let mut here = self.forces::<f64>(y.into(), ring);
+        for _ in 0..MOST_STEPS {
+            let rest = SVector::from(here.rest).norm();
+            if rest <= ROUND_OFF * size(&here) {
+                return Some(y.into());
+            }
+            let slopes = self.slopes(&y, ring);
+            let matrix = SMatrix::<f64, OF_BALL, OF_BALL>::from_fn(|i, k| -slopes.rest[i].eps[k]);
+            let step = matrix.lu().solve(&SVector::from(here.rest))?;
+            let mut share = 1.0;
+            let mut nearer = None;
+            for _ in 0..MOST_HALVINGS {
+                let to = y + step * share;
+                let there = self.forces::<f64>(to.into(), ring);
+                if SVector::from(there.rest).norm() < (1.0 - 0.1 * share) * rest {
+                    nearer = Some((to, there));
+                    break;
+                }
+                share *= 0.5;
+            }
+            match nearer {
+                Some(found) => (y, here) = found,
+                None => return (rest <= ACCEPTED * size(&here)).then(|| y.into()),
+            }
+        }
+        None
+    }
+
+    /// What it does to the ring in its steady motion.
+    pub(super) fn on_ring(&self, y: [f64; OF_BALL], ring: [f64; OF_RING]) -> OnRing {
+        let forces = self.slopes(&SVector::from(y), ring);
+        let own = SMatrix::<f64, OF_BALL, OF_BALL>::from_fn(|i, k| -forces.rest[i].eps[k]);
+        let by_ring = SMatrix::<f64, OF_BALL, OF_RING>::from_fn(|i, k| forces.rest[i].eps[OF_BALL + k]);
+        let on_ring = SMatrix::<f64, OF_RING, OF_BALL>::from_fn(|i, k| forces.on_ring[i].eps[k]);
+        let direct = SMatrix::<f64, OF_RING, OF_RING>::from_fn(|i, k| -forces.on_ring[i].eps[OF_BALL + k]);
+        let following = own.lu().solve(&by_ring).unwrap_or_else(SMatrix::zeros);
+        OnRing {
+            force: SVector::from(forces.on_ring.map(|force| force.re)),
+            stiffness: direct - on_ring * following,
+            // Friction has no potential: the force alone tells progress.
+            energy: f64::NAN,
+        }
+    }
+}
