@@ -91,10 +91,7 @@ impl PointContact {
         elastic: &ElasticPoint<B>,
         motion: &PointMotion<T>,
         ln_viscosity: T,
-    ) -> PointForce<T>
-    where
-        T: std::ops::Mul<f64, Output = T>,
-    {
+    ) -> PointForce<T> {
         let zero = motion.delta.like(0.0);
         let damping = self.damping.map(|law| law.map(&mut |x| zero.base().splat(*x)));
         let normal = elastic.normal_force(damping.as_ref(), motion.delta, motion.delta_dot);
@@ -266,13 +263,13 @@ mod tests {
             Dual::lift(0.0),
         ));
         let value = |x: [f64; 9]| outputs(&law.force::<f64, f64>(&point, &motion(x), 0.0));
-        for k in 0..9 {
-            let h = 1e-6 * INPUTS[k].abs();
+        for (k, input) in INPUTS.into_iter().enumerate() {
+            let h = 1e-6 * input.abs();
             let moved = |s: f64| value(std::array::from_fn(|i| INPUTS[i] + if i == k { s * h } else { 0.0 }));
             let (before, after) = (moved(-1.0), moved(1.0));
             for i in 0..7 {
                 let difference = (after[i] - before[i]) / (2.0 * h);
-                let size = value(INPUTS)[i].abs() / INPUTS[k].abs();
+                let size = value(INPUTS)[i].abs() / input.abs();
                 let error = (exact[i].eps[k] - difference).abs();
                 assert!(error < 2e-5 * size, "{i} {k}: {} {difference}", exact[i].eps[k]);
             }

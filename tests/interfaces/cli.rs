@@ -385,6 +385,42 @@ fn heat_tells_temperatures_powers_and_flows() {
 }
 
 #[test]
+fn equilibrium_tells_contacts_and_stiffness() {
+    let (dir, scene) = (tempfile::tempdir().expect("a directory"), "scenes/angular_contact_218.json");
+    let out = dir.path().to_string_lossy().into_owned();
+    let output = run(&["equilibrium", scene, "--out", &out]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let printed = text(&output.stdout);
+    for expected in ["36.10  um", "stiffness", "tilt_z", "ball[15].inner_raceway", "41.50"] {
+        assert!(printed.contains(expected), "{expected} in {printed}");
+    }
+    let found = json(&dir.path().join("equilibrium.json"));
+    assert_eq!(found["coordinates"][0]["name"], "x");
+    assert!(found["stiffness"][0][0].as_f64().is_some_and(|k| k > 7e8), "{found}");
+    assert_eq!(found["contacts"][1]["name"], "ball[0].inner_raceway");
+    let table = std::fs::read_to_string(dir.path().join("contacts.csv")).expect("a table");
+    assert!(
+        table.starts_with("contact,normal_force_N,contact_angle_rad,approach_m,")
+            && table.lines().count() == 33
+    );
+    let svg = std::fs::read_to_string(dir.path().join("equilibrium.svg")).expect("a picture");
+    assert!(svg.contains("contact angle [deg]") && !svg.contains("NaN"));
+
+    // A number that is varied: a row each, and the reason where there is none.
+    let vary = "inner_ring.motion.space.load.x.constant=-1000:3000:3";
+    let output = run(&["equilibrium", scene, "--vary", vary, "--out", &out]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let table = std::fs::read_to_string(dir.path().join("equilibrium.csv")).expect("a table");
+    let rows: Vec<&str> = table.lines().collect();
+    assert!(rows.len() == 4 && rows[1].contains("no axial stop") && rows[3].ends_with(','), "{table}");
+    assert!(!run(&["equilibrium", scene, "--control", "both"]).status.success());
+    let output = run(&["equilibrium", "scenes/grease_guide.json"]);
+    assert!(!output.status.success() && text(&output.stderr).contains("kinematic_elements"));
+    let rollers = text(&run(&["equilibrium", "scenes/nu2310.json"]).stdout);
+    assert!(rollers.contains("roller[9].inner_raceway") && rollers.contains("half width um"), "{rollers}");
+}
+
+#[test]
 fn whirl_tells_the_steady_state_and_follows_it() {
     let scene = "scenes/grease_guide.json";
     let printed = text(&run(&["whirl", scene]).stdout);

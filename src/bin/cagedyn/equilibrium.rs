@@ -1,7 +1,8 @@
 //! The command `equilibrium`.
 
+use crate::plots::equilibrium as picture;
 use crate::results::facts;
-use crate::results::files::{self, plain, write_csv, write_json};
+use crate::results::files::{self, plain, write_csv, write_json, write_text};
 use crate::results::table::{self, Align, number};
 use crate::run::{in_file, read, stem};
 use crate::sweep::{Vary, points};
@@ -41,6 +42,7 @@ pub fn command(args: &EquilibriumArgs) -> Result<ExitCode> {
         std::fs::create_dir_all(folder).map_err(|e| files::file_error(folder, e))?;
         write_json(&folder.join("equilibrium.json"), &whole)?;
         write_csv(&folder.join("contacts.csv"), contacts(&found))?;
+        write_text(&folder.join("equilibrium.svg"), &picture::around(&title, &found)?)?;
     }
     if args.json {
         terminal::print(&format!("{whole:#}\n"))?;
@@ -258,6 +260,18 @@ fn tell_all(args: &EquilibriumArgs, vary: &Vary, all: &[(&str, Result<Equilibriu
         std::fs::create_dir_all(folder).map_err(|e| files::file_error(folder, e))?;
         write_json(&folder.join("equilibrium.json"), &whole)?;
         write_csv(&folder.join("equilibrium.csv"), rows.clone())?;
+        // Of words there is no axis.
+        let numbers: Option<Vec<f64>> = all.iter().map(|(value, _)| value.parse().ok()).collect();
+        let places = numbers.map(|numbers| {
+            let found = all.iter().map(|(_, found)| found.as_ref().ok());
+            numbers.into_iter().zip(found).collect::<Vec<_>>()
+        });
+        if let Some(places) = places {
+            write_text(
+                &folder.join("equilibrium.svg"),
+                &picture::over(&stem(&args.scene), &vary.path, &places)?,
+            )?;
+        }
     }
     if args.json {
         terminal::print(&format!("{whole:#}\n"))?;

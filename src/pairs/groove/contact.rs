@@ -14,7 +14,7 @@
 
 use super::geometry::Touch;
 use crate::laws::point_contact::{PointForce, PointMotion};
-use crate::scalar::{Numeric, Of};
+use crate::scalar::{Base, Of};
 use crate::space::solid::{Vector, cross, difference, dot, scaled, sum};
 
 /// Motion of a body: velocity of its centre, m/s, and angular velocity, rad/s.
@@ -41,16 +41,12 @@ pub(crate) struct OnBody<T> {
 
 /// How both surfaces move in a contact with a ball of this radius (m).
 #[inline(always)]
-pub(crate) fn motion<B, T: Of<B>>(
+pub(crate) fn motion<B: Base, T: Of<B>>(
     touch: &Touch<T>,
     radius: B,
     ball: &Moving<T>,
     ring: &MovingRing<T>,
-) -> PointMotion<T>
-where
-    B: Copy,
-    T: Numeric<Base = B>,
-{
+) -> PointMotion<T> {
     let (axis, w_ring) = (ring.axis, ring.moving.turning);
     let tilting = difference(w_ring, scaled(axis, dot(w_ring, axis)));
     let passing = difference(ball.velocity, ring.moving.velocity);
@@ -73,11 +69,11 @@ where
 
 /// What the forces of a contact do to a ball of this radius (m) and to the ring.
 #[inline(always)]
-pub(crate) fn wrenches<B, T: Of<B>>(touch: &Touch<T>, radius: B, force: &PointForce<T>) -> [OnBody<T>; 2]
-where
-    B: Copy,
-    T: Numeric<Base = B>,
-{
+pub(crate) fn wrenches<B: Base, T: Of<B>>(
+    touch: &Touch<T>,
+    radius: B,
+    force: &PointForce<T>,
+) -> [OnBody<T>; 2] {
     let ([ft, fl], [mt, ml, mn]) = (force.friction.force, force.friction.couple);
     let in_axes = |[t, l, n]: [T; 3]| {
         sum(sum(scaled(touch.along, t), scaled(touch.across, l)), scaled(touch.normal, n))
@@ -198,7 +194,7 @@ mod tests {
     #[test]
     fn the_approach_speed_is_the_rate_of_the_approach() {
         // A ring that stands still, a ball that moves by dual time.
-        use crate::scalar::Dual;
+        use crate::scalar::{Dual, Numeric};
         let groove = Groove::new(Side::Inner, 0.06263, RADIUS, 0.5232 * 2.0 * RADIUS, Fit::ContactAngle(0.7));
         let tilt = Tilt::new([2e-3, -1.5e-3]);
         let place = RingPlace { centre: [3e-5, 2e-5, -1e-5], axis: tilt.axis };

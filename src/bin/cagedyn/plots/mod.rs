@@ -3,6 +3,7 @@
 mod axis;
 mod cage_positions;
 mod cage_shape;
+pub mod equilibrium;
 mod forces;
 pub mod heat_flow;
 mod labels;
