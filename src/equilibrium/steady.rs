@@ -11,9 +11,9 @@
 
 use super::ball::{Ball, OF_RING, OnRing};
 use crate::laws::point_contact::PointContact;
-use crate::pairs::groove::{Moving, MovingRing, OnBody, RingPlace, Touch, motion, wrenches};
+use crate::pairs::groove::{Contact, InGroove, Moving, MovingRing};
 use crate::scalar::{Dual, Of};
-use crate::space::solid::{Tilt, scaled};
+use crate::space::solid::{Tilt, Vector, scaled, sum};
 use nalgebra::{SMatrix, SVector};
 
 /// Unknowns of a ball: x, rho, psi', w_x, w_r, w_psi.
@@ -39,7 +39,7 @@ struct Forces<T> {
     rest: [T; OF_BALL],
     /// On the ring over its coordinates.
     on_ring: [T; OF_RING],
-    /// Q of both contacts, N, and the gyroscopic moment that each race gives, N m.
+    /// Q of both contacts, N.
     loads: [T; 2],
 }
 
@@ -49,29 +49,27 @@ impl SteadyBall<'_> {
         let zero = x.like(0.0);
         let radius = self.ball.radius();
         let tilt = Tilt::new([ring[3], ring[4]]);
-        let places = [
-            RingPlace { centre: [zero; 3], axis: [x.like(1.0), zero, zero] },
-            RingPlace { centre: [ring[0], ring[1], ring[2]], axis: tilt.axis },
-        ];
         let around = rho + self.ball.grooves[0].pitch_radius;
-        let ball = Moving { velocity: [zero, zero, around * orbit], turning: [wx, wr, wpsi] };
-        let contact = |k: usize| {
-            let touch: Touch<T> = self.ball.grooves[k].touch([x, rho], self.ball.excess, &places[k]);
-            let (axis, speed) = (places[k].axis, x.like(self.ball.speeds[k]));
-            let moving = Moving { velocity: [zero; 3], turning: scaled(axis, speed) };
-            let ring = MovingRing { moving, axis, speed };
-            let motion = motion(&touch, radius, &ball, &ring);
-            let force = self.laws[k].force(self.ball.elastic[k], &motion, zero);
-            (wrenches(&touch, radius, &force), force.normal)
+        let moving = &Moving { velocity: [zero, zero, around * orbit], turning: [wx, wr, wpsi] };
+        let contact = |k: usize, centre: Vector<T>, axis: Vector<T>| -> Contact<T> {
+            let speed = x.like(self.ball.speeds[k]);
+            let turning = scaled(axis, speed);
+            let ring = MovingRing { moving: Moving { velocity: [zero; 3], turning }, axis, speed };
+            let ball = InGroove {
+                groove: self.ball.grooves[k],
+                elastic: self.ball.elastic[k],
+                at: [x, rho],
+                excess: self.ball.excess,
+                moving,
+            };
+            ball.contact(self.laws[k], centre, &ring, zero)
         };
-        let ([on_ball, _], outer_load) = contact(0);
-        let ([by_inner, on_ring], inner_load) = contact(1);
+        let outer = contact(0, [zero; 3], [x.like(1.0), zero, zero]);
+        let inner = contact(1, [ring[0], ring[1], ring[2]], tilt.axis);
         let [mass, inertia] = self.ball.inertia;
-        let all = OnBody {
-            force: crate::space::solid::sum(on_ball.force, by_inner.force),
-            moment: crate::space::solid::sum(on_ball.moment, by_inner.moment),
-        };
-        let ([fx, fr, fpsi], [mx, mr, mpsi]) = (all.force, all.moment);
+        let [fx, fr, fpsi] = sum(outer.on_ball.force, inner.on_ball.force);
+        let [mx, mr, mpsi] = sum(outer.on_ball.moment, inner.on_ball.moment);
+        let on_ring = inner.on_ring;
         let gyroscopic = orbit * inertia;
         let [over_r, over_psi] = tilt.moments_over_angles(on_ring.moment);
         Forces {
@@ -84,7 +82,7 @@ impl SteadyBall<'_> {
                 (mpsi - gyroscopic * wr) / radius,
             ],
             on_ring: [on_ring.force[0], on_ring.force[1], on_ring.force[2], over_r, over_psi],
-            loads: [outer_load, inner_load],
+            loads: [outer.force.normal, inner.force.normal],
         }
     }
 

@@ -324,7 +324,7 @@ fn what_the_schema_refuses_the_library_refuses() {
         ("unknown field in a vector", "gravity.x", json!(0.0)),
         ("unknown field in a signal", "inner_ring.speed.unit", json!("rpm")),
         ("unknown field in a material", "materials.steel.name", json!("steel")),
-        ("unknown law", "raceways.contact.film", json!("hamrock_dowson")),
+        ("unknown law", "raceways.contact.film", json!("dowson_higginson")),
         ("text for a number", "rollers.radius", json!("7.5e-3")),
         ("negative count", "rollers.count", json!(-1)),
         ("fractional count", "rollers.count", json!(12.5)),

@@ -12,8 +12,9 @@
 //!
 //! All vectors are in the axes of the ball's azimuth. Source: kinematics; the film pressure is that of line contacts.
 
-use super::geometry::Touch;
-use crate::laws::point_contact::{PointForce, PointMotion};
+use super::geometry::{Groove, RingPlace, Touch};
+use crate::laws::elastic::point::ElasticPoint;
+use crate::laws::point_contact::{PointContact, PointForce, PointMotion};
 use crate::scalar::{Base, Of};
 use crate::space::solid::{Vector, cross, difference, dot, scaled, sum};
 
@@ -39,9 +40,46 @@ pub(crate) struct OnBody<T> {
     pub(crate) moment: Vector<T>,
 }
 
+/// A ball at (x, rho), m, whose radius is larger than nominal by `excess` (m), with its elastic constants in a groove.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct InGroove<'a, B, T> {
+    pub(crate) groove: &'a Groove<B>,
+    pub(crate) elastic: &'a ElasticPoint<B>,
+    pub(crate) at: [T; 2],
+    pub(crate) excess: B,
+    pub(crate) moving: &'a Moving<T>,
+}
+
+/// A contact: its forces, and what these do to ball and ring.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Contact<T> {
+    pub(crate) force: PointForce<T>,
+    pub(crate) on_ball: OnBody<T>,
+    pub(crate) on_ring: OnBody<T>,
+}
+
+impl<B: Base, T: Of<B>> InGroove<'_, B, T> {
+    /// The contact with a ring whose centre is at `centre` (m), under these laws at a viscosity of e^`ln_viscosity` times theirs.
+    #[inline(always)]
+    pub(crate) fn contact(
+        &self,
+        laws: &PointContact,
+        centre: Vector<T>,
+        ring: &MovingRing<T>,
+        ln_viscosity: T,
+    ) -> Contact<T> {
+        let radius = self.groove.ball_radius + self.excess;
+        let touch = self.groove.touch(self.at, self.excess, &RingPlace { centre, axis: ring.axis });
+        let motion = motion(&touch, radius, self.moving, ring);
+        let force = laws.force(self.elastic, &motion, ln_viscosity);
+        let [on_ball, on_ring] = wrenches(&touch, radius, &force);
+        Contact { force, on_ball, on_ring }
+    }
+}
+
 /// How both surfaces move in a contact with a ball of this radius (m).
 #[inline(always)]
-pub(crate) fn motion<B: Base, T: Of<B>>(
+fn motion<B: Base, T: Of<B>>(
     touch: &Touch<T>,
     radius: B,
     ball: &Moving<T>,
@@ -69,11 +107,7 @@ pub(crate) fn motion<B: Base, T: Of<B>>(
 
 /// What the forces of a contact do to a ball of this radius (m) and to the ring.
 #[inline(always)]
-pub(crate) fn wrenches<B: Base, T: Of<B>>(
-    touch: &Touch<T>,
-    radius: B,
-    force: &PointForce<T>,
-) -> [OnBody<T>; 2] {
+fn wrenches<B: Base, T: Of<B>>(touch: &Touch<T>, radius: B, force: &PointForce<T>) -> [OnBody<T>; 2] {
     let ([ft, fl], [mt, ml, mn]) = (force.friction.force, force.friction.couple);
     let in_axes = |[t, l, n]: [T; 3]| {
         sum(sum(scaled(touch.along, t), scaled(touch.across, l)), scaled(touch.normal, n))
@@ -102,11 +136,10 @@ pub(crate) fn wrenches<B: Base, T: Of<B>>(
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Fit, Groove, RingPlace, Side};
+    use super::super::{Fit, Side};
     use super::*;
-    use crate::laws::elastic::point::ElasticPoint;
     use crate::laws::film::ellipse::EllipseFilm;
-    use crate::laws::point_contact::{PointContact, PointResistance};
+    use crate::laws::point_contact::PointResistance;
     use crate::laws::rolling::Extent;
     use crate::laws::rolling::point::PointRolling;
     use crate::laws::traction::ellipse::{EllipseRule, EllipseTraction};

@@ -4,7 +4,7 @@ mod contact;
 mod geometry;
 mod laws;
 
-pub(crate) use contact::{Moving, MovingRing, OnBody, motion, wrenches};
+pub(crate) use contact::{Contact, InGroove, Moving, MovingRing};
 pub(crate) use geometry::{Fit, Groove, RingPlace, Side, Touch};
 
 use super::line_laws::LawBuilder;
