@@ -156,18 +156,20 @@ impl<'a> Bearing<'a> {
 
     /// All balls at rest beside a ring at these coordinates; `None` where one finds none.
     fn balls(&self, ring: &Vector5<f64>) -> Option<Vec<AtRest<'a>>> {
-        let at_rest = |j: usize| {
-            let (ball, beside) = (self.ball(j), (self.beside(j) * ring).into());
-            let from = self.between(&beside);
-            if !self.steady {
-                let place = ball.rest(from, beside)?;
-                return Some(AtRest::Controlled(ball, place));
-            }
-            let ball = SteadyBall { ball, laws: self.space.races.each_ref().map(|race| &race.laws) };
-            let motion = ball.steady(from, beside)?;
-            Some(AtRest::Steady(ball, motion))
-        };
-        (0..self.space.balls.set.count).map(at_rest).collect()
+        (0..self.space.balls.set.count).map(|j| self.at_rest(j, ring)).collect()
+    }
+
+    /// Ball `j`.
+    fn at_rest(&self, j: usize, ring: &Vector5<f64>) -> Option<AtRest<'a>> {
+        let (ball, beside) = (self.ball(j), (self.beside(j) * ring).into());
+        let from = self.between(&beside);
+        if !self.steady {
+            let place = ball.rest(from, beside)?;
+            return Some(AtRest::Controlled(ball, place));
+        }
+        let ball = SteadyBall { ball, laws: self.space.races.each_ref().map(|race| &race.laws) };
+        let motion = ball.steady(from, beside)?;
+        Some(AtRest::Steady(ball, motion))
     }
 
     /// Force of these balls on the ring over its coordinates, the stiffness, and their energy, J, with the size of the forces.
@@ -262,15 +264,16 @@ fn none(bearing: &Bearing<'_>, at: &Vector5<f64>, share: f64) -> Error {
     let far = (0..OF_RING)
         .filter(|k| bearing.space.ring.held[*k].is_none())
         .find(|k| at[*k].abs() > 0.4 * bearing.reach());
-    let restless = (0..bearing.space.balls.set.count).find(|j| {
-        let beside = (bearing.beside(*j) * ring).into();
-        bearing.ball(*j).rest(bearing.between(&beside), beside).is_none()
-    });
+    let restless = (0..bearing.space.balls.set.count).find(|j| bearing.at_rest(*j, &ring).is_none());
     let why = match (far, restless) {
         (None, _) if bearing.control == RaceControl::Inner && share > 0.0 => {
             "the inner race controls no balls that it hardly presses; 'outer' or 'none' instead of 'inner'"
                 .to_owned()
         }
+        (None, Some(j)) if bearing.steady => format!(
+            "ball[{j}] finds no steady motion under friction; balls that the inner race does not press are not driven: 'outer' or 'none' \
+             instead of 'friction'"
+        ),
         (None, Some(j)) => format!("ball[{j}] finds no rest"),
         (Some(k), _) => {
             let [name, unit, _] = RING_COORDINATES[k].position.unwrap_or_default();

@@ -117,6 +117,11 @@ fn friction_needs_traction() {
     let Err(error) = of(ANGULAR, RaceControl::Friction, &changes) else { panic!("nothing drives the balls") };
     assert!(error.message.starts_with("raceways.contact.traction: missing"), "{error}");
     assert!(of(ANGULAR, RaceControl::Friction, &[("raceways", json!({}))]).is_ok(), "nothing turns");
+    // Nor does anything drive balls outside of the load zone.
+    let Err(error) = of(DEEP, RaceControl::Friction, &[("inner_ring.speed.constant", json!(1000.0))]) else {
+        panic!("balls that nothing presses go round")
+    };
+    assert!(error.message.contains("ball[3] finds no steady motion under friction"), "{error}");
 }
 
 #[test]
