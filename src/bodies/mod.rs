@@ -86,7 +86,7 @@ pub(crate) struct Coordinate {
 }
 
 /// The centre of a body.
-const CENTRE: [Coordinate; 2] = [
+pub(crate) const CENTRE: [Coordinate; 2] = [
     Coordinate {
         position: Some(["y", "m", "centre position to the right"]),
         rate: ["vy", "m/s", "velocity of the centre to the right"],

@@ -2,10 +2,10 @@
 //!
 //! First without speed, by the least energy; then the speed grows to that of the scene, from each equilibrium to the next.
 
-use super::Equilibrium;
 use super::ball::{Ball, OF_RING, OnRing, RaceControl, Rolling};
 use super::settle::{Balance, Rest, settle};
 use super::steady::SteadyBall;
+use super::{Equilibrium, named};
 use crate::bodies::{HostInputs, Input, RING_COORDINATES};
 use crate::error::{Error, Result, Status};
 use crate::laws::film::thickness::Entrainment;
@@ -350,7 +350,7 @@ pub(super) fn equilibrium(space: &Space, control: RaceControl) -> Result<Equilib
     let balls = bearing.balls(&ring).ok_or_else(|| none(&bearing, &rest.x, 1.0))?;
     let sum = bearing.on_ring(&ring, &balls);
     let mut found = Equilibrium {
-        coordinates: coordinates(),
+        coordinates: named(&RING_COORDINATES),
         free: space.ring.held.iter().map(Option::is_none).collect(),
         displacement: ring.iter().copied().collect(),
         reaction: sum.force.iter().copied().collect(),
@@ -373,11 +373,6 @@ pub(super) fn equilibrium(space: &Space, control: RaceControl) -> Result<Equilib
         found.warnings.push(text);
     }
     Ok(found)
-}
-
-fn coordinates() -> Vec<Quantity> {
-    let named = RING_COORDINATES.iter().filter_map(|coordinate| coordinate.position);
-    named.map(|[name, unit, description]| quantity(name, unit, description)).collect()
 }
 
 /// The steady motion needs what drives balls.

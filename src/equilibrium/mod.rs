@@ -17,8 +17,9 @@ mod steady;
 
 pub use ball::RaceControl;
 
+use crate::bodies::Coordinate;
 use crate::error::Result;
-use crate::model::{Model, Quantity};
+use crate::model::{Model, Quantity, quantity};
 
 /// An equilibrium. Vectors are over `coordinates`, which are those of the inner ring.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,4 +69,10 @@ pub fn equilibrium(model: &Model, control: RaceControl) -> Result<Equilibrium> {
         Some(space) => balls::equilibrium(space, control),
         None => rollers::equilibrium(model, model.plane()?),
     }
+}
+
+/// Names, units and meanings of the positions of a ring.
+fn named(coordinates: &[Coordinate]) -> Vec<Quantity> {
+    let positions = coordinates.iter().filter_map(|coordinate| coordinate.position);
+    positions.map(|[name, unit, description]| quantity(name, unit, description)).collect()
 }

@@ -1,9 +1,11 @@
 //! Ring and rollers in the plane.
 
-use super::Equilibrium;
+use super::{Equilibrium, named};
+use crate::bodies::CENTRE;
 use crate::error::{Error, Result, Status};
 use crate::model::plane::{Plane, StillBearing};
-use crate::model::{HostInputs, Layout, Model, Quantity, quantity};
+use crate::model::{HostInputs, Model, Quantity, quantity};
+use crate::scalar::math;
 use crate::scene::RingMotion;
 
 /// What is known of every roller.
@@ -23,10 +25,6 @@ const CONTACT: [Quantity; 4] = [
     ),
     quantity("half_width", "m", "half width b of Hertz's line contact; with a profile that of the middle"),
 ];
-/// Coordinates of the ring.
-const COORDINATES: [Quantity; 2] =
-    [quantity("y", "m", "centre position to the right"), quantity("z", "m", "centre position upwards")];
-
 /// The equilibrium of a ring and the rollers that go round with the speed that they roll at.
 pub(super) fn equilibrium(model: &Model, plane: &Plane) -> Result<Equilibrium> {
     let inputs = model.inputs_at(0.0, &HostInputs::default());
@@ -35,7 +33,7 @@ pub(super) fn equilibrium(model: &Model, plane: &Plane) -> Result<Equilibrium> {
         Error::new(Status::BadScene, "kinematic_elements: nothing presses on elements of prescribed motion")
     })?;
     let state = model.initial_state()?;
-    let q = &state[..Layout::positions(plane.layout())];
+    let q = &state[..model.layout().positions()];
     let (load, held) = match model.scene().inner_ring.as_ref().map(|ring| &ring.motion) {
         Some(RingMotion::Fixed(place)) => (None, [place.y, place.z]),
         _ => (plane.load_at_rest(&inputs), [0.0; 2]),
@@ -45,7 +43,7 @@ pub(super) fn equilibrium(model: &Model, plane: &Plane) -> Result<Equilibrium> {
         None => held,
     };
     let mut found = Equilibrium {
-        coordinates: COORDINATES.to_vec(),
+        coordinates: named(&CENTRE),
         free: vec![load.is_some(); 2],
         displacement: ring.to_vec(),
         reaction: vec![0.0; 2],
@@ -78,7 +76,7 @@ pub(super) fn equilibrium(model: &Model, plane: &Plane) -> Result<Equilibrium> {
     }
     if let Some(load) = load {
         let rest = [0, 1].map(|k| found.reaction[k] + load[k]);
-        found.residual = crate::scalar::math::hypot(rest[0], rest[1]) / size.max(f64::MIN_POSITIVE);
+        found.residual = math::hypot(rest[0], rest[1]) / size.max(f64::MIN_POSITIVE);
     }
     Ok(found)
 }

@@ -1,7 +1,7 @@
 //! Where forces vanish: Newton's method with a Levenberg-Marquardt parameter.
 //!
 //! ```text
-//! (K + m D) s = f,   K = -df/dx
+//! (K + m I) s = f,   K = -df/dx
 //! ```
 //!
 //! A step is taken where it lowers the energy or halves the force; m shrinks then, and grows otherwise. Without stiffness, as in a

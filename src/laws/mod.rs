@@ -10,7 +10,7 @@
 //! | `fluid` | viscosity |
 //!
 //! `bearing_torque` is the friction of a whole bearing from catalogue values. `line_contact` puts those of a lubricated line contact together,
-//! `resting_line` gives its spring alone.
+//! `point_contact` those of a ball in its groove; `resting_line` gives the spring of a line contact alone.
 //!
 //! A law knows its own constants and nothing else: no bodies, no JSON, no planar or spatial geometry. All
 //! quantities are in SI units. Laws are generic over [`crate::scalar::Real`], so the code that gives a force

@@ -1,7 +1,7 @@
 //! An inner ring in space, at (x, y, z) with the rotation vector (0, tilt_y, tilt_z) of its axis; each of these is free or held.
 
 use super::OF_RING;
-use crate::bodies::{Coordinate, Input, InputValues, Moves};
+use crate::bodies::{CENTRE, Coordinate, Input, InputValues, Moves};
 use crate::scene::{Preload, RingCoordinate, RingMotion, Scene};
 
 /// Coordinates of a ring in space.
@@ -11,16 +11,8 @@ pub(crate) const RING_COORDINATES: [Coordinate; OF_RING] = [
         rate: ["vx", "m/s", "velocity of the centre along the axis of the bearing"],
         moves: Moves::Itself,
     },
-    Coordinate {
-        position: Some(["y", "m", "centre position to the right"]),
-        rate: ["vy", "m/s", "velocity of the centre to the right"],
-        moves: Moves::Itself,
-    },
-    Coordinate {
-        position: Some(["z", "m", "centre position upwards"]),
-        rate: ["vz", "m/s", "velocity of the centre upwards"],
-        moves: Moves::Itself,
-    },
+    CENTRE[0],
+    CENTRE[1],
     Coordinate {
         position: Some(["tilt_y", "rad", "rotation vector of the axis, to the right"]),
         rate: ["tilt_speed_y", "rad/s", "rate of tilt_y"],

@@ -13,8 +13,8 @@
 //! |v0| - L is a small number of its own, zero of an angular contact bearing that just touches, so that no difference of radii is
 //! taken: gaps are good to 1e-19 m. Valid while the ball stays far from the centre of the arc. Source: geometry.
 
-use crate::scalar::{Base, Of};
-use crate::space::solid::{Vector, cross, difference, dot, scaled};
+use crate::scalar::{Base, Of, math};
+use crate::space::solid::{Vector, cross, difference, dot, scaled, sum};
 
 /// Which ring a groove is in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -86,7 +86,7 @@ impl Groove {
             Side::Outer => length + excess,
             Side::Inner => -(length + excess),
         };
-        let (sin, cos) = crate::scalar::math::sin_cos(angle);
+        let (sin, cos) = math::sin_cos(angle);
         Self { pitch_radius, ball_radius, radius, centre: [outwards * sin, outwards * cos], excess }
     }
 
@@ -128,7 +128,7 @@ impl<B: Base> Groove<B> {
         let in_meridian = [v[0] / size, v[1] / size];
         let one = delta.like(1.0);
         let outward = scaled(difference(from_ring, scaled(axis, xi)), one / ball_distance);
-        let normal = crate::space::solid::sum(scaled(axis, in_meridian[0]), scaled(outward, in_meridian[1]));
+        let normal = sum(scaled(axis, in_meridian[0]), scaled(outward, in_meridian[1]));
         let along = cross(axis, outward);
         Touch {
             delta,

@@ -70,11 +70,12 @@ pub(crate) fn races(scene: &Scene, deviations: &[f64], viscosity: Option<f64>) -
         Fit::RadialClearance(_) => 1.0,
     };
     let (outer, inner) = (scene.outer_ring.as_ref(), scene.inner_ring.as_ref());
-    let race = |side: Side,
-                ring: &str,
-                groove: Option<f64>,
-                shoulder: Option<f64>,
-                material: Option<&str>| {
+    let parts = [
+        outer.map(|ring| (ring.groove_radius, ring.shoulder_height, ring.material.as_deref())),
+        inner.map(|ring| (ring.groove_radius, ring.shoulder_height, ring.material.as_deref())),
+    ];
+    let race = |side: Side, ring: &str| {
+        let (groove, shoulder, material) = parts[side as usize].unwrap_or_default();
         let path = format!("{ring}.groove_radius");
         let radius = needed(&path, groove, "balls")?;
         let material_path = format!("{ring}.material");
@@ -105,10 +106,5 @@ pub(crate) fn races(scene: &Scene, deviations: &[f64], viscosity: Option<f64>) -
             shoulder: shoulder.map(|height| angle_of_drop(height / radius)),
         })
     };
-    let parts = outer.map(|ring| (ring.groove_radius, ring.shoulder_height, ring.material.as_deref()));
-    let (groove, shoulder, material) = parts.unwrap_or_default();
-    let on_outer = race(Side::Outer, "outer_ring", groove, shoulder, material)?;
-    let parts = inner.map(|ring| (ring.groove_radius, ring.shoulder_height, ring.material.as_deref()));
-    let (groove, shoulder, material) = parts.unwrap_or_default();
-    Ok(Some([on_outer, race(Side::Inner, "inner_ring", groove, shoulder, material)?]))
+    Ok(Some([race(Side::Outer, "outer_ring")?, race(Side::Inner, "inner_ring")?]))
 }
