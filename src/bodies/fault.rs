@@ -25,6 +25,15 @@ pub enum Fault {
         /// Offset from the pitch circle, m.
         radial_offset: f64,
     },
+    /// A ball has left the groove of a raceway, or its contact is wider than the groove.
+    LostBall {
+        /// Number of the ball.
+        ball: usize,
+        /// Name of the contact.
+        race: &'static str,
+        /// Elastic approach delta there, m; negative where they are apart.
+        approach: f64,
+    },
     /// A rolling element is further round from its pocket than its own radius, where no law describes what it touches.
     OutOfPocket {
         /// Number of the element.
@@ -94,6 +103,7 @@ registry! {
         Overlap = "overlap",
         TooFast = "too_fast",
         EnergyCreated = "energy_created",
+        LostBall = "lost_ball",
     }
 }
 
@@ -115,6 +125,7 @@ impl Fault {
             Self::Overlap { .. } => FaultKind::Overlap,
             Self::TooFast { .. } => FaultKind::TooFast,
             Self::EnergyCreated { .. } => FaultKind::EnergyCreated,
+            Self::LostBall { .. } => FaultKind::LostBall,
         };
         kind as usize
     }

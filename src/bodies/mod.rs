@@ -35,7 +35,7 @@ pub(crate) use heat::HeatBudget;
 pub(crate) use layout::{OF_ELEMENT, Owner};
 pub(crate) use motions::{Element, ElementBlock, ElementMotion, ElementSet, Motions, WrenchLanes};
 pub(crate) use nodes::{Node, NodeState, nodes};
-pub(crate) use spatial::{Balls, OF_RING, RING_COORDINATES, RingInSpace};
+pub(crate) use spatial::{Balls, MovingRing, OF_BALL, OF_RING, RING_COORDINATES, RingInSpace, RingState};
 pub(crate) use states::{State, layout_of, states_of};
 
 use crate::registry::registry;

@@ -101,7 +101,7 @@ pub unsafe extern "C" fn cagedyn_sim_jacobian(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cagedyn_model_jacobian_entry_count(model: *const cagedyn_model) -> i64 {
     // SAFETY: see above.
-    count(|| Ok(unsafe { shared("model", model) }?.pattern()?.rows.len()))
+    count(|| Ok(unsafe { shared("model", model) }?.pattern().rows.len()))
 }
 
 /// Writes where the derivatives of cagedyn_sim_sparse_jacobian() are, in compressed sparse columns counted from 0, the same
@@ -120,7 +120,7 @@ pub unsafe extern "C" fn cagedyn_model_jacobian_pattern(
 ) -> i32 {
     status(|| {
         // SAFETY: see above.
-        let pattern = unsafe { shared("model", model) }?.pattern()?;
+        let pattern = unsafe { shared("model", model) }?.pattern();
         let [starts, places] = [&pattern.column_starts, &pattern.rows]
             .map(|list| list.iter().map(|i| *i as i64).collect::<Vec<i64>>());
         check_array("column_starts", column_starts.is_null(), starts_length, starts.len())?;
@@ -152,7 +152,7 @@ pub unsafe extern "C" fn cagedyn_sim_sparse_jacobian(
     unsafe {
         with(sim, |s| {
             if s.pattern.is_none() {
-                s.pattern = Some(s.sim.model().jacobian_pattern()?);
+                s.pattern = Some(s.sim.model().jacobian_pattern());
             }
             let Some(pattern) = &s.pattern else { return Ok(()) };
             let entries = pattern.rows.len();
@@ -238,7 +238,7 @@ pub unsafe extern "C" fn cagedyn_sim_contact_forces_at(
         with(sim, |s| {
             read_array("state", state, state_length, &mut s.state)?;
             let forces = s.sim.forces_at(t, &s.state)?;
-            write_array("out", forces.contacts.as_flattened(), out, length)
+            write_array("out", forces.contact_values(), out, length)
         })
     }
 }
@@ -262,7 +262,7 @@ pub unsafe extern "C" fn cagedyn_sim_body_forces_at(
         with(sim, |s| {
             read_array("state", state, state_length, &mut s.state)?;
             let forces = s.sim.forces_at(t, &s.state)?;
-            write_array("out", forces.bodies.as_flattened().as_flattened(), out, length)
+            write_array("out", forces.body_values(), out, length)
         })
     }
 }

@@ -2,7 +2,7 @@
 
 use super::guard::{EMPTY, count, free, guard, index, place_of, shared, text, to_c_string};
 use crate::error::{Error, Result, Status};
-use crate::model::{CONTACT_QUANTITIES, FORCE_COMPONENTS, FORCE_SOURCES, Model};
+use crate::model::{FORCE_SOURCES, Model};
 use crate::scene::Scene;
 use crate::sim::SparsePattern;
 use libc::c_char;
@@ -25,7 +25,7 @@ pub struct cagedyn_model {
     pub(super) geometry: Vec<Item>,
     pub(super) geometry_values: Vec<f64>,
     warnings: Vec<Item>,
-    pattern: OnceLock<Result<SparsePattern>>,
+    pattern: OnceLock<SparsePattern>,
 }
 
 /// Texts of a named item.
@@ -54,9 +54,17 @@ impl cagedyn_model {
             outputs: model.channels().iter().map(|c| Item::new(&c.name, c.unit, c.description)).collect(),
             contacts: plain(model.contact_names()),
             bodies: plain(model.body_names()),
-            quantities: CONTACT_QUANTITIES.iter().map(|q| Item::new(q.name, q.unit, q.description)).collect(),
+            quantities: model
+                .contact_quantities()
+                .iter()
+                .map(|q| Item::new(q.name, q.unit, q.description))
+                .collect(),
             sources: FORCE_SOURCES.iter().map(|s| Item::new(s, "", "")).collect(),
-            components: FORCE_COMPONENTS.iter().map(|q| Item::new(q.name, q.unit, q.description)).collect(),
+            components: model
+                .force_components()
+                .iter()
+                .map(|q| Item::new(q.name, q.unit, q.description))
+                .collect(),
             geometry: geometry.iter().map(|(q, _)| Item::new(q.name, q.unit, q.description)).collect(),
             geometry_values: geometry.iter().map(|(_, value)| *value).collect(),
             warnings: plain(model.scene().warnings()),
@@ -68,9 +76,8 @@ impl cagedyn_model {
 
 impl cagedyn_model {
     /// Pattern of its Jacobian.
-    pub(super) fn pattern(&self) -> Result<&SparsePattern> {
-        let made = self.pattern.get_or_init(|| self.model.jacobian_pattern());
-        made.as_ref().map_err(Clone::clone)
+    pub(super) fn pattern(&self) -> &SparsePattern {
+        self.pattern.get_or_init(|| self.model.jacobian_pattern())
     }
 }
 

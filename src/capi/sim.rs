@@ -236,7 +236,7 @@ pub unsafe extern "C" fn cagedyn_sim_contact_forces(
     length: i64,
 ) -> i32 {
     // SAFETY: see above.
-    unsafe { with(sim, |s| write_array("out", s.sim.forces()?.contacts.as_flattened(), out, length)) }
+    unsafe { with(sim, |s| write_array("out", s.sim.forces()?.contact_values(), out, length)) }
 }
 
 /// Writes the forces on all bodies by source at the present state: for every body a block with one row per force
@@ -250,7 +250,7 @@ pub unsafe extern "C" fn cagedyn_sim_body_forces(sim: *mut cagedyn_sim, out: *mu
     // SAFETY: see above.
     unsafe {
         with(sim, |s| {
-            let bodies = s.sim.forces()?.bodies.as_flattened().as_flattened();
+            let bodies = s.sim.forces()?.body_values();
             write_array("out", bodies, out, length)
         })
     }

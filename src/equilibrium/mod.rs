@@ -3,19 +3,13 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `settle` | where forces vanish |
-//! | `ball` | one ball between its races, standing still or going round under race control |
-//! | `steady` | one ball that goes round under all forces of its contacts |
-//! | `balls` | ring and balls in space |
+//! | `balls` | ring and balls in space, found by `model/space/rest` |
 //! | `rollers` | ring and rollers in the plane |
 
-mod ball;
 mod balls;
 mod rollers;
-mod settle;
-mod steady;
 
-pub use ball::RaceControl;
+pub use crate::model::RaceControl;
 
 use crate::bodies::Coordinate;
 use crate::error::Result;

@@ -83,6 +83,107 @@ pub struct PointForce<T> {
     pub rolling_resistance: T,
 }
 
+/// Numbers of a [`PointForce`].
+pub const POINT_FORCE: usize = 24;
+/// Numbers of a [`PointMotion`].
+pub const POINT_MOTION: usize = 9;
+
+impl<T: Copy> PointMotion<T> {
+    /// Its numbers, in the order of its fields.
+    #[inline(always)]
+    pub fn numbers(&self) -> [T; POINT_MOTION] {
+        let ([u1, u2], [dt, dl], [wt, wl, wn]) = (self.surface_speeds, self.slip, self.turning);
+        [self.delta, self.delta_dot, u1, u2, dt, dl, wt, wl, wn]
+    }
+
+    /// That of these numbers.
+    #[inline(always)]
+    pub fn of_numbers([delta, delta_dot, u1, u2, dt, dl, wt, wl, wn]: [T; POINT_MOTION]) -> Self {
+        Self { delta, delta_dot, surface_speeds: [u1, u2], slip: [dt, dl], turning: [wt, wl, wn] }
+    }
+}
+
+impl<T: Copy> PointForce<T> {
+    /// Its numbers, in the order of its fields.
+    #[inline(always)]
+    pub fn numbers(&self) -> [T; POINT_FORCE] {
+        let EllipseFriction { force: [ft, fl], couple: [mt, ml, mn], secants, temperature_rise } =
+            self.friction;
+        let ([s0, sx, sy, sh], [sxx, syy, shh, sxh, syh]) = (secants.first, secants.second);
+        let [a, b] = self.half_axes;
+        let Self { normal, stiffness, damping, pressure, film, film_ratio, rolling_resistance, .. } = *self;
+        [
+            normal,
+            stiffness,
+            damping,
+            a,
+            b,
+            pressure,
+            film,
+            film_ratio,
+            ft,
+            fl,
+            mt,
+            ml,
+            mn,
+            s0,
+            sx,
+            sy,
+            sh,
+            sxx,
+            syy,
+            shh,
+            sxh,
+            syh,
+            temperature_rise,
+            rolling_resistance,
+        ]
+    }
+
+    /// That of these numbers.
+    #[inline(always)]
+    pub fn of_numbers(numbers: [T; POINT_FORCE]) -> Self {
+        let [
+            normal,
+            stiffness,
+            damping,
+            a,
+            b,
+            pressure,
+            film,
+            film_ratio,
+            ft,
+            fl,
+            mt,
+            ml,
+            mn,
+            s0,
+            sx,
+            sy,
+            sh,
+            sxx,
+            syy,
+            shh,
+            sxh,
+            syh,
+            temperature_rise,
+            rolling_resistance,
+        ] = numbers;
+        let secants = Secants { first: [s0, sx, sy, sh], second: [sxx, syy, shh, sxh, syh] };
+        Self {
+            normal,
+            stiffness,
+            damping,
+            half_axes: [a, b],
+            pressure,
+            film,
+            film_ratio,
+            friction: EllipseFriction { force: [ft, fl], couple: [mt, ml, mn], secants, temperature_rise },
+            rolling_resistance,
+        }
+    }
+}
+
 impl PointContact {
     /// Forces with these elastic constants and the viscosity e^`ln_viscosity` times that of the laws.
     #[inline(always)]

@@ -1,8 +1,8 @@
 //! What a model knows of its bearing, in whatever space that moves: asked of the one that it has.
 
-use super::plane::Plane;
-use super::space::Space;
-use super::{InputValues, Layout, Model, Quantity, StateInfo};
+use super::plane::{CONTACT_QUANTITIES, FORCE_COMPONENTS, Plane};
+use super::space::{SPATIAL_CONTACT_QUANTITIES, SPATIAL_FORCE_COMPONENTS, Space};
+use super::{Channel, Fault, InputValues, Layout, Model, Quantity, Source, StateInfo, plane, space};
 use crate::error::{Error, Result, Status};
 use std::sync::Arc;
 
@@ -11,6 +11,23 @@ use std::sync::Arc;
 pub(super) enum Bearing {
     Plane(Arc<Plane>),
     Space(Arc<Space>),
+}
+
+/// A state with what its channels show of it.
+pub(crate) enum Reading<'a> {
+    Plane(plane::Reading<'a>),
+    Space(space::Reading<'a>),
+}
+
+impl Reading<'_> {
+    /// Value of a channel of the same model.
+    pub(crate) fn value(&self, channel: &Channel) -> f64 {
+        match (self, channel.source) {
+            (Self::Plane(reading), Source::Plane(source)) => reading.value(source),
+            (Self::Space(reading), Source::Space(source)) => reading.value(source),
+            _ => f64::NAN,
+        }
+    }
 }
 
 /// Methods of a model that its bearing has by the same name.
@@ -40,6 +57,9 @@ of_bearing! {
     body_names() -> Vec<String>;
     /// Names of all contacts that can exist, in the order of force reports.
     contact_names() -> Vec<String>;
+    /// A fault in words.
+    #[doc(hidden)]
+    describe(fault: Fault) -> String;
     /// What the elements are called in names.
     element_kind() -> &'static str;
     /// Number of rolling elements, whether they have states or not.
@@ -58,6 +78,12 @@ of_bearing! {
     /// or as prescribed.
     #[doc(hidden)]
     kinematic_speeds(inputs: &InputValues) -> [f64; 2];
+    /// State vector at the start of the run.
+    ///
+    /// # Errors
+    /// [`crate::Status::BadScene`] when no static equilibrium is found, it leaves no room for the cage, or a free coordinate has no
+    /// inertia; [`crate::Status::BadState`] when balls find none.
+    initial_state() -> Result<Vec<f64>>;
     /// Highest contact frequency in rad/s: see [`Plane::contact_frequency`].
     contact_frequency() -> f64;
     /// The highest of all: contacts and waves, rad/s.
@@ -77,7 +103,7 @@ impl Model {
         match &self.bearing {
             Bearing::Plane(plane) => Ok(plane),
             Bearing::Space(_) => {
-                let text = "balls: their motion over time is not computed, their equilibrium is";
+                let text = "balls: this is for bearings that move in the plane only";
                 Err(Error::new(Status::BadScene, text))
             }
         }
@@ -100,11 +126,16 @@ impl Model {
     }
 
     /// The bearing, if it moves in space.
-    pub(crate) fn space(&self) -> Option<&Space> {
+    pub(crate) fn space(&self) -> Option<&Arc<Space>> {
         match &self.bearing {
             Bearing::Plane(_) => None,
             Bearing::Space(space) => Some(space),
         }
+    }
+
+    /// Whether elements roll under load on raceways, whose contacts keep steps short.
+    pub fn rolls(&self) -> bool {
+        self.has_rollers() || self.space().is_some()
     }
 
     /// Radius of the inner raceway in m, where there are rollers.
@@ -132,11 +163,19 @@ impl Model {
         self.in_plane().and_then(|plane| plane.energy_giving_film())
     }
 
-    /// State vector at the start of the run.
-    ///
-    /// # Errors
-    /// [`crate::Status::BadScene`] when no static equilibrium is found, or it leaves no room for the cage.
-    pub fn initial_state(&self) -> Result<Vec<f64>> {
-        self.plane()?.initial_state()
+    /// What force reports have of every contact.
+    pub fn contact_quantities(&self) -> &'static [Quantity] {
+        match &self.bearing {
+            Bearing::Plane(_) => &CONTACT_QUANTITIES,
+            Bearing::Space(_) => &SPATIAL_CONTACT_QUANTITIES,
+        }
+    }
+
+    /// Components of the forces on bodies.
+    pub fn force_components(&self) -> &'static [Quantity] {
+        match &self.bearing {
+            Bearing::Plane(_) => &FORCE_COMPONENTS,
+            Bearing::Space(_) => &SPATIAL_FORCE_COMPONENTS,
+        }
     }
 }

@@ -5,11 +5,13 @@
 //! |---|---|
 //! | `inputs`, `signals` | from the scene to inputs over time |
 //! | `names`, `selection` | what models tell: names, units, channels and those that a record has |
+//! | `faults` | faults in words |
 //! | `bearing` | what both kinds of bearings answer |
 //! | `plane/` | a bearing whose bodies move in the plane |
 //! | `space/` | one whose balls and ring move in space |
 
 mod bearing;
+mod faults;
 mod inputs;
 mod names;
 pub(crate) mod plane;
@@ -18,17 +20,22 @@ mod signals;
 pub(crate) mod space;
 
 pub use crate::bodies::{BodyForces, FAULTS, FORCE_SOURCES, Fault, FaultCounts, INPUTS, Input, POWERS};
-pub(crate) use crate::bodies::{FaultKind, OF_ELEMENT, Power};
+pub(crate) use crate::bodies::{FaultKind, OF_BALL, OF_ELEMENT, Power};
 #[doc(hidden)]
 pub use crate::bodies::{HostInputs, InputValues, Layout};
 pub(crate) use crate::pairs::Law;
 pub use crate::pairs::{LAWS, LawCounts};
-pub(crate) use names::quantity;
+pub(crate) use bearing::Reading;
 pub use names::{Channel, Energy, Quantity, StateInfo};
-pub(crate) use plane::{AT_FLOOR, RATES, Reading};
+pub(crate) use names::{Source, quantity};
+pub(crate) use plane::{AT_FLOOR, RATES};
 pub use plane::{CONTACT_QUANTITIES, ContactForces, FORCE_COMPONENTS, Forces, GuideReport};
 #[doc(hidden)]
 pub use plane::{PARTS, PartTimes, Plane, Workspace};
+pub use space::rest::RaceControl;
+pub use space::{
+    SPATIAL_CONTACT_QUANTITIES, SPATIAL_FORCE_COMPONENTS, SpatialBodyForces, SpatialContact, SpatialForces,
+};
 
 use crate::error::Result;
 use crate::scene::Scene;
@@ -58,10 +65,12 @@ impl Model {
         scene.validate()?;
         let inputs = Arc::new(inputs::inputs(&scene)?);
         let scene = Arc::new(scene);
-        if let Some(space) = Space::new(scene.clone(), inputs.clone())? {
+        if let Some(mut space) = Space::new(scene.clone(), inputs.clone())? {
+            let channels = space.list_channels();
+            let [recorded, watched] = selection::select(&scene.record, &channels)?;
+            space.watch_channels(&watched, &channels);
             let bearing = Bearing::Space(Arc::new(space));
-            let [recorded, watched] = Default::default();
-            return Ok(Self { scene, inputs, bearing, channels: Vec::new(), recorded, watched });
+            return Ok(Self { scene, inputs, bearing, channels, recorded, watched });
         }
         let mut plane = Plane::new(scene.clone(), inputs.clone())?;
         let channels = plane.list_channels();

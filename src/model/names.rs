@@ -1,6 +1,13 @@
 //! What models tell of states, inputs, quantities and energies: names, SI units and meanings.
 
-use super::plane::Source;
+use super::{plane, space};
+
+/// What a channel shows, by the bearing that it is of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Source {
+    Plane(plane::Source),
+    Space(space::Source),
+}
 
 /// Name, unit and meaning of a state or an input.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -58,6 +58,34 @@ pub struct SpatialRing {
     /// Spring along the axis that presses the ring into the bearing. Absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub preload: Option<Preload>,
+    /// Mass of the ring and of what moves with it, kg. Needed by motion over time where x, y or z is free.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-07, max = 1000000.0)))]
+    pub mass: Option<f64>,
+    /// Moments of inertia of the ring and of what moves with it. Needed by motion over time where a tilt is free.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inertia: Option<RotorInertia>,
+    /// Damping of the supports for each velocity of the centre, N s/m. Absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1e12)))]
+    pub support_damping: Option<f64>,
+    /// Damping of the supports for the rate of each tilt, N m s. Absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1e12)))]
+    pub tilt_damping: Option<f64>,
+}
+
+/// Moments of inertia of a body of revolution.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct RotorInertia {
+    /// About its axis, kg m^2.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-12, max = 1e6)))]
+    pub polar: f64,
+    /// About an axis across it through its centre, kg m^2.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-12, max = 1e6)))]
+    pub transverse: f64,
 }
 
 impl SpatialRing {

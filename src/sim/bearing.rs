@@ -1,22 +1,47 @@
 //! The model as the integrator sees it: with its workspace, inputs and counts.
 
 use super::limits::RunLimits;
-use super::linear::jacobian::Slopes;
+use super::linear::jacobian::AnySlopes;
 use crate::bodies::Power;
 use crate::integrate::{
     Applied, GroupDamping, Interruption, Linearization, Linearized, Observed, SemiImplicit, Split, Structure,
     Structured, System, Tuning, Vibration,
 };
+use crate::model::space::{self, Space};
 use crate::model::{
-    Energy, Fault, FaultCounts, Forces, HostInputs, Input, LawCounts, Model, OF_ELEMENT, POWERS, PartTimes,
-    Plane, RATES, Reading, Workspace,
+    Energy, Fault, FaultCounts, Forces, HostInputs, Input, LawCounts, Model, OF_BALL, OF_ELEMENT, POWERS,
+    PartTimes, Plane, RATES, Reading, Workspace, plane,
 };
 use std::sync::Arc;
 
+/// Why a method never asks a bearing for spokes of another width.
+const WRONG_SPOKES: &str = "methods are made for the spokes of their bearing";
+
+/// A bearing with its memory, by the space in which it moves.
+enum Moving {
+    Plane(Arc<Plane>, Workspace),
+    Space(Arc<Space>, space::Workspace),
+}
+
+/// Does the same with the bearing and its workspace, whichever it is.
+macro_rules! of_moving {
+    ($self:ident, $bearing:ident, $workspace:ident => $work:expr) => {
+        match &mut $self.moving {
+            Moving::Plane($bearing, $workspace) => $work,
+            Moving::Space($bearing, $workspace) => $work,
+        }
+    };
+    (ref $self:ident, $bearing:ident, $workspace:ident => $work:expr) => {
+        match &$self.moving {
+            Moving::Plane($bearing, $workspace) => $work,
+            Moving::Space($bearing, $workspace) => $work,
+        }
+    };
+}
+
 pub(super) struct Bearing {
     model: Arc<Model>,
-    plane: Arc<Plane>,
-    workspace: Workspace,
+    moving: Moving,
     host: HostInputs,
     evaluations: u64,
     jacobians: u64,
@@ -42,17 +67,27 @@ struct StepMemory {
 
 impl Bearing {
     pub(super) fn new(model: Arc<Model>, tuning: Tuning) -> crate::Result<Self> {
-        let plane = model.plane()?.clone();
-        let workspace = Workspace::new(&plane);
+        let moving = match model.space() {
+            Some(space) => Moving::Space(space.clone(), space::Workspace::new(space)),
+            None => {
+                let plane = model.plane()?.clone();
+                let workspace = Workspace::new(&plane);
+                Moving::Plane(plane, workspace)
+            }
+        };
+        let groups = match &moving {
+            Moving::Plane(plane, _) => plane.structure().groups().len(),
+            Moving::Space(space, _) => space.structure().groups().len(),
+        };
         let layout = model.layout();
         Ok(Self {
-            workspace,
+            moving,
             host: HostInputs::default(),
             evaluations: 0,
             jacobians: 0,
             fault_counts: FaultCounts::default(),
             last_fault: None,
-            rejections: vec![0; plane.structure().groups().len()],
+            rejections: vec![0; groups],
             limits: RunLimits::default(),
             tuning,
             start_energy: model.energy_giving_film().map(|_| 0.0),
@@ -62,7 +97,6 @@ impl Bearing {
                 a: Vec::with_capacity(layout.velocities()),
             },
             model,
-            plane,
         })
     }
 
@@ -70,12 +104,8 @@ impl Bearing {
         &self.model
     }
 
-    pub(super) fn plane(&self) -> &Plane {
-        &self.plane
-    }
-
     pub(super) fn describe(&self, fault: Fault) -> String {
-        self.plane.describe(fault)
+        self.model.describe(fault)
     }
 
     pub(super) fn tuning(&self) -> Tuning {
@@ -100,7 +130,7 @@ impl Bearing {
     }
 
     pub(super) fn law_counts(&self) -> LawCounts {
-        self.workspace.law_counts()
+        of_moving!(ref self, _bearing, workspace => workspace.law_counts())
     }
 
     pub(super) fn jacobians(&self) -> u64 {
@@ -109,7 +139,7 @@ impl Bearing {
 
     pub(super) fn set_counts(&mut self, [evaluations, jacobians]: [u64; 2], law_counts: LawCounts) {
         (self.evaluations, self.jacobians) = (evaluations, jacobians);
-        self.workspace.set_law_counts(law_counts);
+        of_moving!(self, _bearing, workspace => workspace.set_law_counts(law_counts));
     }
 
     pub(super) fn fault_counts(&self) -> &FaultCounts {
@@ -144,7 +174,7 @@ impl Bearing {
 
     /// Name of the body of a group.
     pub(super) fn group_name(&self, group: usize) -> Option<String> {
-        self.plane.group_name(group)
+        of_moving!(ref self, bearing, _workspace => bearing.group_name(group))
     }
 
     pub(super) fn reset(&mut self) {
@@ -158,10 +188,12 @@ impl Bearing {
     pub(super) fn accelerations_at(&mut self, t: f64, state: &[f64], a: &mut [f64]) -> Result<(), Fault> {
         let (q, v) = state.split_at(self.model.layout().positions());
         let inputs = self.model.inputs_at(t, &self.host);
-        self.workspace.set_counting(false);
-        let result = self.plane.accelerations(&inputs, q, v, &mut self.workspace, a);
-        self.workspace.set_counting(true);
-        result
+        of_moving!(self, bearing, workspace => {
+            workspace.set_counting(false);
+            let result = bearing.accelerations(&inputs, q, v, workspace, a);
+            workspace.set_counting(true);
+            result
+        })
     }
 
     /// Accelerations of a state vector and their derivatives; not counted as an evaluation of the integration.
@@ -170,20 +202,47 @@ impl Bearing {
         t: f64,
         state: &[f64],
         a: &mut [f64],
-        slopes: &mut Slopes,
+        slopes: &mut AnySlopes,
     ) -> Result<(), Fault> {
-        self.workspace.set_differentiating(true);
+        self.set_differentiating(true);
         let evaluated = self.accelerations_at(t, state, a);
-        self.workspace.set_differentiating(false);
+        self.set_differentiating(false);
         evaluated?;
         let rates = self.model.input_rates_at(t, &self.host);
-        self.plane.linearize(&mut self.workspace, &rates, &mut slopes.linearization);
+        match (&mut self.moving, slopes) {
+            (Moving::Plane(plane, workspace), AnySlopes::Plane(slopes)) => {
+                plane.linearize(workspace, &rates, &mut slopes.linearization);
+            }
+            (Moving::Space(space, workspace), AnySlopes::Space(slopes)) => {
+                space.linearize(workspace, &rates, &mut slopes.linearization);
+            }
+            _ => unreachable!("slopes are made for their bearing"),
+        }
         Ok(())
+    }
+
+    /// Whether evaluations find more for derivatives in the same pass.
+    fn set_differentiating(&mut self, differentiating: bool) {
+        if let Moving::Plane(_, workspace) = &mut self.moving {
+            workspace.set_differentiating(differentiating);
+        }
+    }
+
+    /// Memory for derivatives of the accelerations.
+    pub(super) fn new_slopes(&self) -> AnySlopes {
+        AnySlopes::new(&self.model)
+    }
+
+    /// Whether evaluations find more for the damping of a step in the same pass.
+    fn set_splitting(&mut self, splitting: bool) {
+        if let Moving::Plane(_, workspace) = &mut self.moving {
+            workspace.set_splitting(splitting);
+        }
     }
 
     /// Energy of the last evaluated state.
     pub(super) fn energy(&self) -> Energy {
-        self.plane.energy(&self.workspace)
+        of_moving!(ref self, bearing, workspace => bearing.energy(workspace))
     }
 
     /// Says what was stored when the works of the run began, J.
@@ -201,22 +260,31 @@ impl Bearing {
     }
 
     pub(super) fn set_vector_instructions(&mut self, vector: bool) {
-        self.workspace.set_vector_instructions(vector);
+        of_moving!(self, _bearing, workspace => workspace.set_vector_instructions(vector));
     }
 
     /// Wall time of each part of an evaluation at a state, s; not counted.
     pub(super) fn time_parts(&mut self, t: f64, state: &[f64], repeats: u32) -> Result<PartTimes, Fault> {
         let state = state.split_at(self.model.layout().positions());
         let inputs = self.model.inputs_at(t, &self.host);
-        self.workspace.set_counting(false);
-        let times = self.plane.time_parts(&inputs, state, &mut self.workspace, repeats);
-        self.workspace.set_counting(true);
-        times
+        of_moving!(self, bearing, workspace => {
+            workspace.set_counting(false);
+            let times = bearing.time_parts(&inputs, state, workspace, repeats);
+            workspace.set_counting(true);
+            times
+        })
     }
 
     pub(super) fn report(&self, state: &[f64], a: &[f64], out: &mut Forces) {
         let (q, v) = state.split_at(self.model.layout().positions());
-        self.plane.report(q, v, &self.workspace, a, out);
+        match &self.moving {
+            Moving::Plane(plane, workspace) => plane.report(q, v, workspace, a, out),
+            Moving::Space(space, workspace) => {
+                out.accelerations.clear();
+                out.accelerations.extend_from_slice(a);
+                space.report(workspace, &mut out.space);
+            }
+        }
     }
 
     /// Writes the forces of a step that began at time `t` (s) into `out`, with the bodies at `state`.
@@ -240,7 +308,7 @@ impl Bearing {
         let evaluated = self.accelerations_at(t + 0.5 * step.h, &middle, &mut a);
         if evaluated.is_ok() {
             let change = SemiImplicit { mean: &mean, end: end_v, h: step.h };
-            self.plane.apply_step(step.predicted, &change, &mut self.workspace);
+            of_moving!(self, bearing, workspace => bearing.apply_step(step.predicted, &change, workspace));
             self.report(state, &a, out);
         }
         self.memory = StepMemory { middle, mean, a };
@@ -251,7 +319,15 @@ impl Bearing {
     pub(super) fn reading<'a>(&'a self, t: f64, state: &'a [f64], forces: &'a Forces) -> Reading<'a> {
         let inputs = self.model.inputs_at(t, &self.host);
         let (q, v) = state.split_at(self.model.layout().positions());
-        Reading::new(&self.plane, [q, v], inputs, &self.workspace, forces)
+        match &self.moving {
+            Moving::Plane(plane, workspace) => {
+                Reading::Plane(plane::Reading::new(plane, [q, v], inputs, workspace, forces))
+            }
+            Moving::Space(space, workspace) => {
+                let (space, ws, forces) = (&**space, workspace, &forces.space);
+                Reading::Space(space::Reading { space, ws, inputs, q, v, forces })
+            }
+        }
     }
 }
 
@@ -269,7 +345,7 @@ impl System for Bearing {
     fn accelerations(&mut self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> Result<(), Fault> {
         self.evaluations += 1;
         let inputs = self.model.inputs_at(t, &self.host);
-        self.plane.accelerations(&inputs, q, v, &mut self.workspace, a)
+        of_moving!(self, bearing, workspace => bearing.accelerations(&inputs, q, v, workspace, a))
     }
 
     fn not_finite(&self, velocity: usize) -> Fault {
@@ -281,65 +357,91 @@ impl System for Bearing {
     }
 
     fn longest_step(&self, t: f64, q: &[f64], v: &[f64], wanted: f64) -> f64 {
-        self.plane.longest_step(t, [q, v], &self.host, wanted, &self.tuning)
+        match &self.moving {
+            Moving::Plane(plane, _) => plane.longest_step(t, [q, v], &self.host, wanted, &self.tuning),
+            Moving::Space(space, _) => space.longest_step(&self.host, &self.tuning),
+        }
     }
 
-    /// Rollers, then the ring, the cage and nodes, whichever exist.
+    /// Elements, then the ring, the cage and nodes, whichever exist.
     fn groups(&self) -> Vec<Vec<usize>> {
-        self.structure().groups()
+        of_moving!(ref self, bearing, _workspace => bearing.structure().groups())
     }
 }
 
-impl Structured<OF_ELEMENT> for Bearing {
-    fn structure(&self) -> Structure<OF_ELEMENT> {
-        self.plane.structure()
-    }
+/// What methods ask beside accelerations, with spokes as wide as an element has speeds. A method has those of its bearing.
+macro_rules! with_spokes {
+    ($spoke:expr, $moving:ident) => {
+        impl Structured<{ $spoke }> for Bearing {
+            fn structure(&self) -> Structure<{ $spoke }> {
+                match &self.moving {
+                    Moving::$moving(bearing, _) => bearing.structure(),
+                    _ => unreachable!("{WRONG_SPOKES}"),
+                }
+            }
+        }
+
+        impl Linearized<{ $spoke }> for Bearing {
+            fn linearize(
+                &mut self,
+                t: f64,
+                q: &[f64],
+                v: &[f64],
+                a: &mut [f64],
+                out: &mut Linearization<{ $spoke }>,
+            ) -> Result<(), Fault> {
+                self.set_differentiating(true);
+                let evaluated = self.accelerations(t, q, v, a);
+                self.set_differentiating(false);
+                evaluated?;
+                self.jacobians += 1;
+                let rates = self.model.input_rates_at(t, &self.host);
+                match &mut self.moving {
+                    Moving::$moving(bearing, workspace) => bearing.linearize(workspace, &rates, out),
+                    _ => unreachable!("{WRONG_SPOKES}"),
+                }
+                Ok(())
+            }
+
+            fn linearization_cost(&self) -> f64 {
+                of_moving!(ref self, bearing, _workspace => bearing.jacobian_cost())
+            }
+        }
+
+        impl Split<{ $spoke }> for Bearing {
+            fn accelerations_to_split(
+                &mut self,
+                t: f64,
+                q: &[f64],
+                v: &[f64],
+                a: &mut [f64],
+            ) -> Result<(), Fault> {
+                self.set_splitting(true);
+                let evaluated = self.accelerations(t, q, v, a);
+                self.set_splitting(false);
+                evaluated
+            }
+
+            fn damping(&mut self, h: f64, _q: &[f64], _v: &[f64], out: &mut GroupDamping<{ $spoke }>) {
+                match &mut self.moving {
+                    Moving::$moving(bearing, workspace) => bearing.damping(h, workspace, out),
+                    _ => unreachable!("{WRONG_SPOKES}"),
+                }
+            }
+
+            fn react(&mut self, _q: &[f64], v: &[f64], step: &SemiImplicit<'_>, a: &mut [f64]) {
+                of_moving!(self, bearing, workspace => bearing.react(v, step, workspace, a));
+            }
+
+            fn admit(&self, v: &[f64]) -> Result<(), Fault> {
+                of_moving!(ref self, bearing, _workspace => bearing.admit(v))
+            }
+        }
+    };
 }
 
-impl Linearized<OF_ELEMENT> for Bearing {
-    fn linearize(
-        &mut self,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
-        a: &mut [f64],
-        out: &mut Linearization<OF_ELEMENT>,
-    ) -> Result<(), Fault> {
-        self.workspace.set_differentiating(true);
-        let evaluated = self.accelerations(t, q, v, a);
-        self.workspace.set_differentiating(false);
-        evaluated?;
-        self.jacobians += 1;
-        let rates = self.model.input_rates_at(t, &self.host);
-        self.plane.linearize(&mut self.workspace, &rates, out);
-        Ok(())
-    }
-
-    fn linearization_cost(&self) -> f64 {
-        self.plane.jacobian_cost()
-    }
-}
-
-impl Split<OF_ELEMENT> for Bearing {
-    fn accelerations_to_split(&mut self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> Result<(), Fault> {
-        self.workspace.set_splitting(true);
-        let evaluated = self.accelerations(t, q, v, a);
-        self.workspace.set_splitting(false);
-        evaluated
-    }
-
-    fn damping(&mut self, h: f64, _q: &[f64], _v: &[f64], out: &mut GroupDamping<OF_ELEMENT>) {
-        self.plane.damping(h, &mut self.workspace, out);
-    }
-
-    fn react(&mut self, _q: &[f64], v: &[f64], step: &SemiImplicit<'_>, a: &mut [f64]) {
-        self.plane.react(v, step, &mut self.workspace, a);
-    }
-
-    fn admit(&self, v: &[f64]) -> Result<(), Fault> {
-        self.plane.admit(v)
-    }
-}
+with_spokes!(OF_ELEMENT, Plane);
+with_spokes!(OF_BALL, Space);
 
 impl Observed for Bearing {
     fn overdrawn(&self, [before, last]: [&[f64]; 2]) -> Option<Fault> {
@@ -352,7 +454,7 @@ impl Observed for Bearing {
     }
 
     fn vibration(&self) -> Vibration {
-        self.workspace.vibration()
+        of_moving!(ref self, _bearing, workspace => workspace.vibration())
     }
 
     fn power_count(&self) -> [usize; 2] {
@@ -360,11 +462,11 @@ impl Observed for Bearing {
     }
 
     fn powers(&mut self, _q: &[f64], v: &[f64], step: Option<&SemiImplicit<'_>>, out: &mut [f64]) {
-        self.plane.powers(v, step, &mut self.workspace, out);
+        of_moving!(self, bearing, workspace => bearing.powers(v, step, workspace, out));
     }
 
     fn energy(&self, _q: &[f64], _v: &[f64]) -> [f64; 3] {
-        let Energy { kinetic, elastic, potential } = self.plane.energy(&self.workspace);
+        let Energy { kinetic, elastic, potential } = Bearing::energy(self);
         [kinetic, elastic, potential]
     }
 
@@ -373,7 +475,7 @@ impl Observed for Bearing {
     }
 
     fn watch(&mut self, _q: &[f64], v: &[f64], step: Option<&SemiImplicit<'_>>, out: &mut [f64]) {
-        self.plane.watch(v, step, &mut self.workspace, out);
+        of_moving!(self, bearing, workspace => bearing.watch(v, step, workspace, out));
     }
 
     fn interruption(&mut self) -> Option<Interruption> {

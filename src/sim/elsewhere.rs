@@ -4,7 +4,8 @@
 use super::errors::{check_time, wrong_size};
 use super::{Evaluated, Sim};
 use crate::error::Result;
-use crate::model::{Energy, Forces};
+use crate::integrate::Observed;
+use crate::model::{Energy, Forces, POWERS, RATES};
 
 impl Sim {
     /// Rate of an arbitrary state at time `t` (s), for hosts with their own integrator. The simulation's own state
@@ -63,6 +64,21 @@ impl Sim {
     pub fn energy_at(&mut self, t: f64, state: &[f64]) -> Result<Energy> {
         self.evaluate_at(t, state)?;
         Ok(self.bearing.energy())
+    }
+
+    /// Powers that go into the bearing at an arbitrary state and time `t` (s), W, in the order of [`POWERS`]. They are the rate of the
+    /// energy there.
+    ///
+    /// # Errors
+    /// As [`Sim::derivative`].
+    pub fn powers_at(&mut self, t: f64, state: &[f64]) -> Result<[f64; POWERS.len()]> {
+        self.evaluate_at(t, state)?;
+        let (q, v) = state.split_at(self.model().layout().positions());
+        let mut rates = [0.0; RATES];
+        Observed::powers(&mut self.bearing, q, v, None, &mut rates);
+        let mut powers = [0.0; POWERS.len()];
+        powers.copy_from_slice(&rates[..POWERS.len()]);
+        Ok(powers)
     }
 
     /// Finds the accelerations there.

@@ -4,8 +4,10 @@ use super::bearing::Bearing;
 use super::preset::{CAREFUL_STEP, Numbers, UNDAMPED_SHARE, numbers};
 use crate::integrate::auto::stability::Expectation;
 use crate::integrate::auto::{Aim, Auto, Choice, Kind, Reason};
-use crate::integrate::{Adams, DormandPrince, Leapfrog, Limits, Radau, Rosenbrock, Stepper, Tuning};
-use crate::model::Model;
+use crate::integrate::{
+    Adams, DormandPrince, Leapfrog, Limits, Linearized, Radau, Rosenbrock, Split, Stepper, Tuning,
+};
+use crate::model::{Model, OF_BALL, OF_ELEMENT};
 use crate::scene::{Method, Solver};
 
 /// Largest step of methods with error control, unless the scene says otherwise, in units of 1/(frequency of contacts): half
@@ -20,15 +22,30 @@ const FIRST_STEP: f64 = 0.1;
 
 /// The method that is asked for.
 pub(super) fn stepper(model: &Model, solver: &Solver, bearing: &Bearing) -> Box<dyn Stepper<Bearing> + Send> {
+    match model.space() {
+        Some(_) => stepper_of::<OF_BALL>(model, solver, bearing),
+        None => stepper_of::<OF_ELEMENT>(model, solver, bearing),
+    }
+}
+
+/// That for spokes of so many velocities.
+fn stepper_of<const N: usize>(
+    model: &Model,
+    solver: &Solver,
+    bearing: &Bearing,
+) -> Box<dyn Stepper<Bearing> + Send>
+where
+    Bearing: Linearized<N> + Split<N>,
+{
     let tolerance = solver.method.tolerance().unwrap_or(numbers(solver.preset).tolerance);
     let tolerances: Vec<f64> = model.state_scales().iter().map(|unit| tolerance * unit).collect();
     match &solver.method {
-        Method::Auto(_) => Box::new(Auto::new(bearing, aim(model, solver, bearing.tuning()))),
-        Method::Leapfrog(_) => Box::new(Leapfrog::new(bearing)),
+        Method::Auto(_) => Box::new(Auto::<N>::new(bearing, aim(model, solver, bearing.tuning()))),
+        Method::Leapfrog(_) => Box::new(Leapfrog::<N>::new(bearing)),
         Method::DormandPrince(_) => Box::new(DormandPrince::new(bearing, &tolerances)),
         Method::Adams(_) => Box::new(Adams::new(bearing, &tolerances)),
-        Method::Rosenbrock(_) => Box::new(Rosenbrock::new(bearing, &tolerances)),
-        Method::Radau(_) => Box::new(Radau::new(bearing, &tolerances)),
+        Method::Rosenbrock(_) => Box::new(Rosenbrock::<N>::new(bearing, &tolerances)),
+        Method::Radau(_) => Box::new(Radau::<N>::new(bearing, &tolerances)),
     }
 }
 
@@ -58,7 +75,7 @@ fn bound(solver: &Solver) -> f64 {
 
 /// Largest step of error control, s.
 fn largest_step(model: &Model, solver: &Solver) -> f64 {
-    solver.max_step.unwrap_or_else(|| match model.has_rollers() {
+    solver.max_step.unwrap_or_else(|| match model.rolls() {
         true => MAX_STEP,
         false => (LARGEST_SHARE / model.contact_frequency()).min(MAX_STEP),
     })
@@ -74,7 +91,7 @@ fn first_step(model: &Model, solver: &Solver) -> f64 {
 fn aim(model: &Model, solver: &Solver, tuning: Tuning) -> Aim {
     let asked = solver.method.tolerance();
     let Numbers { statistics, leapfrog_step, auto_tolerance, watched_energy, .. } = numbers(solver.preset);
-    let statistics = statistics && model.has_rollers() && asked.is_none();
+    let statistics = statistics && model.rolls() && asked.is_none();
     let units = model.state_scales();
     Aim {
         statistics,

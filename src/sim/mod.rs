@@ -32,7 +32,7 @@ use crate::scene::{Preset, Solver};
 use bearing::Bearing;
 pub(crate) use errors::check_time;
 use errors::{bad_index, wrong_size};
-use linear::jacobian::Slopes;
+use linear::jacobian::AnySlopes;
 use linear::newton::Newton;
 use std::sync::Arc;
 
@@ -73,7 +73,7 @@ pub struct Sim {
     output_forces: Forces,
     accelerations: Vec<f64>,
     /// Made when they are first asked for.
-    slopes: Option<Slopes>,
+    slopes: Option<AnySlopes>,
     newton: Option<Box<Newton>>,
     /// What the workspace, and with it `forces` or `output_forces`, belongs to.
     evaluated: Evaluated,

@@ -16,6 +16,15 @@ use crate::scalar::Numeric;
 /// A vector.
 pub type Vector<T> = [T; 3];
 
+/// Motion of a body: velocity of its centre, m/s, and angular velocity, rad/s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moving<T> {
+    /// Of the centre.
+    pub velocity: Vector<T>,
+    /// Of the body.
+    pub turning: Vector<T>,
+}
+
 /// Largest tilt that the series are for, rad: a bearing that tilts so far is none.
 pub const LARGEST_TILT: f64 = 0.3;
 
@@ -60,6 +69,17 @@ pub struct Tilt<T> {
     coefficients: [T; 2],
 }
 
+/// Turning of the frame of a body that does not spin, in its own axes, rad/s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Across<T> {
+    /// w_2 and w_3, across the own axis.
+    pub speed: [T; 2],
+    /// Their rates at constant rates of the angles, rad/s^2.
+    pub drift: [T; 2],
+    /// W_1, about it.
+    pub own: T,
+}
+
 /// 1 - x/m_1 (1 - x/m_2 (1 - ...)) over these divisors.
 #[inline(always)]
 fn series<T: Numeric, const N: usize>(x: T, divisors: [f64; N]) -> T {
@@ -90,6 +110,40 @@ impl<T: Numeric> Tilt<T> {
         // T x T' = (a b' - b a', 0, 0).
         let turn = a * db - b * da;
         [first * turn, da + second * b * turn, db - second * a * turn]
+    }
+
+    /// How the angular velocity across the own axis, in the axes of the frame of the body that does not spin, follows from the rates of
+    /// the angles: that and its rate at constant rates of the angles; and the angular velocity of this frame about the own axis, rad/s.
+    #[inline(always)]
+    pub fn across(&self, [da, db]: [T; 2]) -> Across<T> {
+        let ([a, b], [first, second]) = (self.angles, self.coefficients);
+        let turn = a * db - b * da;
+        let x = a * a + b * b;
+        let slope = series(x, [21.0, 48.0, 82.5, 124.8, 175.0]) * (-1.0 / 120.0);
+        let rate = slope * (a * da + b * db) * 2.0;
+        Across {
+            speed: [da + second * b * turn, db - second * a * turn],
+            drift: [(rate * b + second * db) * turn, -(rate * a + second * da) * turn],
+            own: -(first * turn),
+        }
+    }
+
+    /// Derivatives of [`Tilt::across`] over the rates of the angles: by row those of one component.
+    #[inline(always)]
+    pub fn over_rates(&self) -> [[T; 2]; 2] {
+        let ([a, b], [_, second]) = (self.angles, self.coefficients);
+        let mixed = second * a * b;
+        [[-(second * b * b) + 1.0, mixed], [mixed, -(second * a * a) + 1.0]]
+    }
+
+    /// Components of a vector along the two axes across the own one of the frame of the body that does not spin.
+    #[inline(always)]
+    pub fn crosswise(&self, v: Vector<T>) -> [T; 2] {
+        let ([a, b], [first, _]) = (self.angles, self.coefficients);
+        let [_, sb, sa] = self.axis;
+        let mixed = first * a * b;
+        let [second, third] = [[-sb, -(first * b * b) + 1.0, mixed], [-sa, mixed, -(first * a * a) + 1.0]];
+        [dot(second, v), dot(third, v)]
     }
 
     /// Moments over the angles, N m, of this moment (N m) on a body that does not turn in its own frame: their power is that of the

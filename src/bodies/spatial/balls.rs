@@ -9,7 +9,9 @@
 //! The terms with psi' are the whole gyroscopic effect. A sphere has no orientation.
 
 use crate::bodies::{Coordinate, ElementSet, Moves};
+use crate::scalar::{Base, Of};
 use crate::scene::Scene;
+use crate::space::solid::Vector;
 
 /// Balls with states of their own.
 #[derive(Debug)]
@@ -19,7 +21,10 @@ pub(crate) struct Balls {
     mass: f64,
 }
 
-const COORDINATES: [Coordinate; 6] = [
+/// Speeds of a ball.
+pub(crate) const OF_BALL: usize = 6;
+
+const COORDINATES: [Coordinate; OF_BALL] = [
     Coordinate {
         position: Some(["axial_offset", "m", "place along the axis of the bearing"]),
         rate: ["axial_speed", "m/s", "rate of the axial offset"],
@@ -69,5 +74,26 @@ impl Balls {
         let scale = 1.0 + self.set.radius_excess[j] / self.set.radius;
         let (mass, radius) = (self.mass * scale * scale * scale, self.set.radius * scale);
         [mass, 0.4 * mass * radius * radius]
+    }
+
+    /// Accelerations of its six speeds (x', rho', psi', w_x, w_r, w_psi) at a distance `r` (m) from the axis, under this force (N) and moment
+    /// (N m) in the axes of its azimuth and gravity outwards and along the orbit, m/s^2.
+    #[inline(always)]
+    pub(crate) fn accelerations<B: Base, T: Of<B>>(
+        [mass, inertia]: [B; 2],
+        r: T,
+        speeds: [T; OF_BALL],
+        [[fx, fr, ft], [mx, mr, mt]]: [Vector<T>; 2],
+        [outwards, ahead]: [T; 2],
+    ) -> [T; OF_BALL] {
+        let [_, rho, orbit, _, wr, wt] = speeds;
+        [
+            fx / mass,
+            fr / mass + r * orbit * orbit + outwards,
+            (ft / mass - rho * orbit * 2.0 + ahead) / r,
+            mx / inertia,
+            mr / inertia + orbit * wt,
+            mt / inertia - orbit * wr,
+        ]
     }
 }

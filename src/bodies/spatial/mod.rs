@@ -3,8 +3,8 @@
 mod balls;
 mod ring;
 
-pub(crate) use balls::Balls;
-pub(crate) use ring::{RING_COORDINATES, RingInSpace};
+pub(crate) use balls::{Balls, OF_BALL};
+pub(crate) use ring::{MovingRing, RING_COORDINATES, RingInSpace, RingState};
 
 /// Coordinates of a ring in space.
 pub(crate) const OF_RING: usize = 5;

@@ -25,6 +25,7 @@ mod tests;
 mod works;
 mod workspace;
 
+pub(in crate::model) use integration::costs::shortest;
 pub use integration::costs::{PARTS, PartTimes};
 pub use report::{CONTACT_QUANTITIES, ContactForces, FORCE_COMPONENTS, Forces, GuideReport};
 pub(crate) use report::{Reading, Source};

@@ -1,11 +1,28 @@
 //! A bearing whose balls and inner ring move in space.
 
+mod costs;
+mod evaluate;
+mod initial;
+mod linearize;
+mod report;
+pub(crate) mod rest;
 mod scales;
+mod step;
+mod workspace;
 
+pub(crate) use report::{Reading, Source};
+pub use report::{
+    SPATIAL_CONTACT_QUANTITIES, SPATIAL_FORCE_COMPONENTS, SpatialBodyForces, SpatialContact, SpatialForces,
+};
+pub use workspace::Workspace;
+
+use super::faults::{Names, in_words};
 use super::signals::InputSignals;
-use super::{Layout, Quantity, StateInfo, quantity};
-use crate::bodies::{Balls, Coordinate, RING_COORDINATES, RingInSpace};
+use super::{HostInputs, Layout, Quantity, StateInfo, quantity};
+use crate::bodies::{Balls, Coordinate, Fault, Owner, RING_COORDINATES, RingInSpace};
 use crate::error::Result;
+use crate::integrate::Tuning;
+use crate::pairs::Law;
 use crate::pairs::groove::{Fit, Race, angle_of_drop, fit, races};
 use crate::scene::Scene;
 use std::sync::Arc;
@@ -13,7 +30,7 @@ use std::sync::Arc;
 /// Names of the bodies before the balls.
 const RINGS: [&str; 2] = ["outer_ring", "inner_ring"];
 /// Contacts of every ball.
-const CONTACTS: [&str; 2] = ["outer_raceway", "inner_raceway"];
+const RACES: [&str; 2] = ["outer_raceway", "inner_raceway"];
 
 /// A bearing in space.
 #[derive(Debug)]
@@ -27,6 +44,8 @@ pub struct Space {
     pub(crate) balls: Balls,
     /// Of outer and inner ring.
     pub(crate) races: [Race; 2],
+    /// Channels that are followed in every step.
+    watched: Vec<Source>,
 }
 
 impl Space {
@@ -40,12 +59,38 @@ impl Space {
         let of_balls = [balls.set.count, balls.coordinates().len() - spins, spins];
         let layout = Layout::new([0, ring.free().count(), 0], of_balls, false, Vec::new());
         let gravity = scene.gravity.map_or([0.0; 2], |g| [g.y, g.z]);
-        Ok(Some(Self { scene, inputs, layout, gravity, ring, balls, races }))
+        Ok(Some(Self { scene, inputs, layout, gravity, ring, balls, races, watched: Vec::new() }))
     }
 
     /// Order of the coordinates in the state vector.
     pub(crate) fn layout(&self) -> &Layout {
         &self.layout
+    }
+
+    /// The longest step (s) from time `t` in which no signal is passed unseen.
+    pub(crate) fn longest_step(&self, host: &HostInputs, tuning: &Tuning) -> f64 {
+        self.inputs.shortest_period(host) / tuning.steps_per_period
+    }
+
+    /// Name of the body of a group of velocities.
+    pub(crate) fn group_name(&self, group: usize) -> Option<String> {
+        match self.layout.owner_of_group(group) {
+            Owner::Element(j) => Some(format!("ball[{j}]")),
+            Owner::Shared(_) => Some(RINGS[1].to_owned()),
+            Owner::Node(_) => None,
+        }
+    }
+
+    /// A fault in words.
+    pub(crate) fn describe(&self, fault: Fault) -> String {
+        let names = Names {
+            element: self.element_kind(),
+            states: &|| self.state_infos(),
+            positions: self.layout.positions(),
+            contacts: &|| self.contact_names(),
+            giving: None,
+        };
+        in_words(fault, &names)
     }
 
     /// What the elements are called in names.
@@ -70,7 +115,14 @@ impl Space {
 
     /// The laws that it uses, each with the largest number of contacts it can act in.
     pub(crate) fn laws_in_use(&self) -> Vec<(&'static str, usize)> {
-        CONTACTS.iter().map(|contact| (*contact, self.element_count())).collect()
+        let mut most = [0; Law::ALL.len()];
+        for (race, law) in [Law::OuterRaceway, Law::InnerRaceway].into_iter().enumerate() {
+            for law in std::iter::once(law).chain(self.parts(race)) {
+                most[law as usize] += self.element_count();
+            }
+        }
+        most[Law::ViscosityTemperature as usize] += usize::from(self.inputs.oil.is_some());
+        Law::ALL.iter().map(|law| (law.name(), most[*law as usize])).filter(|(_, n)| *n > 0).collect()
     }
 
     /// Names of the bodies: outer ring, inner ring, balls.
@@ -81,7 +133,7 @@ impl Space {
 
     /// Names of all contacts, those of a ball together.
     pub(crate) fn contact_names(&self) -> Vec<String> {
-        let of_ball = |j: usize| CONTACTS.map(|contact| format!("ball[{j}].{contact}"));
+        let of_ball = |j: usize| RACES.map(|contact| format!("ball[{j}].{contact}"));
         (0..self.balls.set.count).flat_map(of_ball).collect()
     }
 

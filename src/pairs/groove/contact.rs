@@ -13,25 +13,11 @@
 //! All vectors are in the axes of the ball's azimuth. Source: kinematics; the film pressure is that of line contacts.
 
 use super::geometry::{Groove, RingPlace, Touch};
+use crate::bodies::MovingRing;
 use crate::laws::elastic::point::ElasticPoint;
 use crate::laws::point_contact::{PointContact, PointForce, PointMotion};
 use crate::scalar::{Base, Of};
-use crate::space::solid::{Vector, cross, difference, dot, scaled, sum};
-
-/// Motion of a body: velocity of its centre, m/s, and angular velocity, rad/s.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Moving<T> {
-    pub(crate) velocity: Vector<T>,
-    pub(crate) turning: Vector<T>,
-}
-
-/// Motion of a ring: with its axis a and its speed about that, rad/s.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct MovingRing<T> {
-    pub(crate) moving: Moving<T>,
-    pub(crate) axis: Vector<T>,
-    pub(crate) speed: T,
-}
+use crate::space::solid::{Moving, Vector, cross, difference, dot, scaled, sum};
 
 /// Force, N, and moment about the centre of the body, N m.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,30 +36,48 @@ pub(crate) struct InGroove<'a, B, T> {
     pub(crate) moving: &'a Moving<T>,
 }
 
-/// A contact: its forces, and what these do to ball and ring.
+/// A contact: how it moves, its forces, and what these do to ball and ring.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Contact<T> {
+    pub(crate) motion: PointMotion<T>,
     pub(crate) force: PointForce<T>,
     pub(crate) on_ball: OnBody<T>,
     pub(crate) on_ring: OnBody<T>,
 }
 
 impl<B: Base, T: Of<B>> InGroove<'_, B, T> {
-    /// The contact with a ring whose centre is at `centre` (m), under these laws at a viscosity of e^`ln_viscosity` times theirs.
+    /// R of this ball, m.
     #[inline(always)]
-    pub(crate) fn contact(
-        &self,
-        laws: &PointContact,
-        centre: Vector<T>,
-        ring: &MovingRing<T>,
-        ln_viscosity: T,
-    ) -> Contact<T> {
-        let radius = self.groove.ball_radius + self.excess;
-        let touch = self.groove.touch(self.at, self.excess, &RingPlace { centre, axis: ring.axis });
-        let motion = motion(&touch, radius, self.moving, ring);
+    fn radius(&self) -> B {
+        self.groove.ball_radius + self.excess
+    }
+
+    /// Where it touches a ring.
+    #[inline(always)]
+    pub(crate) fn touch(&self, ring: &MovingRing<T>) -> Touch<T> {
+        self.groove.touch(self.at, self.excess, &RingPlace { centre: ring.centre, axis: ring.axis })
+    }
+
+    /// How both surfaces move there.
+    #[inline(always)]
+    pub(crate) fn motion(&self, touch: &Touch<T>, ring: &MovingRing<T>) -> PointMotion<T> {
+        motion(touch, self.radius(), self.moving, ring)
+    }
+
+    /// What these forces there do to ball and ring.
+    #[inline(always)]
+    pub(crate) fn wrenches(&self, touch: &Touch<T>, force: &PointForce<T>) -> [OnBody<T>; 2] {
+        wrenches(touch, self.radius(), force)
+    }
+
+    /// The contact with a ring under these laws at a viscosity of e^`ln_viscosity` times theirs.
+    #[inline(always)]
+    pub(crate) fn contact(&self, laws: &PointContact, ring: &MovingRing<T>, ln_viscosity: T) -> Contact<T> {
+        let touch = self.touch(ring);
+        let motion = self.motion(&touch, ring);
         let force = laws.force(self.elastic, &motion, ln_viscosity);
-        let [on_ball, on_ring] = wrenches(&touch, radius, &force);
-        Contact { force, on_ball, on_ring }
+        let [on_ball, on_ring] = self.wrenches(&touch, &force);
+        Contact { motion, force, on_ball, on_ring }
     }
 }
 
@@ -155,6 +159,7 @@ mod tests {
         let tilting = tilt.angular_velocity(rates);
         let own = speed - dot(tilting, tilt.axis);
         let ring = MovingRing {
+            centre: [0.0; 3],
             moving: Moving { velocity: [0.01, -0.02, 0.03], turning: sum(tilting, scaled(tilt.axis, own)) },
             axis: tilt.axis,
             speed,
@@ -237,6 +242,7 @@ mod tests {
         let rate = groove.touch([moved(0), moved(1)], 0.0, &lifted).delta.eps[0];
         let ball = Moving { velocity: [velocity[0], velocity[1], 0.0], turning: [5.0, 3.0, 1.0] };
         let ring = MovingRing {
+            centre: place.centre,
             moving: Moving { velocity: [0.0; 3], turning: scaled(tilt.axis, 50.0) },
             axis: tilt.axis,
             speed: 50.0,

@@ -101,6 +101,21 @@ impl Groove {
     }
 }
 
+impl<B> Groove<B> {
+    /// The same with every number replaced.
+    #[inline(always)]
+    pub(crate) fn map<U>(&self, f: &mut impl FnMut(&B) -> U) -> Groove<U> {
+        let [along, outwards] = &self.centre;
+        Groove {
+            pitch_radius: f(&self.pitch_radius),
+            ball_radius: f(&self.ball_radius),
+            radius: f(&self.radius),
+            centre: [f(along), f(outwards)],
+            excess: f(&self.excess),
+        }
+    }
+}
+
 impl<B: Base> Groove<B> {
     /// A ball at (x, rho), m, from the middle of the bearing and the pitch circle, whose radius is larger by `deviation` (m).
     #[inline(always)]

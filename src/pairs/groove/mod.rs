@@ -4,7 +4,7 @@ mod contact;
 mod geometry;
 mod laws;
 
-pub(crate) use contact::{Contact, InGroove, Moving, MovingRing};
+pub(crate) use contact::{Contact, InGroove, OnBody};
 pub(crate) use geometry::{Fit, Groove, RingPlace, Side, Touch};
 
 use super::line_laws::LawBuilder;
@@ -29,7 +29,7 @@ pub(crate) struct Race {
 
 impl Race {
     /// Radius of the pressed surface across the race, between those of ball and groove, m (Heathcote).
-    fn pressed_radius(&self) -> f64 {
+    pub(crate) fn pressed_radius(&self) -> f64 {
         pressed_radius(self.groove.radius, self.groove.ball_radius)
     }
 

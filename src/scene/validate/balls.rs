@@ -150,6 +150,15 @@ impl Scene {
             judge.number(&at("preload.force"), preload.force, FORCE)?;
             judge.number(&at("preload.stiffness"), preload.stiffness, STIFFNESS)?;
         }
+        judge.optional(&at("mass"), ring.mass, MASS)?;
+        if let Some(RotorInertia { polar, transverse }) = ring.inertia {
+            judge.number(&at("inertia.transverse"), transverse, INERTIA)?;
+            // No body has more of its mass about its axis than twice that across it.
+            let most = range(INERTIA.min, 2.0 * transverse, "kg m^2, twice the transverse one at most");
+            judge.number(&at("inertia.polar"), polar, most)?;
+        }
+        judge.optional(&at("support_damping"), ring.support_damping, SUPPORT_DAMPING)?;
+        judge.optional(&at("tilt_damping"), ring.tilt_damping, SUPPORT_DAMPING)?;
         self.has_axial_stop(judge, ring)
     }
 

@@ -3,18 +3,58 @@
 use crate::error::Result;
 use crate::integrate::linear::Arrowhead;
 use crate::integrate::{Linearization, Structure};
-use crate::model::{Fault, OF_ELEMENT, Plane};
+use crate::model::{Fault, Model, OF_BALL, OF_ELEMENT};
 use crate::sim::{Evaluated, Sim, check_time, wrong_size};
 
 /// Memory for derivatives of the accelerations.
-pub(in crate::sim) struct Slopes {
-    pub(in crate::sim) structure: Structure<OF_ELEMENT>,
-    pub(in crate::sim) linearization: Linearization<OF_ELEMENT>,
+pub(in crate::sim) struct Slopes<const N: usize> {
+    pub(in crate::sim) structure: Structure<N>,
+    pub(in crate::sim) linearization: Linearization<N>,
 }
 
-impl Slopes {
-    pub(in crate::sim) fn new(model: &Plane) -> Self {
-        let structure = model.structure();
+/// That of a bearing in the plane or in space.
+pub(in crate::sim) enum AnySlopes {
+    Plane(Slopes<OF_ELEMENT>),
+    Space(Slopes<OF_BALL>),
+}
+
+/// Does the same with slopes, whatever the width of their spokes.
+macro_rules! any {
+    ($any:expr, $slopes:ident => $work:expr) => {
+        match $any {
+            AnySlopes::Plane($slopes) => $work,
+            AnySlopes::Space($slopes) => $work,
+        }
+    };
+}
+
+impl AnySlopes {
+    pub(in crate::sim) fn new(model: &Model) -> Self {
+        match model.space() {
+            Some(_) => Self::Space(Slopes::new(model)),
+            None => Self::Plane(Slopes::new(model)),
+        }
+    }
+
+    /// The fault of the first acceleration without finite derivatives.
+    pub(in crate::sim) fn check(&self) -> std::result::Result<(), Fault> {
+        any!(self, slopes => slopes.check())
+    }
+
+    /// Tells row, column and value of every derivative of the rates that is not always zero.
+    pub(super) fn for_each(&self, positions: usize, tell: impl FnMut((usize, usize, f64))) {
+        any!(self, slopes => slopes.of_rates(positions).for_each(tell));
+    }
+
+    /// Derivatives of the accelerations over time.
+    pub(super) fn over_time(&self) -> &[f64] {
+        any!(self, slopes => &slopes.linearization.over_time)
+    }
+}
+
+impl<const N: usize> Slopes<N> {
+    fn new(model: &Model) -> Self {
+        let structure = model.layout().structure();
         let linearization = Linearization::new(&structure, model.layout().velocities());
         Self { structure, linearization }
     }
@@ -34,17 +74,8 @@ impl Slopes {
         Ok(())
     }
 
-    /// Writes the derivatives of the rates of `positions` positions and all velocities by columns.
-    fn write(&self, positions: usize, out: &mut [f64]) {
-        let size = positions + self.linearization.over_time.len();
-        out.fill(0.0);
-        for (row, column, value) in self.of_rates(positions) {
-            out[column * size + row] = value;
-        }
-    }
-
     /// Row, column and value of every derivative of these rates that is not always zero.
-    pub(super) fn of_rates(&self, positions: usize) -> impl Iterator<Item = (usize, usize, f64)> {
+    fn of_rates(&self, positions: usize) -> impl Iterator<Item = (usize, usize, f64)> {
         let Linearization { over_positions, over_velocities, .. } = &self.linearization;
         let rates = (0..positions).map(move |i| (i, positions + i, 1.0));
         // Spins have no position; what stands in their place is zero.
@@ -58,9 +89,9 @@ impl Slopes {
 }
 
 /// Row, column (both as velocities) and value of every entry of a matrix of this structure.
-fn entries<'a>(
-    structure: &'a Structure<OF_ELEMENT>,
-    matrix: &'a Arrowhead<f64, OF_ELEMENT>,
+fn entries<'a, const N: usize>(
+    structure: &'a Structure<N>,
+    matrix: &'a Arrowhead<f64, N>,
 ) -> impl Iterator<Item = (usize, usize, f64)> + 'a {
     let hub = || structure.hub.iter().copied().enumerate();
     let within_hub =
@@ -101,7 +132,9 @@ impl Sim {
             return Err(wrong_size("jacobian", out.len(), length));
         }
         let positions = self.model().layout().positions();
-        self.slopes_at(t, state)?.write(positions, out);
+        let slopes = self.slopes_at(t, state)?;
+        out.fill(0.0);
+        slopes.for_each(positions, |(row, column, value)| out[column * state.len() + row] = value);
         Ok(())
     }
 
@@ -115,21 +148,21 @@ impl Sim {
             return Err(wrong_size("rate", out.len(), state.len()));
         }
         let positions = self.model().layout().positions();
-        let over_time = &self.slopes_at(t, state)?.linearization.over_time;
+        let over_time = self.slopes_at(t, state)?.over_time();
         out[..positions].fill(0.0);
         out[positions..].copy_from_slice(over_time);
         Ok(())
     }
 
     /// Finds the derivatives there.
-    pub(super) fn slopes_at(&mut self, t: f64, state: &[f64]) -> Result<&Slopes> {
+    pub(super) fn slopes_at(&mut self, t: f64, state: &[f64]) -> Result<&AnySlopes> {
         check_time("t", t)?;
         self.check_state(state)?;
         self.evaluated = Evaluated::Other;
-        let slopes = self.slopes.get_or_insert_with(|| Slopes::new(self.bearing.plane()));
+        let slopes = self.slopes.get_or_insert_with(|| self.bearing.new_slopes());
         let linearized = self.bearing.linearize_at(t, state, &mut self.accelerations, slopes);
         match linearized.and_then(|()| slopes.check()) {
-            Ok(()) => Ok(self.slopes.get_or_insert_with(|| Slopes::new(self.bearing.plane()))),
+            Ok(()) => Ok(self.slopes.get_or_insert_with(|| self.bearing.new_slopes())),
             Err(fault) => Err(self.bad_state(t, fault)),
         }
     }
@@ -143,12 +176,11 @@ mod tests {
     #[test]
     fn what_is_not_finite_is_found_and_named() {
         let model = Model::from_json(include_str!("../../../scenes/nu2310.json")).unwrap();
-        let plane = model.plane().unwrap();
-        let mut slopes = Slopes::new(plane);
+        let mut slopes = Slopes::new(&model);
         assert_eq!(slopes.check(), Ok(()));
         slopes.linearization.over_velocities.to_hub[(4, 3 * OF_ELEMENT + 1)] = f64::NAN;
         let fault = slopes.check().unwrap_err();
-        let text = plane.describe(fault);
+        let text = model.describe(fault);
         assert!(text.contains("derivative of the rate of cage.speed is not a finite number"), "{text}");
     }
 }

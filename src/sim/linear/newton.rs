@@ -3,28 +3,64 @@
 
 use crate::error::{Error, Result, Status};
 use crate::integrate::linear::shifted::Shifted;
-use crate::model::{OF_ELEMENT, Plane};
-use crate::sim::linear::jacobian::Slopes;
+use crate::model::{Model, OF_BALL, OF_ELEMENT};
+use crate::sim::linear::jacobian::{AnySlopes, Slopes};
 use crate::sim::{Evaluated, Sim, check_time, wrong_size};
 
 /// Derivatives and factors that are kept from call to call.
 pub(in crate::sim) struct Newton {
-    slopes: Slopes,
+    slopes: AnySlopes,
     linearized: bool,
-    shifted: Shifted<f64, OF_ELEMENT>,
+    shifted: AnyShifted,
     /// 1/gamma of the factors, 1/s; none before there are any.
     shift: Option<f64>,
     solution: Vec<f64>,
 }
 
+/// Factors for the spokes of the plane or of space.
+enum AnyShifted {
+    Plane(Shifted<f64, OF_ELEMENT>),
+    Space(Shifted<f64, OF_BALL>),
+}
+
 impl Newton {
-    fn new(model: &Plane) -> Self {
+    fn new(model: &Model) -> Self {
+        let slopes = AnySlopes::new(model);
+        let shifted = match &slopes {
+            AnySlopes::Plane(slopes) => AnyShifted::Plane(Shifted::new(&slopes.structure)),
+            AnySlopes::Space(slopes) => AnyShifted::Space(Shifted::new(&slopes.structure)),
+        };
         Self {
-            shifted: Shifted::new(&model.structure()),
-            slopes: Slopes::new(model),
+            shifted,
+            slopes,
             linearized: false,
             shift: None,
             solution: vec![0.0; model.layout().positions() + model.layout().velocities()],
+        }
+    }
+
+    /// Whether there are factors for this shift, 1/s.
+    fn factorize(&mut self, shift: f64) -> bool {
+        match (&mut self.shifted, &self.slopes) {
+            (AnyShifted::Plane(shifted), AnySlopes::Plane(slopes)) => {
+                shifted.factorize(&slopes.linearization, shift)
+            }
+            (AnyShifted::Space(shifted), AnySlopes::Space(slopes)) => {
+                shifted.factorize(&slopes.linearization, shift)
+            }
+            _ => false,
+        }
+    }
+
+    fn solve(&mut self, positions: usize) {
+        match (&mut self.shifted, &self.slopes) {
+            (AnyShifted::Plane(shifted), AnySlopes::Plane(Slopes { linearization, structure })) => {
+                shifted.solve(linearization, structure, positions, &mut self.solution);
+            }
+            (AnyShifted::Space(shifted), AnySlopes::Space(Slopes { linearization, structure })) => {
+                shifted.solve(linearization, structure, positions, &mut self.solution);
+            }
+            _ => self.solution.fill(f64::NAN),
         }
     }
 }
@@ -40,7 +76,7 @@ impl Sim {
         check_time("t", t)?;
         self.check_state(state)?;
         self.evaluated = Evaluated::Other;
-        let newton = self.newton.get_or_insert_with(|| Box::new(Newton::new(self.bearing.plane())));
+        let newton = self.newton.get_or_insert_with(|| Box::new(Newton::new(self.bearing.model())));
         let slopes = &mut newton.slopes;
         let evaluated = self.bearing.linearize_at(t, state, &mut self.accelerations, slopes);
         let linearized = evaluated.and_then(|()| slopes.check());
@@ -62,7 +98,7 @@ impl Sim {
         let newton = newton.ok_or_else(|| out_of_order("linearize"))?;
         let shift = gamma.recip();
         newton.shift = None;
-        if !newton.shifted.factorize(&newton.slopes.linearization, shift) {
+        if !newton.factorize(shift) {
             let text = format!(
                 "I - gamma J has no inverse for gamma = {gamma:?} s at the state of the last linearize"
             );
@@ -91,8 +127,7 @@ impl Sim {
         for (r, b) in newton.solution.iter_mut().zip(&*x) {
             *r = shift * b;
         }
-        let Slopes { linearization, structure } = &newton.slopes;
-        newton.shifted.solve(linearization, structure, positions, &mut newton.solution);
+        newton.solve(positions);
         if newton.solution.iter().any(|x| !x.is_finite()) {
             let text = "the solution of (I - gamma J) x = b is not finite";
             return Err(Error::new(Status::BadState, text.to_owned()));

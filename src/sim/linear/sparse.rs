@@ -1,6 +1,6 @@
 //! The Jacobian of the rates of a state in compressed sparse columns.
 
-use super::jacobian::Slopes;
+use super::jacobian::AnySlopes;
 use crate::error::Result;
 use crate::model::Model;
 use crate::sim::{Sim, wrong_size};
@@ -17,10 +17,10 @@ pub struct SparsePattern {
 }
 
 impl SparsePattern {
-    fn new(slopes: &Slopes, positions: usize) -> Self {
-        let states = positions + slopes.linearization.over_time.len();
-        let found: Vec<[usize; 2]> =
-            slopes.of_rates(positions).map(|(row, column, _)| [column, row]).collect();
+    fn new(slopes: &AnySlopes, positions: usize) -> Self {
+        let states = positions + slopes.over_time().len();
+        let mut found: Vec<[usize; 2]> = Vec::new();
+        slopes.for_each(positions, |(row, column, _)| found.push([column, row]));
         let mut order: Vec<usize> = (0..found.len()).collect();
         order.sort_unstable_by_key(|i| found[*i]);
         let mut places = vec![0; found.len()];
@@ -41,11 +41,8 @@ impl SparsePattern {
 impl Model {
     /// Places of the derivatives that [`Sim::sparse_jacobian`] gives: those that the structure of the bearing allows, whatever
     /// the state.
-    ///
-    /// # Errors
-    /// [`Status::BadScene`](crate::Status::BadScene) of a bearing in space.
-    pub fn jacobian_pattern(&self) -> Result<SparsePattern> {
-        Ok(SparsePattern::new(&Slopes::new(self.plane()?), self.layout().positions()))
+    pub fn jacobian_pattern(&self) -> SparsePattern {
+        SparsePattern::new(&AnySlopes::new(self), self.layout().positions())
     }
 }
 
@@ -69,9 +66,12 @@ impl Sim {
             return Err(wrong_size("pattern", pattern.column_starts.len() - 1, self.state().len()));
         }
         let slopes = self.slopes_at(t, state)?;
-        for ((.., value), place) in slopes.of_rates(positions).zip(&pattern.places) {
-            out[*place] = value;
-        }
+        let mut places = pattern.places.iter();
+        slopes.for_each(positions, |(.., value)| {
+            if let Some(place) = places.next() {
+                out[*place] = value;
+            }
+        });
         Ok(())
     }
 }
@@ -87,7 +87,7 @@ mod tests {
             [include_str!("../../../scenes/nu2310.json"), include_str!("../../../scenes/grease_guide.json")]
         {
             let model = Arc::new(Model::from_json(text).unwrap());
-            let pattern = model.jacobian_pattern().unwrap();
+            let pattern = model.jacobian_pattern();
             let mut sim = Sim::new(model).unwrap();
             sim.advance_to(2e-3).unwrap();
             let (t, state) = (sim.time(), sim.state().to_vec());

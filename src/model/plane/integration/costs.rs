@@ -19,6 +19,22 @@ const ROUNDS: u32 = 5;
 /// An element whose contacts are looked for.
 const ELEMENT: Cost = Cost { value: 10.0, slopes: 5.0, per_element: true };
 
+/// The shortest mean time of several times `repeats` works, s.
+pub(in crate::model) fn shortest(
+    repeats: u32,
+    work: &mut dyn FnMut() -> Result<(), Fault>,
+) -> Result<f64, Fault> {
+    let mut shortest = f64::INFINITY;
+    for _ in 0..ROUNDS {
+        let started = Instant::now();
+        for _ in 0..repeats {
+            work()?;
+        }
+        shortest = shortest.min(started.elapsed().as_secs_f64());
+    }
+    Ok(shortest / f64::from(repeats.max(1)))
+}
+
 impl Plane {
     /// Time that the derivatives of the forces take beside their values, in force evaluations, counted from elements, contacts
     /// and films. Never clocked, so that equal runs choose equally.
@@ -56,15 +72,7 @@ impl Plane {
         self.accelerations(inputs, q, v, ws, &mut a)?;
         let mut times = [0.0; PARTS.len()];
         let mut time = |part: usize, work: &mut dyn FnMut() -> Result<(), Fault>| {
-            let mut shortest = f64::INFINITY;
-            for _ in 0..ROUNDS {
-                let started = Instant::now();
-                for _ in 0..repeats {
-                    work()?;
-                }
-                shortest = shortest.min(started.elapsed().as_secs_f64());
-            }
-            times[part] = shortest / f64::from(repeats.max(1));
+            times[part] = shortest(repeats, work)?;
             Ok(())
         };
         time(0, &mut || self.locate(black_box(q), v, ws))?;

@@ -271,6 +271,7 @@ impl ChannelList {
         detail: bool,
     ) {
         let can_be_watched = source.can_be_watched();
+        let source = crate::model::Source::Plane(source);
         self.0.push(Channel { name: name.to_owned(), unit, description, source, detail, can_be_watched });
     }
 }

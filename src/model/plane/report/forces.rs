@@ -5,7 +5,7 @@ use crate::laws::guide::GuideForce;
 use crate::laws::line_contact::Loading;
 use crate::model::plane::Plane;
 use crate::model::plane::Workspace;
-use crate::model::{Quantity, quantity};
+use crate::model::{Quantity, SpatialForces, quantity};
 use crate::pairs::{Loaded, NEIGHBOUR};
 use crate::space::Wrench;
 
@@ -88,6 +88,22 @@ pub struct Forces {
     pub accelerations: Vec<f64>,
     /// The guide of the cage; all zero without one.
     pub guide: GuideReport,
+    /// Contacts and bodies of a bearing in space, which has nothing in the fields for those of the plane.
+    pub space: SpatialForces,
+}
+
+impl Forces {
+    /// Values of all contacts, one after another.
+    pub fn contact_values(&self) -> &[f64] {
+        let plane = self.contacts.as_flattened();
+        if plane.is_empty() { self.space.contacts.as_flattened() } else { plane }
+    }
+
+    /// Components of the forces on all bodies, by body and source.
+    pub fn body_values(&self) -> &[f64] {
+        let plane = self.bodies.as_flattened().as_flattened();
+        if plane.is_empty() { self.space.bodies.as_flattened().as_flattened() } else { plane }
+    }
 }
 
 /// Forces of the guide on the cage (y, z) in N, and its film.

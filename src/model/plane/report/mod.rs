@@ -1,7 +1,6 @@
 //! What a model tells: names, force reports, output channels, and what is followed in every step.
 
 mod channels;
-mod faults;
 mod forces;
 mod geometry;
 mod names;

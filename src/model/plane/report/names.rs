@@ -1,11 +1,25 @@
 //! Names of bodies, states, inputs and contacts.
 
-use crate::bodies::{ForceSource, Owner, State, states_of};
+use crate::bodies::{Fault, ForceSource, Owner, State, states_of};
 use crate::model::StateInfo;
+use crate::model::faults::{Names, in_words};
 use crate::model::plane::Plane;
 use crate::pairs::{ContactLaw, Law, Site};
 
 impl Plane {
+    /// A fault in words.
+    #[doc(hidden)]
+    pub fn describe(&self, fault: Fault) -> String {
+        let names = Names {
+            element: self.element_kind(),
+            states: &|| self.state_infos(),
+            positions: self.layout.positions(),
+            contacts: &|| self.contact_names(),
+            giving: self.energy_giving_film(),
+        };
+        in_words(fault, &names)
+    }
+
     /// Names of the bodies, in the order of force reports: outer ring, inner ring, cage, rollers.
     pub fn body_names(&self) -> Vec<String> {
         let kind = self.element_kind();

@@ -5,7 +5,6 @@ use super::forces::{
     ContactForces, FILM_THICKNESS, FRICTION, Forces, GuideReport, MEAN_PRESSURE, NORMAL_FORCE, SLIP_SPEED,
 };
 use crate::bodies::{CAGE, CAGE_MOTION, ForceSource, INNER_RING, Input, InputValues, OUTER_RING, displaced};
-use crate::model::Channel;
 use crate::model::plane::{Plane, Workspace};
 use crate::pairs::{ContactLaw, ElementPlace};
 use crate::scalar::math;
@@ -81,14 +80,14 @@ impl<'a> Reading<'a> {
     }
 
     /// Value of a channel.
-    pub fn value(&self, channel: &Channel) -> f64 {
+    pub fn value(&self, source: Source) -> f64 {
         let Self { model, q, v, ref inputs, ws, forces, without_slip: [orbit, spin], .. } = *self;
         let direction = direction_of(orbit);
         let cage = |k: usize| model.layout.cage().map_or(0.0, |c| q[c + k]);
         let cage_speed = || model.layout.cage().map_or(0.0, |c| v[c + 2]);
         let clearance = model.guide_clearance().unwrap_or(f64::INFINITY);
         let [guide, pocket] = [ForceSource::Guide, ForceSource::Pocket].map(|source| self.on(CAGE, source));
-        match channel.source {
+        match source {
             Source::CageY => cage(0),
             Source::CageZ => cage(1),
             Source::CageYRatio => forces.guide.offset[0] / clearance,

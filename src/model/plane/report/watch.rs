@@ -36,7 +36,7 @@ impl Watch {
     ) -> Self {
         let mut watch = Self { contacts: vec![vec![None; elements]; pairs.len()], ..Self::default() };
         for (i, place) in places.iter().enumerate() {
-            let source = channels[*place].source;
+            let crate::model::Source::Plane(source) = channels[*place].source else { continue };
             let of_element = match source {
                 Source::OuterForce(j) => Some((ForceSource::OuterRaceway, j)),
                 Source::InnerForce(j) => Some((ForceSource::InnerRaceway, j)),

@@ -10,10 +10,11 @@
 //! control.
 
 use super::ball::{Ball, OF_RING, OnRing};
+use crate::bodies::MovingRing;
 use crate::laws::point_contact::PointContact;
-use crate::pairs::groove::{Contact, InGroove, Moving, MovingRing};
+use crate::pairs::groove::{Contact, InGroove};
 use crate::scalar::{Dual, Of};
-use crate::space::solid::{Tilt, Vector, scaled, sum};
+use crate::space::solid::{Moving, Tilt, Vector, scaled, sum};
 use nalgebra::{SMatrix, SVector};
 
 /// Unknowns of a ball: x, rho, psi', w_x, w_r, w_psi.
@@ -27,7 +28,7 @@ const ROUND_OFF: f64 = 1e-13;
 const ACCEPTED: f64 = 1e-8;
 
 /// A ball with the laws of its contacts beside elasticity.
-pub(super) struct SteadyBall<'a> {
+pub(crate) struct SteadyBall<'a> {
     pub(super) ball: Ball<'a>,
     /// Of outer and inner race.
     pub(super) laws: [&'a PointContact; 2],
@@ -54,7 +55,7 @@ impl SteadyBall<'_> {
         let contact = |k: usize, centre: Vector<T>, axis: Vector<T>| -> Contact<T> {
             let speed = x.like(self.ball.speeds[k]);
             let turning = scaled(axis, speed);
-            let ring = MovingRing { moving: Moving { velocity: [zero; 3], turning }, axis, speed };
+            let ring = MovingRing { centre, moving: Moving { velocity: [zero; 3], turning }, axis, speed };
             let ball = InGroove {
                 groove: self.ball.grooves[k],
                 elastic: self.ball.elastic[k],
@@ -62,7 +63,7 @@ impl SteadyBall<'_> {
                 excess: self.ball.excess,
                 moving,
             };
-            ball.contact(self.laws[k], centre, &ring, zero)
+            ball.contact(self.laws[k], &ring, zero)
         };
         let outer = contact(0, [zero; 3], [x.like(1.0), zero, zero]);
         let inner = contact(1, [ring[0], ring[1], ring[2]], tilt.axis);

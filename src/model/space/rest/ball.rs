@@ -42,21 +42,21 @@ impl RaceControl {
 const FOLLOWINGS: usize = 60;
 
 /// Coordinates of the ring beside a ball: x, outwards, along the orbit, and the rotation vector of its axis outwards and along the orbit.
-pub(super) const OF_RING: usize = 5;
+pub(crate) const OF_RING: usize = 5;
 /// With those of the ball, which come first: x and rho.
 const ALL: usize = 2 + OF_RING;
 
 /// A ball and what acts on it beside the ring.
-pub(super) struct Ball<'a> {
+pub(crate) struct Ball<'a> {
     /// Of outer and inner race.
-    pub(super) grooves: [&'a Groove; 2],
-    pub(super) elastic: [&'a ElasticPoint; 2],
+    pub(crate) grooves: [&'a Groove; 2],
+    pub(crate) elastic: [&'a ElasticPoint; 2],
     /// By how much its radius is larger than nominal, m.
     pub(super) excess: f64,
     /// Mass, kg, and moment of inertia, kg m^2.
     pub(super) inertia: [f64; 2],
     /// Speeds of outer and inner ring, rad/s.
-    pub(super) speeds: [f64; 2],
+    pub(crate) speeds: [f64; 2],
     /// Acceleration of gravity outwards, m/s^2.
     pub(super) gravity: f64,
     pub(super) control: RaceControl,
@@ -64,25 +64,25 @@ pub(super) struct Ball<'a> {
 
 /// How a ball goes round.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Rolling<T> {
+pub(crate) struct Rolling<T> {
     /// psi', rad/s.
-    pub(super) orbit: T,
+    pub(crate) orbit: T,
     /// w_x and w_r, rad/s.
-    pub(super) spin: [T; 2],
+    pub(crate) spin: [T; 2],
 }
 
 /// Forces at one place of ball and ring.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Forces<T> {
+pub(crate) struct Forces<T> {
     /// On the ball along x and outwards, N: all, and those that are not elastic.
     on_ball: [T; 2],
     outside: [T; 2],
     /// On the ring over its coordinates, N and N m.
     on_ring: [T; OF_RING],
-    pub(super) touches: [Touch<T>; 2],
+    pub(crate) touches: [Touch<T>; 2],
     /// Q of outer and inner contact, N.
-    pub(super) loads: [T; 2],
-    pub(super) rolling: Rolling<T>,
+    pub(crate) loads: [T; 2],
+    pub(crate) rolling: Rolling<T>,
 }
 
 /// Places of a ball (x, rho), m, by the angle about the centre of the outer groove's arc, times the length of its arm, and the distance from
@@ -176,13 +176,13 @@ impl Ball<'_> {
     }
 
     /// Speed of the outer (0) or inner (1) race past its contact with a ball at `rho` (m) that goes round at `orbit` (rad/s), m/s.
-    pub(super) fn passing_speed(&self, k: usize, rho: f64, orbit: f64, touch: &Touch<f64>) -> f64 {
+    pub(crate) fn passing_speed(&self, k: usize, rho: f64, orbit: f64, touch: &Touch<f64>) -> f64 {
         let along = orbit * (rho + self.grooves[k].pitch_radius) * touch.along[2];
         (self.speeds[k] - along / touch.ball_distance) * touch.contact_distance
     }
 
     /// Forces with the ball at (x, rho) and the ring at these coordinates.
-    pub(super) fn forces<T: Of<f64>>(&self, [x, rho]: [T; 2], ring: [T; OF_RING]) -> Forces<T> {
+    pub(crate) fn forces<T: Of<f64>>(&self, [x, rho]: [T; 2], ring: [T; OF_RING]) -> Forces<T> {
         let zero = x.like(0.0);
         let tilt = Tilt::new([ring[3], ring[4]]);
         let places = [

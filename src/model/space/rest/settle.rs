@@ -23,11 +23,11 @@ const NEGLIGIBLE: f64 = 1e-9;
 
 /// Forces at a point.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Balance<const N: usize> {
+pub(crate) struct Balance<const N: usize> {
     /// f, N.
-    pub(super) force: SVector<f64, N>,
+    pub(crate) force: SVector<f64, N>,
     /// K, N/m.
-    pub(super) stiffness: SMatrix<f64, N, N>,
+    pub(crate) stiffness: SMatrix<f64, N, N>,
     /// Energy, J, that falls along the force.
     pub(super) energy: f64,
     /// Size of the forces that add up to f, N.

@@ -1,0 +1,45 @@
+//! Where the time of a force evaluation in space goes, and what its derivatives take.
+
+use super::{RACES, Space, Workspace};
+use crate::bodies::{Fault, InputValues};
+use crate::model::PartTimes;
+use crate::model::plane::shortest;
+use std::hint::black_box;
+
+impl Space {
+    /// Time that the derivatives of the forces take beside their values, in force evaluations. Never clocked, so that equal runs choose
+    /// equally: of the sums over an ellipse each has its derivatives over all that the law sees.
+    pub(crate) fn jacobian_cost(&self) -> f64 {
+        6.0
+    }
+
+    /// Wall time of each part of one evaluation at positions `q` and velocities `v`, s: see [`super::super::Plane::time_parts`].
+    ///
+    /// # Errors
+    /// As [`Space::accelerations`].
+    pub(crate) fn time_parts(
+        &self,
+        inputs: &InputValues,
+        (q, v): (&[f64], &[f64]),
+        ws: &mut Workspace,
+        repeats: u32,
+    ) -> Result<PartTimes, Fault> {
+        let mut a = vec![0.0; v.len()];
+        self.accelerations(inputs, q, v, ws, &mut a)?;
+        let mut times = PartTimes::default();
+        times[0] = shortest(repeats, &mut || self.locate(black_box(q), v, ws))?;
+        for race in 0..RACES.len() {
+            times[1 + race] = shortest(repeats, &mut || {
+                self.apply(race, black_box(&mut *ws));
+                Ok(())
+            })?;
+        }
+        // The last pass added up once more; what follows collects the forces of one.
+        self.accelerations(inputs, q, v, ws, &mut a)?;
+        times[5] = shortest(repeats, &mut || {
+            self.assemble(black_box(&mut *ws), &mut a);
+            Ok(())
+        })?;
+        Ok(times)
+    }
+}

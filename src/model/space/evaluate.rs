@@ -1,0 +1,303 @@
+//! The force evaluation in space: from a state to the forces of every contact and the accelerations.
+
+use super::workspace::{BallBlock, WRENCH, Workspace, at_lane, load, store};
+use super::{RACES, Space};
+use crate::bodies::{Balls, Fault, Input, InputValues, MovingRing, OF_BALL, SOUND};
+use crate::pairs::Law;
+use crate::pairs::groove::{InGroove, Race};
+use crate::scalar::{Columns, Numeric, Pack, dispatch, math, place_of};
+use crate::space::solid::{LARGEST_TILT, Moving, Vector};
+use pulp::Simd;
+
+/// Least distance of a ball from the middle of the arc of its groove, over that of one that just touches: nearer to it there is no
+/// normal.
+const NEAREST: f64 = 0.2;
+
+/// A vector in the axes of the azimuth with this cosine and sine.
+#[inline(always)]
+pub(super) fn to_local<T: Numeric>([x, y, z]: Vector<f64>, [cos, sin]: [T; 2]) -> Vector<T> {
+    [cos.like(x), cos * y + sin * z, cos * z - sin * y]
+}
+
+/// A vector in the axes of the bearing.
+#[inline(always)]
+pub(super) fn to_global<T: Numeric>([x, r, t]: Vector<T>, [cos, sin]: [T; 2]) -> Vector<T> {
+    [x, cos * r - sin * t, sin * r + cos * t]
+}
+
+/// A ring as it is seen in the axes of an azimuth.
+#[inline(always)]
+pub(super) fn beside<T: Numeric>(ring: &MovingRing<f64>, direction: [T; 2]) -> MovingRing<T> {
+    MovingRing {
+        centre: to_local(ring.centre, direction),
+        axis: to_local(ring.axis, direction),
+        moving: Moving {
+            velocity: to_local(ring.moving.velocity, direction),
+            turning: to_local(ring.moving.turning, direction),
+        },
+        speed: direction[0].like(ring.speed),
+    }
+}
+
+/// Motion of a ball in the axes of its azimuth, at the distance `r` (m) from the axis of the bearing.
+#[inline(always)]
+pub(super) fn moving<T: Numeric>([x, rho, orbit, wx, wr, wt]: [T; OF_BALL], r: T) -> Moving<T> {
+    Moving { velocity: [x, rho, r * orbit], turning: [wx, wr, wt] }
+}
+
+impl Space {
+    /// Accelerations `a` (m/s^2 or rad/s^2) at positions `q` and velocities `v`.
+    ///
+    /// # Errors
+    /// A [`Fault`] when forces are undefined at this state; `a` is then meaningless.
+    pub(crate) fn accelerations(
+        &self,
+        inputs: &InputValues,
+        q: &[f64],
+        v: &[f64],
+        ws: &mut Workspace,
+        a: &mut [f64],
+    ) -> Result<(), Fault> {
+        ws.inputs = *inputs;
+        self.heat(ws)?;
+        self.locate(q, v, ws)?;
+        for race in 0..RACES.len() {
+            self.apply(race, ws);
+        }
+        if ws.counting {
+            self.count(ws);
+        }
+        self.assemble(ws, a);
+        match a.iter().position(|x| !x.is_finite()) {
+            None => self.in_grooves(ws),
+            Some(velocity) => Err(Fault::NotFinite { velocity, contact: self.contact_not_finite(ws) }),
+        }
+    }
+
+    /// Finds the viscosity at the present temperature.
+    fn heat(&self, ws: &mut Workspace) -> Result<(), Fault> {
+        let temperature = ws.inputs.of(Input::Temperature);
+        let Some(oil) = self.inputs.oil.as_ref().filter(|_| temperature != ws.temperature) else {
+            return Ok(());
+        };
+        ws.counts[Law::ViscosityTemperature as usize] += u64::from(ws.counting);
+        let fluid = oil.fluid_at(temperature);
+        if fluid.relative_viscosity.is_nan() {
+            return Err(Fault::NoViscosity { temperature });
+        }
+        (ws.fluid, ws.temperature) = (fluid, temperature);
+        Ok(())
+    }
+
+    /// Finds the motion of all bodies.
+    pub(super) fn locate(&self, q: &[f64], v: &[f64], ws: &mut Workspace) -> Result<(), Fault> {
+        ws.step = None;
+        let of_ring = self.layout.of_shared();
+        ws.ring = self.ring.state(&q[..of_ring], &v[..of_ring], &ws.inputs);
+        ws.load = self.ring.load(&ws.inputs);
+        let [_, y, z, a, b] = ws.ring.position;
+        let (tilted, pitch) = (math::hypot(a, b), self.balls.set.pitch_radius);
+        let off = math::hypot(math::hypot(ws.ring.position[0], y), z);
+        if tilted > LARGEST_TILT {
+            return Err(Fault::LostRing { distance: tilted * pitch, reach: LARGEST_TILT * pitch });
+        }
+        if off > self.balls.set.radius {
+            return Err(Fault::LostRing { distance: off, reach: self.balls.set.radius });
+        }
+        let outer = ws.inputs.of(Input::OuterRingSpeed);
+        ws.rings[0].speed = outer;
+        ws.rings[0].moving.turning = [outer, 0.0, 0.0];
+        ws.rings[1] = ws.ring.motion();
+        let levers = self.levers();
+        let mut fastest = (0, 0.0);
+        for j in 0..ws.count {
+            let (block, lane) = place_of(j);
+            let block = &mut ws.blocks[block];
+            let places: [usize; OF_BALL] = self.layout.of_element(j);
+            for (k, at) in block.at.iter_mut().enumerate() {
+                at[lane] = q[places[k]];
+            }
+            let (sin, cos) = math::sin_cos(self.balls.set.reference_angles[j] + q[places[2]]);
+            (block.direction[0][lane], block.direction[1][lane]) = (cos, sin);
+            for ((speeds, place), lever) in block.speeds.iter_mut().zip(places).zip(levers) {
+                speeds[lane] = v[place];
+                let speed = v[place].abs() * lever;
+                if speed > fastest.1 {
+                    fastest = (place, speed);
+                }
+            }
+        }
+        let of_ring = self.ring.free().map(|k| if k < 3 { 1.0 } else { pitch }).zip(v).enumerate();
+        for (place, (lever, v)) in of_ring {
+            if v.abs() * lever > fastest.1 {
+                fastest = (place, v.abs() * lever);
+            }
+        }
+        match fastest {
+            (velocity, speed) if speed > SOUND => Err(Fault::TooFast { velocity, speed }),
+            _ => Ok(()),
+        }
+    }
+
+    /// Levers of the speeds of a ball, m or 1.
+    fn levers(&self) -> [f64; OF_BALL] {
+        let (pitch, radius) = (self.balls.set.pitch_radius, self.balls.set.radius);
+        [1.0, 1.0, pitch, radius, radius, radius]
+    }
+
+    /// Evaluates the contacts with one race.
+    pub(super) fn apply(&self, race: usize, ws: &mut Workspace) {
+        let Workspace { blocks, rings, fluid, count, instructions, .. } = ws;
+        let work = Apply {
+            race: &self.races[race],
+            place: race,
+            ring: &rings[race],
+            blocks,
+            count: *count,
+            ln_viscosity: fluid.ln_viscosity,
+        };
+        dispatch(*instructions, work);
+    }
+
+    fn count(&self, ws: &mut Workspace) {
+        for (race, law) in [Law::OuterRaceway, Law::InnerRaceway].into_iter().enumerate() {
+            let touching = ws.contacts(race).filter(|(c, lane)| c.force[0][*lane] > 0.0).count() as u64;
+            ws.counts[law as usize] += touching;
+            for law in self.parts(race) {
+                ws.counts[law as usize] += touching;
+            }
+        }
+    }
+
+    /// The laws of the contacts with one race beside elasticity.
+    pub(super) fn parts(&self, race: usize) -> impl Iterator<Item = Law> {
+        let laws = &self.races[race].laws;
+        let heated = laws.traction.as_ref().is_some_and(|traction| traction.self_heating.is_some());
+        let list = [
+            (laws.film.is_some(), Law::FilmThickness),
+            (laws.traction.is_some(), Law::Traction),
+            (heated, Law::SelfHeating),
+            (laws.regime.is_some(), Law::LubricationRegime),
+            (laws.rolling_resistance.is_some(), Law::RollingResistance),
+        ];
+        list.into_iter().filter(|(present, _)| *present).map(|(_, law)| law)
+    }
+
+    /// Collects forces on the bodies and lets them accelerate.
+    pub(super) fn assemble(&self, ws: &mut Workspace, a: &mut [f64]) {
+        for race in 0..RACES.len() {
+            let mut sum = [0.0; WRENCH];
+            for (contact, lane) in ws.contacts(race) {
+                for (sum, column) in sum.iter_mut().zip(&contact.on_ring) {
+                    *sum += column[lane];
+                }
+            }
+            ws.on_rings[race] = halves(sum);
+        }
+        self.accelerate_ring(ws, ws.on_rings[1], a);
+        for j in 0..ws.count {
+            let (block, lane) = place_of(j);
+            let block = &ws.blocks[block];
+            let [cos, sin] = at_lane(&block.direction, lane);
+            let [gy, gz] = self.gravity;
+            let accelerations = Balls::accelerations(
+                at_lane(&block.inertia, lane),
+                self.balls.set.pitch_radius + block.at[1][lane],
+                at_lane(&block.speeds, lane),
+                halves(at_lane(&block.on_ball, lane)),
+                [gy * cos + gz * sin, gz * cos - gy * sin],
+            );
+            for (place, acceleration) in self.layout.of_element::<OF_BALL>(j).into_iter().zip(accelerations) {
+                a[place] = acceleration;
+            }
+        }
+    }
+
+    /// Writes the accelerations of the ring under these forces of all balls.
+    pub(super) fn accelerate_ring(&self, ws: &Workspace, on_ring: [Vector<f64>; 2], a: &mut [f64]) {
+        if self.layout.of_shared() == 0 {
+            return;
+        }
+        let all = self.ring.accelerations(&ws.ring, on_ring, ws.load, self.gravity);
+        for (a, k) in a.iter_mut().zip(self.ring.free()) {
+            *a = all[k];
+        }
+    }
+
+    /// Whether every ball is in its grooves.
+    fn in_grooves(&self, ws: &Workspace) -> Result<(), Fault> {
+        for (k, race) in self.races.iter().enumerate() {
+            for (j, (contact, lane)) in ws.contacts(k).enumerate() {
+                let length = race.groove.length() - self.balls.set.radius_excess[j];
+                let (drop, long) = (contact.motion[0][lane], contact.force[3][lane]);
+                if drop + length < NEAREST * length || long > race.pressed_radius() {
+                    return Err(Fault::LostBall { ball: j, race: RACES[k], approach: drop });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The first contact whose force is not finite, as a place in [`Space::contact_names`].
+    fn contact_not_finite(&self, ws: &Workspace) -> Option<usize> {
+        (0..ws.count).flat_map(|j| [2 * j, 2 * j + 1]).find(|place| {
+            let (contact, lane) = ws.contact(place % 2, place / 2);
+            contact.on_ring.iter().any(|column| !column[lane].is_finite())
+        })
+    }
+}
+
+/// Force and moment.
+pub(super) fn halves([a, b, c, d, e, f]: [f64; WRENCH]) -> [Vector<f64>; 2] {
+    [[a, b, c], [d, e, f]]
+}
+
+struct Apply<'a> {
+    race: &'a Race,
+    place: usize,
+    ring: &'a MovingRing<f64>,
+    blocks: &'a mut [BallBlock],
+    count: usize,
+    ln_viscosity: f64,
+}
+
+impl Columns for Apply<'_> {
+    /// The sums over an ellipse fill the registers by themselves.
+    const PAIRED: bool = false;
+
+    fn rows(&self) -> usize {
+        self.count
+    }
+
+    #[inline(always)]
+    fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
+        let (block, lane) = place_of(first);
+        let block = &mut self.blocks[block];
+        let at: [Pack<S, K>; 2] = load(simd, &block.at, lane);
+        let direction = load(simd, &block.direction, lane);
+        let groove = self.race.groove.map(&mut |x| Pack::all(simd, *x));
+        let moving = &moving(load(simd, &block.speeds, lane), at[1] + groove.pitch_radius);
+        let excess = Pack::load(simd, &block.excess[lane..]);
+        let contact = &mut block.contacts[self.place];
+        let elastic = &contact.elastic(simd, &self.race.elastic[0], lane);
+        let ball = InGroove { groove: &groove, elastic, at, excess, moving };
+        let ring = beside(self.ring, direction);
+        let found = ball.contact(&self.race.laws, &ring, Pack::all(simd, self.ln_viscosity));
+        store(found.motion.numbers(), &mut contact.motion, lane);
+        store(found.force.numbers(), &mut contact.force, lane);
+        let ([fx, fr, ft], [mx, mr, mt]) = (found.on_ball.force, found.on_ball.moment);
+        let on_ball = [fx, fr, ft, mx, mr, mt];
+        let [[fx, fy, fz], [mx, my, mz]] =
+            [found.on_ring.force, found.on_ring.moment].map(|v| to_global(v, direction));
+        store([fx, fy, fz, mx, my, mz], &mut contact.on_ring, lane);
+        if self.place == 0 {
+            store(on_ball, &mut block.on_ball, lane);
+        } else {
+            let mut sum: [Pack<S, K>; WRENCH] = load(simd, &block.on_ball, lane);
+            for i in 0..WRENCH {
+                sum[i] += on_ball[i];
+            }
+            store(sum, &mut block.on_ball, lane);
+        }
+    }
+}

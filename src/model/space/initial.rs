@@ -1,0 +1,48 @@
+//! Start of a run: on request ring and balls in the steady motion of their own friction, or that of outer race control where nothing
+//! drives a ball; else undisplaced, at kinematic speeds.
+
+use super::rest::{RaceControl, settled};
+use super::{HostInputs, Space};
+use crate::bodies::{OF_BALL, RingInSpace};
+use crate::error::Result;
+use crate::scalar::math;
+use crate::scene::RingStart;
+
+impl Space {
+    /// State vector at the start of the run.
+    ///
+    /// # Errors
+    /// [`crate::Status::BadScene`] where a free coordinate has no inertia; [`crate::Status::BadState`] when no equilibrium is found.
+    pub(crate) fn initial_state(&self) -> Result<Vec<f64>> {
+        RingInSpace::can_move(&self.scene)?;
+        let mut state = vec![0.0; self.layout.states()];
+        let (q, v) = state.split_at_mut(self.layout.positions());
+        let mut motions = vec![self.kinematic_motion(); self.balls.set.count];
+        if self.scene.initial.inner_ring == RingStart::Equilibrium {
+            let found =
+                settled(self, RaceControl::Friction).or_else(|_| settled(self, RaceControl::Outer))?;
+            for (q, k) in q.iter_mut().zip(self.ring.free()) {
+                *q = found.ring[k];
+            }
+            for (j, motion) in motions.iter_mut().enumerate() {
+                *motion = found.balls[j].motion((found.bearing.beside(j) * found.ring).into());
+            }
+        }
+        for (j, [x, rho, orbit, wx, wr, wt]) in motions.into_iter().enumerate() {
+            let places = self.layout.of_element::<OF_BALL>(j);
+            (q[places[0]], q[places[1]]) = (x, rho);
+            for (place, speed) in places[2..].iter().zip([orbit, wx, wr, wt]) {
+                v[*place] = speed;
+            }
+        }
+        Ok(state)
+    }
+
+    /// x and rho, psi', w_x, w_r, w_psi of an undisplaced ball that rolls at the free contact angle.
+    fn kinematic_motion(&self) -> [f64; 6] {
+        let inputs = self.inputs.at(0.0, &HostInputs::default());
+        let [orbit, spin] = self.kinematic_speeds(&inputs);
+        let (sin, cos) = math::sin_cos(self.free_contact_angle());
+        [0.0, 0.0, orbit, spin, (orbit - spin) * sin / cos, 0.0]
+    }
+}

@@ -1,0 +1,380 @@
+//! Exact derivatives of the accelerations in space, by dual numbers through the same laws and kinematics that give the forces.
+//!
+//! The laws of all contacts are differentiated in lanes over what they see ([`PointMotion`] and the viscosity), geometry and wrenches ball
+//! by ball over how ball and ring lie and move to each other in the axes of the azimuth; both are chained with the coordinates.
+
+use super::evaluate::{beside, moving, to_local};
+use super::workspace::{BallBlock, Workspace, at_lane, load};
+use super::{RACES, Space};
+use crate::bodies::{Balls, Input, InputValues, MovingRing, OF_BALL, OF_RING, RingState};
+use crate::integrate::{Linearization, Structure};
+use crate::laws::point_contact::{POINT_FORCE, POINT_MOTION, PointForce, PointMotion};
+use crate::pairs::groove::{InGroove, OnBody, Race};
+use crate::scalar::{Columns, Dual, Duals, Lanes, Pack, ZEROS, dispatch, place_of};
+use crate::space::solid::{Moving, Tilt, scaled, sum};
+use pulp::Simd;
+
+/// What a law sees: motion of the contact, and the logarithm of the viscosity.
+const SEEN: usize = POINT_MOTION + 1;
+/// Forces with derivatives: Q, F_t, F_l, M_t, M_l, M_n, F_R.
+const FORCES: usize = 7;
+
+/// How ball and ring lie and move to each other: x and rho of the ball, centre and tilt of the ring outwards and along the orbit,
+/// velocity and spin of the ball, rates of the tilt, speed of the ring, logarithm of the viscosity.
+const RELATIVE: usize = 16;
+const TILT: usize = 4;
+const VELOCITY: usize = 6;
+const TILT_RATE: usize = 12;
+const SPEED: usize = 14;
+const VISCOSITY: usize = 15;
+type Relative = Dual<RELATIVE>;
+
+/// Derivatives of the forces of a block of contacts with both races.
+pub(super) type BlockSlopes = [[[Lanes; SEEN]; FORCES]; 2];
+
+/// Derivatives of force and moment.
+type Row = [f64; RELATIVE];
+
+/// What its contact with a race does to ball and ring, with derivatives.
+struct Sloped {
+    on_ball: [Relative; 6],
+    on_ring: [Relative; 6],
+}
+
+fn numbers(on: &OnBody<Relative>) -> [Relative; 6] {
+    let ([a, b, c], [d, e, f]) = (on.force, on.moment);
+    [a, b, c, d, e, f]
+}
+
+impl Space {
+    /// Which velocities are coupled: the ring is the hub, balls the spokes.
+    pub(crate) fn structure(&self) -> Structure<OF_BALL> {
+        self.layout.structure()
+    }
+
+    /// Derivatives of the accelerations at the last evaluated state of `ws`, while the inputs change at `rates`.
+    pub(crate) fn linearize(
+        &self,
+        ws: &mut Workspace,
+        rates: &InputValues,
+        out: &mut Linearization<OF_BALL>,
+    ) {
+        out.clear();
+        ws.slopes.resize(ws.blocks.len(), [[[ZEROS; SEEN]; FORCES]; 2]);
+        for place in 0..RACES.len() {
+            let Workspace { blocks, fluid, count, instructions, slopes, .. } = &mut *ws;
+            let (race, ln_viscosity) = ((&self.races[place], place), fluid.ln_viscosity);
+            dispatch(*instructions, Differentiate { race, blocks, slopes, count: *count, ln_viscosity });
+        }
+        let ring = self.ring_slopes(ws);
+        let free: Vec<usize> = self.ring.free().collect();
+        let width = free.len();
+        for (i, row) in free.iter().enumerate() {
+            for (k, column) in free.iter().enumerate() {
+                out.over_positions.hub[(i, k)] = ring[*row].eps[6 + column];
+                out.over_velocities.hub[(i, k)] = ring[*row].eps[6 + OF_RING + column];
+            }
+            let loads = self.ring.load(rates);
+            let by_load = [0, 1, 2, 4, 5].iter().zip(loads).map(|(w, rate)| ring[*row].eps[*w] * rate);
+            let speed = ring[*row].eps[6 + 2 * OF_RING] * rates.of(Input::RingSpeed);
+            out.over_time[i] = by_load.sum::<f64>() + speed;
+        }
+        let ln_rate = self.inputs.oil.as_ref().map_or(0.0, |oil| {
+            let warming = rates.of(Input::Temperature);
+            if warming == 0.0 {
+                0.0
+            } else {
+                oil.law.relative_slope(ws.inputs.of(Input::Temperature)) * warming
+            }
+        });
+        for j in 0..ws.count {
+            let places = self.layout.of_element::<OF_BALL>(j);
+            let ball = self.ball_slopes(ws, j);
+            let (block, lane) = place_of(j);
+            let block = &ws.blocks[block];
+            let [cos, sin] = at_lane(&block.direction, lane);
+            let [mass, inertia] = at_lane(&block.inertia, lane);
+            let speeds = at_lane(&block.speeds, lane);
+            let r = self.balls.set.pitch_radius + block.at[1][lane];
+            let inverse =
+                [1.0 / mass, 1.0 / mass, 1.0 / (mass * r), 1.0 / inertia, 1.0 / inertia, 1.0 / inertia];
+            let local = LocalRing::new(&ws.ring, [cos, sin]);
+            for (k, input) in [Input::OuterRingSpeed, Input::RingSpeed].into_iter().enumerate() {
+                let Sloped { on_ball, on_ring } = self.sloped(ws, j, k);
+                let still = LocalRing::default();
+                let place = if k == 1 { &local } else { &still };
+                let turning = rates.of(input);
+                for row in 0..OF_BALL {
+                    let slopes = on_ball[row].eps;
+                    let own = over_ball(&slopes, place, speeds[2], r);
+                    let to = &mut out.over_positions.own.as_mut_slice().as_chunks_mut::<OF_BALL>().0;
+                    for (column, slope) in own[0].into_iter().enumerate() {
+                        to[j * OF_BALL + column][row] += slope * inverse[row];
+                    }
+                    let to = &mut out.over_velocities.own.as_mut_slice().as_chunks_mut::<OF_BALL>().0;
+                    for (column, slope) in own[1].into_iter().enumerate() {
+                        to[j * OF_BALL + column][row] += slope * inverse[row];
+                    }
+                    out.over_time[places[row]] +=
+                        (slopes[SPEED] * turning + slopes[VISCOSITY] * ln_rate) * inverse[row];
+                    if k == 1 {
+                        let of_ring = over_ring(&slopes, [cos, sin]);
+                        for (part, slopes) in
+                            [&mut out.over_positions, &mut out.over_velocities].into_iter().zip(of_ring)
+                        {
+                            let to = part.from_hub.as_mut_slice().as_chunks_mut::<OF_BALL>().0;
+                            for (column, k) in free.iter().enumerate() {
+                                to[j * width + column][row] += slopes[*k] * inverse[row];
+                            }
+                        }
+                    }
+                }
+                if k == 1 && width > 0 {
+                    let global = to_global_rows(&on_ring, [cos, sin]);
+                    let (contact, lane) = ws.contact(1, j);
+                    let [fx, fy, fz, mx, my, mz] = at_lane(&contact.on_ring, lane);
+                    // Vectors turn with the azimuth.
+                    let turned = [0.0 * fx, -fz, fy, 0.0 * mx, -mz, my];
+                    for (i, k) in free.iter().enumerate() {
+                        let by_wrench: [f64; 6] = std::array::from_fn(|w| ring[*k].eps[w]);
+                        let sum =
+                            |of: &dyn Fn(usize) -> f64| (0..6).map(|w| by_wrench[w] * of(w)).sum::<f64>();
+                        let slopes: Row = std::array::from_fn(|d| sum(&|w| global[w][d]));
+                        let mut own = over_ball(&slopes, &local, speeds[2], r);
+                        own[0][2] += sum(&|w| turned[w]);
+                        let of_ring = over_ring(&slopes, [cos, sin]);
+                        out.over_time[i] += slopes[SPEED] * turning + slopes[VISCOSITY] * ln_rate;
+                        for (part, (own, of_ring)) in [&mut out.over_positions, &mut out.over_velocities]
+                            .into_iter()
+                            .zip(own.into_iter().zip(of_ring))
+                        {
+                            for (column, slope) in own.into_iter().enumerate() {
+                                part.to_hub[(i, j * OF_BALL + column)] += slope;
+                            }
+                            for (column, k) in free.iter().enumerate() {
+                                part.hub[(i, column)] += of_ring[*k];
+                            }
+                        }
+                    }
+                }
+            }
+            for row in 0..OF_BALL {
+                let eps = ball[row].eps;
+                let to = &mut out.over_positions.own.as_mut_slice().as_chunks_mut::<OF_BALL>().0;
+                to[j * OF_BALL + 1][row] += eps[0];
+                to[j * OF_BALL + 2][row] += eps[1];
+                let to = &mut out.over_velocities.own.as_mut_slice().as_chunks_mut::<OF_BALL>().0;
+                for column in 0..OF_BALL {
+                    to[j * OF_BALL + column][row] += eps[2 + column];
+                }
+            }
+        }
+    }
+
+    /// Accelerations of the ring over force and moment, positions, rates and speed.
+    fn ring_slopes(&self, ws: &Workspace) -> [Dual<{ 7 + 2 * OF_RING }>; OF_RING] {
+        let variable = Dual::<{ 7 + 2 * OF_RING }>::variable;
+        let [force, moment] = ws.on_rings[1];
+        let at = |first: usize, x: [f64; 3]| [0, 1, 2].map(|k| variable(x[k], first + k));
+        let state = RingState {
+            position: std::array::from_fn(|k| variable(ws.ring.position[k], 6 + k)),
+            rate: std::array::from_fn(|k| variable(ws.ring.rate[k], 6 + OF_RING + k)),
+            speed: variable(ws.ring.speed, 6 + 2 * OF_RING),
+        };
+        let load = ws.load.map(|load| Dual { re: load, eps: [0.0; 7 + 2 * OF_RING] });
+        self.ring.accelerations(&state, [at(0, force), at(3, moment)], load, self.gravity)
+    }
+
+    /// Accelerations of a ball over rho, its azimuth and its speeds at constant forces.
+    fn ball_slopes(&self, ws: &Workspace, j: usize) -> [Dual<{ 2 + OF_BALL }>; OF_BALL] {
+        let (block, lane) = place_of(j);
+        let block = &ws.blocks[block];
+        let variable = Dual::<{ 2 + OF_BALL }>::variable;
+        let constant = |x: f64| Dual { re: x, eps: [0.0; 2 + OF_BALL] };
+        let ([cos, sin], [gy, gz]) = (at_lane(&block.direction, lane), self.gravity);
+        let [outwards, ahead] = [gy * cos + gz * sin, gz * cos - gy * sin];
+        let mut gravity = [constant(outwards), constant(ahead)];
+        (gravity[0].eps[1], gravity[1].eps[1]) = (ahead, -outwards);
+        let speeds = at_lane(&block.speeds, lane);
+        let [fx, fr, ft, mx, my, mz] = at_lane(&block.on_ball, lane).map(constant);
+        Balls::accelerations(
+            at_lane(&block.inertia, lane),
+            variable(self.balls.set.pitch_radius + block.at[1][lane], 0),
+            std::array::from_fn(|k| variable(speeds[k], 2 + k)),
+            [[fx, fr, ft], [mx, my, mz]],
+            gravity,
+        )
+    }
+
+    /// What the contact of ball `j` with race `k` does to both.
+    fn sloped(&self, ws: &Workspace, j: usize, k: usize) -> Sloped {
+        let (place, lane) = place_of(j);
+        let block = &ws.blocks[place];
+        let direction = at_lane(&block.direction, lane);
+        let at = at_lane(&block.at, lane);
+        let r = self.balls.set.pitch_radius + at[1];
+        let variable = Relative::variable;
+        let constant = |x: f64| Dual { re: x, eps: [0.0; RELATIVE] };
+        let own = moving(at_lane(&block.speeds, lane), r);
+        let of_ball = Moving {
+            velocity: std::array::from_fn(|i| variable(own.velocity[i], VELOCITY + i)),
+            turning: std::array::from_fn(|i| variable(own.turning[i], VELOCITY + 3 + i)),
+        };
+        let race = &self.races[k];
+        let ring = if k == 0 {
+            let ring: MovingRing<f64> = beside(&ws.rings[0], direction);
+            let speed = variable(ring.speed, SPEED);
+            let axis = ring.axis.map(constant);
+            MovingRing {
+                centre: ring.centre.map(constant),
+                axis,
+                moving: Moving { velocity: ring.moving.velocity.map(constant), turning: scaled(axis, speed) },
+                speed,
+            }
+        } else {
+            let local = LocalRing::new(&ws.ring, direction);
+            let tilt = Tilt::new([0, 1].map(|i| variable(local.tilt[i], TILT + i)));
+            let rates = [0, 1].map(|i| variable(local.tilt_rate[i], TILT_RATE + i));
+            let speed = variable(ws.ring.speed, SPEED);
+            let [x, ..] = ws.ring.position;
+            let [vx, ..] = ws.ring.rate;
+            MovingRing {
+                centre: [constant(x), variable(local.centre[0], 2), variable(local.centre[1], 3)],
+                axis: tilt.axis,
+                moving: Moving {
+                    velocity: [vx, local.velocity[0], local.velocity[1]].map(constant),
+                    turning: sum(tilt.angular_velocity(rates), scaled(tilt.axis, speed)),
+                },
+                speed: tilt.across(rates).own + speed,
+            }
+        };
+        let ball = InGroove {
+            groove: &race.groove,
+            elastic: &race.elastic[j],
+            at: [variable(at[0], 0), variable(at[1], 1)],
+            excess: block.excess[lane],
+            moving: &of_ball,
+        };
+        let touch = ball.touch(&ring);
+        let seen = ball.motion(&touch, &ring).numbers();
+        let force = block.contacts[k].force_of(lane);
+        let slopes = &ws.slopes[place][k];
+        let chained = |i: usize, value: f64| {
+            let mut sum = constant(value);
+            for (s, motion) in seen.iter().enumerate() {
+                let slope = slopes[i][s][lane];
+                for d in 0..RELATIVE {
+                    sum.eps[d] += slope * motion.eps[d];
+                }
+            }
+            sum.eps[VISCOSITY] += slopes[i][POINT_MOTION][lane];
+            sum
+        };
+        let mut sloped = PointForce::of_numbers([constant(0.0); POINT_FORCE]);
+        sloped.normal = chained(0, force.normal);
+        sloped.friction.force = [0, 1].map(|i| chained(1 + i, force.friction.force[i]));
+        sloped.friction.couple = [0, 1, 2].map(|i| chained(3 + i, force.friction.couple[i]));
+        sloped.rolling_resistance = chained(6, force.rolling_resistance);
+        let [on_ball, on_ring] = ball.wrenches(&touch, &sloped);
+        Sloped { on_ball: numbers(&on_ball), on_ring: numbers(&on_ring) }
+    }
+}
+
+/// Place and motion of the ring outwards and along the orbit.
+#[derive(Clone, Copy, Debug, Default)]
+struct LocalRing {
+    centre: [f64; 2],
+    tilt: [f64; 2],
+    velocity: [f64; 2],
+    tilt_rate: [f64; 2],
+}
+
+impl LocalRing {
+    fn new(ring: &RingState<f64>, direction: [f64; 2]) -> Self {
+        let turned = |y: f64, z: f64| {
+            let [_, r, t] = to_local([0.0, y, z], direction);
+            [r, t]
+        };
+        let ([_, y, z, a, b], [_, vy, vz, da, db]) = (ring.position, ring.rate);
+        Self { centre: turned(y, z), tilt: turned(a, b), velocity: turned(vy, vz), tilt_rate: turned(da, db) }
+    }
+}
+
+/// Derivatives over the positions of a ball and over its speeds.
+fn over_ball(z: &Row, ring: &LocalRing, orbit: f64, r: f64) -> [[f64; OF_BALL]; 2] {
+    let LocalRing { centre, tilt, velocity, tilt_rate } = ring;
+    // Seen from the ball, all vectors of the ring turn back as it goes round.
+    let around = z[2] * centre[1] - z[3] * centre[0] + z[TILT] * tilt[1]
+        - z[TILT + 1] * tilt[0]
+        - z[VELOCITY + 1] * velocity[1]
+        + z[VELOCITY + 2] * velocity[0]
+        + z[TILT_RATE] * tilt_rate[1]
+        - z[TILT_RATE + 1] * tilt_rate[0];
+    let v = VELOCITY;
+    [
+        [z[0], z[1] + z[v + 2] * orbit, around, 0.0, 0.0, 0.0],
+        [z[v], z[v + 1], z[v + 2] * r, z[v + 3], z[v + 4], z[v + 5]],
+    ]
+}
+
+/// Derivatives over the positions of the ring and over their rates.
+fn over_ring(z: &Row, [cos, sin]: [f64; 2]) -> [[f64; OF_RING]; 2] {
+    let y = |k: usize| z[k] * cos - z[k + 1] * sin;
+    let up = |k: usize| z[k] * sin + z[k + 1] * cos;
+    let v = VELOCITY + 1;
+    [[-z[0], y(2), up(2), y(TILT), up(TILT)], [-z[VELOCITY], -y(v), -up(v), y(TILT_RATE), up(TILT_RATE)]]
+}
+
+/// Derivatives of force and moment in the axes of the bearing at a constant azimuth.
+fn to_global_rows(on: &[Relative; 6], [cos, sin]: [f64; 2]) -> [Row; 6] {
+    let mut out = on.map(|x| x.eps);
+    for first in [0, 3] {
+        for d in 0..RELATIVE {
+            let (r, t) = (on[first + 1].eps[d], on[first + 2].eps[d]);
+            out[first + 1][d] = cos * r - sin * t;
+            out[first + 2][d] = sin * r + cos * t;
+        }
+    }
+    out
+}
+
+/// Derivatives of the laws of all contacts with one race.
+struct Differentiate<'a> {
+    /// With its place.
+    race: (&'a Race, usize),
+    blocks: &'a [BallBlock],
+    slopes: &'a mut [BlockSlopes],
+    count: usize,
+    ln_viscosity: f64,
+}
+
+impl Columns for Differentiate<'_> {
+    const PAIRED: bool = false;
+
+    fn rows(&self) -> usize {
+        self.count
+    }
+
+    #[inline(always)]
+    #[expect(clippy::needless_range_loop, reason = "iterators might not be inlined")]
+    fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
+        let (place, lane) = place_of(first);
+        let (contact, (race, k)) = (&self.blocks[place].contacts[self.race.1], self.race);
+        let elastic = contact.elastic(simd, &race.elastic[0], lane);
+        let values: [Pack<S, K>; POINT_MOTION] = load(simd, &contact.motion, lane);
+        let mut seen = [Duals::<SEEN, Pack<S, K>>::variable(values[0], 0); POINT_MOTION];
+        for i in 1..POINT_MOTION {
+            seen[i] = Duals::variable(values[i], i);
+        }
+        let ln_viscosity = Duals::variable(Pack::all(simd, self.ln_viscosity), POINT_MOTION);
+        let force = race.laws.force(&elastic, &PointMotion::of_numbers(seen), ln_viscosity);
+        let ([ft, fl], [mt, ml, mn]) = (force.friction.force, force.friction.couple);
+        let forces = [force.normal, ft, fl, mt, ml, mn, force.rolling_resistance];
+        let slopes = &mut self.slopes[place][k];
+        for i in 0..FORCES {
+            for d in 0..SEEN {
+                forces[i].eps[d].store(&mut slopes[i][d][lane..]);
+            }
+        }
+    }
+}

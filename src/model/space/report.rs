@@ -1,0 +1,422 @@
+//! What a bearing in space tells of a state: forces of every contact and on every body, output channels, what is followed in every step.
+
+use super::evaluate::{moving, to_global};
+use super::workspace::{Workspace, at_lane};
+use super::{RACES, Space};
+use crate::bodies::{FORCE_SOURCES, ForceSource, InputValues, MovingRing, OF_BALL};
+use crate::integrate::SemiImplicit;
+use crate::model::{Channel, Quantity, Source as AnySource, quantity};
+use crate::pairs::groove::InGroove;
+use crate::scalar::{math, place_of};
+use crate::space::solid::{dot, sum};
+
+/// What is reported of a contact in space. t points along the race, l across it and n from the ball to the contact; (t, l, n) is
+/// right-handed. Friction and couple act on the ball, at the contact; the opposite on the ring.
+pub const SPATIAL_CONTACT_QUANTITIES: [Quantity; 30] = [
+    quantity("normal_force", "N", "normal force Q"),
+    quantity("approach", "m", "elastic approach delta; negative where they are apart"),
+    quantity("approach_speed", "m/s", "rate of the approach"),
+    quantity("contact_angle", "rad", "angle of the normal to the plane across the axis of the ring"),
+    quantity("half_axis_across", "m", "half axis a of the ellipse, across the race"),
+    quantity("half_axis_along", "m", "half axis b of the ellipse, along the race"),
+    quantity("largest_pressure", "Pa", "largest pressure of Hertz's ellipse"),
+    quantity("film_thickness", "m", "central film thickness; 0 without film"),
+    quantity("film_ratio", "1", "film ratio Lambda; 0 without boundary friction, which has the roughness"),
+    quantity("temperature_rise", "K", "temperature rise of the traction film"),
+    quantity("friction_along", "N", "friction F_t on the ball along the race"),
+    quantity("friction_across", "N", "friction F_l on the ball across the race"),
+    quantity("couple_along", "N m", "couple M_t on the ball about t"),
+    quantity("couple_across", "N m", "couple M_l on the ball about l"),
+    quantity("couple_normal", "N m", "couple M_n on the ball about the normal: that of spin"),
+    quantity(
+        "rolling_resistance",
+        "N",
+        "rolling resistance on each surface along t, against the rolling speed",
+    ),
+    quantity("slip_along", "m/s", "slip D_t of the ball in the middle of the contact, along the race"),
+    quantity("slip_across", "m/s", "slip D_l of the ball in the middle of the contact, across the race"),
+    quantity("turning_along", "rad/s", "angular velocity of the ball against the ring about t"),
+    quantity("turning_across", "rad/s", "angular velocity of the ball against the ring about l: rolling"),
+    quantity("turning_normal", "rad/s", "angular velocity of the ball against the ring about n: spin"),
+    quantity("surface_speed_ball", "m/s", "speed u1 of the surface of the ball past the contact, along t"),
+    quantity("surface_speed_ring", "m/s", "speed u2 of the race past the contact, along t"),
+    quantity("spin_to_roll", "1", "angular velocity about the normal over that of rolling"),
+    quantity("point_x", "m", "contact point along the axis of the bearing"),
+    quantity("point_y", "m", "contact point, to the right of the centre of the bearing"),
+    quantity("point_z", "m", "contact point, above the centre of the bearing"),
+    quantity("normal_x", "1", "normal from the centre of the ball to the contact, along the axis"),
+    quantity("normal_y", "1", "the same to the right"),
+    quantity("normal_z", "1", "the same upwards"),
+];
+
+/// Places among these.
+const NORMAL_FORCE: usize = 0;
+const CONTACT_ANGLE: usize = 3;
+const HALF_AXIS: usize = 4;
+const PRESSURE: usize = 6;
+const FILM: usize = 7;
+const FILM_RATIO: usize = 8;
+const TEMPERATURE: usize = 9;
+/// Friction and couple, and in the same order the slip and turning that they act against.
+const FRICTION: usize = 10;
+const SLIP: usize = 16;
+const SPIN_TO_ROLL: usize = 23;
+
+/// Values of [`SPATIAL_CONTACT_QUANTITIES`].
+pub type SpatialContact = [f64; SPATIAL_CONTACT_QUANTITIES.len()];
+
+/// Components of a force on a body in space.
+pub const SPATIAL_FORCE_COMPONENTS: [Quantity; 6] = [
+    quantity("force_x", "N", "force along the axis of the bearing"),
+    quantity("force_y", "N", "force to the right"),
+    quantity("force_z", "N", "force upwards"),
+    quantity("moment_x", "N m", "moment about the centre of the body, about the axis of the bearing"),
+    quantity("moment_y", "N m", "the same about the axis to the right"),
+    quantity("moment_z", "N m", "the same about the upward axis"),
+];
+
+/// Forces on one body by source, by [`SPATIAL_FORCE_COMPONENTS`].
+pub type SpatialBodyForces = [[f64; SPATIAL_FORCE_COMPONENTS.len()]; FORCE_SOURCES.len()];
+
+/// Forces of a bearing in space; nothing of one in the plane.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SpatialForces {
+    /// Per contact, in the order of the names of contacts.
+    pub contacts: Vec<SpatialContact>,
+    /// Per body, in the order of the names of bodies.
+    pub bodies: Vec<SpatialBodyForces>,
+}
+
+/// What a channel shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Source {
+    Ring(usize),
+    DragTorque,
+    OuterRingTorque,
+    OuterDragTorque,
+    Viscosity,
+    MeanOrbitRatio,
+    OrbitAngle(usize),
+    OrbitRatio(usize),
+    Pitch(usize),
+    Yaw(usize),
+    /// Quantity, race and ball.
+    Contact(usize, usize, usize),
+    SlidingPower(usize, usize),
+    /// Angle left to the edge of the shoulder, of race and ball.
+    Shoulder(usize, usize),
+}
+
+impl Source {
+    /// Whether it may peak between two records and is known in every step.
+    fn can_be_watched(self) -> bool {
+        matches!(
+            self,
+            Self::Contact(NORMAL_FORCE, ..)
+                | Self::DragTorque
+                | Self::OuterRingTorque
+                | Self::OuterDragTorque
+        )
+    }
+}
+
+/// A state with what channels show of it.
+pub(crate) struct Reading<'a> {
+    pub(crate) space: &'a Space,
+    pub(crate) ws: &'a Workspace,
+    pub(crate) inputs: InputValues,
+    pub(crate) q: &'a [f64],
+    pub(crate) v: &'a [f64],
+    /// Forces that `ws` was evaluated for.
+    pub(crate) forces: &'a SpatialForces,
+}
+
+impl Space {
+    /// All channels, details behind the others.
+    pub(in crate::model) fn list_channels(&self) -> Vec<Channel> {
+        let mut list = Vec::new();
+        let mut push = |name: String, unit, description, source: Source, detail| {
+            let can_be_watched = source.can_be_watched();
+            list.push(Channel {
+                name,
+                unit,
+                description,
+                source: AnySource::Space(source),
+                detail,
+                can_be_watched,
+            });
+        };
+        for (k, coordinate) in crate::bodies::RING_COORDINATES.iter().enumerate() {
+            if let Some([name, unit, description]) = coordinate.position {
+                push(format!("inner_ring.{name}"), unit, description, Source::Ring(k), false);
+            }
+        }
+        let text = "torque that keeps the inner ring turning, positive against rolling drag";
+        push("inner_ring.drag_torque".to_owned(), "N m", text, Source::DragTorque, false);
+        let text = "moment on the outer ring about its axis, positive counter-clockwise";
+        push("outer_ring.torque".to_owned(), "N m", text, Source::OuterRingTorque, false);
+        if let Some(ring) = self.scene.outer_ring.as_ref().filter(|ring| ring.speed.is_some()) {
+            let text = "torque that keeps the outer ring turning, positive against rolling drag";
+            push("outer_ring.drag_torque".to_owned(), "N m", text, Source::OuterDragTorque, !ring.turns());
+        }
+        if self.inputs.oil.is_some() {
+            let text = "dynamic viscosity of the lubricant at its temperature";
+            push("lubricant.viscosity".to_owned(), "Pa s", text, Source::Viscosity, false);
+        }
+        let text = "mean orbit speed of the balls over that of rolling at the free contact angle";
+        push("balls.orbit_ratio".to_owned(), "1", text, Source::MeanOrbitRatio, false);
+        for j in 0..self.balls.set.count {
+            let name = |field: &str| format!("ball[{j}].{field}");
+            let text = "angle of the element about the bearing";
+            push(name("orbit_angle"), "rad", text, Source::OrbitAngle(j), false);
+            let text = "orbit speed over that of rolling at the free contact angle";
+            push(name("orbit_ratio"), "1", text, Source::OrbitRatio(j), false);
+            let text = "angle of the axis about which it turns against the train to that of the bearing, in the plane of both";
+            push(name("pitch_angle"), "rad", text, Source::Pitch(j), false);
+            let text = "angle of that axis out of the plane through the axis of the bearing";
+            push(name("yaw_angle"), "rad", text, Source::Yaw(j), false);
+            for (k, race) in RACES.into_iter().enumerate().rev() {
+                let ring = race.trim_end_matches("_raceway");
+                let laws = &self.races[k].laws;
+                let mut of_contact = |field: &str, place: usize, detail| {
+                    let Quantity { unit, description, .. } = SPATIAL_CONTACT_QUANTITIES[place];
+                    push(
+                        name(&format!("{ring}_{field}")),
+                        unit,
+                        description,
+                        Source::Contact(place, k, j),
+                        detail,
+                    );
+                };
+                of_contact("force", NORMAL_FORCE, false);
+                of_contact("angle", CONTACT_ANGLE, false);
+                of_contact("spin_to_roll", SPIN_TO_ROLL, false);
+                of_contact("slip_along", SLIP, false);
+                of_contact("slip_across", SLIP + 1, false);
+                if laws.film.is_some() {
+                    of_contact("film", FILM, false);
+                }
+                if laws.regime.is_some() {
+                    of_contact("film_ratio", FILM_RATIO, true);
+                }
+                if laws.traction.is_some() {
+                    of_contact("temperature_rise", TEMPERATURE, true);
+                }
+                of_contact("pressure", PRESSURE, true);
+                let text = "power lost by friction of slip and spin in the contact";
+                push(name(&format!("{ring}_sliding_power")), "W", text, Source::SlidingPower(k, j), true);
+                if self.races[k].shoulder.is_some() {
+                    let text = "angle left between the ellipse and the edge of the shoulder, negative beyond it; zero without load";
+                    push(name(&format!("{ring}_shoulder_margin")), "rad", text, Source::Shoulder(k, j), true);
+                }
+            }
+        }
+        list.sort_by_key(|channel| channel.detail);
+        list
+    }
+
+    /// Chooses the channels that are followed in every step, by their places among all.
+    pub(in crate::model) fn watch_channels(&mut self, places: &[usize], channels: &[Channel]) {
+        let sources = places.iter().filter_map(|place| match channels[*place].source {
+            AnySource::Space(source) => Some(source),
+            AnySource::Plane(_) => None,
+        });
+        self.watched = sources.collect();
+    }
+
+    /// Values of the watched channels at the last evaluated state of `ws`, whose velocities are `v`, or in a step from there.
+    pub(crate) fn watch(
+        &self,
+        v: &[f64],
+        step: Option<&SemiImplicit<'_>>,
+        ws: &mut Workspace,
+        out: &mut [f64],
+    ) {
+        self.find_step(v, step, ws);
+        for (out, source) in out.iter_mut().zip(&self.watched) {
+            *out = match *source {
+                Source::Contact(_, k, j) => {
+                    let (contact, lane) = ws.contact(k, j);
+                    contact.normal[lane]
+                }
+                source => self.torque(source, ws),
+            };
+        }
+    }
+
+    /// Torque on a ring, N m, with what the step from the last evaluated state has added.
+    fn torque(&self, source: Source, ws: &Workspace) -> f64 {
+        let race = usize::from(source == Source::DragTorque);
+        let mut moment = ws.on_rings[race][1];
+        if ws.step.is_some_and(|h| h > 0.0) {
+            for (contact, lane) in ws.contacts(race) {
+                let by_step = [3, 4, 5].map(|k| contact.reaction[k][lane]);
+                moment = sum(moment, by_step);
+            }
+        }
+        let turning = |ring: &MovingRing<f64>| if ring.speed < 0.0 { -1.0 } else { 1.0 };
+        match source {
+            Source::DragTorque => -dot(moment, ws.rings[1].axis) * turning(&ws.rings[1]),
+            Source::OuterDragTorque => -moment[0] * turning(&ws.rings[0]),
+            _ => moment[0],
+        }
+    }
+
+    /// What is known of the contact of ball `j` with race `k` at the last evaluated state.
+    fn contact_values(&self, ws: &Workspace, k: usize, j: usize) -> SpatialContact {
+        let (place, lane) = place_of(j);
+        let block = &ws.blocks[place];
+        let (motion, force) = (block.contacts[k].motion_of(lane), block.contacts[k].force_of(lane));
+        let direction = at_lane(&block.direction, lane);
+        let at = at_lane(&block.at, lane);
+        let r = self.balls.set.pitch_radius + at[1];
+        let speeds = moving(at_lane(&block.speeds, lane), r);
+        let ball = InGroove {
+            groove: &self.races[k].groove,
+            elastic: &self.races[k].elastic[j],
+            at,
+            excess: block.excess[lane],
+            moving: &speeds,
+        };
+        let touch = ball.touch(&super::evaluate::beside(&ws.rings[k], direction));
+        let side = if k == 0 { 1.0 } else { -1.0 };
+        let angle = math::atan2(side * touch.in_meridian[0], side * touch.in_meridian[1]);
+        let radius = self.balls.set.radius + block.excess[lane];
+        let [nx, ny, nz] = to_global(touch.normal, direction);
+        let [px, py, pz] = to_global([at[0], r, 0.0], direction);
+        let ([ft, fl], [mt, ml, mn]) = (force.friction.force, force.friction.couple);
+        let ([dt, dl], [wt, wl, wn], [u1, u2]) = (motion.slip, motion.turning, motion.surface_speeds);
+        let ratio = if wl == 0.0 { 0.0 } else { (wn / wl).abs() };
+        let [a, b] = force.half_axes;
+        [
+            force.normal,
+            motion.delta,
+            motion.delta_dot,
+            angle,
+            a,
+            b,
+            force.pressure,
+            force.film,
+            force.film_ratio,
+            force.friction.temperature_rise,
+            ft,
+            fl,
+            mt,
+            ml,
+            mn,
+            force.rolling_resistance,
+            dt,
+            dl,
+            wt,
+            wl,
+            wn,
+            u1,
+            u2,
+            ratio,
+            px + radius * nx,
+            py + radius * ny,
+            pz + radius * nz,
+            nx,
+            ny,
+            nz,
+        ]
+    }
+
+    /// Force and moment about the centre on ball and ring of a contact with its present forces, in the axes of the bearing.
+    fn wrenches_of(&self, ws: &Workspace, k: usize, j: usize) -> [[f64; 6]; 2] {
+        let (place, lane) = place_of(j);
+        let block = &ws.blocks[place];
+        let direction = at_lane(&block.direction, lane);
+        let at = at_lane(&block.at, lane);
+        let speeds = moving(at_lane(&block.speeds, lane), self.balls.set.pitch_radius + at[1]);
+        let ball = InGroove {
+            groove: &self.races[k].groove,
+            elastic: &self.races[k].elastic[j],
+            at,
+            excess: block.excess[lane],
+            moving: &speeds,
+        };
+        let touch = ball.touch(&super::evaluate::beside(&ws.rings[k], direction));
+        ball.wrenches(&touch, &block.contacts[k].force_of(lane)).map(|on| {
+            let [[a, b, c], [d, e, f]] = [on.force, on.moment].map(|v| to_global(v, direction));
+            [a, b, c, d, e, f]
+        })
+    }
+
+    /// Writes the forces of the last evaluation of `ws` into `out`.
+    pub(crate) fn report(&self, ws: &Workspace, out: &mut SpatialForces) {
+        out.contacts.clear();
+        out.bodies.clear();
+        out.bodies.resize(RACES.len() + ws.count, SpatialBodyForces::default());
+        let [gy, gz] = self.gravity;
+        for j in 0..ws.count {
+            for (k, source) in [ForceSource::OuterRaceway, ForceSource::InnerRaceway].into_iter().enumerate()
+            {
+                out.contacts.push(self.contact_values(ws, k, j));
+                for (body, wrench) in [RACES.len() + j, k].into_iter().zip(self.wrenches_of(ws, k, j)) {
+                    for (sum, part) in out.bodies[body][source as usize].iter_mut().zip(wrench) {
+                        *sum += part;
+                    }
+                }
+            }
+            let [mass, _] = self.balls.inertia(j);
+            out.bodies[RACES.len() + j][ForceSource::Gravity as usize] =
+                [0.0, mass * gy, mass * gz, 0.0, 0.0, 0.0];
+        }
+        let inner = &mut out.bodies[1];
+        let [wy, wz] = self.ring.weight(self.gravity);
+        inner[ForceSource::Gravity as usize] = [0.0, wy, wz, 0.0, 0.0, 0.0];
+        let [spring, _] = self.ring.spring(ws.ring.position[0]);
+        let [lx, ly, lz, my, mz] = ws.load;
+        inner[ForceSource::Load as usize] = [lx + spring, ly, lz, 0.0, my, mz];
+        let [sx, sy, sz, my, mz] = self.ring.support(&ws.ring.rate);
+        inner[ForceSource::Support as usize] = [sx, sy, sz, 0.0, my, mz];
+    }
+}
+
+impl Reading<'_> {
+    fn contact(&self, k: usize, j: usize) -> &SpatialContact {
+        &self.forces.contacts[RACES.len() * j + k]
+    }
+
+    /// Value of a channel.
+    pub(crate) fn value(&self, source: Source) -> f64 {
+        let Self { space, ws, inputs, q, v, .. } = self;
+        let of_ball = |j: usize| space.layout.of_element::<OF_BALL>(j);
+        let kinematic = || space.kinematic_speeds(inputs)[0];
+        let ratio = |speed: f64| if kinematic() == 0.0 { 0.0 } else { speed / kinematic() };
+        match source {
+            Source::Ring(k) => space.ring.state(q, v, inputs).position[k],
+            Source::DragTorque | Source::OuterRingTorque | Source::OuterDragTorque => {
+                space.torque(source, ws)
+            }
+            Source::Viscosity => space.inputs.viscosity(inputs).unwrap_or(f64::NAN),
+            Source::MeanOrbitRatio => {
+                let count = space.balls.set.count;
+                ratio((0..count).map(|j| v[of_ball(j)[2]]).sum::<f64>() / count as f64)
+            }
+            Source::OrbitAngle(j) => space.balls.set.reference_angles[j] + q[of_ball(j)[2]],
+            Source::OrbitRatio(j) => ratio(v[of_ball(j)[2]]),
+            Source::Pitch(j) | Source::Yaw(j) => {
+                let [_, _, orbit, wx, wr, wt] = of_ball(j).map(|place| v[place]);
+                let own = orbit - wx;
+                let across = if matches!(source, Source::Pitch(_)) { wr } else { wt };
+                if own == 0.0 { 0.0 } else { math::atan2(across * own.signum(), own.abs()) }
+            }
+            Source::Contact(place, k, j) => self.contact(k, j)[place],
+            Source::SlidingPower(k, j) => {
+                let values = self.contact(k, j);
+                let product = |place: usize| values[FRICTION + place] * values[SLIP + place];
+                -(0..5).map(product).sum::<f64>()
+            }
+            Source::Shoulder(k, j) => {
+                let values = self.contact(k, j);
+                if values[NORMAL_FORCE] > 0.0 {
+                    -space.races[k].beyond_shoulder(values[CONTACT_ANGLE], values[HALF_AXIS]).unwrap_or(0.0)
+                } else {
+                    0.0
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! Exact derivatives of the accelerations against differences.
+
+use crate::{DEEP, everything, free_ring, model, states};
+use cagedyn::{Model, Sim};
+use serde_json::json;
+use std::sync::Arc;
+
+/// Largest error of a column of the Jacobian against central differences of fourth order, over the largest entry of its rows in units
+/// of the scales.
+fn error(model: &Arc<Model>, spread: f64) -> f64 {
+    let mut sim = Sim::new(model.clone()).unwrap();
+    let scales = model.state_scales();
+    let mut worst: f64 = 0.0;
+    for state in states(&sim, 3, spread, 5) {
+        let n = state.len();
+        let mut exact = vec![0.0; n * n];
+        sim.jacobian(0.0, &state, &mut exact).unwrap();
+        let mut rate_at = |k: usize, x: f64| {
+            let (mut moved, mut rate) = (state.clone(), vec![0.0; n]);
+            moved[k] += x;
+            sim.derivative(0.0, &moved, &mut rate).unwrap();
+            rate
+        };
+        for k in 0..n {
+            let h = 2e-4 * scales[k];
+            let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|s| rate_at(k, s * h));
+            for i in 0..n {
+                let difference = (a[i] - d[i] + 8.0 * (c[i] - b[i])) / (12.0 * h);
+                let unit = scales[i] / scales[k];
+                let row =
+                    (0..n).map(|m| (exact[i + n * m] * scales[m] / scales[i]).abs()).fold(1.0, f64::max);
+                let off = (exact[i + n * k] - difference).abs() / (unit * row);
+                if off > worst {
+                    let names = model.state_infos();
+                    println!("d {}' / d {}: {} {difference}", names[i].name, names[k].name, exact[i + n * k]);
+                }
+                worst = worst.max(off);
+            }
+        }
+    }
+    worst
+}
+
+#[test]
+fn derivatives_are_those_of_the_accelerations() {
+    let off = error(&everything(), 0.3);
+    assert!(off < 1e-6, "{off}");
+}
+
+#[test]
+fn derivatives_of_a_deep_groove_bearing() {
+    let changes = [
+        ("inner_ring.motion", free_ring([100.0, 0.0, -3000.0, 2.0, 1.0])),
+        ("inner_ring.speed", json!({"constant": 300.0})),
+        ("initial", json!({"inner_ring": "equilibrium"})),
+    ];
+    let off = error(&model(DEEP, &changes), 0.1);
+    assert!(off < 1e-6, "{off}");
+}
