@@ -123,6 +123,7 @@ registry! {
         Load = "load",
         Support = "support",
         Neighbour = "neighbour",
+        Drag = "drag",
     }
 }
 
@@ -150,6 +151,7 @@ registry! {
         CageBending = "cage_bending",
         NeighbourDamping = "neighbour_damping",
         NeighbourFriction = "neighbour_friction",
+        Drag = "drag",
     }
 }
 

@@ -9,7 +9,7 @@
 //! | `guide` | films between cage and ring, shared with solid contact |
 //! | `fluid` | viscosity |
 //!
-//! `bearing_torque` is the friction of a whole bearing from catalogue values. `line_contact` puts those of a lubricated line contact together,
+//! `drag` is that of a mixture of air and oil on a ball; `bearing_torque` is the friction of a whole bearing from catalogue values. `line_contact` puts those of a lubricated line contact together,
 //! `point_contact` those of a ball in its groove; `resting_line` gives the spring of a line contact alone.
 //!
 //! A law knows its own constants and nothing else: no bodies, no JSON, no planar or spatial geometry. All
@@ -18,6 +18,7 @@
 
 pub mod bearing_torque;
 pub mod contact_pair;
+pub mod drag;
 pub mod elastic;
 #[cfg(test)]
 mod extremes;

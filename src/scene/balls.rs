@@ -30,6 +30,27 @@ pub struct Balls {
     /// How much the radii of single balls deviate from `radius`. Absent: they are equal.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius_deviations: Option<RadiusDeviations>,
+    /// Drag of the mixture of air and oil in which they move. Absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub drag: Option<BallDrag>,
+}
+
+/// Drag of a mixture of air and oil on balls: force on their centres, moment against their spin.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct BallDrag {
+    /// Density of the mixture, kg/m^3: 0.5 to 10 % of that of oil are usual.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-3, max = 2000.0)))]
+    pub density: f64,
+    /// C_d of a sphere.
+    #[serde(default = "drag_coefficient")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 10.0)))]
+    pub coefficient: f64,
+}
+
+fn drag_coefficient() -> f64 {
+    0.5
 }
 
 /// An inner ring that moves in space: any of its coordinates is free, held, or prescribed over time.

@@ -21,7 +21,7 @@ mod run;
 mod signal;
 mod validate;
 
-pub use balls::{Balls, Preload, RingCoordinate, RotorInertia, SpatialLoad, SpatialRing};
+pub use balls::{BallDrag, Balls, Preload, RingCoordinate, RotorInertia, SpatialLoad, SpatialRing};
 pub use cage::{
     Cage, CageLoad, CylinderPocket, FilmShare, Friction, Guide, GuideFilm, GuideRing, GuideSolid, LayerFilm,
     PlanePocket, Pocket, PressureShear, RoundnessHarmonic, ShortBearingFilm, SolidContact,

@@ -5,6 +5,7 @@ mod common;
 
 mod conservation;
 mod derivatives;
+mod skidding;
 
 use cagedyn::{Model, Scene, Sim};
 use common::Random;
@@ -47,6 +48,7 @@ fn everything() -> Arc<Model> {
             ("inner_ring.motion.space.preload", json!({"force": 500.0, "stiffness": 1e6})),
             ("inner_ring.speed", json!({"constant": 900.0})),
             ("outer_ring.speed", json!({"constant": -40.0})),
+            ("balls.drag", json!({"density": 40.0})),
             ("gravity", json!({"y": 1.0, "z": -9.8})),
             ("balls.radius_deviations", json!({"groups": [{"balls": [0, 4], "deviation": 1e-6}]})),
             ("initial", json!({"inner_ring": "equilibrium"})),

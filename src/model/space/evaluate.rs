@@ -6,7 +6,7 @@ use crate::bodies::{Balls, Fault, Input, InputValues, MovingRing, OF_BALL, SOUND
 use crate::pairs::Law;
 use crate::pairs::groove::{InGroove, Race};
 use crate::scalar::{Columns, Numeric, Pack, dispatch, math, place_of};
-use crate::space::solid::{LARGEST_TILT, Moving, Vector};
+use crate::space::solid::{LARGEST_TILT, Moving, Vector, dot, scaled, sum};
 use pulp::Simd;
 
 /// Least distance of a ball from the middle of the arc of its groove, over that of one that just touches: nearer to it there is no
@@ -186,13 +186,13 @@ impl Space {
     /// Collects forces on the bodies and lets them accelerate.
     pub(super) fn assemble(&self, ws: &mut Workspace, a: &mut [f64]) {
         for race in 0..RACES.len() {
-            let mut sum = [0.0; WRENCH];
+            let mut total = [0.0; WRENCH];
             for (contact, lane) in ws.contacts(race) {
-                for (sum, column) in sum.iter_mut().zip(&contact.on_ring) {
-                    *sum += column[lane];
+                for (total, column) in total.iter_mut().zip(&contact.on_ring) {
+                    *total += column[lane];
                 }
             }
-            ws.on_rings[race] = halves(sum);
+            ws.on_rings[race] = halves(total);
         }
         self.accelerate_ring(ws, ws.on_rings[1], a);
         for j in 0..ws.count {
@@ -200,17 +200,39 @@ impl Space {
             let block = &ws.blocks[block];
             let [cos, sin] = at_lane(&block.direction, lane);
             let [gy, gz] = self.gravity;
+            let (r, speeds) = (self.balls.set.pitch_radius + block.at[1][lane], at_lane(&block.speeds, lane));
+            let mut on_ball = halves(at_lane(&block.on_ball, lane));
+            if let Some(drag) = self.drag_on(j, &moving(speeds, r), ws.fluid.ln_viscosity) {
+                on_ball = [0, 1].map(|k| sum(on_ball[k], drag[k]));
+            }
             let accelerations = Balls::accelerations(
                 at_lane(&block.inertia, lane),
-                self.balls.set.pitch_radius + block.at[1][lane],
-                at_lane(&block.speeds, lane),
-                halves(at_lane(&block.on_ball, lane)),
+                r,
+                speeds,
+                on_ball,
                 [gy * cos + gz * sin, gz * cos - gy * sin],
             );
             for (place, acceleration) in self.layout.of_element::<OF_BALL>(j).into_iter().zip(accelerations) {
                 a[place] = acceleration;
             }
         }
+    }
+
+    /// Force and moment of the mixture on ball `j`, if there is one.
+    #[inline]
+    pub(super) fn drag_on<T: Numeric>(
+        &self,
+        j: usize,
+        moving: &Moving<T>,
+        ln_viscosity: T,
+    ) -> Option<[Vector<T>; 2]> {
+        let radius = self.balls.set.radius + self.balls.set.radius_excess[j];
+        let Moving { velocity, turning } = *moving;
+        self.drag.map(|drag| {
+            let squares = [velocity, turning].map(|v| dot(v, v));
+            let [force, moment] = drag.per_speed(radius, squares, ln_viscosity);
+            [scaled(velocity, -force), scaled(turning, -moment)]
+        })
     }
 
     /// Writes the accelerations of the ring under these forces of all balls.

@@ -29,6 +29,9 @@ const SPEED: usize = 14;
 const VISCOSITY: usize = 15;
 type Relative = Dual<RELATIVE>;
 
+/// What a ball's own motion follows: rho, azimuth, speeds, logarithm of the viscosity.
+const OF_OWN: usize = 3 + OF_BALL;
+
 /// Derivatives of the forces of a block of contacts with both races.
 pub(super) type BlockSlopes = [[[Lanes; SEEN]; FORCES]; 2];
 
@@ -160,6 +163,7 @@ impl Space {
             }
             for row in 0..OF_BALL {
                 let eps = ball[row].eps;
+                out.over_time[places[row]] += eps[OF_OWN - 1] * ln_rate;
                 let to = &mut out.over_positions.own.as_mut_slice().as_chunks_mut::<OF_BALL>().0;
                 to[j * OF_BALL + 1][row] += eps[0];
                 to[j * OF_BALL + 2][row] += eps[1];
@@ -185,25 +189,26 @@ impl Space {
         self.ring.accelerations(&state, [at(0, force), at(3, moment)], load, self.gravity)
     }
 
-    /// Accelerations of a ball over rho, its azimuth and its speeds at constant forces.
-    fn ball_slopes(&self, ws: &Workspace, j: usize) -> [Dual<{ 2 + OF_BALL }>; OF_BALL] {
+    /// Accelerations of a ball over rho, its azimuth, its speeds and the logarithm of the viscosity, at constant forces of contacts.
+    fn ball_slopes(&self, ws: &Workspace, j: usize) -> [Dual<OF_OWN>; OF_BALL] {
         let (block, lane) = place_of(j);
         let block = &ws.blocks[block];
-        let variable = Dual::<{ 2 + OF_BALL }>::variable;
-        let constant = |x: f64| Dual { re: x, eps: [0.0; 2 + OF_BALL] };
+        let variable = Dual::<OF_OWN>::variable;
+        let constant = |x: f64| Dual { re: x, eps: [0.0; OF_OWN] };
         let ([cos, sin], [gy, gz]) = (at_lane(&block.direction, lane), self.gravity);
         let [outwards, ahead] = [gy * cos + gz * sin, gz * cos - gy * sin];
         let mut gravity = [constant(outwards), constant(ahead)];
         (gravity[0].eps[1], gravity[1].eps[1]) = (ahead, -outwards);
         let speeds = at_lane(&block.speeds, lane);
+        let speeds = std::array::from_fn(|k| variable(speeds[k], 2 + k));
+        let r = variable(self.balls.set.pitch_radius + block.at[1][lane], 0);
         let [fx, fr, ft, mx, my, mz] = at_lane(&block.on_ball, lane).map(constant);
-        Balls::accelerations(
-            at_lane(&block.inertia, lane),
-            variable(self.balls.set.pitch_radius + block.at[1][lane], 0),
-            std::array::from_fn(|k| variable(speeds[k], 2 + k)),
-            [[fx, fr, ft], [mx, my, mz]],
-            gravity,
-        )
+        let mut on_ball = [[fx, fr, ft], [mx, my, mz]];
+        let ln_viscosity = variable(ws.fluid.ln_viscosity, OF_OWN - 1);
+        if let Some(drag) = self.drag_on(j, &moving(speeds, r), ln_viscosity) {
+            on_ball = [0, 1].map(|k| sum(on_ball[k], drag[k]));
+        }
+        Balls::accelerations(at_lane(&block.inertia, lane), r, speeds, on_ball, gravity)
     }
 
     /// What the contact of ball `j` with race `k` does to both.

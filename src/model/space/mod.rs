@@ -22,9 +22,10 @@ use super::{HostInputs, Layout, Quantity, StateInfo, quantity};
 use crate::bodies::{Balls, Coordinate, Fault, Owner, RING_COORDINATES, RingInSpace};
 use crate::error::Result;
 use crate::integrate::Tuning;
+use crate::laws::drag::MixtureDrag;
 use crate::pairs::Law;
 use crate::pairs::groove::{Fit, Race, angle_of_drop, fit, races};
-use crate::scene::Scene;
+use crate::scene::{BallDrag, Scene, needed};
 use std::sync::Arc;
 
 /// Names of the bodies before the balls.
@@ -44,6 +45,8 @@ pub struct Space {
     pub(crate) balls: Balls,
     /// Of outer and inner ring.
     pub(crate) races: [Race; 2],
+    /// Of the mixture around the balls.
+    drag: Option<MixtureDrag>,
     /// Channels that are followed in every step.
     watched: Vec<Source>,
 }
@@ -54,12 +57,17 @@ impl Space {
         let Some(balls) = Balls::new(&scene) else { return Ok(None) };
         let viscosity = inputs.viscosity_at_start(&scene);
         let Some(races) = races(&scene, &balls.set.radius_excess, viscosity)? else { return Ok(None) };
+        let of_drag = |drag: &BallDrag| {
+            let viscosity = needed("lubricant", viscosity, "balls.drag")?;
+            Ok(MixtureDrag { density: drag.density, coefficient: drag.coefficient, viscosity })
+        };
+        let drag = scene.balls.as_ref().and_then(|balls| balls.drag.as_ref()).map(of_drag).transpose()?;
         let ring = RingInSpace::new(&scene);
         let spins = balls.coordinates().iter().filter(|c| c.position.is_none()).count();
         let of_balls = [balls.set.count, balls.coordinates().len() - spins, spins];
         let layout = Layout::new([0, ring.free().count(), 0], of_balls, false, Vec::new());
         let gravity = scene.gravity.map_or([0.0; 2], |g| [g.y, g.z]);
-        Ok(Some(Self { scene, inputs, layout, gravity, ring, balls, races, watched: Vec::new() }))
+        Ok(Some(Self { scene, inputs, layout, gravity, ring, balls, races, drag, watched: Vec::new() }))
     }
 
     /// Order of the coordinates in the state vector.

@@ -359,6 +359,15 @@ impl Space {
                     }
                 }
             }
+            let (block, lane) = place_of(j);
+            let block = &ws.blocks[block];
+            let r = self.balls.set.pitch_radius + block.at[1][lane];
+            let direction = at_lane(&block.direction, lane);
+            let of_ball = moving(at_lane(&block.speeds, lane), r);
+            if let Some(drag) = self.drag_on(j, &of_ball, ws.fluid.ln_viscosity) {
+                let [[a, b, c], [d, e, f]] = drag.map(|v| to_global(v, direction));
+                out.bodies[RACES.len() + j][ForceSource::Drag as usize] = [a, b, c, d, e, f];
+            }
             let [mass, _] = self.balls.inertia(j);
             out.bodies[RACES.len() + j][ForceSource::Gravity as usize] =
                 [0.0, mass * gy, mass * gz, 0.0, 0.0, 0.0];

@@ -121,6 +121,15 @@ impl Space {
                 }
             }
         }
+        for j in 0..ws.count {
+            let (block, lane) = place_of(j);
+            let block = &ws.blocks[block];
+            let r = self.balls.set.pitch_radius + block.at[1][lane];
+            let moving = moving(at_lane(&block.speeds, lane), r);
+            if let Some([force, moment]) = self.drag_on(j, &moving, ws.fluid.ln_viscosity) {
+                p[Power::Drag as usize] += dot(force, moving.velocity) + dot(moment, moving.turning);
+            }
+        }
         let [outer, inner] = &ws.rings;
         let [loads, supports] = self.ring.powers(&ws.ring, ws.load);
         p[Power::Loads as usize] += loads;

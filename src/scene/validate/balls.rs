@@ -42,6 +42,13 @@ impl Scene {
             self.material_exists(judge, &path, material.as_ref().ok_or_else(|| missing(&path))?)?;
         }
         self.validate_fit(judge, balls, inner, grooves)?;
+        if let Some(drag) = &balls.drag {
+            judge.number("balls.drag.density", drag.density, range(1e-3, 2000.0, "kg/m^3"))?;
+            judge.number("balls.drag.coefficient", drag.coefficient, range(0.0, 10.0, "1"))?;
+            if self.lubricant.is_none() && !judge.excuses("lubricant") {
+                judge.refuse("lubricant", "missing; 'balls.drag' needs its viscosity")?;
+            }
+        }
         for (path, present) in [
             ("outer_ring.raceway_radius", outer.raceway_radius.is_some()),
             ("outer_ring.raceway_crown_radius", outer.raceway_crown_radius.is_some()),

@@ -176,7 +176,7 @@ mod tests {
     #[test]
     fn what_is_not_finite_is_found_and_named() {
         let model = Model::from_json(include_str!("../../../scenes/nu2310.json")).unwrap();
-        let mut slopes = Slopes::new(&model);
+        let mut slopes = Slopes::<OF_ELEMENT>::new(&model);
         assert_eq!(slopes.check(), Ok(()));
         slopes.linearization.over_velocities.to_hub[(4, 3 * OF_ELEMENT + 1)] = f64::NAN;
         let fault = slopes.check().unwrap_err();
