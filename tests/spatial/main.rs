@@ -6,6 +6,7 @@ mod common;
 mod conservation;
 mod derivatives;
 mod skidding;
+mod steady;
 
 use cagedyn::{Model, Scene, Sim};
 use common::Random;

@@ -12,9 +12,9 @@ fn orbit_speeds(found: &Equilibrium) -> f64 {
     found.elements[0][place]
 }
 
-/// Orbit speed of the balls of a 218 over that of outer race control at these times (s), from kinematic speeds at the contact angle under
+/// Orbit speed of the balls of a 218 over that of outer race control at this time (s), from kinematic speeds at the contact angle under
 /// this axial load (N).
-fn lag(load: f64, drag: Value, times: &[f64]) -> Vec<f64> {
+fn lag(load: f64, drag: Value, law: &str, time: f64) -> f64 {
     let with_speed = |speed: f64| {
         model(
             ANGULAR,
@@ -23,6 +23,7 @@ fn lag(load: f64, drag: Value, times: &[f64]) -> Vec<f64> {
                 ("inner_ring.motion.space.mass", json!(2.0)),
                 ("inner_ring.speed.constant", json!(speed)),
                 ("balls.drag", drag.clone()),
+                ("raceways.rolling_resistance.law", json!(law)),
             ],
         )
     };
@@ -49,26 +50,25 @@ fn lag(load: f64, drag: Value, times: &[f64]) -> Vec<f64> {
         (state[nq + spin], state[nq + spin + 1]) = (orbit + own * angle.cos(), -own * angle.sin());
     }
     sim.set_state(0.0, &state).unwrap();
-    times
-        .iter()
-        .map(|t| {
-            sim.advance_to(*t).unwrap();
-            sim.state()[nq + layout.element(0) + 2] / control
-        })
-        .collect()
+    sim.advance_to(time).unwrap();
+    sim.state()[nq + layout.element(0) + 2] / control
 }
 
+/// Ratios of an independent program, whose law of rolling resistance beside drag is that of Houpert. Under 2000 N, where balls are about to
+/// let go, one law of rolling resistance more or less decides: 0.71 with that of Biboulet and Houpert, 0.78 with Houpert's, 0.74 there.
 #[test]
 fn light_loads_skid_in_oil() {
-    for (load, density, published) in [
-        (3000.0, None, 0.994),
-        (1000.0, None, 0.91),
-        (3000.0, Some(60.0), 0.956),
-        (2000.0, Some(60.0), 0.74),
-        (1000.0, Some(60.0), 0.47),
+    for (load, density, law, independent) in [
+        (3000.0, None, "biboulet_houpert", 0.994),
+        (1000.0, None, "biboulet_houpert", 0.91),
+        (3000.0, Some(60.0), "houpert", 0.956),
+        (1000.0, Some(60.0), "houpert", 0.47),
     ] {
         let drag = density.map_or(Value::Null, |density| json!({"density": density}));
-        let found = lag(load, drag, &[0.1, 0.2, 0.4]);
-        println!("{load} {density:?}: {found:?} {published}");
+        let found = lag(load, drag, law, 0.4);
+        assert!((found / independent - 1.0).abs() < 0.02, "{load} N {density:?}: {found} {independent}");
     }
+    let drag = json!({"density": 60.0});
+    let [held, let_go] = ["biboulet_houpert", "houpert"].map(|law| lag(2000.0, drag.clone(), law, 0.4));
+    assert!(held < 0.74 && 0.74 < let_go && let_go < 0.8, "{held} {let_go}");
 }
