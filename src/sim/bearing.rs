@@ -19,8 +19,8 @@ const WRONG_SPOKES: &str = "methods are made for the spokes of their bearing";
 
 /// A bearing with its memory, by the space in which it moves.
 enum Moving {
-    Plane(Arc<Plane>, Workspace),
-    Space(Arc<Space>, space::Workspace),
+    Plane(Arc<Plane>, Box<Workspace>),
+    Space(Arc<Space>, Box<space::Workspace>),
 }
 
 /// Does the same with the bearing and its workspace, whichever it is.
@@ -68,10 +68,10 @@ struct StepMemory {
 impl Bearing {
     pub(super) fn new(model: Arc<Model>, tuning: Tuning) -> crate::Result<Self> {
         let moving = match model.space() {
-            Some(space) => Moving::Space(space.clone(), space::Workspace::new(space)),
+            Some(space) => Moving::Space(space.clone(), Box::new(space::Workspace::new(space))),
             None => {
                 let plane = model.plane()?.clone();
-                let workspace = Workspace::new(&plane);
+                let workspace = Box::new(Workspace::new(&plane));
                 Moving::Plane(plane, workspace)
             }
         };

@@ -9,8 +9,17 @@ use serde_json::Value;
 
 #[test]
 fn sources_have_the_expected_names() {
-    let names =
-        ["outer_raceway", "inner_raceway", "pocket", "guide", "gravity", "load", "support", "neighbour"];
+    let names = [
+        "outer_raceway",
+        "inner_raceway",
+        "pocket",
+        "guide",
+        "gravity",
+        "load",
+        "support",
+        "neighbour",
+        "drag",
+    ];
     assert_eq!(FORCE_SOURCES, names);
 }
 

@@ -334,11 +334,9 @@ fn over_ring(z: &Row, [cos, sin]: [f64; 2]) -> [[f64; OF_RING]; 2] {
 fn to_global_rows(on: &[Relative; 6], [cos, sin]: [f64; 2]) -> [Row; 6] {
     let mut out = on.map(|x| x.eps);
     for first in [0, 3] {
-        for d in 0..RELATIVE {
-            let (r, t) = (on[first + 1].eps[d], on[first + 2].eps[d]);
-            out[first + 1][d] = cos * r - sin * t;
-            out[first + 2][d] = sin * r + cos * t;
-        }
+        let turned =
+            |r: [f64; 2]| std::array::from_fn(|d| r[0] * on[first + 1].eps[d] + r[1] * on[first + 2].eps[d]);
+        (out[first + 1], out[first + 2]) = (turned([cos, -sin]), turned([sin, cos]));
     }
     out
 }

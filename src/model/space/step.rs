@@ -107,7 +107,7 @@ impl Space {
         self.find_step(v, step, ws);
         debug_assert_eq!(POWERS.len(), AT_FLOOR);
         let parts = [Power::RacewayDamping, Power::RacewayFriction, Power::RollingResistance];
-        let mut on_inner = ws.on_rings[1];
+        let mut on_inner = ws.on_rings[1][1];
         let mut on_outer = ws.on_rings[0][1][0];
         for (race, (contact, lane)) in (0..2).flat_map(|race| ws.contacts(race).map(move |c| (race, c))) {
             for (power, part) in contact.powers.iter().zip(parts) {
@@ -116,9 +116,7 @@ impl Space {
             if race == 0 {
                 on_outer += contact.reaction[3][lane];
             } else {
-                for k in 0..3 {
-                    on_inner[1][k] += contact.reaction[3 + k][lane];
-                }
+                on_inner = sum(on_inner, [3, 4, 5].map(|k| contact.reaction[k][lane]));
             }
         }
         for j in 0..ws.count {
@@ -134,7 +132,7 @@ impl Space {
         let [loads, supports] = self.ring.powers(&ws.ring, ws.load);
         p[Power::Loads as usize] += loads;
         p[Power::RingSupport as usize] += supports;
-        p[Power::RingDrive as usize] -= dot(on_inner[1], inner.axis) * inner.speed;
+        p[Power::RingDrive as usize] -= dot(on_inner, inner.axis) * inner.speed;
         p[Power::OuterRingDrive as usize] -= on_outer * outer.speed;
     }
 
@@ -201,7 +199,6 @@ impl Columns for Damp<'_> {
     }
 
     #[inline(always)]
-    #[expect(clippy::needless_range_loop, reason = "iterators might not be inlined")]
     fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
         let (place, lane) = place_of(first);
         let (block, (race, k)) = (&mut self.blocks[place], self.race);

@@ -50,7 +50,6 @@ pub(super) struct BallBlock {
 
 /// Numbers of the columns from this place of the lanes on.
 #[inline(always)]
-#[expect(clippy::needless_range_loop, reason = "iterators might not be inlined")]
 pub(super) fn load<S: Simd, const K: usize, const N: usize>(
     simd: S,
     columns: &[Lanes; N],
@@ -65,7 +64,6 @@ pub(super) fn load<S: Simd, const K: usize, const N: usize>(
 
 /// Writes numbers to the columns from this place of the lanes on.
 #[inline(always)]
-#[expect(clippy::needless_range_loop, reason = "iterators might not be inlined")]
 pub(super) fn store<S: Simd, const K: usize, const N: usize>(
     numbers: [Pack<S, K>; N],
     columns: &mut [Lanes; N],
