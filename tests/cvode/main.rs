@@ -7,6 +7,7 @@ mod common;
 mod cases;
 mod combinations;
 mod driver;
+mod space;
 mod tables;
 mod whirl;
 

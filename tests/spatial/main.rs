@@ -5,6 +5,7 @@ mod common;
 
 mod conservation;
 mod derivatives;
+mod same_bits;
 mod skidding;
 mod steady;
 

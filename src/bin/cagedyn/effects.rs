@@ -2,8 +2,8 @@
 
 use cagedyn::Scene;
 use cagedyn::scene::{
-    ContactLaws, Extent, Guide, GuideFilm, GuideRing, Pocket, PressureShear, RingMotion, RollerProfile,
-    SolidContact, Viscosity,
+    ContactLaws, Extent, FilmLaw, Guide, GuideFilm, GuideRing, Pocket, PressureShear, RingMotion,
+    RollerProfile, SolidContact, Viscosity,
 };
 
 /// An optional block of a scene.
@@ -61,6 +61,11 @@ impl List {
 fn ring(scene: &Scene, list: &mut List) {
     let turns = scene.outer_ring.as_ref().is_some_and(|ring| ring.speed.is_some());
     list.flag("outer_ring.speed", turns, "motion: the outer ring turns at its given speed");
+    if let Some(balls) = &scene.balls {
+        let drag = balls.drag.map(|drag| format!("force: drag of a mixture of {} kg/m^3", drag.density));
+        list.add("balls.drag", drag);
+        space(scene, list);
+    }
     if scene.rollers.is_none() {
         return;
     }
@@ -75,6 +80,16 @@ fn ring(scene: &Scene, list: &mut List) {
     let damping = ring.support_damping.map(|d| format!("force: damper of {d} N s/m on the ring"));
     list.add("inner_ring.motion.free.support_damping", damping);
     list.flag("inner_ring.motion.free.load", ring.load.is_some(), "force: external load on the ring");
+}
+
+fn space(scene: &Scene, list: &mut List) {
+    let Some(RingMotion::Space(ring)) = scene.inner_ring.as_ref().map(|ring| &ring.motion) else { return };
+    let preload = ring.preload.map(|spring| format!("force: spring of {} N along the axis", spring.force));
+    list.add("inner_ring.motion.space.preload", preload);
+    let damping = ring.support_damping.map(|d| format!("force: damper of {d} N s/m on the ring"));
+    list.add("inner_ring.motion.space.support_damping", damping);
+    let damping = ring.tilt_damping.map(|d| format!("force: damper of {d} N m s on its tilt"));
+    list.add("inner_ring.motion.space.tilt_damping", damping);
 }
 
 fn profiles(scene: &Scene, list: &mut List) {
@@ -107,7 +122,11 @@ fn contact(laws: &ContactLaws, path: &str, list: &mut List) {
         at("damping"),
         damping.map(|d| format!("law: normal damping, relaxation time {:e} s", d.relaxation_time)),
     );
-    list.flag(at("film"), laws.film.is_some(), "law: film thickness of Pan and Hamrock");
+    let film = laws.film.map(|law| match law {
+        FilmLaw::PanHamrock => "law: film thickness of Pan and Hamrock".to_owned(),
+        FilmLaw::HamrockDowson => "law: film thickness of Hamrock and Dowson".to_owned(),
+    });
+    list.add(at("film"), film);
     let law = laws.thermal_correction.map(|law| format!("law: film thickness reduced by heat ({law:?})"));
     list.add(at("thermal_correction"), law);
     list.flag(at("traction"), laws.traction.is_some(), "law: film traction of Muraki and Kimura");

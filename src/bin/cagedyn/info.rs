@@ -113,10 +113,13 @@ fn indexed(name: &str, count: usize) -> String {
 fn elements(model: &Model) -> Vec<String> {
     let count = model.element_count();
     match model.scene().kinematic_elements.as_ref().map(|e| &e.motion) {
-        None => {
+        None if model.has_rollers() => {
             let text =
                 format!("{} states, {} contacts: elastic line contact of Palmgren", 5 * count, 2 * count);
             row("rollers", text)
+        }
+        None => {
+            row("balls", format!("{} states, {} contacts: elastic ellipse of Hertz", 9 * count, 2 * count))
         }
         Some(ElementMotion::Rolling { contact_angle }) => {
             let text = format!("no states: {count} elements roll at a contact angle of {contact_angle} rad");

@@ -1,4 +1,13 @@
 //! A bearing whose balls and inner ring move in space.
+//!
+//! | file | what |
+//! |---|---|
+//! | `evaluate`, `workspace` | forces and accelerations, balls in columns |
+//! | `step` | damping, forces of a semi-implicit step, energies, powers |
+//! | `linearize` | exact derivatives |
+//! | `rest/`, `initial` | ring and balls at rest or in steady motion; start of a run |
+//! | `scales`, `costs` | units of errors, frequencies; where time goes |
+//! | `report` | force reports, channels, what is followed in every step |
 
 mod costs;
 mod evaluate;
