@@ -81,7 +81,7 @@ fn a_ring_that_leaves_ends_the_run() {
     let load = model.input_infos().iter().position(|input| input.name == "load.x").unwrap();
     sim.set_input(load, -2e4).unwrap();
     let error = sim.advance_to(0.2).unwrap_err();
-    assert!(error.message.contains("inner ring has left"), "{error}");
+    assert!(error.message.contains(" has left "), "{error}");
     assert!(sim.state().iter().all(|x| x.is_finite()));
     sim.reset().unwrap();
 }

@@ -1,0 +1,61 @@
+//! What a bearing in space costs beside the NU2310 in the same run: one force evaluation with all effects, and its derivatives.
+//!
+//! Medians of short interleaved blocks, as machines drift.
+
+use cagedyn::{Model, Scene, Sim};
+use std::hint::black_box;
+use std::sync::Arc;
+use std::time::Instant;
+
+const BLOCKS: usize = 41;
+const REPEATS: u32 = 50;
+
+fn median(values: &mut [f64]) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+fn sim(name: &str, overrides: &[(&str, &str)], until: f64) -> cagedyn::Result<Sim> {
+    let path = format!("{}/scenes/{name}.json", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(path).unwrap_or_default();
+    let scene = Scene::from_json_with(&text, overrides.iter().copied())?;
+    let mut sim = Sim::new(Arc::new(Model::new(scene)?))?;
+    sim.advance_to(until)?;
+    Ok(sim)
+}
+
+fn main() -> cagedyn::Result<()> {
+    let fast = [("inner_ring.speed.constant", "1000.0"), ("balls.drag", r#"{"density": 20.0}"#)];
+    let cases = [
+        ("nu2310", sim("nu2310", &[], 10e-3)?),
+        ("angular_contact_218", sim("angular_contact_218", &fast, 2e-3)?),
+        ("deep_groove_6206", sim("deep_groove_6206", &[("inner_ring.speed.constant", "300.0")], 2e-3)?),
+        ("angular_contact_70", sim("angular_contact_70", &[], 2e-3)?),
+    ];
+    let mut times = vec![[Vec::new(), Vec::new()]; cases.len()];
+    let (names, mut sims): (Vec<&str>, Vec<Sim>) = cases.into_iter().unzip();
+    for _ in 0..BLOCKS {
+        for (sim, times) in sims.iter_mut().zip(&mut times) {
+            let (t, state) = (sim.time(), sim.state().to_vec());
+            let mut rate = vec![0.0; state.len()];
+            let started = Instant::now();
+            for _ in 0..REPEATS {
+                sim.derivative(t, black_box(&state), &mut rate)?;
+            }
+            times[0].push(started.elapsed().as_secs_f64() / f64::from(REPEATS));
+            let started = Instant::now();
+            for _ in 0..REPEATS {
+                sim.linearize(t, black_box(&state))?;
+            }
+            times[1].push(started.elapsed().as_secs_f64() / f64::from(REPEATS));
+        }
+    }
+    let medians: Vec<[f64; 2]> = times.iter_mut().map(|[a, b]| [median(a), median(b)]).collect();
+    println!(
+        "| scene | evaluation, us | over NU2310 | with derivatives, in evaluations |\n|---|---:|---:|---:|"
+    );
+    for (name, [forces, both]) in names.iter().zip(&medians) {
+        println!("| {name} | {:.2} | {:.1} | {:.1} |", 1e6 * forces, forces / medians[0][0], both / forces);
+    }
+    Ok(())
+}
