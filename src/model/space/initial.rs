@@ -1,5 +1,5 @@
-//! Start of a run: on request ring and balls in the steady motion of their own friction, or that of outer race control where nothing
-//! drives a ball; else undisplaced, at kinematic speeds.
+//! Start of a run: on request ring and balls in the steady motion of their own friction, or where nothing drives a ball in that of outer race
+//! control, or of none where there is no such motion; else undisplaced, at kinematic speeds.
 
 use super::rest::{RaceControl, settled};
 use super::{HostInputs, Space};
@@ -19,8 +19,9 @@ impl Space {
         let (q, v) = state.split_at_mut(self.layout.positions());
         let mut motions = vec![self.kinematic_motion(); self.balls.set.count];
         if self.scene.initial.inner_ring == RingStart::Equilibrium {
-            let found =
-                settled(self, RaceControl::Friction).or_else(|_| settled(self, RaceControl::Outer))?;
+            let found = settled(self, RaceControl::Friction)
+                .or_else(|_| settled(self, RaceControl::Outer))
+                .or_else(|error| settled(self, RaceControl::None).map_err(|_| error))?;
             for (q, k) in q.iter_mut().zip(self.ring.free()) {
                 *q = found.ring[k];
             }

@@ -18,6 +18,8 @@ const FASTER: f64 = -0.1;
 const ROLLS: f64 = 5.0;
 /// Share of all records in contact above which the mean slip of a roller is one of rolling.
 const ROLLING: f64 = 0.5;
+/// Torque that is round-off, N m.
+const NO_TORQUE: f64 = 1e-12;
 /// Temperatures that a lubricated bearing has, K.
 const TEMPERATURES: [f64; 2] = [200.0, 700.0];
 /// Mean drag torque in units of its largest value below which a bearing drives its shaft, if it gives more than it held.
@@ -199,7 +201,7 @@ impl Watch {
                 Quantity::Torque
                     if self.without.steady[1]
                         && !outer_turns
-                        && mean < (DRIVES * self.torque).min(-self.without.holds) =>
+                        && mean < (DRIVES * self.torque).min(-self.without.holds) - NO_TORQUE =>
                 {
                     "bearing drives its shaft"
                 }

@@ -5,4 +5,5 @@ mod parts;
 pub mod published;
 pub mod run;
 pub mod scenes;
+pub mod space;
 pub mod summary;

@@ -1,7 +1,7 @@
 //! One random scene with every preset.
 
 use crate::judge::impossible::Watch;
-use crate::judge::{published, scenes};
+use crate::judge::{published, scenes, space};
 use cagedyn::integrate::Tuning;
 use cagedyn::sim::{Doubt, LEVEL, Sample};
 use cagedyn::{Error, Model, Sim, Status};
@@ -18,6 +18,8 @@ pub enum Kind {
     Plain,
     /// Published bearings with everything that a scene can have.
     Published,
+    /// Balls that move in space.
+    Space,
 }
 
 impl Kind {
@@ -26,6 +28,7 @@ impl Kind {
         match self {
             Self::Plain => scenes::scene(number, duration),
             Self::Published => published::scene(number, duration),
+            Self::Space => space::scene(number, duration),
         }
     }
 }
@@ -70,7 +73,10 @@ const STARTS: u32 = 8;
 const NEXT_TO_NOTHING: f64 = 1e-3;
 const SMALL_RATIO: f64 = 0.1;
 /// Channels whose means are compared, where they exist.
-pub const CHANNELS: [&str; 4] = ["cage.y_ratio", "cage.z_ratio", "cage.slip", "inner_ring.drag_torque"];
+pub const CHANNELS: [&str; 5] =
+    ["cage.y_ratio", "cage.z_ratio", "cage.slip", "inner_ring.drag_torque", "balls.orbit_ratio"];
+/// Most of them that a scene has.
+const MOST_CHANNELS: usize = 4;
 
 /// How far means are from those of `reference`.
 #[derive(Clone, Copy, Debug)]
@@ -222,7 +228,7 @@ pub fn over_starts(number: u64, count: u32, options: &Options) -> Result<Vec<Ove
     let scene = options.kind.scene(number, options.duration);
     let mut all = Vec::new();
     for (preset, _) in options.chosen() {
-        let (mut columns, mut evaluations) = ([const { Vec::new() }; 4], 0.0);
+        let (mut columns, mut evaluations) = ([const { Vec::new() }; CHANNELS.len()], 0.0);
         for k in 1..=count {
             let (verdict, means) = run(&scene, preset, FURTHER * f64::from(k), options)?;
             if let Verdict::Ran { evaluations: of_run, .. } = verdict {
@@ -244,11 +250,11 @@ pub fn over_starts(number: u64, count: u32, options: &Options) -> Result<Vec<Ove
 /// Whether scatter does not explain the difference; so it is where there is nothing to compare.
 fn differ(here: Option<Sample>, there: Option<Sample>) -> bool {
     let (Some(here), Some(there)) = (here, there) else { return true };
-    let verdict = here.against(&there, LEVEL, CHANNELS.len());
+    let verdict = here.against(&there, LEVEL, MOST_CHANNELS);
     verdict.difference.abs() > verdict.band + negligible(there.mean)
 }
 
-type Means = [Option<Sample>; 4];
+type Means = [Option<Sample>; CHANNELS.len()];
 
 fn run(scene: &Value, preset: &str, shift: f64, options: &Options) -> Result<(Verdict, Means), Error> {
     let mut scene = scene.clone();
@@ -264,7 +270,7 @@ fn run(scene: &Value, preset: &str, shift: f64, options: &Options) -> Result<(Ve
     let names: Vec<String> = sim.channels().iter().map(|channel| channel.name.clone()).collect();
     let places = CHANNELS.map(|name| names.iter().position(|n| n == name));
     let mut watch = Watch::new(&scene, &names);
-    let (mut out, mut columns) = (vec![0.0; names.len()], [const { Vec::new() }; 4]);
+    let (mut out, mut columns) = (vec![0.0; names.len()], [const { Vec::new() }; CHANNELS.len()]);
     for i in 1..=RECORDS {
         sim.advance_to(options.duration * f64::from(i) / f64::from(RECORDS))?;
         sim.outputs(&mut out)?;
@@ -277,7 +283,7 @@ fn run(scene: &Value, preset: &str, shift: f64, options: &Options) -> Result<(Ve
     }
     let doubts = sim.doubts();
     if !doubts.is_empty() && doubts.iter().all(|doubt| matches!(doubt, Doubt::CreatedEnergy { .. })) {
-        return Ok((Verdict::MadeEnergy(sim.report()), [None; 4]));
+        return Ok((Verdict::MadeEnergy(sim.report()), [None; CHANNELS.len()]));
     }
     let verdict = Verdict::Ran {
         residual: sim.power_balance()?.relative_residual(),

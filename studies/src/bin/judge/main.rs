@@ -22,6 +22,9 @@ struct Arguments {
     /// Scenes of published bearings with everything that a scene can have, which have numbers of their own.
     #[arg(long)]
     published: bool,
+    /// Scenes of balls that move in space, with numbers of their own.
+    #[arg(long, conflicts_with = "published")]
+    space: bool,
     /// Print the table of published bearings instead.
     #[arg(long)]
     bearings: bool,
@@ -57,7 +60,11 @@ fn main() -> ExitCode {
         print!("{}", bearings::page());
         return ExitCode::SUCCESS;
     }
-    let kind = if arguments.published { Kind::Published } else { Kind::Plain };
+    let kind = match (arguments.published, arguments.space) {
+        (true, _) => Kind::Published,
+        (_, true) => Kind::Space,
+        _ => Kind::Plain,
+    };
     if arguments.print {
         println!("{:#}", kind.scene(arguments.seed, arguments.duration));
         return ExitCode::SUCCESS;
