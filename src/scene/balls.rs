@@ -88,11 +88,11 @@ pub struct SpatialRing {
     pub inertia: Option<RotorInertia>,
     /// Damping of the supports for each velocity of the centre, N s/m. Absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1e12)))]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1e9)))]
     pub support_damping: Option<f64>,
     /// Damping of the supports for the rate of each tilt, N m s. Absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1e12)))]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1e9)))]
     pub tilt_damping: Option<f64>,
 }
 
@@ -102,10 +102,10 @@ pub struct SpatialRing {
 #[serde(deny_unknown_fields)]
 pub struct RotorInertia {
     /// About its axis, kg m^2.
-    #[cfg_attr(feature = "schema", schemars(range(min = 1e-12, max = 1e6)))]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-15, max = 1e6)))]
     pub polar: f64,
     /// About an axis across it through its centre, kg m^2.
-    #[cfg_attr(feature = "schema", schemars(range(min = 1e-12, max = 1e6)))]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-15, max = 1e6)))]
     pub transverse: f64,
 }
 

@@ -53,6 +53,7 @@ registry! {
         FailedOverlap = "failed_overlap",
         FailedTooFast = "failed_too_fast",
         FailedEnergyCreated = "failed_energy_created",
+        FailedLostBall = "failed_lost_ball",
     }
 }
 
@@ -94,6 +95,7 @@ impl RunStatistics {
             Statistic::FailedOverlap => failed(FaultKind::Overlap),
             Statistic::FailedTooFast => failed(FaultKind::TooFast),
             Statistic::FailedEnergyCreated => failed(FaultKind::EnergyCreated),
+            Statistic::FailedLostBall => failed(FaultKind::LostBall),
         }
     }
 }
