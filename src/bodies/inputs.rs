@@ -1,5 +1,6 @@
 //! Inputs of the model: what drives the bodies from outside.
 
+use super::OF_RING;
 use crate::registry::registry;
 use crate::stored::stored;
 
@@ -68,6 +69,10 @@ pub struct InputValues {
     pub values: [f64; INPUTS],
     /// Orbit angle that kinematic elements have travelled since the start, rad.
     pub orbit_travel: f64,
+    /// Angles that outer and inner ring have turned since the start, rad; zero where nothing asks for them.
+    pub turned: [f64; 2],
+    /// Coordinates of a ring in space that are prescribed: m or rad, and their first and second rates; zero for others.
+    pub ring: [[f64; 3]; OF_RING],
 }
 
 impl InputValues {
@@ -84,8 +89,8 @@ pub struct HostInputs {
     values: [Option<f64>; INPUTS],
     /// How many are set.
     set: u64,
-    /// Time (s) and orbit travel (rad) from which the travel of kinematic elements counts on.
-    pub anchor: [f64; 2],
+    /// Time (s), and orbit travel and angles of both rings (rad) from which these count on.
+    pub anchor: [f64; 4],
 }
 
 impl HostInputs {

@@ -1,13 +1,13 @@
 //! Inputs of a model: from the scene to functions of time, and what hosts may set.
 
-use super::signals::{Drive, InputSignals, InputSource, Oil, Orbit};
+use super::signals::{Beside, Drive, InputSignals, InputSource, Oil, Orbit, Turning};
 use super::{HostInputs, Input, InputValues, Model, StateInfo};
 use crate::error::{Error, Result, Status};
 use crate::laws::fluid::walther::Walther;
 use crate::pairs;
 use crate::scalar::math;
 use crate::scene::{
-    ElementMotion, FORCE, MOMENT, RingMotion, SPEED, Scene, Signal, SignalIntegral, TEMPERATURE, TORQUE,
+    ElementMotion, FORCE, MOMENT, RingCoordinate, RingMotion, SPEED, Scene, Signal, TEMPERATURE, TORQUE,
 };
 use crate::scene::{Temperature, VISCOSITY, Viscosity, bad_scene, interpolate};
 
@@ -121,12 +121,8 @@ pub(super) fn inputs(scene: &Scene) -> Result<InputSignals> {
             ElementMotion::Prescribed { orbit_speed, spin_speed } => {
                 add(Input::OrbitSpeed, orbit_speed);
                 add(Input::SpinSpeed, spin_speed);
-                let drive = Drive {
-                    input: Input::OrbitSpeed,
-                    orbit_ratio: 1.0,
-                    spin_ratio: None,
-                    integral: SignalIntegral::new(orbit_speed),
-                };
+                let speed = Turning::new(Input::OrbitSpeed, orbit_speed);
+                let drive = Drive { speed, orbit_ratio: 1.0, spin_ratio: None };
                 orbit = Some(Orbit { drive, by_outer: None });
             }
             ElementMotion::Rolling { contact_angle } => {
@@ -185,7 +181,29 @@ pub(super) fn inputs(scene: &Scene) -> Result<InputSignals> {
         }
         _ => None,
     };
-    Ok(InputSignals::new(list, orbit, oil))
+    Ok(InputSignals::new(list, Beside { orbit, angles: angles(scene), ring: prescribed(scene) }, oil))
+}
+
+/// Rings whose raceways are wavy, which makes their angles count.
+fn angles(scene: &Scene) -> [Option<Turning>; 2] {
+    let outer = scene.outer_ring.as_ref().filter(|ring| !ring.waviness.is_empty());
+    let inner = scene.inner_ring.as_ref().filter(|ring| !ring.waviness.is_empty());
+    [
+        outer.and_then(|ring| Some(Turning::new(Input::OuterRingSpeed, ring.speed.as_ref()?))),
+        inner.map(|ring| Turning::new(Input::RingSpeed, &ring.speed)),
+    ]
+}
+
+/// Coordinates of a ring in space that are prescribed over time.
+fn prescribed(scene: &Scene) -> Vec<(usize, Signal)> {
+    let Some(RingMotion::Space(ring)) = scene.inner_ring.as_ref().map(|ring| &ring.motion) else {
+        return Vec::new();
+    };
+    let signal = |(k, (_, coordinate)): (usize, (&str, &RingCoordinate))| match coordinate {
+        RingCoordinate::Prescribed(signal) => Some((k, signal.clone())),
+        _ => None,
+    };
+    ring.coordinates().into_iter().enumerate().filter_map(signal).collect()
 }
 
 /// Elements that roll without slip on both rings; `radius_ratio` is element over pitch radius.
@@ -200,10 +218,9 @@ fn rolling(radius_ratio: f64, contact_angle: f64, scene: &Scene) -> Orbit {
     let spin_ratio = orbit_ratio - 0.5 / radius_ratio * (1.0 - gamma * gamma) * cos;
     let inner = scene.inner_ring.as_ref().map_or(Signal::Constant(0.0), |ring| ring.speed.clone());
     let drive = |input, orbit_ratio, spin_ratio, speed: &Signal| Drive {
-        input,
+        speed: Turning::new(input, speed),
         orbit_ratio,
         spin_ratio: Some(spin_ratio),
-        integral: SignalIntegral::new(speed),
     };
     let outer = scene.outer_ring.as_ref().and_then(|ring| ring.speed.as_ref());
     Orbit {

@@ -28,11 +28,28 @@ pub(super) struct Orbit {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Drive {
     /// The input that drives it, and orbit speed per unit of it.
-    pub(super) input: Input,
+    pub(super) speed: Turning,
     pub(super) orbit_ratio: f64,
     /// Spin speed per unit of the input; `None` if it is an input of its own.
     pub(super) spin_ratio: Option<f64>,
+}
+
+/// An input that is a speed, with its integral.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Turning {
+    pub(super) input: Input,
     pub(super) integral: SignalIntegral,
+}
+
+/// What follows time beside the inputs, where a scene asks for it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Beside {
+    /// Orbit of kinematic elements.
+    pub(super) orbit: Option<Orbit>,
+    /// Angles of outer and inner ring.
+    pub(super) angles: [Option<Turning>; 2],
+    /// Prescribed coordinates of a ring in space, with their places.
+    pub(super) ring: Vec<(usize, Signal)>,
 }
 
 /// Viscosity that follows the temperature.
@@ -58,7 +75,7 @@ impl Oil {
 pub(crate) struct InputSignals {
     /// In the order of [`Input`]; the ring speed comes first where it exists.
     pub(super) list: Vec<(Input, InputSource)>,
-    pub(super) orbit: Option<Orbit>,
+    pub(super) beside: Beside,
     /// Oil whose viscosity follows the temperature.
     pub(super) oil: Option<Oil>,
     /// Values of the list, where none of them follows time.
@@ -67,13 +84,13 @@ pub(crate) struct InputSignals {
 
 impl InputSignals {
     /// Those of this list; what is constant is found once.
-    pub(super) fn new(list: Vec<(Input, InputSource)>, orbit: Option<Orbit>, oil: Option<Oil>) -> Self {
+    pub(super) fn new(list: Vec<(Input, InputSource)>, beside: Beside, oil: Option<Oil>) -> Self {
         let steady = |(_, source): &(Input, InputSource)| match source {
             InputSource::Time(signal) => matches!(signal, Signal::Constant(_)),
             InputSource::RingSpeed(..) => true,
         };
         let constant = list.iter().all(steady);
-        let mut signals = Self { list, orbit, oil, constant: None };
+        let mut signals = Self { list, beside, oil, constant: None };
         signals.constant = constant.then(|| signals.listed_at(0.0, &HostInputs::default()));
         signals
     }
@@ -102,11 +119,24 @@ impl InputSignals {
     #[inline]
     pub(crate) fn at(&self, t: f64, host: &HostInputs) -> InputValues {
         let mut now = self.listed_at(t, host);
-        if let Some(orbit) = &self.orbit {
+        if let Some(orbit) = &self.beside.orbit {
             orbit.follow(&mut now);
             now.orbit_travel = orbit.travel(t, host);
         }
+        self.angles(t, host, &mut now.turned);
+        for (k, signal) in &self.beside.ring {
+            now.ring[*k] = [signal.at(t), signal.rate(t), signal.higher_rates(t)[0]];
+        }
         now
+    }
+
+    /// Writes the angles of both rings at time `t` in s, where they are asked for.
+    fn angles(&self, t: f64, host: &HostInputs, out: &mut [f64; 2]) {
+        for ((out, turning), before) in out.iter_mut().zip(&self.beside.angles).zip(&host.anchor[2..]) {
+            if let Some(turning) = turning {
+                *out = before + turning.since(host.anchor[0], t, host);
+            }
+        }
     }
 
     /// Rates of what [`InputSignals::at`] gives, per second.
@@ -122,17 +152,27 @@ impl InputSignals {
                 }
             };
         }
-        if let Some(orbit) = &self.orbit {
+        if let Some(orbit) = &self.beside.orbit {
             orbit.follow(&mut rates);
             rates.orbit_travel = self.at(t, host).of(Input::OrbitSpeed);
+        }
+        if self.beside.angles.iter().any(Option::is_some) {
+            let now = self.listed_at(t, host);
+            rates.turned = [Input::OuterRingSpeed, Input::RingSpeed].map(|input| now.of(input));
+        }
+        for (k, signal) in &self.beside.ring {
+            let [second, third] = signal.higher_rates(t);
+            rates.ring[*k] = [signal.rate(t), second, third];
         }
         rates
     }
 
     /// The first jump or kink after `t`, s.
     pub(super) fn next_event(&self, t: f64, host: &HostInputs) -> f64 {
+        let of_ring = self.beside.ring.iter().map(|(_, signal)| signal.next_event(t));
+        let first = of_ring.fold(f64::INFINITY, f64::min);
         if self.constant.is_some() {
-            return f64::INFINITY;
+            return first;
         }
         let followed = self.list.iter().filter(|(input, _)| host.of(*input).is_none());
         followed
@@ -140,7 +180,7 @@ impl InputSignals {
                 InputSource::Time(signal) => signal.next_event(t),
                 InputSource::RingSpeed(speed, _) => self.next_speed(t, speed, host),
             })
-            .fold(f64::INFINITY, f64::min)
+            .fold(first, f64::min)
     }
 
     /// The first time after `t` (s) at which the magnitude of the ring speed passes one of these (rad/s).
@@ -156,8 +196,10 @@ impl InputSignals {
 
     /// Shortest period of the sines that are followed, s; infinity without any.
     pub(super) fn shortest_period(&self, host: &HostInputs) -> f64 {
+        let of_ring = self.beside.ring.iter().map(|(_, signal)| signal.period());
+        let shortest = of_ring.fold(f64::INFINITY, f64::min);
         if self.constant.is_some() {
-            return f64::INFINITY;
+            return shortest;
         }
         let followed = self.list.iter().filter(|(input, _)| host.of(*input).is_none());
         followed
@@ -165,7 +207,7 @@ impl InputSignals {
                 InputSource::Time(signal) => signal.period(),
                 InputSource::RingSpeed(..) => f64::INFINITY,
             })
-            .fold(f64::INFINITY, f64::min)
+            .fold(shortest, f64::min)
     }
 
     /// Viscosity that the laws of a scene are built with, Pa s.
@@ -184,9 +226,10 @@ impl InputSignals {
 
     /// Sets or releases an input at time `t` in s. The elements stay where they are.
     pub(super) fn set(&self, host: &mut HostInputs, t: f64, input: Input, value: Option<f64>) {
-        if let Some(orbit) = &self.orbit {
-            host.anchor = [t, orbit.travel(t, host)];
-        }
+        let travel = self.beside.orbit.as_ref().map_or(host.anchor[1], |orbit| orbit.travel(t, host));
+        let mut angles = [host.anchor[2], host.anchor[3]];
+        self.angles(t, host, &mut angles);
+        host.anchor = [t, travel, angles[0], angles[1]];
         host.hold(input, value);
     }
 
@@ -202,11 +245,11 @@ impl InputSignals {
 impl Orbit {
     /// Sets orbit and spin speed, or their rates, to what the drives make them.
     fn follow(&self, inputs: &mut InputValues) {
-        let speed = inputs.of(self.drive.input);
+        let speed = inputs.of(self.drive.speed.input);
         let mut orbit = self.drive.orbit_ratio * speed;
         let mut spin = self.drive.spin_ratio.map(|ratio| ratio * speed);
         if let Some(drive) = &self.by_outer {
-            let speed = inputs.of(drive.input);
+            let speed = inputs.of(drive.speed.input);
             orbit += drive.orbit_ratio * speed;
             spin = spin.zip(drive.spin_ratio).map(|(sum, ratio)| sum + ratio * speed);
         }
@@ -218,15 +261,28 @@ impl Orbit {
 
     #[inline]
     fn travel(&self, t: f64, host: &HostInputs) -> f64 {
-        let [since, before] = host.anchor;
-        let turned = |drive: &Drive| match host.of(drive.input) {
-            Some(speed) => speed * (t - since),
-            None => drive.integral.at(t) - drive.integral.at(since),
-        };
+        let [since, before, ..] = host.anchor;
+        let turned = |drive: &Drive| drive.speed.since(since, t, host);
         let travel = before + self.drive.orbit_ratio * turned(&self.drive);
         match &self.by_outer {
             None => travel,
             Some(drive) => travel + drive.orbit_ratio * turned(drive),
+        }
+    }
+}
+
+impl Turning {
+    /// That of an input which follows this signal.
+    pub(super) fn new(input: Input, signal: &Signal) -> Self {
+        Self { input, integral: SignalIntegral::new(signal) }
+    }
+
+    /// Angle from time `since` to time `t` (s), rad.
+    #[inline]
+    fn since(&self, since: f64, t: f64, host: &HostInputs) -> f64 {
+        match host.of(self.input) {
+            Some(speed) => speed * (t - since),
+            None => self.integral.at(t) - self.integral.at(since),
         }
     }
 }

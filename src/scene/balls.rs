@@ -131,6 +131,8 @@ pub enum RingCoordinate {
     Free,
     /// Held at this value, m or rad.
     Held(f64),
+    /// Moved like this over time, m or rad, whatever force that takes. It must not jump.
+    Prescribed(Signal),
 }
 
 impl Default for RingCoordinate {

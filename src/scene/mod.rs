@@ -47,7 +47,7 @@ pub use heat::{
 pub(crate) use json::{line_of, nearest, parse_located};
 pub use json::{parse_override, set_path};
 pub use lubricant::{Lubricant, Temperature, Viscosity, ViscosityPoint, WaltherViscosity};
-pub use rings::{FreeRing, InnerRing, Load, OuterRing, RingMotion};
+pub use rings::{FreeRing, InnerRing, Load, OuterRing, RingMotion, WavinessHarmonic};
 pub use run::{Auto, ErrorControl, Initial, Leapfrog, Method, Preset, Record, RingStart, Solver};
 pub use signal::{Signal, SignalIntegral, interpolate, slope};
 pub(crate) use validate::{FORCE, MOMENT, SPEED, TEMPERATURE, TORQUE, VISCOSITY};

@@ -27,9 +27,29 @@ pub struct OuterRing {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 1e-06, max = 10.0)))]
     pub shoulder_height: Option<f64>,
+    /// Waves of the raceway around the ring. Absent: round. Needs balls.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub waviness: Vec<WavinessHarmonic>,
     /// Name of the material. Needed by rollers and balls.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
+}
+
+/// One harmonic of the waves of a raceway: height amplitude * cos(order * angle + phase) towards the balls, the angle in the ring, from y
+/// to z at the start.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct WavinessHarmonic {
+    /// Order n. Order 1 is a race that is off the centre of its ring.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1, max = 200)))]
+    pub order: u32,
+    /// Amplitude a_n, m.
+    #[cfg_attr(feature = "schema", schemars(range(min = -0.0001, max = 0.0001)))]
+    pub amplitude: f64,
+    /// Phase b_n, rad.
+    #[cfg_attr(feature = "schema", schemars(range(min = -1000.0, max = 1000.0)))]
+    pub phase: f64,
 }
 
 impl OuterRing {
@@ -66,6 +86,9 @@ pub struct InnerRing {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 1e-06, max = 10.0)))]
     pub shoulder_height: Option<f64>,
+    /// Waves of the raceway around the ring. Absent: round. Needs balls.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub waviness: Vec<WavinessHarmonic>,
     /// Name of the material. Needed by rollers and balls.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,

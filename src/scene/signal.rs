@@ -103,6 +103,17 @@ impl Signal {
         }
     }
 
+    /// Second and third rate at time `t` in s, per second squared and cubed; zero but for a sine.
+    pub fn higher_rates(&self, t: f64) -> [f64; 2] {
+        match self {
+            Signal::Sine { mean, frequency, .. } => {
+                let square = -(TAU * frequency) * (TAU * frequency);
+                [square * (self.at(t) - mean), square * self.rate(t)]
+            }
+            _ => [0.0; 2],
+        }
+    }
+
     /// The first jump or kink after time `t` in s; infinity when there is none.
     pub fn next_event(&self, t: f64) -> f64 {
         let first_after = |times: &[f64]| times.iter().copied().find(|&x| x > t).unwrap_or(f64::INFINITY);

@@ -1,4 +1,4 @@
-//! An inner ring in space, at (x, y, z) with the rotation vector (0, a, b) of its axis; each of these is free or held.
+//! An inner ring in space, at (x, y, z) with the rotation vector (0, a, b) of its axis; each of these is free, held, or prescribed over time.
 //!
 //! ```text
 //! m v' = F + load + spring + weight - c v
@@ -44,10 +44,12 @@ const LOADS: [Input; OF_RING] = [Input::LoadX, Input::LoadY, Input::LoadZ, Input
 /// The inner ring of a scene.
 #[derive(Debug)]
 pub(crate) struct RingInSpace {
-    /// By coordinate: where it is held, m or rad; `None` of one that is free.
+    /// By coordinate: where it is held, or is at the start where it is prescribed, m or rad; `None` of one that is free.
     pub(crate) held: [Option<f64>; OF_RING],
+    /// Whether its coordinates are prescribed over time.
+    prescribed: [bool; OF_RING],
     preload: Option<Preload>,
-    /// m, kg, and I_p and I_t, kg m^2; 1 where the scene has none.
+    /// m, kg, and I_p and I_t, kg m^2; zero where the scene has none, and nothing that is free needs them.
     mass: f64,
     inertia: [f64; 2],
     /// Of the supports for the centre, N s/m, and for tilts, N m s.
@@ -59,6 +61,8 @@ pub(crate) struct RingInSpace {
 pub(crate) struct RingState<T> {
     pub(crate) position: [T; OF_RING],
     pub(crate) rate: [T; OF_RING],
+    /// Second rates of those that are prescribed; zero for others.
+    pub(crate) given: [T; OF_RING],
     /// Omega, rad/s.
     pub(crate) speed: T,
 }
@@ -95,17 +99,27 @@ impl<T: Numeric> RingState<T> {
 impl RingInSpace {
     /// The inner ring of a scene.
     pub(crate) fn new(scene: &Scene) -> Self {
-        let at = |held| Self { held, preload: None, mass: 1.0, inertia: [1.0; 2], damping: [0.0; 2] };
+        let at = |held| Self {
+            held,
+            prescribed: [false; OF_RING],
+            preload: None,
+            mass: 0.0,
+            inertia: [0.0; 2],
+            damping: [0.0; 2],
+        };
         match scene.inner_ring.as_ref().map(|ring| &ring.motion) {
             Some(RingMotion::Space(ring)) => {
                 let held = ring.coordinates().map(|(_, coordinate)| match coordinate {
                     RingCoordinate::Free => None,
                     RingCoordinate::Held(value) => Some(*value),
+                    RingCoordinate::Prescribed(signal) => Some(signal.at(0.0)),
                 });
+                let over_time = |(_, coordinate): (_, &_)| matches!(coordinate, RingCoordinate::Prescribed(_));
                 Self {
+                    prescribed: ring.coordinates().map(over_time),
                     preload: ring.preload,
-                    mass: ring.mass.unwrap_or(1.0),
-                    inertia: ring.inertia.map_or([1.0; 2], |inertia| [inertia.polar, inertia.transverse]),
+                    mass: ring.mass.unwrap_or(0.0),
+                    inertia: ring.inertia.map_or([0.0; 2], |inertia| [inertia.polar, inertia.transverse]),
                     damping: [ring.support_damping, ring.tilt_damping].map(|c| c.unwrap_or(0.0)),
                     ..at(held)
                 }
@@ -157,31 +171,34 @@ impl RingInSpace {
     /// All coordinates and their rates, from those that are free.
     pub(crate) fn state(&self, q: &[f64], v: &[f64], inputs: &InputValues) -> RingState<f64> {
         let (mut position, mut rate) = (self.held.map(|held| held.unwrap_or(0.0)), [0.0; OF_RING]);
+        let mut given = [0.0; OF_RING];
+        for k in (0..OF_RING).filter(|k| self.prescribed[*k]) {
+            [position[k], rate[k], given[k]] = inputs.ring[k];
+        }
         for ((k, q), v) in self.free().zip(q).zip(v) {
             (position[k], rate[k]) = (*q, *v);
         }
-        RingState { position, rate, speed: inputs.of(Input::RingSpeed) }
+        RingState { position, rate, given, speed: inputs.of(Input::RingSpeed) }
     }
 
-    /// Accelerations of its coordinates under this force (N) and moment (N m) about its centre, this load and weight (`gravity` along y
-    /// and z, m/s^2); those of held ones are of no meaning.
+    /// Forces over its coordinates that are not those of its inertia over their second rates, of this force (N) and moment (N m) about its
+    /// centre, this load and weight (`gravity` along y and z, m/s^2), and the inertia over both tilts: that of a, of a and b, of b.
     #[inline]
-    pub(crate) fn accelerations<T: Numeric>(
+    fn acting<T: Numeric>(
         &self,
         state: &RingState<T>,
         [force, moment]: [Vector<T>; 2],
         load: [T; OF_RING],
         gravity: [f64; 2],
-    ) -> [T; OF_RING] {
+    ) -> ([T; OF_RING], [T; 3]) {
         let ([x, _, _, a, b], [vx, vy, vz, da, db]) = (state.position, state.rate);
         let ([polar, transverse], [damping, tilt_damping]) = (self.inertia, self.damping);
         let [spring, stiffness] = self.spring(0.0);
         let pushed = [force[0] - x * stiffness + spring, force[1], force[2]];
-        let weight = [0.0, gravity[0], gravity[1]];
+        let weight = [0.0, gravity[0] * self.mass, gravity[1] * self.mass];
         let velocity = [vx, vy, vz];
-        let centre: [T; 3] = std::array::from_fn(|k| {
-            (pushed[k] + load[k] - velocity[k] * damping) * (1.0 / self.mass) + weight[k]
-        });
+        let on_centre: [T; 3] =
+            std::array::from_fn(|k| pushed[k] + load[k] - velocity[k] * damping + weight[k]);
         let tilt = Tilt::new([a, b]);
         let across = tilt.across([da, db]);
         let [w2, w3] = across.speed;
@@ -193,15 +210,48 @@ impl RingInSpace {
         let along = |k: usize| rows[0][k] * rest[0] + rows[1][k] * rest[1];
         let [over_a, over_b] = [along(0) - da * tilt_damping, along(1) - db * tilt_damping];
         let product = |i: usize, k: usize| (rows[0][i] * rows[0][k] + rows[1][i] * rows[1][k]) * transverse;
-        let [aa, ab, bb] = [product(0, 0), product(0, 1), product(1, 1)];
-        let [ddx, ddy] = match [self.held[3], self.held[4]] {
+        let [x, y, z] = on_centre;
+        ([x, y, z, over_a, over_b], [product(0, 0), product(0, 1), product(1, 1)])
+    }
+
+    /// Accelerations of its coordinates under the same.
+    #[inline]
+    pub(crate) fn accelerations<T: Numeric>(
+        &self,
+        state: &RingState<T>,
+        on_ring: [Vector<T>; 2],
+        load: [T; OF_RING],
+        gravity: [f64; 2],
+    ) -> [T; OF_RING] {
+        let ([x, y, z, over_a, over_b], [aa, ab, bb]) = self.acting(state, on_ring, load, gravity);
+        let [_, _, _, given_a, given_b] = state.given;
+        let [dda, ddb] = match [self.held[3], self.held[4]] {
             [None, None] => {
-                let inverse = a.like(1.0) / (aa * bb - ab * ab);
+                let inverse = over_a.like(1.0) / (aa * bb - ab * ab);
                 [(bb * over_a - ab * over_b) * inverse, (aa * over_b - ab * over_a) * inverse]
             }
-            _ => [over_a / aa, over_b / bb],
+            _ => [(over_a - ab * given_b) / aa, (over_b - ab * given_a) / bb],
         };
-        [centre[0], centre[1], centre[2], ddx, ddy]
+        let all = [x * (1.0 / self.mass), y * (1.0 / self.mass), z * (1.0 / self.mass), dda, ddb];
+        std::array::from_fn(|k| if self.held[k].is_some() { state.given[k] } else { all[k] })
+    }
+
+    /// Power of what moves its prescribed coordinates, W, under the same.
+    pub(crate) fn held_power(
+        &self,
+        state: &RingState<f64>,
+        on_ring: [Vector<f64>; 2],
+        load: [f64; OF_RING],
+        gravity: [f64; 2],
+    ) -> f64 {
+        if self.prescribed == [false; OF_RING] {
+            return 0.0;
+        }
+        let (acting, [aa, ab, bb]) = self.acting(state, on_ring, load, gravity);
+        let [x, y, z, a, b] = self.accelerations(state, on_ring, load, gravity);
+        let inertial = [self.mass * x, self.mass * y, self.mass * z, aa * a + ab * b, ab * a + bb * b];
+        let power = |k: usize| (inertial[k] - acting[k]) * state.rate[k];
+        (0..OF_RING).filter(|k| self.prescribed[*k]).map(power).sum()
     }
 
     /// Energy of its motion, but for that of the rotation that is prescribed, and of its weight, J.
@@ -235,7 +285,8 @@ impl RingInSpace {
 
     /// m, kg; zero where its centre is held.
     fn moving_mass(&self) -> f64 {
-        if [0, 1, 2].into_iter().any(|k| self.held[k].is_none()) { self.mass } else { 0.0 }
+        let moves = |k: usize| self.held[k].is_none() || self.prescribed[k];
+        if (0..3).any(moves) { self.mass } else { 0.0 }
     }
 
     /// Weight, N, along y and z; none where its centre is held.

@@ -4,9 +4,9 @@ use super::workspace::{BallBlock, WRENCH, Workspace, at_lane, load, store};
 use super::{RACES, Space};
 use crate::bodies::{Balls, Fault, Input, InputValues, MovingRing, OF_BALL, SOUND};
 use crate::pairs::Law;
-use crate::pairs::groove::{InGroove, Race};
+use crate::pairs::groove::{InGroove, Race, Waviness};
 use crate::scalar::{Columns, Numeric, Pack, dispatch, math, place_of};
-use crate::space::solid::{LARGEST_TILT, Moving, Vector, dot, scaled, sum};
+use crate::space::solid::{LARGEST_TILT, Moving, Tilt, Vector, dot, scaled, sum};
 use pulp::Simd;
 
 /// Least distance of a ball from the middle of the arc of its groove, over that of one that just touches: nearer to it there is no
@@ -133,9 +133,52 @@ impl Space {
                 fastest = (place, v.abs() * lever);
             }
         }
+        for (k, race) in self.races.iter().enumerate() {
+            if let Some(waviness) = &race.waviness {
+                self.place_on_waves(k, waviness, ws);
+            }
+        }
         match fastest {
             (velocity, speed) if speed > SOUND => Err(Fault::TooFast { velocity, speed }),
             _ => Ok(()),
+        }
+    }
+
+    /// Finds the waves of race `k` under every ball.
+    fn place_on_waves(&self, k: usize, waviness: &Waviness, ws: &mut Workspace) {
+        for j in 0..ws.count {
+            let (block, lane) = place_of(j);
+            let direction = at_lane(&ws.blocks[block].direction, lane);
+            let still = Moving { velocity: [0.0; 3], turning: [0.0; 3] };
+            let ring = beside(&ws.rings[k], direction);
+            let touch = self.in_groove(ws, k, j, &still).touch(&ring);
+            let tilt = if k == 0 { [0.0; 2] } else { [ws.ring.position[3], ws.ring.position[4]] };
+            let [_, outwards, along] = to_local([0.0, tilt[0], tilt[1]], direction);
+            let [cos, sin] = touch.ahead(ring.axis, &Tilt::new([outwards, along]));
+            let [azimuth, ahead] = [math::atan2(direction[1], direction[0]), math::atan2(sin, cos)];
+            let wave = waviness.at(azimuth + ahead - ws.inputs.turned[k]);
+            for (column, value) in ws.blocks[block].contacts[k].wave.iter_mut().zip(wave) {
+                column[lane] = value;
+            }
+        }
+    }
+
+    /// Ball `j` with this motion in the groove of race `k`.
+    pub(super) fn in_groove<'a>(
+        &'a self,
+        ws: &Workspace,
+        k: usize,
+        j: usize,
+        moving: &'a Moving<f64>,
+    ) -> InGroove<'a, f64, f64> {
+        let (block, lane) = place_of(j);
+        let block = &ws.blocks[block];
+        InGroove {
+            groove: &self.races[k].groove,
+            elastic: &self.races[k].elastic[j],
+            at: at_lane(&block.at, lane),
+            excess: block.excess[lane],
+            moving,
         }
     }
 
@@ -304,7 +347,8 @@ impl Columns for Apply<'_> {
         let elastic = &contact.elastic(simd, &self.race.elastic[0], lane);
         let ball = InGroove { groove: &groove, elastic, at, excess, moving };
         let ring = beside(self.ring, direction);
-        let found = ball.contact(&self.race.laws, &ring, Pack::all(simd, self.ln_viscosity));
+        let wave = contact.wave(simd, self.race, lane);
+        let found = ball.contact(&self.race.laws, &ring, wave, Pack::all(simd, self.ln_viscosity));
         store(found.motion.numbers(), &mut contact.motion, lane);
         store(found.force.numbers(), &mut contact.force, lane);
         let ([fx, fr, ft], [mx, mr, mt]) = (found.on_ball.force, found.on_ball.moment);

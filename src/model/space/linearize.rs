@@ -9,7 +9,7 @@ use super::{RACES, Space};
 use crate::bodies::{Balls, Input, InputValues, MovingRing, OF_BALL, OF_RING, RingState};
 use crate::integrate::{Linearization, Structure};
 use crate::laws::point_contact::{POINT_FORCE, POINT_MOTION, PointForce, PointMotion};
-use crate::pairs::groove::{InGroove, OnBody, Race};
+use crate::pairs::groove::{InGroove, OnBody, Race, Wave};
 use crate::scalar::{Columns, Dual, Duals, Lanes, Pack, ZEROS, dispatch, place_of};
 use crate::space::solid::{Moving, Tilt, scaled, sum};
 use pulp::Simd;
@@ -20,14 +20,17 @@ const SEEN: usize = POINT_MOTION + 1;
 const FORCES: usize = 7;
 
 /// How ball and ring lie and move to each other: x and rho of the ball, centre and tilt of the ring outwards and along the orbit,
-/// velocity and spin of the ball, rates of the tilt, speed of the ring, logarithm of the viscosity.
+/// velocity and spin of the ball, rates of the tilt, time at a ball that stands still, angle of the contact in the waves of the ring.
 const RELATIVE: usize = 16;
 const TILT: usize = 4;
 const VELOCITY: usize = 6;
 const TILT_RATE: usize = 12;
-const SPEED: usize = 14;
-const VISCOSITY: usize = 15;
+const TIME: usize = 14;
+const ANGLE: usize = 15;
 type Relative = Dual<RELATIVE>;
+
+/// What the ring's own motion follows: force and moment, its positions, their rates; last time.
+const OF_TIME: usize = 6 + 2 * OF_RING;
 
 /// What a ball's own motion follows: rho, azimuth, speeds, logarithm of the viscosity.
 const OF_OWN: usize = 3 + OF_BALL;
@@ -69,7 +72,7 @@ impl Space {
             let (race, ln_viscosity) = ((&self.races[place], place), fluid.ln_viscosity);
             dispatch(*instructions, Differentiate { race, blocks, slopes, count: *count, ln_viscosity });
         }
-        let ring = self.ring_slopes(ws);
+        let ring = self.ring_slopes(ws, rates);
         let free: Vec<usize> = self.ring.free().collect();
         let width = free.len();
         for (i, row) in free.iter().enumerate() {
@@ -77,10 +80,7 @@ impl Space {
                 out.over_positions.hub[(i, k)] = ring[*row].eps[6 + column];
                 out.over_velocities.hub[(i, k)] = ring[*row].eps[6 + OF_RING + column];
             }
-            let loads = self.ring.load(rates);
-            let by_load = [0, 1, 2, 4, 5].iter().zip(loads).map(|(w, rate)| ring[*row].eps[*w] * rate);
-            let speed = ring[*row].eps[6 + 2 * OF_RING] * rates.of(Input::RingSpeed);
-            out.over_time[i] = by_load.sum::<f64>() + speed;
+            out.over_time[i] = ring[*row].eps[OF_TIME];
         }
         let ln_rate = self.inputs.oil.as_ref().map_or(0.0, |oil| {
             let warming = rates.of(Input::Temperature);
@@ -101,12 +101,11 @@ impl Space {
             let r = self.balls.set.pitch_radius + block.at[1][lane];
             let inverse =
                 [1.0 / mass, 1.0 / mass, 1.0 / (mass * r), 1.0 / inertia, 1.0 / inertia, 1.0 / inertia];
-            let local = LocalRing::new(&ws.ring, [cos, sin]);
-            for (k, input) in [Input::OuterRingSpeed, Input::RingSpeed].into_iter().enumerate() {
-                let Sloped { on_ball, on_ring } = self.sloped(ws, j, k);
+            let local = LocalRing::new(ws.ring.position, ws.ring.rate, [cos, sin]);
+            for k in 0..RACES.len() {
+                let Sloped { on_ball, on_ring } = self.sloped(ws, j, k, rates, ln_rate);
                 let still = LocalRing::default();
                 let place = if k == 1 { &local } else { &still };
-                let turning = rates.of(input);
                 for row in 0..OF_BALL {
                     let slopes = on_ball[row].eps;
                     let own = over_ball(&slopes, place, speeds[2], r);
@@ -118,8 +117,7 @@ impl Space {
                     for (column, slope) in own[1].into_iter().enumerate() {
                         to[j * OF_BALL + column][row] += slope * inverse[row];
                     }
-                    out.over_time[places[row]] +=
-                        (slopes[SPEED] * turning + slopes[VISCOSITY] * ln_rate) * inverse[row];
+                    out.over_time[places[row]] += slopes[TIME] * inverse[row];
                     if k == 1 {
                         let of_ring = over_ring(&slopes, [cos, sin]);
                         for (part, slopes) in
@@ -146,7 +144,7 @@ impl Space {
                         let mut own = over_ball(&slopes, &local, speeds[2], r);
                         own[0][2] += sum(&|w| turned[w]);
                         let of_ring = over_ring(&slopes, [cos, sin]);
-                        out.over_time[i] += slopes[SPEED] * turning + slopes[VISCOSITY] * ln_rate;
+                        out.over_time[i] += slopes[TIME];
                         for (part, (own, of_ring)) in [&mut out.over_positions, &mut out.over_velocities]
                             .into_iter()
                             .zip(own.into_iter().zip(of_ring))
@@ -175,17 +173,24 @@ impl Space {
         }
     }
 
-    /// Accelerations of the ring over force and moment, positions, rates and speed.
-    fn ring_slopes(&self, ws: &Workspace) -> [Dual<{ 7 + 2 * OF_RING }>; OF_RING] {
-        let variable = Dual::<{ 7 + 2 * OF_RING }>::variable;
+    /// Accelerations of the ring over force and moment, positions, rates, and time while all these stand still.
+    fn ring_slopes(&self, ws: &Workspace, rates: &InputValues) -> [Dual<{ OF_TIME + 1 }>; OF_RING] {
+        let variable = Dual::<{ OF_TIME + 1 }>::variable;
         let [force, moment] = ws.on_rings[1];
         let at = |first: usize, x: [f64; 3]| [0, 1, 2].map(|k| variable(x[k], first + k));
-        let state = RingState {
-            position: std::array::from_fn(|k| variable(ws.ring.position[k], 6 + k)),
-            rate: std::array::from_fn(|k| variable(ws.ring.rate[k], 6 + OF_RING + k)),
-            speed: variable(ws.ring.speed, 6 + 2 * OF_RING),
+        let timed = |mut x: Dual<{ OF_TIME + 1 }>, rate: f64| {
+            x.eps[OF_TIME] = rate;
+            x
         };
-        let load = ws.load.map(|load| Dual { re: load, eps: [0.0; 7 + 2 * OF_RING] });
+        let in_time = |x: f64, rate: f64| timed(Dual { re: x, eps: [0.0; OF_TIME + 1] }, rate);
+        let (ring, loads) = (&ws.ring, self.ring.load(rates));
+        let state = RingState {
+            position: std::array::from_fn(|k| timed(variable(ring.position[k], 6 + k), rates.ring[k][0])),
+            rate: std::array::from_fn(|k| timed(variable(ring.rate[k], 6 + OF_RING + k), rates.ring[k][1])),
+            given: std::array::from_fn(|k| in_time(ring.given[k], rates.ring[k][2])),
+            speed: in_time(ring.speed, rates.of(Input::RingSpeed)),
+        };
+        let load = std::array::from_fn(|k| in_time(ws.load[k], loads[k]));
         self.ring.accelerations(&state, [at(0, force), at(3, moment)], load, self.gravity)
     }
 
@@ -211,8 +216,9 @@ impl Space {
         Balls::accelerations(at_lane(&block.inertia, lane), r, speeds, on_ball, gravity)
     }
 
-    /// What the contact of ball `j` with race `k` does to both.
-    fn sloped(&self, ws: &Workspace, j: usize, k: usize) -> Sloped {
+    /// What the contact of ball `j` with race `k` does to both, while the inputs change at `rates` and the logarithm of the viscosity at
+    /// `ln_rate`.
+    fn sloped(&self, ws: &Workspace, j: usize, k: usize, rates: &InputValues, ln_rate: f64) -> Sloped {
         let (place, lane) = place_of(j);
         let block = &ws.blocks[place];
         let direction = at_lane(&block.direction, lane);
@@ -220,38 +226,50 @@ impl Space {
         let r = self.balls.set.pitch_radius + at[1];
         let variable = Relative::variable;
         let constant = |x: f64| Dual { re: x, eps: [0.0; RELATIVE] };
+        let timed = |mut x: Relative, rate: f64| {
+            x.eps[TIME] = rate;
+            x
+        };
+        let in_time = |x: f64, rate: f64| timed(constant(x), rate);
         let own = moving(at_lane(&block.speeds, lane), r);
         let of_ball = Moving {
             velocity: std::array::from_fn(|i| variable(own.velocity[i], VELOCITY + i)),
             turning: std::array::from_fn(|i| variable(own.turning[i], VELOCITY + 3 + i)),
         };
         let race = &self.races[k];
-        let ring = if k == 0 {
+        let (ring, tilt) = if k == 0 {
             let ring: MovingRing<f64> = beside(&ws.rings[0], direction);
-            let speed = variable(ring.speed, SPEED);
+            let speed = in_time(ring.speed, rates.of(Input::OuterRingSpeed));
             let axis = ring.axis.map(constant);
-            MovingRing {
+            let ring = MovingRing {
                 centre: ring.centre.map(constant),
                 axis,
                 moving: Moving { velocity: ring.moving.velocity.map(constant), turning: scaled(axis, speed) },
                 speed,
-            }
+            };
+            (ring, Tilt::new([constant(0.0); 2]))
         } else {
-            let local = LocalRing::new(&ws.ring, direction);
-            let tilt = Tilt::new([0, 1].map(|i| variable(local.tilt[i], TILT + i)));
-            let rates = [0, 1].map(|i| variable(local.tilt_rate[i], TILT_RATE + i));
-            let speed = variable(ws.ring.speed, SPEED);
-            let [x, ..] = ws.ring.position;
-            let [vx, ..] = ws.ring.rate;
-            MovingRing {
-                centre: [constant(x), variable(local.centre[0], 2), variable(local.centre[1], 3)],
+            let local = LocalRing::new(ws.ring.position, ws.ring.rate, direction);
+            // By what moves the ring from outside.
+            let [place, rate] = [0, 1].map(|i| rates.ring.map(|of_ring| of_ring[i]));
+            let given = LocalRing::new(place, rate, direction);
+            let tilt =
+                Tilt::new([0, 1].map(|i| timed(variable(local.tilt[i], TILT + i), given.tilt[i])));
+            let tilting =
+                [0, 1].map(|i| timed(variable(local.tilt_rate[i], TILT_RATE + i), given.tilt_rate[i]));
+            let speed = in_time(ws.ring.speed, rates.of(Input::RingSpeed));
+            let centre = |i: usize| timed(variable(local.centre[i], 2 + i), given.centre[i]);
+            let velocity = |i: usize| in_time(local.velocity[i], given.velocity[i]);
+            let ring = MovingRing {
+                centre: [in_time(ws.ring.position[0], place[0]), centre(0), centre(1)],
                 axis: tilt.axis,
                 moving: Moving {
-                    velocity: [vx, local.velocity[0], local.velocity[1]].map(constant),
-                    turning: sum(tilt.angular_velocity(rates), scaled(tilt.axis, speed)),
+                    velocity: [in_time(ws.ring.rate[0], rate[0]), velocity(0), velocity(1)],
+                    turning: sum(tilt.angular_velocity(tilting), scaled(tilt.axis, speed)),
                 },
-                speed: tilt.across(rates).own + speed,
-            }
+                speed: tilt.across(tilting).own + speed,
+            };
+            (ring, tilt)
         };
         let ball = InGroove {
             groove: &race.groove,
@@ -260,7 +278,20 @@ impl Space {
             excess: block.excess[lane],
             moving: &of_ball,
         };
-        let touch = ball.touch(&ring);
+        let round = ball.touch(&ring);
+        let wave = race.waviness.as_ref().map(|_| {
+            let [cos, sin] = round.ahead(ring.axis, &tilt);
+            let mut angle: [f64; RELATIVE] =
+                std::array::from_fn(|d| cos.re * sin.eps[d] - sin.re * cos.eps[d]);
+            angle[ANGLE] += 1.0;
+            angle[TIME] -= rates.turned[k];
+            let [height, slope, curvature] = at_lane(&block.contacts[k].wave, lane);
+            Wave {
+                height: Dual { re: height, eps: angle.map(|x| slope * x) },
+                slope: Dual { re: slope, eps: angle.map(|x| curvature * x) },
+            }
+        });
+        let touch = round.on(wave);
         let seen = ball.motion(&touch, &ring).numbers();
         let force = block.contacts[k].force_of(lane);
         let slopes = &ws.slopes[place][k];
@@ -272,7 +303,7 @@ impl Space {
                     sum.eps[d] += slope * motion.eps[d];
                 }
             }
-            sum.eps[VISCOSITY] += slopes[i][POINT_MOTION][lane];
+            sum.eps[TIME] += slopes[i][POINT_MOTION][lane] * ln_rate;
             sum
         };
         let mut sloped = PointForce::of_numbers([constant(0.0); POINT_FORCE]);
@@ -295,12 +326,12 @@ struct LocalRing {
 }
 
 impl LocalRing {
-    fn new(ring: &RingState<f64>, direction: [f64; 2]) -> Self {
+    fn new(position: [f64; OF_RING], rate: [f64; OF_RING], direction: [f64; 2]) -> Self {
         let turned = |y: f64, z: f64| {
             let [_, r, t] = to_local([0.0, y, z], direction);
             [r, t]
         };
-        let ([_, y, z, a, b], [_, vy, vz, da, db]) = (ring.position, ring.rate);
+        let ([_, y, z, a, b], [_, vy, vz, da, db]) = (position, rate);
         Self { centre: turned(y, z), tilt: turned(a, b), velocity: turned(vy, vz), tilt_rate: turned(da, db) }
     }
 }
@@ -314,7 +345,8 @@ fn over_ball(z: &Row, ring: &LocalRing, orbit: f64, r: f64) -> [[f64; OF_BALL]; 
         - z[VELOCITY + 1] * velocity[1]
         + z[VELOCITY + 2] * velocity[0]
         + z[TILT_RATE] * tilt_rate[1]
-        - z[TILT_RATE + 1] * tilt_rate[0];
+        - z[TILT_RATE + 1] * tilt_rate[0]
+        + z[ANGLE];
     let v = VELOCITY;
     [
         [z[0], z[1] + z[v + 2] * orbit, around, 0.0, 0.0, 0.0],

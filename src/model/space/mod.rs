@@ -28,13 +28,14 @@ pub use workspace::Workspace;
 use super::faults::{Names, in_words};
 use super::signals::InputSignals;
 use super::{HostInputs, Layout, Quantity, StateInfo, quantity};
-use crate::bodies::{Balls, Coordinate, Fault, Owner, RING_COORDINATES, RingInSpace};
+use crate::bodies::{Balls, Coordinate, Fault, Input, Owner, RING_COORDINATES, RingInSpace};
 use crate::error::Result;
 use crate::integrate::Tuning;
 use crate::laws::drag::MixtureDrag;
 use crate::pairs::Law;
 use crate::pairs::groove::{Fit, Race, angle_of_drop, fit, races};
 use crate::scene::{BallDrag, Scene, needed};
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// Names of the bodies before the balls.
@@ -86,7 +87,18 @@ impl Space {
 
     /// The longest step (s) from time `t` in which no signal is passed unseen.
     pub(crate) fn longest_step(&self, host: &HostInputs, tuning: &Tuning) -> f64 {
-        self.inputs.shortest_period(host) / tuning.steps_per_period
+        self.inputs.shortest_period(host).min(self.shortest_wave(host)) / tuning.steps_per_period
+    }
+
+    /// Shortest period of the waves of races that balls pass, s: at most that by which both rings turn; infinity where they are round.
+    fn shortest_wave(&self, host: &HostInputs) -> f64 {
+        let order = self.races.iter().filter_map(|race| Some(race.waviness.as_ref()?.highest_order()));
+        let order = order.fold(0.0, f64::max);
+        if order == 0.0 {
+            return f64::INFINITY;
+        }
+        let speed = |input| host.of(input).map_or_else(|| self.inputs.largest(input), f64::abs);
+        TAU / (order * (speed(Input::OuterRingSpeed) + speed(Input::RingSpeed)))
     }
 
     /// Name of the body of a group of velocities.

@@ -271,14 +271,9 @@ impl Space {
         let at = at_lane(&block.at, lane);
         let r = self.balls.set.pitch_radius + at[1];
         let speeds = moving(at_lane(&block.speeds, lane), r);
-        let ball = InGroove {
-            groove: &self.races[k].groove,
-            elastic: &self.races[k].elastic[j],
-            at,
-            excess: block.excess[lane],
-            moving: &speeds,
-        };
-        let touch = ball.touch(&super::evaluate::beside(&ws.rings[k], direction));
+        let wave = block.contacts[k].wave_of(&self.races[k], lane);
+        let ball = self.in_groove(ws, k, j, &speeds);
+        let touch = ball.touch(&super::evaluate::beside(&ws.rings[k], direction)).on(wave);
         let side = if k == 0 { 1.0 } else { -1.0 };
         let angle = math::atan2(side * touch.in_meridian[0], side * touch.in_meridian[1]);
         let radius = self.balls.set.radius + block.excess[lane];
@@ -329,14 +324,9 @@ impl Space {
         let direction = at_lane(&block.direction, lane);
         let at = at_lane(&block.at, lane);
         let speeds = moving(at_lane(&block.speeds, lane), self.balls.set.pitch_radius + at[1]);
-        let ball = InGroove {
-            groove: &self.races[k].groove,
-            elastic: &self.races[k].elastic[j],
-            at,
-            excess: block.excess[lane],
-            moving: &speeds,
-        };
-        let touch = ball.touch(&super::evaluate::beside(&ws.rings[k], direction));
+        let wave = block.contacts[k].wave_of(&self.races[k], lane);
+        let ball = self.in_groove(ws, k, j, &speeds);
+        let touch = ball.touch(&super::evaluate::beside(&ws.rings[k], direction)).on(wave);
         ball.wrenches(&touch, &block.contacts[k].force_of(lane)).map(|on| {
             let [[a, b, c], [d, e, f]] = [on.force, on.moment].map(|v| to_global(v, direction));
             [a, b, c, d, e, f]

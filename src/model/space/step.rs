@@ -132,7 +132,13 @@ impl Space {
         let [loads, supports] = self.ring.powers(&ws.ring, ws.load);
         p[Power::Loads as usize] += loads;
         p[Power::RingSupport as usize] += supports;
-        p[Power::RingDrive as usize] -= dot(on_inner, inner.axis) * inner.speed;
+        let mut force_on_inner = ws.on_rings[1][0];
+        for (contact, lane) in ws.contacts(1) {
+            force_on_inner = sum(force_on_inner, [0, 1, 2].map(|k| contact.reaction[k][lane]));
+        }
+        let on_ring = [force_on_inner, on_inner];
+        p[Power::RingDrive as usize] += self.ring.held_power(&ws.ring, on_ring, ws.load, self.gravity)
+            - dot(on_inner, inner.axis) * inner.speed;
         p[Power::OuterRingDrive as usize] -= on_outer * outer.speed;
     }
 
@@ -210,21 +216,22 @@ impl Columns for Damp<'_> {
         let excess = Pack::load(simd, &block.excess[lane..]);
         let radius = groove.ball_radius + excess;
         let elastic = &block.contacts[k].elastic(simd, &race.elastic[0], lane);
-        let touch =
-            InGroove { groove: &groove, elastic, at, excess, moving }.touch(&beside(self.ring, direction));
+        let wave = block.contacts[k].wave(simd, race, lane);
+        let ball = InGroove { groove: &groove, elastic, at, excess, moving };
+        let touch = ball.touch(&beside(self.ring, direction)).on(wave);
         let force = PointForce::of_numbers(load(simd, &block.contacts[k].force, lane));
         let [mass, inertia] = load(simd, &block.inertia, lane);
         let [of_normal, of_friction] =
             decays(&force, [mass, inertia], radius).map(|rate| implicit_share(rate * self.h));
         let zero = Pack::all(simd, 0.0);
-        let (t, l, n) = (touch.along, touch.across, touch.normal);
+        let (t, l, n, nearer) = (touch.along, touch.across, touch.normal, touch.approach());
         let inverse = [mass, mass, mass * r, inertia, inertia, inertia];
         let out = &mut self.spokes[place];
         for column in 0..OF_BALL {
             // A unit of this speed of the ball: slip and turning of the contact.
             let i = column % 3;
             let (slip, turning, normal) = if column < 3 {
-                ([t[i], l[i]], [zero; 3], n[i] * force.damping)
+                ([t[i], l[i]], [zero; 3], nearer[i] * force.damping)
             } else {
                 ([l[i] * radius, -(t[i] * radius)], [t[i], l[i], n[i]], zero)
             };
@@ -233,7 +240,7 @@ impl Columns for Damp<'_> {
             let couple = sum(sum(scaled(t, mt - fl * radius), scaled(l, ml + ft * radius)), scaled(n, mn));
             for row in 0..OF_BALL {
                 let rubbed = if row < 3 { -pushed[row] } else { -couple[row - 3] };
-                let pressed = if row < 3 { normal * n[row] } else { zero };
+                let pressed = if row < 3 { normal * nearer[row] } else { zero };
                 // psi' moves the ball by r.
                 let lever = if column == 2 { r } else { zero.like(1.0) };
                 let factor = lever / inverse[row];
@@ -299,7 +306,7 @@ impl Columns for Step<'_> {
             let ring = beside(self.ring, direction);
             let unmoved = &moving(speeds, r);
             let ball = InGroove { groove: &groove, elastic, at, excess, moving: unmoved };
-            let touch = ball.touch(&ring);
+            let touch = ball.touch(&ring).on(contact.wave(simd, race, lane));
             let shares = decays(&force, inertia, radius).map(|rate| implicit_share(rate * self.h));
             // At the mean speeds, and where damping and friction act.
             let mut moved = [motion; 3];

@@ -6,6 +6,7 @@ use crate::integrate::Vibration;
 use crate::laws::elastic::point::ElasticPoint;
 use crate::laws::fluid::Fluid;
 use crate::laws::point_contact::{POINT_FORCE, POINT_MOTION, PointForce, PointMotion};
+use crate::pairs::groove::{Race, Wave};
 use crate::pairs::{LAWS, LawCounts};
 use crate::scalar::{Lanes, Pack, ZEROS, blocks_for, place_of};
 use crate::space::solid::{Moving, Vector};
@@ -20,6 +21,8 @@ pub(super) const WRENCH: usize = 6;
 #[derive(Clone, Debug)]
 pub(super) struct ContactLanes {
     pub(super) elastic: [Lanes; ELASTIC],
+    /// Height of the waves of the race there, m, its slope, m/rad, and the slope of that, m/rad^2; zero on a round race.
+    pub(super) wave: [Lanes; 3],
     pub(super) motion: [Lanes; POINT_MOTION],
     pub(super) force: [Lanes; POINT_FORCE],
     /// On the ring: force and moment about its centre, in axes of the bearing.
@@ -92,6 +95,7 @@ impl ContactLanes {
         }
         Self {
             elastic: columns,
+            wave: [ZEROS; 3],
             motion: [ZEROS; POINT_MOTION],
             force: [ZEROS; POINT_FORCE],
             on_ring: [ZEROS; WRENCH],
@@ -114,6 +118,20 @@ impl ContactLanes {
             Some(column) => Pack::load(simd, &column[lane..]),
             None => Pack::all(simd, f64::NAN),
         })
+    }
+
+    /// Waves of the race from this place of the lanes on, if it has any.
+    #[inline(always)]
+    pub(super) fn wave<S: Simd, const K: usize>(&self, simd: S, race: &Race, lane: usize) -> Option<Wave<Pack<S, K>>> {
+        let [height, slope, _] = &self.wave;
+        let at = |column: &Lanes| Pack::load(simd, &column[lane..]);
+        race.waviness.as_ref().map(|_| Wave { height: at(height), slope: at(slope) })
+    }
+
+    /// The same of one contact.
+    pub(super) fn wave_of(&self, race: &Race, lane: usize) -> Option<Wave<f64>> {
+        let [height, slope, _] = at_lane(&self.wave, lane);
+        race.waviness.as_ref().map(|_| Wave { height, slope })
     }
 
     /// How the surfaces of one contact move.
@@ -187,7 +205,7 @@ impl Workspace {
         Self {
             count,
             blocks: (0..blocks_for(count)).map(|b| block(b * crate::scalar::WIDEST)).collect(),
-            ring: RingState { position: [0.0; OF_RING], rate: [0.0; OF_RING], speed: 0.0 },
+            ring: RingState { position: [0.0; OF_RING], rate: [0.0; OF_RING], given: [0.0; OF_RING], speed: 0.0 },
             rings: [at_rest; 2],
             on_rings: [[[0.0; 3]; 2]; 2],
             load: [0.0; OF_RING],

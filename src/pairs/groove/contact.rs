@@ -13,6 +13,7 @@
 //! All vectors are in the axes of the ball's azimuth. Source: kinematics; the film pressure is that of line contacts.
 
 use super::geometry::{Groove, RingPlace, Touch};
+use super::waviness::{Wave, closing};
 use crate::bodies::MovingRing;
 use crate::laws::elastic::point::ElasticPoint;
 use crate::laws::point_contact::{PointContact, PointForce, PointMotion};
@@ -70,10 +71,16 @@ impl<B: Base, T: Of<B>> InGroove<'_, B, T> {
         wrenches(touch, self.radius(), force)
     }
 
-    /// The contact with a ring under these laws at a viscosity of e^`ln_viscosity` times theirs.
+    /// The contact with a ring, on a wave if there is one, under these laws at a viscosity of e^`ln_viscosity` times theirs.
     #[inline(always)]
-    pub(crate) fn contact(&self, laws: &PointContact, ring: &MovingRing<T>, ln_viscosity: T) -> Contact<T> {
-        let touch = self.touch(ring);
+    pub(crate) fn contact(
+        &self,
+        laws: &PointContact,
+        ring: &MovingRing<T>,
+        wave: Option<Wave<T>>,
+        ln_viscosity: T,
+    ) -> Contact<T> {
+        let touch = self.touch(ring).on(wave);
         let motion = self.motion(&touch, ring);
         let force = laws.force(self.elastic, &motion, ln_viscosity);
         let [on_ball, on_ring] = self.wrenches(&touch, &force);
@@ -100,9 +107,13 @@ fn motion<B: Base, T: Of<B>>(
     let at_contact = sum(passing, difference(cross(ball.turning, to_contact), cross(w_ring, lever)));
     let speeds = [dot(spun, touch.across) * radius, (ring.speed - turn) * touch.contact_distance];
     let turning = difference(ball.turning, w_ring);
+    let mut delta_dot = dot(difference(passing, cross(w_ring, lever)), touch.normal);
+    if let Some(slope) = touch.slope {
+        delta_dot += closing(touch, slope, turn, ring);
+    }
     PointMotion {
         delta: touch.delta,
-        delta_dot: dot(difference(passing, cross(w_ring, lever)), touch.normal),
+        delta_dot,
         surface_speeds: speeds,
         slip: [speeds[0] - speeds[1], dot(at_contact, touch.across)],
         turning: [touch.along, touch.across, touch.normal].map(|axis| dot(turning, axis)),
@@ -127,14 +138,19 @@ fn wrenches<B: Base, T: Of<B>>(touch: &Touch<T>, radius: B, force: &PointForce<T
     let lever = sum(touch.from_ring, to_contact);
     let through_axis = scaled(touch.along, pressure * curved);
     let on_race = sum(difference(resisted, pushed), through_axis);
-    let ball = OnBody {
+    let mut ball = OnBody {
         force: sum(on_surface, scaled(touch.along, pressure)),
         moment: sum(cross(to_contact, on_surface), couple),
     };
-    let ring = OnBody {
+    let mut ring = OnBody {
         force: on_race,
         moment: sum(difference(cross(lever, on_race), couple), scaled(touch.across, pressure * radius)),
     };
+    if let Some(slope) = touch.slope {
+        let back = scaled(touch.along, force.normal * slope);
+        ball.force = difference(ball.force, back);
+        ring = OnBody { force: sum(ring.force, back), moment: sum(ring.moment, cross(touch.from_ring, back)) };
+    }
     [ball, ring]
 }
 

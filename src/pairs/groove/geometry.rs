@@ -72,6 +72,8 @@ pub(crate) struct Touch<T> {
     /// Distance of ball and contact from the axis of the ring, m.
     pub(crate) ball_distance: T,
     pub(crate) contact_distance: T,
+    /// Slope of a wave along the path of the ball's centre, m per m; `None` on a round race.
+    pub(crate) slope: Option<T>,
 }
 
 impl Groove {
@@ -154,6 +156,7 @@ impl<B: Base> Groove<B> {
             from_ring,
             ball_distance,
             contact_distance: in_meridian[1] * (self.ball_radius + deviation) + ball_distance,
+            slope: None,
         }
     }
 }

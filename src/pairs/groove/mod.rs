@@ -1,11 +1,13 @@
-//! Balls in the grooves of the raceways: geometry of both rings by the same formulas, elastic contacts.
+//! Balls in the grooves of the raceways: geometry of both rings by the same formulas, waves, elastic contacts.
 
 mod contact;
 mod geometry;
 mod laws;
+mod waviness;
 
 pub(crate) use contact::{Contact, InGroove, OnBody};
 pub(crate) use geometry::{Fit, Groove, RingPlace, Side, Touch};
+pub(crate) use waviness::{Wave, Waviness};
 
 use super::line_laws::LawBuilder;
 use crate::error::Result;
@@ -25,6 +27,8 @@ pub(crate) struct Race {
     pub(crate) laws: PointContact,
     /// Angle of the contact at which a point would lie on the edge of the shoulder, rad.
     pub(crate) shoulder: Option<f64>,
+    /// Waves around the ring.
+    pub(crate) waviness: Option<Waviness>,
 }
 
 impl Race {
@@ -71,11 +75,11 @@ pub(crate) fn races(scene: &Scene, deviations: &[f64], viscosity: Option<f64>) -
     };
     let (outer, inner) = (scene.outer_ring.as_ref(), scene.inner_ring.as_ref());
     let parts = [
-        outer.map(|ring| (ring.groove_radius, ring.shoulder_height, ring.material.as_deref())),
-        inner.map(|ring| (ring.groove_radius, ring.shoulder_height, ring.material.as_deref())),
+        outer.map(|ring| (ring.groove_radius, ring.shoulder_height, ring.material.as_deref(), &*ring.waviness)),
+        inner.map(|ring| (ring.groove_radius, ring.shoulder_height, ring.material.as_deref(), &*ring.waviness)),
     ];
     let race = |side: Side, ring: &str| {
-        let (groove, shoulder, material) = parts[side as usize].unwrap_or_default();
+        let (groove, shoulder, material, waves) = parts[side as usize].unwrap_or_default();
         let path = format!("{ring}.groove_radius");
         let radius = needed(&path, groove, "balls")?;
         let material_path = format!("{ring}.material");
@@ -104,6 +108,7 @@ pub(crate) fn races(scene: &Scene, deviations: &[f64], viscosity: Option<f64>) -
             elastic: deviations.iter().map(|deviation| point(*deviation)).collect::<Result<_>>()?,
             laws,
             shoulder: shoulder.map(|height| angle_of_drop(height / radius)),
+            waviness: Waviness::new(waves),
         })
     };
     Ok(Some([race(Side::Outer, "outer_ring")?, race(Side::Inner, "inner_ring")?]))

@@ -9,6 +9,9 @@ const WIDEST_GROOVE: f64 = 2.0;
 const TILT: Range = range(-0.1, 0.1, "rad");
 pub(crate) const MOMENT: Range = range(-1e9, 1e9, "N m");
 const STIFFNESS: Range = range(0.0, 1e12, "N/m");
+/// Largest sum of the slopes of the waves of a race.
+const STEEPEST: f64 = 0.01;
+const WAVE: Range = range(-1e-4, 1e-4, "m");
 const CONTACT_ANGLE: Range = range(0.0, 1.5, "rad");
 
 impl Scene {
@@ -40,6 +43,19 @@ impl Scene {
             judge.optional(&format!("{ring}.shoulder_height"), shoulder, range(1e-6, *groove, "m"))?;
             let path = format!("{ring}.material");
             self.material_exists(judge, &path, material.as_ref().ok_or_else(|| missing(&path))?)?;
+        }
+        for (path, waves) in [("outer_ring.waviness", &outer.waviness), ("inner_ring.waviness", &inner.waviness)] {
+            let list = waves.iter().map(|wave| (wave.order, wave.amplitude, wave.phase));
+            harmonics(judge, path, list, (1, ""), WAVE)?;
+            let steepest: f64 = waves.iter().map(|wave| f64::from(wave.order) * wave.amplitude.abs()).sum();
+            let slope = steepest / balls.pitch_radius;
+            if slope > STEEPEST {
+                let text = format!(
+                    "slopes of {} at most, order times amplitude over the pitch radius, are too steep for waves whose normals are those of                      the round race; {STEEPEST} is allowed",
+                    shown(slope)
+                );
+                judge.refuse(path, text)?;
+            }
         }
         self.validate_fit(judge, balls, inner, grooves)?;
         if let Some(drag) = &balls.drag {
@@ -91,6 +107,8 @@ impl Scene {
             ("outer_ring.shoulder_height", outer.is_some_and(|ring| ring.shoulder_height.is_some())),
             ("inner_ring.groove_radius", inner.is_some_and(|ring| ring.groove_radius.is_some())),
             ("inner_ring.shoulder_height", inner.is_some_and(|ring| ring.shoulder_height.is_some())),
+            ("outer_ring.waviness", outer.is_some_and(|ring| !ring.waviness.is_empty())),
+            ("inner_ring.waviness", inner.is_some_and(|ring| !ring.waviness.is_empty())),
             ("raceways.ellipse", self.raceways.as_ref().is_some_and(|raceways| raceways.ellipse.is_some())),
         ] {
             if present {
@@ -142,9 +160,20 @@ impl Scene {
             return judge.refuse("inner_ring.motion.space", "needs 'balls'; write 'fixed' or 'free'");
         }
         for (name, coordinate) in ring.coordinates() {
-            if let RingCoordinate::Held(value) = coordinate {
-                let allowed = if name.starts_with("tilt") { TILT } else { POSITION };
-                judge.number(&format!("{}.held", at(name)), *value, allowed)?;
+            let allowed = if name.starts_with("tilt") { TILT } else { POSITION };
+            match coordinate {
+                RingCoordinate::Free => {}
+                RingCoordinate::Held(value) => {
+                    judge.number(&format!("{}.held", at(name)), *value, allowed)?;
+                }
+                RingCoordinate::Prescribed(motion) => {
+                    let path = format!("{}.prescribed", at(name));
+                    signal(judge, &path, motion, allowed)?;
+                    if let Signal::Step { .. } = motion {
+                        let text = "a place that jumps has no speed; write a 'ramp', 'sine' or 'table'";
+                        judge.refuse(&format!("{path}.step"), text)?;
+                    }
+                }
             }
         }
         for (name, load) in ring.load.iter().flat_map(SpatialLoad::components) {

@@ -10,8 +10,6 @@ const POCKET_CLEARANCE: Range = range(1e-7, 1e-2, "m");
 const GUIDE_CLEARANCE: Range = range(1e-6, 1e-2, "m");
 const VELOCITY: Range = range(-100.0, 100.0, "m/s");
 pub(crate) const TORQUE: Range = range(-1e9, 1e9, "N m");
-const MAX_HARMONICS: usize = 64;
-const MAX_ORDER: u32 = 200;
 
 impl Scene {
     pub(in crate::scene) fn validate_cage(&self, judge: Judge<'_>, cage: &Cage) -> Result<()> {
@@ -218,23 +216,12 @@ impl Scene {
     /// Roundness must leave a gap.
     fn validate_gap(&self, judge: Judge<'_>, guide: &Guide) -> Result<()> {
         let path = "cage.guide.roundness";
-        if guide.roundness.len() > MAX_HARMONICS {
-            let text = format!("{} harmonics, at most {MAX_HARMONICS}", guide.roundness.len());
-            judge.refuse(path, text)?;
-        }
         if guide.film.is_none() && !guide.roundness.is_empty() {
             judge.refuse(path, "needs 'film' beside it")?;
         }
         let clearance = guide.diametral_clearance / 2.0;
-        for (i, a) in guide.roundness.iter().enumerate() {
-            let at = |field: &str| format!("{path}.{i}.{field}");
-            if !(2..=MAX_ORDER).contains(&a.order) {
-                let text = format!("{} is not within 2 to {MAX_ORDER} (order 1 is eccentricity)", a.order);
-                judge.refuse(&at("order"), text)?;
-            }
-            judge.number(&at("amplitude"), a.amplitude, range(-clearance, clearance, "m"))?;
-            judge.number(&at("phase"), a.phase, ANGLE)?;
-        }
+        let list = guide.roundness.iter().map(|a| (a.order, a.amplitude, a.phase));
+        harmonics(judge, path, list, (2, " (order 1 is eccentricity)"), range(-clearance, clearance, "m"))?;
         let roundness: f64 = guide.roundness.iter().map(|a| a.amplitude.abs()).sum();
         if roundness >= clearance {
             let text = format!(

@@ -63,7 +63,7 @@ impl SteadyBall<'_> {
                 excess: self.ball.excess,
                 moving,
             };
-            ball.contact(self.laws[k], &ring, zero)
+            ball.contact(self.laws[k], &ring, None, zero)
         };
         let outer = contact(0, [zero; 3], [x.like(1.0), zero, zero]);
         let inner = contact(1, [ring[0], ring[1], ring[2]], tilt.axis);

@@ -65,6 +65,8 @@ pub(super) const NUMBERS: &[(&str, Range)] = &[
     ("cage.guide.solid.asperity_height", range(1e-9, 1e-4, "m")),
     ("cage.guide.film_share.roughness", ROUGHNESS),
     ("cage.guide.roundness.*.amplitude", range(1e-9, 1e-3, "m")),
+    ("*.waviness.*.amplitude", range(1e-10, 1e-5, "m")),
+    ("*.waviness.*.phase", TURN),
     ("cage.guide.roundness.*.phase", TURN),
     ("cage.elastic_ring.damping", range(1e-5, 0.3, "")),
     ("cage.elastic_ring.stiffness.section.young_modulus", range(1e8, 8e11, "Pa")),
