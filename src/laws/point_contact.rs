@@ -19,6 +19,8 @@ use crate::laws::rolling::point::PointRolling;
 use crate::laws::traction::ellipse::{EllipseFriction, EllipseState, EllipseTraction, Secants};
 use crate::scalar::{Base, Numeric, Of, smoothstep};
 
+/// No film without heat is thicker, m.
+const THICKEST_FILM: f64 = 1e-4;
 /// Slide-to-roll ratio below which the thermal factors take it as this, rounded off.
 const SLIDE_ROLL_FLOOR: f64 = 1e-3;
 
@@ -263,6 +265,15 @@ impl PointContact {
             };
         }
         out
+    }
+}
+
+impl PointContact {
+    /// Whether the thermal factor of the film is at its floor in a contact with this force.
+    pub fn is_at_floor(&self, motion: &PointMotion<f64>, force: &PointForce<f64>, ln_viscosity: f64) -> bool {
+        let may_be = force.normal > 0.0 && force.film < GUPTA_FLOOR * THICKEST_FILM;
+        let film = self.film.as_ref().filter(|_| may_be);
+        film.is_some_and(|film| film.is_at_floor(force.pressure, &entrainment(motion, ln_viscosity)))
     }
 }
 

@@ -5,12 +5,13 @@
 //! |---|---|
 //! | `inputs`, `signals` | from the scene to inputs over time |
 //! | `names`, `selection` | what models tell: names, units, channels and those that a record has |
-//! | `faults` | faults in words |
+//! | `faults`, `conditions` | faults in words; what holds at an instant beside the powers |
 //! | `bearing` | what both kinds of bearings answer |
 //! | `plane/` | a bearing whose bodies move in the plane |
 //! | `space/` | one whose balls and ring move in space |
 
 mod bearing;
+mod conditions;
 mod faults;
 mod inputs;
 mod names;
@@ -26,9 +27,10 @@ pub use crate::bodies::{HostInputs, InputValues, Layout};
 pub(crate) use crate::pairs::Law;
 pub use crate::pairs::{LAWS, LawCounts};
 pub(crate) use bearing::Reading;
+pub use conditions::STATIC_LIMIT;
+pub(crate) use conditions::{Condition, RATES};
 pub use names::{Channel, Energy, Quantity, StateInfo};
 pub(crate) use names::{Source, quantity};
-pub(crate) use plane::{AT_FLOOR, RATES};
 pub use plane::{CONTACT_QUANTITIES, ContactForces, FORCE_COMPONENTS, Forces, GuideReport};
 #[doc(hidden)]
 pub use plane::{PARTS, PartTimes, Plane, Workspace};

@@ -3,7 +3,7 @@
 use super::Sim;
 use crate::error::Result;
 use crate::integrate::throughput;
-use crate::model::{AT_FLOOR, Energy, POWERS, RATES};
+use crate::model::{Condition, Energy, POWERS, RATES};
 use crate::registry::registry;
 use crate::stored::stored;
 
@@ -131,11 +131,11 @@ impl Sim {
         works
     }
 
-    /// Share of the time since the balance began in which a law was at a floor.
-    pub(super) fn share_at_floor(&self) -> f64 {
+    /// Share of the time since the balance began in which a condition held.
+    pub(super) fn share_of(&self, condition: Condition) -> f64 {
         let to = self.driver.reached();
         // Some weights of methods are negative.
-        let time = self.works_at(to)[AT_FLOOR].abs();
+        let time = self.works_at(to)[condition.place()].abs();
         if time > 0.0 { time / (to - self.balance.time) } else { 0.0 }
     }
 

@@ -470,6 +470,9 @@ impl Sim {
         if let Some(field) = self.model().energy_giving_film() {
             text += &format!("; the film of the guide can give energy to the cage ({field})");
         }
+        for remark in self.remarks() {
+            text += &format!("; {remark}");
+        }
         let doubts = self.doubts();
         if let Some(why) = self.not_judged() {
             text += &format!("; not judged: {why}");

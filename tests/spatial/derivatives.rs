@@ -1,6 +1,6 @@
 //! Exact derivatives of the accelerations against differences.
 
-use crate::{DEEP, everything, free_ring, model, states};
+use crate::{DEEP, driven, everything, free_ring, model, states};
 use cagedyn::{Model, Sim};
 use serde_json::json;
 use std::sync::Arc;
@@ -43,8 +43,36 @@ fn error(model: &Arc<Model>, spread: f64) -> f64 {
 
 #[test]
 fn derivatives_are_those_of_the_accelerations() {
-    let off = error(&everything(), 0.3);
-    assert!(off < 1e-6, "{off}");
+    for model in [everything(), driven()] {
+        let off = error(&model, 0.3);
+        assert!(off < 1e-6, "{off}");
+    }
+}
+
+/// With waves that turn, and a ring that is moved.
+#[test]
+fn rates_at_a_state_that_stands_still() {
+    for model in [everything(), driven()] {
+        let mut sim = Sim::new(model.clone()).unwrap();
+        let scales = model.state_scales();
+        for state in states(&sim, 3, 0.3, 6) {
+            let (t, h, n) = (2.3e-3, 1e-7, state.len());
+            let mut exact = vec![0.0; n];
+            sim.time_derivative(t, &state, &mut exact).unwrap();
+            let mut rate_at = |s: f64| {
+                let mut rate = vec![0.0; n];
+                sim.derivative(t + s, &state, &mut rate).unwrap();
+                rate
+            };
+            let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|s| rate_at(s * h));
+            let differences = (0..n).map(|i| (a[i] - d[i] + 8.0 * (c[i] - b[i])) / (12.0 * h));
+            let largest = exact.iter().zip(&scales).map(|(x, scale)| (x / scale).abs()).fold(0.0, f64::max);
+            assert!(largest > 1.0);
+            for ((exact, difference), scale) in exact.iter().zip(differences).zip(&scales) {
+                assert!((exact - difference).abs() < 1e-6 * largest * scale, "{exact} {difference}");
+            }
+        }
+    }
 }
 
 #[test]

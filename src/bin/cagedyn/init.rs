@@ -15,6 +15,10 @@ pub enum Kind {
     GreasedBall,
     /// The same in a guide full of oil.
     OiledBall,
+    /// Balls that move freely in space, angular contact, an inner ring under combined load; no cage.
+    AngularContact,
+    /// The same of a deep groove bearing.
+    DeepGroove,
 }
 
 impl Kind {
@@ -24,6 +28,8 @@ impl Kind {
             Self::CylindricalRoller => include_str!("starters/cylindrical-roller.json"),
             Self::GreasedBall => include_str!("starters/greased-ball.json"),
             Self::OiledBall => include_str!("starters/oiled-ball.json"),
+            Self::AngularContact => include_str!("starters/angular-contact.json"),
+            Self::DeepGroove => include_str!("starters/deep-groove.json"),
         }
     }
 }

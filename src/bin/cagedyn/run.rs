@@ -208,6 +208,7 @@ pub fn finished(
         parts,
         statistics,
         doubts: sim.doubts().iter().map(ToString::to_string).collect(),
+        remarks: sim.remarks(),
         report,
         time: sim.time(),
         wall,

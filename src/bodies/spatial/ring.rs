@@ -114,7 +114,8 @@ impl RingInSpace {
                     RingCoordinate::Held(value) => Some(*value),
                     RingCoordinate::Prescribed(signal) => Some(signal.at(0.0)),
                 });
-                let over_time = |(_, coordinate): (_, &_)| matches!(coordinate, RingCoordinate::Prescribed(_));
+                let over_time =
+                    |(_, coordinate): (_, &_)| matches!(coordinate, RingCoordinate::Prescribed(_));
                 Self {
                     prescribed: ring.coordinates().map(over_time),
                     preload: ring.preload,

@@ -31,7 +31,6 @@ pub use report::{CONTACT_QUANTITIES, ContactForces, FORCE_COMPONENTS, Forces, Gu
 pub(crate) use report::{Reading, Source};
 pub(crate) use still::StillBearing;
 pub use workspace::Workspace;
-pub(crate) use workspace::{AT_FLOOR, RATES};
 
 use super::signals::InputSignals;
 use super::{Fault, HostInputs, Input, InputValues, Layout};

@@ -12,9 +12,10 @@
 //! the power that the bearing takes from the shaft.
 
 use super::Plane;
-use super::workspace::{AT_FLOOR, Workspace};
+use super::workspace::Workspace;
 use crate::bodies::{CAGE, INNER_RING, OUTER_RING, Power, SharedBody};
 use crate::integrate::SemiImplicit;
+use crate::model::Condition;
 use crate::model::Energy;
 use crate::pairs::{Batch, ContactBlock, Loaded};
 use crate::space::Wrench;
@@ -48,7 +49,7 @@ impl Plane {
                 if info.rolls {
                     p[Power::RollingResistance as usize] += rolling[lane];
                     if self.is_at_floor(batch, i, ws.fluid.ln_viscosity) {
-                        p[AT_FLOOR] = 1.0;
+                        p[Condition::AtFloor.place()] = 1.0;
                     }
                 }
                 moment += step.surface_moment[lane];
@@ -148,7 +149,7 @@ mod tests {
     use super::*;
     use crate::Sim;
     use crate::bodies::POWERS;
-    use crate::model::plane::workspace::RATES;
+    use crate::model::RATES;
     use crate::model::{HostInputs, Model};
     use std::sync::Arc;
 

@@ -3,18 +3,14 @@
 use super::integration::step_forces::StepMemory;
 use super::inverse_inertia::InverseInertia;
 use super::{InputValues, Plane};
-use crate::bodies::{BodyState, CAGE, Motions, OF_ELEMENT, POWERS, SHARED, WrenchLanes};
+use crate::bodies::{BodyState, CAGE, Motions, OF_ELEMENT, SHARED, WrenchLanes};
 use crate::integrate::Vibration;
 use crate::laws::fluid::Fluid;
+use crate::model::RATES;
 use crate::pairs::{Contacts, LAWS, LAWS_OF_PAIR, Law, LawCounts, PairInfo, RelativeSlopes, SharedForce};
 use crate::scalar::{ZEROS, blocks_for};
 use crate::space::Wrench;
 use std::ops::Range;
-
-/// Behind the powers: 1 while a law between rollers and raceways is at a floor, else 0.
-pub(crate) const AT_FLOOR: usize = POWERS.len();
-/// Number of the powers and what is behind them.
-pub(crate) const RATES: usize = AT_FLOOR + 1;
 
 /// Memory of a force evaluation and its results. One per simulation; never shared.
 #[derive(Clone, Debug)]

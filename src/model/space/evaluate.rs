@@ -351,6 +351,7 @@ impl Columns for Apply<'_> {
         let found = ball.contact(&self.race.laws, &ring, wave, Pack::all(simd, self.ln_viscosity));
         store(found.motion.numbers(), &mut contact.motion, lane);
         store(found.force.numbers(), &mut contact.force, lane);
+        found.touch.in_meridian[0].store(&mut contact.axial[lane..]);
         let ([fx, fr, ft], [mx, mr, mt]) = (found.on_ball.force, found.on_ball.moment);
         let on_ball = [fx, fr, ft, mx, mr, mt];
         let [[fx, fy, fz], [mx, my, mz]] =

@@ -253,8 +253,7 @@ impl Space {
             // By what moves the ring from outside.
             let [place, rate] = [0, 1].map(|i| rates.ring.map(|of_ring| of_ring[i]));
             let given = LocalRing::new(place, rate, direction);
-            let tilt =
-                Tilt::new([0, 1].map(|i| timed(variable(local.tilt[i], TILT + i), given.tilt[i])));
+            let tilt = Tilt::new([0, 1].map(|i| timed(variable(local.tilt[i], TILT + i), given.tilt[i])));
             let tilting =
                 [0, 1].map(|i| timed(variable(local.tilt_rate[i], TILT_RATE + i), given.tilt_rate[i]));
             let speed = in_time(ws.ring.speed, rates.of(Input::RingSpeed));

@@ -6,7 +6,6 @@ use super::{RACES, Space};
 use crate::bodies::{FORCE_SOURCES, ForceSource, InputValues, MovingRing, OF_BALL};
 use crate::integrate::SemiImplicit;
 use crate::model::{Channel, Quantity, Source as AnySource, quantity};
-use crate::pairs::groove::InGroove;
 use crate::scalar::{math, place_of};
 use crate::space::solid::{dot, sum};
 

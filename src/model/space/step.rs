@@ -11,12 +11,12 @@
 use super::evaluate::{beside, moving, to_global};
 use super::workspace::{BallBlock, WRENCH, Workspace, at_lane, load, store};
 use super::{RACES, Space};
-use crate::bodies::{Fault, MovingRing, OF_BALL, POWERS, Power, SOUND};
+use crate::bodies::{Fault, MovingRing, OF_BALL, Power, SOUND};
 use crate::integrate::{GroupDamping, SemiImplicit, SpokeDamping, implicit_share};
 use crate::laws::point_contact::{PointForce, PointMotion};
-use crate::model::{AT_FLOOR, Energy, RATES};
+use crate::model::{Condition, Energy, RATES, STATIC_LIMIT};
 use crate::pairs::groove::{InGroove, Race};
-use crate::scalar::{Columns, Lanes, Numeric, Pack, dispatch, place_of};
+use crate::scalar::{Columns, Lanes, Numeric, Pack, dispatch, math, place_of};
 use crate::space::solid::{dot, scaled, sum};
 use pulp::Simd;
 
@@ -94,8 +94,8 @@ impl Space {
         }
     }
 
-    /// Powers at the last evaluated state of `ws`, whose velocities are `v`, W, in the order of [`POWERS`], and last whether a law is at a
-    /// floor (1 or 0). With a semi-implicit step those of its forces.
+    /// Powers at the last evaluated state of `ws`, whose velocities are `v`, W, and whether each [`Condition`] holds (1 or 0), by their places.
+    /// With a semi-implicit step those of its forces.
     pub(crate) fn powers(
         &self,
         v: &[f64],
@@ -105,7 +105,6 @@ impl Space {
     ) {
         p[..RATES].fill(0.0);
         self.find_step(v, step, ws);
-        debug_assert_eq!(POWERS.len(), AT_FLOOR);
         let parts = [Power::RacewayDamping, Power::RacewayFriction, Power::RollingResistance];
         let mut on_inner = ws.on_rings[1][1];
         let mut on_outer = ws.on_rings[0][1][0];
@@ -128,6 +127,9 @@ impl Space {
                 p[Power::Drag as usize] += dot(force, moving.velocity) + dot(moment, moving.turning);
             }
         }
+        for condition in Condition::ALL {
+            p[condition.place()] = f64::from(u8::from(self.holds(condition, ws)));
+        }
         let [outer, inner] = &ws.rings;
         let [loads, supports] = self.ring.powers(&ws.ring, ws.load);
         p[Power::Loads as usize] += loads;
@@ -140,6 +142,26 @@ impl Space {
         p[Power::RingDrive as usize] += self.ring.held_power(&ws.ring, on_ring, ws.load, self.gravity)
             - dot(on_inner, inner.axis) * inner.speed;
         p[Power::OuterRingDrive as usize] -= on_outer * outer.speed;
+    }
+
+    /// Whether a condition holds in any contact at the last evaluated state of `ws`.
+    fn holds(&self, condition: Condition, ws: &Workspace) -> bool {
+        let mut all = (0..2).flat_map(|k| ws.contacts(k).map(move |(contact, lane)| (k, contact, lane)));
+        match condition {
+            Condition::AtFloor => all.any(|(k, contact, lane)| {
+                let (motion, force) = (contact.motion_of(lane), contact.force_of(lane));
+                self.races[k].laws.is_at_floor(&motion, &force, ws.fluid.ln_viscosity)
+            }),
+            Condition::BeyondShoulder => all.any(|(k, contact, lane)| {
+                let (load, long) = (contact.force[0][lane], contact.force[3][lane]);
+                let beyond = || self.races[k].beyond_shoulder(math::asin(contact.axial[lane]), long);
+                load > 0.0 && beyond().is_some_and(|beyond| beyond > 0.0)
+            }),
+            Condition::OverPressed => {
+                all.any(|(_, contact, lane)| contact.force_of(lane).pressure > STATIC_LIMIT)
+            }
+            Condition::Unloaded => ws.contacts(1).all(|(contact, lane)| contact.force[0][lane] == 0.0),
+        }
     }
 
     /// Energy of the last evaluated state of `ws`.

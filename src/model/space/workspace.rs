@@ -25,6 +25,8 @@ pub(super) struct ContactLanes {
     pub(super) wave: [Lanes; 3],
     pub(super) motion: [Lanes; POINT_MOTION],
     pub(super) force: [Lanes; POINT_FORCE],
+    /// Normal along the axis of the ring: sine of the contact angle, but for its sign.
+    pub(super) axial: Lanes,
     /// On the ring: force and moment about its centre, in axes of the bearing.
     pub(super) on_ring: [Lanes; WRENCH],
     /// In the step from the last evaluated state: what the forces on the ring have changed by, normal force, and powers of damping,
@@ -98,6 +100,7 @@ impl ContactLanes {
             wave: [ZEROS; 3],
             motion: [ZEROS; POINT_MOTION],
             force: [ZEROS; POINT_FORCE],
+            axial: ZEROS,
             on_ring: [ZEROS; WRENCH],
             reaction: [ZEROS; WRENCH],
             normal: ZEROS,
@@ -122,7 +125,12 @@ impl ContactLanes {
 
     /// Waves of the race from this place of the lanes on, if it has any.
     #[inline(always)]
-    pub(super) fn wave<S: Simd, const K: usize>(&self, simd: S, race: &Race, lane: usize) -> Option<Wave<Pack<S, K>>> {
+    pub(super) fn wave<S: Simd, const K: usize>(
+        &self,
+        simd: S,
+        race: &Race,
+        lane: usize,
+    ) -> Option<Wave<Pack<S, K>>> {
         let [height, slope, _] = &self.wave;
         let at = |column: &Lanes| Pack::load(simd, &column[lane..]);
         race.waviness.as_ref().map(|_| Wave { height: at(height), slope: at(slope) })
@@ -205,7 +213,12 @@ impl Workspace {
         Self {
             count,
             blocks: (0..blocks_for(count)).map(|b| block(b * crate::scalar::WIDEST)).collect(),
-            ring: RingState { position: [0.0; OF_RING], rate: [0.0; OF_RING], given: [0.0; OF_RING], speed: 0.0 },
+            ring: RingState {
+                position: [0.0; OF_RING],
+                rate: [0.0; OF_RING],
+                given: [0.0; OF_RING],
+                speed: 0.0,
+            },
             rings: [at_rest; 2],
             on_rings: [[[0.0; 3]; 2]; 2],
             load: [0.0; OF_RING],

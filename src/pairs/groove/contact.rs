@@ -40,6 +40,7 @@ pub(crate) struct InGroove<'a, B, T> {
 /// A contact: how it moves, its forces, and what these do to ball and ring.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Contact<T> {
+    pub(crate) touch: Touch<T>,
     pub(crate) motion: PointMotion<T>,
     pub(crate) force: PointForce<T>,
     pub(crate) on_ball: OnBody<T>,
@@ -84,7 +85,7 @@ impl<B: Base, T: Of<B>> InGroove<'_, B, T> {
         let motion = self.motion(&touch, ring);
         let force = laws.force(self.elastic, &motion, ln_viscosity);
         let [on_ball, on_ring] = self.wrenches(&touch, &force);
-        Contact { motion, force, on_ball, on_ring }
+        Contact { touch, motion, force, on_ball, on_ring }
     }
 }
 
@@ -149,7 +150,8 @@ fn wrenches<B: Base, T: Of<B>>(touch: &Touch<T>, radius: B, force: &PointForce<T
     if let Some(slope) = touch.slope {
         let back = scaled(touch.along, force.normal * slope);
         ball.force = difference(ball.force, back);
-        ring = OnBody { force: sum(ring.force, back), moment: sum(ring.moment, cross(touch.from_ring, back)) };
+        ring =
+            OnBody { force: sum(ring.force, back), moment: sum(ring.moment, cross(touch.from_ring, back)) };
     }
     [ball, ring]
 }

@@ -75,8 +75,12 @@ pub(crate) fn races(scene: &Scene, deviations: &[f64], viscosity: Option<f64>) -
     };
     let (outer, inner) = (scene.outer_ring.as_ref(), scene.inner_ring.as_ref());
     let parts = [
-        outer.map(|ring| (ring.groove_radius, ring.shoulder_height, ring.material.as_deref(), &*ring.waviness)),
-        inner.map(|ring| (ring.groove_radius, ring.shoulder_height, ring.material.as_deref(), &*ring.waviness)),
+        outer.map(|ring| {
+            (ring.groove_radius, ring.shoulder_height, ring.material.as_deref(), &*ring.waviness)
+        }),
+        inner.map(|ring| {
+            (ring.groove_radius, ring.shoulder_height, ring.material.as_deref(), &*ring.waviness)
+        }),
     ];
     let race = |side: Side, ring: &str| {
         let (groove, shoulder, material, waves) = parts[side as usize].unwrap_or_default();

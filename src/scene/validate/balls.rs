@@ -44,7 +44,9 @@ impl Scene {
             let path = format!("{ring}.material");
             self.material_exists(judge, &path, material.as_ref().ok_or_else(|| missing(&path))?)?;
         }
-        for (path, waves) in [("outer_ring.waviness", &outer.waviness), ("inner_ring.waviness", &inner.waviness)] {
+        for (path, waves) in
+            [("outer_ring.waviness", &outer.waviness), ("inner_ring.waviness", &inner.waviness)]
+        {
             let list = waves.iter().map(|wave| (wave.order, wave.amplitude, wave.phase));
             harmonics(judge, path, list, (1, ""), WAVE)?;
             let steepest: f64 = waves.iter().map(|wave| f64::from(wave.order) * wave.amplitude.abs()).sum();

@@ -2,6 +2,7 @@
 
 use crate::bodies::Power;
 use crate::error::{Error, Result, Status};
+use crate::model::{Condition, STATIC_LIMIT};
 use crate::scene::Method;
 use crate::sim::balance::Start;
 use crate::sim::preset::numbers;
@@ -121,11 +122,36 @@ impl Sim {
                 doubts.extend(self.created_energy(&balance, promised));
             }
         }
-        let share = self.share_at_floor();
+        let share = self.share_of(Condition::AtFloor);
         if share > 0.0 {
             doubts.push(Doubt::Floor { share });
         }
         doubts
+    }
+
+    /// What happened in this run that a user should know, though the laws hold: in words, with shares of the time since the start of the
+    /// scene or the last [`Sim::set_state`].
+    pub fn remarks(&self) -> Vec<String> {
+        let words = |condition: Condition| match condition {
+            Condition::AtFloor => None,
+            Condition::BeyondShoulder => {
+                Some("an ellipse reached beyond the shoulder of its ring".to_owned())
+            }
+            Condition::OverPressed => {
+                let limit = 1e-9 * STATIC_LIMIT;
+                Some(format!(
+                    "a contact pressure was above {limit} GPa, where races of steel are dented for good (ISO 76)"
+                ))
+            }
+            Condition::Unloaded => Some("no ball pressed the inner ring".to_owned()),
+        };
+        let told = Condition::ALL.into_iter().filter_map(|condition| {
+            let share = self.share_of(condition);
+            words(condition)
+                .filter(|_| share > 0.0)
+                .map(|words| format!("in {:.2} % of the time {words}", 100.0 * share))
+        });
+        told.collect()
     }
 
     /// The doubt about a film that is not passive and gave more than this share of what passed through.

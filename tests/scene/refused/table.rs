@@ -15,6 +15,13 @@ pub struct Row {
     pub says: &'static [&'static str],
 }
 
+impl Row {
+    /// The same, refused at another place.
+    pub fn at(self, path: &'static str) -> Self {
+        Self { path, ..self }
+    }
+}
+
 /// A valid scene that the rows spoil.
 #[derive(Clone)]
 pub struct Base(Value);
@@ -37,6 +44,16 @@ pub fn bent() -> Base {
 /// The same with a heat balance.
 pub fn warm() -> Base {
     Base(serde_json::from_str(&read("scenes/grease_guide_heat.json")).expect("the example scene is JSON"))
+}
+
+/// A deep groove ball bearing in space.
+pub fn deep_groove() -> Base {
+    Base(serde_json::from_str(&read("scenes/deep_groove_6206.json")).expect("the example scene is JSON"))
+}
+
+/// An angular contact ball bearing in space.
+pub fn angular_contact() -> Base {
+    Base(serde_json::from_str(&read("scenes/angular_contact_218.json")).expect("the example scene is JSON"))
 }
 
 fn grease_text() -> String {

@@ -71,7 +71,7 @@ fn trust(g: &Gathered) -> String {
         wrong.push(format!("The results are incomplete: they end at {end} s."));
     }
     wrong.extend(s.doubts.iter().cloned());
-    let but = !s.warnings.is_empty() || s.few_turns().is_some();
+    let but = !s.warnings.is_empty() || !s.remarks.is_empty() || s.few_turns().is_some();
     let (class, says) = match (s.trusted, s.complete) {
         (true, true) if but => ("trust but", "Trusted"),
         (true, true) => ("trust", "Trusted"),
@@ -100,6 +100,7 @@ fn conditions(g: &Gathered) -> Vec<String> {
         let count = s.statistics.len();
         all.push(format!("{changing} of {count} channels were still changing in the averaging window."));
     }
+    all.extend(s.remarks.iter().map(|remark| format!("During the run: {remark}.")));
     all.extend(s.warnings.iter().map(|warning| format!("Unlikely value of the scene: {warning}")));
     let assumed = Remarks::of(g.comment.as_ref()).assumed;
     all.push(match assumed.as_ref().map(Vec::len) {

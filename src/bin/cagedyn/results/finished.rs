@@ -40,6 +40,8 @@ pub struct Run {
     pub before: Option<(f64, [f64; POWERS.len()])>,
     /// What speaks against trusting the run.
     pub doubts: Vec<String>,
+    /// What happened that a user should know.
+    pub remarks: Vec<String>,
     /// What the integration did and why.
     pub report: String,
     /// Simulated time, s.

@@ -226,6 +226,7 @@ fn effort(run: &Run, summary: &Summary, folder: &Path) -> Vec<Vec<String>> {
     if !run.doubts.is_empty() {
         rows.push(("trusted", format!("NO: {}", run.doubts.join("; "))));
     }
+    rows.extend(run.remarks.iter().map(|remark| ("noticed", remark.clone())));
     if run.interrupted {
         rows.push(("ended", "interrupted, results are incomplete".to_owned()));
     } else if run.failure.is_some() {

@@ -56,6 +56,9 @@ pub struct Summary {
     /// What speaks against that.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub doubts: Vec<String>,
+    /// What happened that a user should know, though the laws hold.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub remarks: Vec<String>,
     /// Simulated time, s.
     pub simulated_time_s: f64,
     /// Wall time of the simulation, s.
@@ -323,6 +326,7 @@ impl Summary {
             error: run.failure.as_ref().map(|e| e.message.clone()),
             trusted: run.doubts.is_empty(),
             doubts: run.doubts.clone(),
+            remarks: run.remarks.clone(),
             simulated_time_s: run.time,
             wall_time_s: run.wall,
             simulated_over_wall: if run.wall > 0.0 { run.time / run.wall } else { 0.0 },
