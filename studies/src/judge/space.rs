@@ -2,7 +2,8 @@
 //!
 //! Ranges: pitch diameter 20 to 300 mm, 3e3 to 6e5 mm/min times that, ball loads of 0.05 to 5 N per mm^2 of their diameter's square, radial
 //! loads up to half of the axial one, misalignment up to 2 mrad, clearance of deep grooves up to 3e-4 of the pitch diameter, oils as in
-//! [`scenes`](super::scenes), mixtures of 1 to 60 kg/m^3.
+//! [`scenes`](super::scenes), mixtures of 1 to 60 kg/m^3, waves of orders 2 to 60 and up to 1e-4 of the pitch radius over the square of the
+//! order, rings that are moved over time.
 
 use super::scenes::Draw;
 use crate::random::Random;
@@ -33,8 +34,14 @@ pub fn scene(number: u64, duration: f64) -> Value {
     let mass = 7830.0 * 4.0 / 3.0 * PI * radius.powi(3);
     let ring_mass = count * mass * draw.log(3.0, 60.0);
     let transverse = ring_mass * pitch * pitch * draw.within(0.4, 1.5);
-    let coordinate = |draw: &mut Draw, size: f64| match draw.0.index(3) {
-        0 => json!({"held": size * draw.within(-1.0, 1.0)}),
+    let coordinate = |draw: &mut Draw, size: f64| match draw.0.index(6) {
+        0 | 1 => json!({"held": size * draw.within(-1.0, 1.0)}),
+        2 => {
+            let [mean, amplitude] = [size, 0.3 * size].map(|size| size * draw.within(-0.5, 0.5));
+            let (frequency, phase) = (draw.log(5.0, 500.0), draw.angle());
+            let sine = json!({"mean": mean, "amplitude": amplitude, "frequency": frequency, "phase": phase});
+            json!({"prescribed": {"sine": sine}})
+        }
         _ => json!("free"),
     };
     let load = |draw: &mut Draw, size: f64| draw.signal(size, duration, 1e3);
@@ -104,6 +111,19 @@ pub fn scene(number: u64, duration: f64) -> Value {
     let mut outer = json!({"groove_radius": groove(draw), "material": "steel"});
     if draw.chance(0.2) {
         outer["speed"] = json!({"constant": speed * draw.within(-1.0, 1.0)});
+    }
+    for ring in [&mut outer, &mut inner] {
+        if draw.chance(0.4) {
+            let count = 1 + draw.0.index(4);
+            let mut wave = || {
+                let order = draw.log(2.0, 60.0).round();
+                // Waves get flatter as they get shorter.
+                let amplitude = pitch * draw.log(1e-7, 1e-4) / (order * order).max(10.0);
+                json!({"order": order, "amplitude": amplitude, "phase": draw.angle()})
+            };
+            let waves: Vec<Value> = (0..count).map(|_| wave()).collect();
+            ring["waviness"] = json!(waves);
+        }
     }
     json!({
         "schema": "cagedyn.scene/1",

@@ -58,6 +58,22 @@ struct Content {
     /// Spin angle since the first frame, of every element or of all of them.
     spin: Option<Packed>,
     forces: Forces,
+    /// What else a bearing in space shows.
+    space: Option<SpaceOf>,
+}
+
+#[derive(Serialize)]
+struct SpaceOf {
+    /// Radii of the grooves of outer and inner race across them, m.
+    grooves: [f64; 2],
+    /// At which balls just touch, rad.
+    contact_angle: f64,
+    /// x, y, z and tilts of the inner ring.
+    ring: [Packed; 5],
+    /// Contact angles of outer and inner race; by element, then by frame.
+    angles: [Option<Packed>; 2],
+    /// Pitch and yaw of the axes of the balls.
+    axes: Option<[Packed; 2]>,
 }
 
 #[derive(Serialize)]
@@ -91,7 +107,7 @@ struct Forces {
 }
 
 /// Channels of every element: angle, slip, forces.
-const OF_ELEMENT: [&str; 7] = [
+const OF_ELEMENT: [&str; 11] = [
     "orbit_angle",
     "slip",
     "pocket_force",
@@ -99,7 +115,12 @@ const OF_ELEMENT: [&str; 7] = [
     "pocket_force max",
     "inner_force",
     "outer_force",
+    "inner_angle",
+    "outer_angle",
+    "pitch_angle",
+    "yaw_angle",
 ];
+const OF_RING: [&str; 5] = ["x", "y", "z", "tilt_y", "tilt_z"];
 const OF_CAGE: [&str; 7] =
     ["cage.y", "cage.z", "cage.angle", "guide.force_y", "guide.force_z", "inner_ring.y", "inner_ring.z"];
 
@@ -109,7 +130,8 @@ pub fn columns(model: &Model) -> Vec<String> {
     let of_elements =
         (0..model.element_count()).flat_map(|j| OF_ELEMENT.map(|field| format!("{kind}[{j}].{field}")));
     let waves = (2..=orders(model)).flat_map(|n| ["amplitude", "phase"].map(|part| wave(n, part)));
-    OF_CAGE.map(str::to_owned).into_iter().chain(waves).chain(of_elements).collect()
+    let ring = ["x", "tilt_y", "tilt_z"].map(|field| format!("inner_ring.{field}"));
+    OF_CAGE.map(str::to_owned).into_iter().chain(ring).chain(waves).chain(of_elements).collect()
 }
 
 /// Highest order of the waves of the cage; below 2 without any.
@@ -227,6 +249,7 @@ impl<'a> Shown<'a> {
             ahead: self.ahead(),
             spin: self.spin(),
             forces: self.forces(),
+            space: self.space(),
         };
         let json = serde_json::to_string(&content).map_err(|e| e.to_string())?;
         Ok(Animation {
@@ -348,10 +371,10 @@ impl<'a> Shown<'a> {
                 self.miss("pocket forces", &format!("{}[j].pocket_force", self.kind));
             }
         }
-        if self.model.has_rollers() {
+        if self.model.has_rollers() || self.model.scene().balls.is_some() {
             (forces.inner, forces.outer) = (self.of_elements("inner_force"), self.of_elements("outer_force"));
             if forces.inner.is_none() || forces.outer.is_none() {
-                self.miss("forces on the raceways", "roller[j].inner_force or .outer_force");
+                self.miss("forces on the raceways", "inner_force or outer_force of the elements");
             }
         }
         if self.model.guide_clearance().is_some() {
@@ -362,6 +385,27 @@ impl<'a> Shown<'a> {
             }
         }
         forces
+    }
+
+    fn space(&mut self) -> Option<SpaceOf> {
+        let scene = self.model.scene();
+        scene.balls.as_ref()?;
+        let (outer, inner) = (scene.outer_ring.as_ref()?, scene.inner_ring.as_ref()?);
+        let grooves = [outer.groove_radius?, inner.groove_radius?];
+        let ring = OF_RING.map(|field| self.series.column(&format!("inner_ring.{field}")));
+        let [Some(x), Some(y), Some(z), Some(tilt_y), Some(tilt_z)] = ring else {
+            self.miss("the bearing in space", "inner_ring.x, .y, .z, .tilt_y or .tilt_z");
+            return None;
+        };
+        let contact_angle = self.model.geometry().into_iter().find(|(q, _)| q.name == "free_contact_angle")?.1;
+        let axes = self.of_elements("pitch_angle").zip(self.of_elements("yaw_angle"));
+        Some(SpaceOf {
+            grooves,
+            contact_angle,
+            ring: [x, y, z, tilt_y, tilt_z].map(|column| self.packed(column)),
+            angles: ["outer_angle", "inner_angle"].map(|field| self.of_elements(field)),
+            axes: axes.map(|(pitch, yaw)| [pitch, yaw]),
+        })
     }
 
     /// -1 where the elements go clockwise: the table has pocket forces positive where they drive the cage.

@@ -19,6 +19,7 @@ pub fn page(g: &Gathered) -> String {
         "js" => concat!(
             "\"use strict\";\n",
             include_str!("bearing.js"),
+            include_str!("space.js"),
             include_str!("pictures.js"),
             include_str!("report.js")
         )

@@ -24,6 +24,8 @@
     colors, frames, radius, clearance, farthest, scales, limits, canvas, between, reached, shapes, centreAt, drawBearing, drawOrbit,
     plain, force,
   } = bearing(data, state);
+  const spatial = data.space ? inSpace(data, state, { between, reached, scales, colors, canvas }) : null;
+  if (spatial) Object.assign(limits, spatial.limits);
   const time = (at) => {
     const first = Math.min(Math.floor(at), frames - 2);
     return data.times[first] + (at - first) * (data.times[first + 1] - data.times[first]);
@@ -57,6 +59,15 @@
     }
     if (data.forces.guide) rows.push(["guide force", force(Math.hypot(...data.forces.guide.map((p) => reached(p, at))))]);
     if (data.forces.pocket) rows.push(["largest pocket force", largestNow(data.forces.pocket, at)]);
+    if (spatial) {
+      ["outer", "inner"].forEach((race, k) => {
+        const range = spatial.angleRange(k, at);
+        if (range) rows.push([`contact angles, ${race} race`, `${digits(range[0], 1)} to ${digits(range[1], 1)} deg`]);
+      });
+      const [x, y, z, a, b] = spatial.displaced(at);
+      rows.push(["inner ring x, y, z", `${[x, y, z].map((v) => digits(1e6 * v, 2)).join(", ")} \u00b5m`]);
+      rows.push(["tilt about y, z", `${[a, b].map((v) => digits(1e3 * v, 3)).join(", ")} mrad`]);
+    }
     if (data.forces.inner) rows.push(["largest on the inner raceway", largestNow(data.forces.inner, at)]);
     if (data.forces.outer) rows.push(["largest on the outer raceway", largestNow(data.forces.outer, at)]);
     const body = element("readout").tBodies[0];
@@ -69,14 +80,19 @@
 
   function legend() {
     const items = [];
-    if (scales.raceway > 0) items.push([colors.raceway, "normal forces on the raceways, at the records"]);
+    if (scales.raceway > 0 && !spatial) items.push([colors.raceway, "normal forces on the raceways, at the records"]);
+    if (spatial) {
+      items.push([colors.raceway, "normals of loaded contacts, the thicker the larger the force, at the records"]);
+      items.push([colors.path, "axes about which balls turn against the train"]);
+      items.push([colors.first, "ball 0, the others follow from y to z; drag to turn the bearing, double click to turn it back"]);
+    }
     if (data.forces.pocket) {
       const which = data.forces.pocket_of_steps ? "largest in any step since the frame before" : "at the records";
       items.push([colors.pocket, `pocket forces on the cage, along the circumference, ${which}`]);
     }
     if (data.forces.guide) items.push([colors.guide, "guide force on the cage, at the records"]);
-    if (scales.cage > 0 || scales.raceway > 0) items.push([null, "two heads: the arrow is cut"]);
-    items.push([colors.first, `${data.kind} 0, the others follow counter-clockwise; radial lines: spin marks`]);
+    if (!spatial && (scales.cage > 0 || scales.raceway > 0)) items.push([null, "two heads: the arrow is cut"]);
+    if (!spatial) items.push([colors.first, `${data.kind} 0, the others follow counter-clockwise; radial lines: spin marks`]);
     element("legend").replaceChildren(...items.map(([color, text]) => {
       const item = document.createElement("li");
       const patch = document.createElement("b");
@@ -90,6 +106,10 @@
   }
 
   function caption(s) {
+    if (spatial) {
+      element("caption").textContent = `Displacements and tilts of the inner ring are drawn ${round(s.m)} times as large as they are; balls stand on the pitch circle. The outer ring is cut open towards the viewer. Width and thickness of the rings are not of the scene.`;
+      return;
+    }
     const smaller = s.shown < 0.995 * radius ? `, but ${data.kind}s, to leave room for that, with ${Math.round(100 * s.shown / radius)} % of their size` : "";
     const rollers = data.raceways_known
       ? " Rollers are drawn in touch with the outer raceway, as their radial place is not recorded; gaps to the inner one show the play, overlaps the elastic approach of both contacts."
@@ -101,7 +121,7 @@
   // ---- Controls ----
 
   function show() {
-    const s = drawBearing(state.at);
+    const s = spatial ? spatial.draw(state.at) : drawBearing(state.at);
     drawOrbit(state.at);
     readout(state.at);
     caption(s);
@@ -189,6 +209,7 @@
   magnify(limits.usual);
   lengthen(1);
   legend();
+  if (spatial) spatial.turnable(show);
 
   // "#t=0.05" shows that time, "#m=8" magnifies so many times, "#selfcheck" tries everything.
   const asked = new URLSearchParams(location.hash.slice(1));
@@ -251,8 +272,13 @@
     slow(100);
     show();
     expect(sum() === usual, "the same settings show another picture");
+    if (spatial) {
+      state.view.turn += 0.3;
+      show();
+      expect(sum() !== usual, "it does not turn");
+    }
     for (let i = 0; i < frames; i += Math.ceil(frames / 40)) {
-      const s = shapes(i);
+      const s = spatial ? spatial.draw(i) : shapes(i);
       const numbers = [s.shown, s.outer, s.inner, ...s.ring, ...s.bounds, ...s.elements.flatMap((e) => e.centre)];
       expect(numbers.every(Number.isFinite), `frame ${i} has places that are no numbers`);
     }
