@@ -200,7 +200,8 @@ pub fn finished(
         Some((record, time, state)) => (*record, sim.forces_at(*time, state)),
         None => (recording.times.len().saturating_sub(1), sim.forces()),
     };
-    let contacts = forces.map_or(Vec::new(), |forces| forces.contacts.clone());
+    let (contacts, contacts_in_space) = forces
+        .map_or((Vec::new(), Vec::new()), |forces| (forces.contacts.clone(), forces.space.contacts.clone()));
     Run {
         title,
         facts: facts::facts(&model) + &ending,
@@ -216,6 +217,7 @@ pub fn finished(
         interrupted,
         balance,
         contacts,
+        contacts_in_space,
         contacts_at,
         works,
         before: notes.works,

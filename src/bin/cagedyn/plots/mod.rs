@@ -3,6 +3,7 @@
 mod axis;
 mod cage_positions;
 mod cage_shape;
+mod ellipse;
 pub mod equilibrium;
 mod forces;
 pub mod heat_flow;
@@ -55,7 +56,7 @@ fn look(k: usize) -> (Marker, Paint) {
 }
 
 /// File names of the pictures of a run.
-pub const PICTURES: [&str; 7] = [
+pub const PICTURES: [&str; 8] = [
     "cage_orbit.svg",
     "cage_position.svg",
     "roller_history.svg",
@@ -63,6 +64,7 @@ pub const PICTURES: [&str; 7] = [
     "whirl_history.svg",
     "cage_spectrum.svg",
     "contact_forces.svg",
+    "contact_ellipse.svg",
 ];
 
 /// File names and contents of the pictures of a run.
@@ -82,6 +84,7 @@ pub fn pictures(run: &Run, summary: &Summary) -> Result<Vec<(&'static str, Strin
         whirl_history::whirl_history(run, summary),
         spectrum::cage_spectrum(run, summary),
         forces::contact_forces(run),
+        ellipse::contact_ellipse(run),
     ];
     PICTURES.into_iter().zip(drawn).filter_map(|(name, svg)| Some(svg?.map(|svg| (name, svg)))).collect()
 }

@@ -1,4 +1,4 @@
-//! What elements feel over the angle of their orbit, in the averaging window.
+//! What elements feel and how they move over the angle of their orbit, in the averaging window.
 
 use super::strips::{self, Strip, Texts};
 use super::style::{BLUE, FAINT, GREEN, ORANGE, PURPLE, Paint, Symbol};
@@ -9,16 +9,23 @@ use cagedyn::Result;
 use cagedyn::sim::LoadZone;
 use std::f64::consts::TAU;
 
-/// The picture, if elements have pockets to press on.
+/// The picture, if elements have pockets to press on, or are balls that move in space.
 pub fn over_orbit(run: &Run, summary: &Summary) -> Option<Result<String>> {
     let sectors = summary.over_orbit.as_ref()?;
     let degrees: Vec<f64> = sectors.angle_rad.iter().map(|x| x.to_degrees()).collect();
     let strips: Vec<Strip> = strips(sectors).collect();
-    let mut entries = vec![
-        (Symbol::Line(PURPLE), "pocket force: mean".to_owned()),
-        (Symbol::Line(ORANGE), "95 % of magnitudes".to_owned()),
-        (Symbol::Line(FAINT), "largest in any step".to_owned()),
-    ];
+    let entry = |paint, text: &str| (Symbol::Line(paint), text.to_owned());
+    let mut entries = Vec::new();
+    if !sectors.outer_force_mean_n.is_empty() {
+        entries.extend([entry(BLUE, "at the inner ring"), entry(ORANGE, "at the outer ring")]);
+    }
+    if !sectors.pocket_force_mean_n.is_empty() {
+        entries.extend([
+            entry(PURPLE, "pocket force: mean"),
+            entry(ORANGE, "95 % of magnitudes"),
+            entry(FAINT, "largest in any step"),
+        ]);
+    }
     if summary.load_zone.is_some() {
         entries.push((Symbol::Patch, "load zone".to_owned()));
     }
@@ -38,15 +45,29 @@ fn strips(sectors: &Sectors) -> impl Iterator<Item = Strip<'static>> {
     let curve = |paint: Paint, values: &[Option<f64>], scale: f64| {
         (paint, values.iter().map(|x| x.map_or(f64::NAN, |x| scale * x)).collect::<Vec<f64>>())
     };
-    let strip = |name, curves: Vec<(Paint, Vec<f64>)>| {
-        curves.iter().any(|(_, values)| !values.is_empty()).then(|| Strip {
-            bounds: vec![0.0],
-            curves,
-            ..Strip::new(name)
-        })
+    let within = |name, bounds: Vec<f64>, mut curves: Vec<(Paint, Vec<f64>)>| {
+        curves.retain(|(_, values)| !values.is_empty());
+        (!curves.is_empty()).then(|| Strip { bounds, curves, ..Strip::new(name) })
     };
+    let strip = |name, curves| within(name, vec![0.0], curves);
+    let degrees = 360.0 / TAU;
+    let of_both = |inner: &[Option<f64>], outer: &[Option<f64>], scale: f64| {
+        vec![curve(ORANGE, outer, scale), curve(BLUE, inner, scale)]
+    };
+    let of_races =
+        if sectors.outer_force_mean_n.is_empty() { "inner race force [N]" } else { "mean normal force [N]" };
     [
-        strip("inner race force [N]", vec![curve(BLUE, &sectors.inner_force_mean_n, 1.0)]),
+        strip(of_races, of_both(&sectors.inner_force_mean_n, &sectors.outer_force_mean_n, 1.0)),
+        within(
+            "mean contact angle [deg]\nof loaded contacts",
+            Vec::new(),
+            of_both(&sectors.inner_angle_mean_rad, &sectors.outer_angle_mean_rad, degrees),
+        ),
+        within(
+            "mean orbit speed [1]\nover rolling at the free angle",
+            Vec::new(),
+            vec![curve(GREEN, &sectors.orbit_ratio_mean, 1.0)],
+        ),
         strip("mean slip [%]", vec![curve(GREEN, &sectors.slip_mean, 100.0)]),
         strip(
             "pocket force [N]\nmean: driving > 0",

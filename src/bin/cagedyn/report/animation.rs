@@ -397,7 +397,8 @@ impl<'a> Shown<'a> {
             self.miss("the bearing in space", "inner_ring.x, .y, .z, .tilt_y or .tilt_z");
             return None;
         };
-        let contact_angle = self.model.geometry().into_iter().find(|(q, _)| q.name == "free_contact_angle")?.1;
+        let contact_angle =
+            self.model.geometry().into_iter().find(|(q, _)| q.name == "free_contact_angle")?.1;
         let axes = self.of_elements("pitch_angle").zip(self.of_elements("yaw_angle"));
         Some(SpaceOf {
             grooves,

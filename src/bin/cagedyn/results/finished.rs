@@ -1,6 +1,6 @@
 //! A run that has come to its end, and what is asked of it.
 
-use cagedyn::model::{Channel, ContactForces, HostInputs, POWERS, PartTimes};
+use cagedyn::model::{Channel, ContactForces, HostInputs, POWERS, PartTimes, SpatialContact};
 use cagedyn::scene::Record;
 use cagedyn::sim::{PowerBalance, RunStatistics};
 use cagedyn::{Error, Interval, Model, Recording, Result, Sim, Status};
@@ -32,6 +32,8 @@ pub struct Run {
     /// Forces of all contacts at a record, if they are defined there: that with the largest force on a pocket in the averaging
     /// window, or the last one where there is none.
     pub contacts: Vec<ContactForces>,
+    /// The same of a bearing in space.
+    pub contacts_in_space: Vec<SpatialContact>,
     /// Place of that record.
     pub contacts_at: usize,
     /// Works up to the end, J.

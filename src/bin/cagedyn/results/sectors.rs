@@ -17,6 +17,18 @@ pub struct Sectors {
     /// Force on the inner ring, mean, N.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub inner_force_mean_n: Vec<Option<f64>>,
+    /// Force on the outer ring of balls in space, mean, N.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub outer_force_mean_n: Vec<Option<f64>>,
+    /// Contact angle at the inner ring, mean of the loaded contacts, rad.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub inner_angle_mean_rad: Vec<Option<f64>>,
+    /// The same at the outer ring.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub outer_angle_mean_rad: Vec<Option<f64>>,
+    /// Orbit speed of balls over that of rolling at the free contact angle, mean.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub orbit_ratio_mean: Vec<Option<f64>>,
     /// Slip of rollers, mean.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub slip_mean: Vec<Option<f64>>,
@@ -34,8 +46,14 @@ pub struct Sectors {
     pub few_cage_turns: Option<f64>,
 }
 
-/// Quantity `field` of all elements over the angle from time `from` (s) on, if the scene records both.
-fn over_orbit(run: &Run, field: &str, from: f64, sectors: usize) -> Option<OverOrbit> {
+/// Quantity `field` of all elements over the angle from time `from` (s) on, if the scene records both; where `loaded` is a force that the
+/// scene records, too, only while that is above zero.
+fn over_orbit(
+    run: &Run,
+    (field, loaded): (&str, Option<&str>),
+    from: f64,
+    sectors: usize,
+) -> Option<OverOrbit> {
     let kind = run.model.element_kind();
     let first = run.recording.index_at(from);
     let mut samples = Vec::new();
@@ -43,8 +61,12 @@ fn over_orbit(run: &Run, field: &str, from: f64, sectors: usize) -> Option<OverO
         let angles = run.column(&format!("{kind}[{j}].orbit_angle"))?.get(first..)?;
         let name = format!("{kind}[{j}].{field}");
         let values = run.column(&name)?.get(first..)?;
+        let force = loaded.and_then(|force| run.column(&format!("{kind}[{j}].{force}"))?.get(first..));
         let intervals = run.intervals(&name).and_then(|x| x.get(first..));
         for (i, (angle, value)) in angles.iter().zip(values).enumerate() {
+            if force.is_some_and(|force| force[i] <= 0.0) {
+                continue;
+            }
             let extreme = intervals.and_then(|x| x.get(i)).map_or(0.0, |x| x.max.max(-x.min));
             samples.push((*angle, *value, extreme));
         }
@@ -58,18 +80,33 @@ fn known(column: &[f64]) -> Vec<Option<f64>> {
 
 /// The table, and where elements carry load.
 pub fn of(run: &Run, from: f64) -> (Option<Sectors>, Option<LoadZone>) {
-    let find = |field: &str, sectors: usize| over_orbit(run, field, from, sectors);
-    let zone = find("inner_force", SECTORS).and_then(|load| load.positive_zone());
+    let find = |field: &str, sectors: usize| over_orbit(run, (field, None), from, sectors);
+    let inner = find("inner_force", SECTORS);
+    let zone = inner.and_then(|load| load.positive_zone());
     let coarse = SECTORS / TOGETHER;
-    let Some(forces) = find("pocket_force", coarse) else { return (None, zone) };
-    let mean = |field: &str| find(field, coarse).map_or(Vec::new(), |found| known(&found.mean));
+    let forces = find("pocket_force", coarse);
+    let any = forces.clone().or_else(|| find("orbit_ratio", coarse));
+    let Some(any) = any else { return (None, zone) };
+    let means = |found: Option<OverOrbit>| found.map_or(Vec::new(), |found| known(&found.mean));
+    let mean = |field: &str| means(find(field, coarse));
+    let of_balls = |field: &str| if run.model.scene().balls.is_some() { mean(field) } else { Vec::new() };
+    let angle = |race: &str| {
+        let (field, force) = (format!("{race}_angle"), format!("{race}_force"));
+        means(over_orbit(run, (&field, Some(&force)), from, coarse))
+    };
+    let of_pockets =
+        |part: fn(&OverOrbit) -> &Vec<f64>| forces.as_ref().map_or(Vec::new(), |x| known(part(x)));
     let sectors = Sectors {
-        angle_rad: (0..coarse).map(|place| forces.angle(place)).collect(),
+        angle_rad: (0..coarse).map(|place| any.angle(place)).collect(),
         inner_force_mean_n: mean("inner_force"),
+        outer_force_mean_n: of_balls("outer_force"),
+        inner_angle_mean_rad: angle("inner"),
+        outer_angle_mean_rad: angle("outer"),
+        orbit_ratio_mean: of_balls("orbit_ratio"),
         slip_mean: mean("slip"),
-        pocket_force_mean_n: known(&forces.mean),
-        pocket_force_p95_n: known(&forces.p95),
-        pocket_force_peak_n: known(&forces.peak),
+        pocket_force_mean_n: of_pockets(|x| &x.mean),
+        pocket_force_p95_n: of_pockets(|x| &x.p95),
+        pocket_force_peak_n: of_pockets(|x| &x.peak),
         few_cage_turns: None,
     };
     (Some(sectors), zone)
