@@ -10,6 +10,7 @@
 # make verify    errors of the integration methods against CVODE: docs/results/verification.md
 # make hard     hard cases with every method and preset: docs/results/hard-cases.md
 # make judge     the presets on random scenes that nothing was tuned to, from SEED on, N of them
+# make ellipse-rules  errors of the sums over the ellipse of a ball: docs/results/ellipse-rules.md
 # make tuning    what each constant of the default method does: docs/results/tuning.md
 # make random   forty thousand random scenes; about an hour
 # make statistics  long runs of all methods in their statistics: docs/results/statistics.md
@@ -34,7 +35,7 @@ CARGO ?= cargo
 # Python with what tests of its package need.
 PYTHON := $(abspath out/venv/bin/python)
 
-.PHONY: check test release-check tools python-env fmt lint doc shipped quick unit abi deb run cases example figures effects second-paper verify hard judge tuning random statistics \
+.PHONY: check test release-check tools python-env fmt lint doc shipped quick unit abi deb run cases example figures effects second-paper verify hard judge tuning ellipse-rules random statistics \
 	accuracy bench build-times header build install uninstall clean
 
 # The same flags everywhere, so that nothing is built twice.
@@ -146,6 +147,9 @@ N ?= 200
 
 judge: tools
 	$(CARGO) run --release --locked --package cagedyn-studies --bin judge -- --seed $(SEED) --n $(N) $(ARGS)
+
+ellipse-rules: tools
+	$(CARGO) run --release --locked --package cagedyn-studies --bin ellipse_rules > docs/results/ellipse-rules.md
 
 # Some ten minutes.
 tuning: tools

@@ -127,7 +127,7 @@ pub(super) fn describe(choice: &Choice) -> String {
         other => name(other).to_owned(),
     };
     text += match choice.reason {
-        Reason::Vibration => ": the rollers vibrate, and statistics of that cost least this way",
+        Reason::Vibration => ": the rolling elements vibrate, and statistics of that cost least this way",
         Reason::Trajectory => ": errors are controlled",
         Reason::Speed => ": errors are controlled, and it advances further per force evaluation",
         Reason::Trial => {

@@ -74,6 +74,37 @@ fn contact_forces_are_those_of_the_largest_pocket_force() {
     assert_eq!(svg.matches("fill=\"#D8B56A\"").count(), 12);
 }
 
+/// Loads, angles and slip of balls: an axial load is carried by all of them alike, at the angles that the table tells.
+#[test]
+fn balls_in_space_are_shown_around_the_bearing_and_over_their_ellipses() {
+    let dir = tempfile::tempdir().expect("a directory");
+    let told = performed("angular_contact_70", dir.path(), &["--until", "0.02", "--set", "gravity=null"]);
+    let summary = json(&dir.path().join("summary.json"));
+    let column = |name: &str| -> Vec<f64> {
+        let list = summary["over_orbit"][name].as_array().expect(name);
+        list.iter().filter_map(Value::as_f64).collect()
+    };
+    for (name, alike) in
+        [("inner_angle_mean_rad", 0.3), ("outer_angle_mean_rad", 0.3), ("orbit_ratio_mean", 1.0)]
+    {
+        let values = column(name);
+        assert!(
+            values.len() == 36 && values.iter().all(|x| (x / alike - 1.0).abs() < 0.25),
+            "{name}: {values:?}"
+        );
+        assert!(values.iter().all(|x| (x / values[0] - 1.0).abs() < 1e-3), "{name}: {values:?}");
+    }
+    // 687 N on 25 balls.
+    let forces = column("inner_force_mean_n");
+    let angle = column("inner_angle_mean_rad")[0];
+    assert!((forces[0] * 25.0 * angle.sin() / 687.0 - 1.0).abs() < 0.01, "{forces:?}");
+    assert!(told.contains("contact angle") && told.contains("orbit speed"), "{told}");
+    let svg = picture(dir.path(), "over_orbit.svg");
+    assert!(svg.contains("mean contact angle [deg]") && svg.contains("mean orbit speed [1]"));
+    let svg = picture(dir.path(), "contact_ellipse.svg");
+    assert!(svg.contains("outer race: ") && svg.contains("inner race: ") && svg.contains("spin to roll"));
+}
+
 #[test]
 fn small_orbits_have_an_inset() {
     let dir = tempfile::tempdir().expect("a directory");

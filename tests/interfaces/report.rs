@@ -347,6 +347,8 @@ fn a_browser_shows_the_report() {
         ("without_cage", "nu2310", vec!["--set", "cage=null"]),
         ("without_guide", "grease_guide", vec!["--set", "cage.guide=null"]),
         ("inner_guide", "ball_short_bearing", vec!["--set", inner]),
+        ("in_space", "angular_contact_70", vec![]),
+        ("of_three_kinds", "angular_contact_70", vec!["--set", r#"record.channels=["ball[*].orbit_angle"]"#]),
         ("no_animation", "nu2310", vec!["--set", r#"record.channels=["cage.y"]"#]),
     ] {
         let html = at(&format!("{name}.html"));

@@ -29,7 +29,7 @@ use results::formats::TableFormat;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Dynamics of cage, rollers and rings of a cylindrical roller bearing.
+/// Dynamics of cage, rolling elements and rings of a rolling bearing.
 #[derive(Parser)]
 #[command(name = "cagedyn", version)]
 struct Cli {

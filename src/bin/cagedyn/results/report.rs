@@ -177,8 +177,30 @@ pub fn results(summary: &Summary) -> Vec<Row> {
         let largest: Vec<_> = sources.into_iter().take(4).map(share).collect();
         rows.mean("power loss", loss.total_w, "W", &largest.join(", "));
     }
+    let of_orbit = "of rolling at the free contact angle";
+    rows.spread("orbit speed", of("balls.orbit_ratio"), 100.0, "%", of_orbit);
+    if let Some(sectors) = &summary.over_orbit {
+        let races = [("inner", &sectors.inner_angle_mean_rad), ("outer", &sectors.outer_angle_mean_rad)];
+        for (race, angles) in races {
+            let degrees = || angles.iter().flatten().map(|angle| angle.to_degrees());
+            let (low, high) =
+                (degrees().fold(f64::INFINITY, f64::min), degrees().fold(f64::NEG_INFINITY, f64::max));
+            if low <= high {
+                let range = format!("{} to {}", number(low), number(high));
+                rows.add(
+                    "contact angle",
+                    range,
+                    "deg",
+                    &format!("{race} race, loaded contacts around the bearing"),
+                );
+            }
+        }
+    }
+    rows.spread("inner ring x", of("inner_ring.x"), 1e6, "um", "");
     rows.spread("inner ring y", of("inner_ring.y"), 1e6, "um", "");
     rows.spread("inner ring z", of("inner_ring.z"), 1e6, "um", "");
+    rows.spread("inner ring tilt y", of("inner_ring.tilt_y"), 1e3, "mrad", "");
+    rows.spread("inner ring tilt z", of("inner_ring.tilt_z"), 1e3, "mrad", "");
     for (name, statistics) in &summary.statistics {
         if let Some(lump) = name.strip_prefix("temperature.") {
             let remark = format!("{:.2} °C, {lump}", celsius(statistics.spread.mean));
