@@ -9,7 +9,7 @@
 //! group of contacts. Slip at the middle of the contact is what heat at the inlet sees; near none its ratio to the rolling speed is rounded
 //! off (an assumption of the library: the power law of the thermal factor has an infinite slope there).
 
-use crate::laws::elastic::normal::NormalDamping;
+use crate::laws::elastic::normal::{NormalDamping, NormalForce};
 use crate::laws::elastic::point::ElasticPoint;
 use crate::laws::film::ellipse::EllipseFilm;
 use crate::laws::film::regime::LubricationRegime;
@@ -195,9 +195,32 @@ impl PointContact {
         motion: &PointMotion<T>,
         ln_viscosity: T,
     ) -> PointForce<T> {
-        let zero = motion.delta.like(0.0);
-        let damping = self.damping.map(|law| law.map(&mut |x| zero.base().splat(*x)));
-        let normal = elastic.normal_force(damping.as_ref(), motion.delta, motion.delta_dot);
+        let normal = self.normal_force(elastic, motion.delta, motion.delta_dot);
+        self.under(normal, elastic, motion, ln_viscosity)
+    }
+
+    /// Q of these at the approach `delta` (m) and its rate (m/s).
+    #[inline(always)]
+    pub fn normal_force<B: Base, T: Of<B>>(
+        &self,
+        elastic: &ElasticPoint<B>,
+        delta: T,
+        delta_dot: T,
+    ) -> NormalForce<T> {
+        let damping = self.damping.map(|law| law.map(&mut |x| delta.base().splat(*x)));
+        elastic.normal_force(damping.as_ref(), delta, delta_dot)
+    }
+
+    /// Forces of these under a normal force, whatever approach it comes from.
+    #[inline(always)]
+    pub fn under<B: Base, T: Of<B>>(
+        &self,
+        normal: NormalForce<T>,
+        elastic: &ElasticPoint<B>,
+        motion: &PointMotion<T>,
+        ln_viscosity: T,
+    ) -> PointForce<T> {
+        let zero = normal.force.like(0.0);
         // A NaN counts as contact and is passed on.
         let apart = normal.force.at_most(0.0);
         let held = |x: T| T::select(apart, zero, x);

@@ -19,7 +19,7 @@ macro_rules! looped {
 macro_rules! written_out {
     ($i:ident: $work:expr) => {{
         const { assert!(N <= MOST_DIRECTIONS) };
-        written_out!($i: $work; 0 1 2 3 4 5 6 7 8 9);
+        written_out!($i: $work; 0 1 2 3 4 5 6 7);
     }};
     ($i:ident: $work:expr; $($at:literal)*) => {$(
         if N > $at {
@@ -30,7 +30,7 @@ macro_rules! written_out {
 }
 
 /// Largest number of directions of [`Duals`].
-const MOST_DIRECTIONS: usize = 10;
+const MOST_DIRECTIONS: usize = 8;
 
 /// A type of dual numbers whose operations are inlined and go through the directions as said. No closures: they would not
 /// always be inlined.

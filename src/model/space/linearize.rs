@@ -8,16 +8,17 @@ use super::workspace::{BallBlock, Workspace, at_lane, load};
 use super::{RACES, Space};
 use crate::bodies::{Balls, Input, InputValues, MovingRing, OF_BALL, OF_RING, RingState};
 use crate::integrate::{Linearization, Structure};
+use crate::laws::elastic::normal::NormalForce;
 use crate::laws::point_contact::{POINT_FORCE, POINT_MOTION, PointForce, PointMotion};
 use crate::pairs::groove::{InGroove, OnBody, Race, Wave};
-use crate::scalar::{Columns, Dual, Duals, Lanes, Pack, ZEROS, dispatch, place_of};
+use crate::scalar::{Columns, Dual, Duals, Lanes, Numeric, Pack, ZEROS, dispatch, place_of};
 use crate::space::solid::{Moving, Tilt, scaled, sum};
 use pulp::Simd;
 
-/// What a law sees: motion of the contact, and the logarithm of the viscosity.
-const SEEN: usize = POINT_MOTION + 1;
-/// Forces with derivatives: Q, F_t, F_l, M_t, M_l, M_n, F_R.
-const FORCES: usize = 7;
+/// What a law sees: Q, u_1, u_2, D_l, w_t, w_l, w_n, and the logarithm of the viscosity. The slip along the race is u_1 - u_2.
+const SEEN: usize = 8;
+/// Forces with derivatives: F_t, F_l, M_t, M_l, M_n, F_R.
+const FORCES: usize = 6;
 
 /// How ball and ring lie and move to each other: x and rho of the ball, centre and tilt of the ring outwards and along the orbit,
 /// velocity and spin of the ball, rates of the tilt, time at a ball that stands still, angle of the contact in the waves of the ring.
@@ -291,25 +292,27 @@ impl Space {
             }
         });
         let touch = round.on(wave);
-        let seen = ball.motion(&touch, &ring).numbers();
+        let motion = ball.motion(&touch, &ring);
+        let normal = race.laws.normal_force(ball.elastic, motion.delta, motion.delta_dot).force;
+        let ([u1, u2], [_, dl], [wt, wl, wn]) = (motion.surface_speeds, motion.slip, motion.turning);
+        let seen = [normal, u1, u2, dl, wt, wl, wn, in_time(ws.fluid.ln_viscosity, ln_rate)];
         let force = block.contacts[k].force_of(lane);
         let slopes = &ws.slopes[place][k];
         let chained = |i: usize, value: f64| {
             let mut sum = constant(value);
-            for (s, motion) in seen.iter().enumerate() {
+            for (s, seen) in seen.iter().enumerate() {
                 let slope = slopes[i][s][lane];
                 for d in 0..RELATIVE {
-                    sum.eps[d] += slope * motion.eps[d];
+                    sum.eps[d] += slope * seen.eps[d];
                 }
             }
-            sum.eps[TIME] += slopes[i][POINT_MOTION][lane] * ln_rate;
             sum
         };
         let mut sloped = PointForce::of_numbers([constant(0.0); POINT_FORCE]);
-        sloped.normal = chained(0, force.normal);
-        sloped.friction.force = [0, 1].map(|i| chained(1 + i, force.friction.force[i]));
-        sloped.friction.couple = [0, 1, 2].map(|i| chained(3 + i, force.friction.couple[i]));
-        sloped.rolling_resistance = chained(6, force.rolling_resistance);
+        sloped.normal = normal;
+        sloped.friction.force = [0, 1].map(|i| chained(i, force.friction.force[i]));
+        sloped.friction.couple = [0, 1, 2].map(|i| chained(2 + i, force.friction.couple[i]));
+        sloped.rolling_resistance = chained(5, force.rolling_resistance);
         let [on_ball, on_ring] = ball.wrenches(&touch, &sloped);
         Sloped { on_ball: numbers(&on_ball), on_ring: numbers(&on_ring) }
     }
@@ -395,15 +398,26 @@ impl Columns for Differentiate<'_> {
         let (place, lane) = place_of(first);
         let (contact, (race, k)) = (&self.blocks[place].contacts[self.race.1], self.race);
         let elastic = contact.elastic(simd, &race.elastic[0], lane);
-        let values: [Pack<S, K>; POINT_MOTION] = load(simd, &contact.motion, lane);
-        let mut seen = [Duals::<SEEN, Pack<S, K>>::variable(values[0], 0); POINT_MOTION];
-        for i in 1..POINT_MOTION {
-            seen[i] = Duals::variable(values[i], i);
-        }
-        let ln_viscosity = Duals::variable(Pack::all(simd, self.ln_viscosity), POINT_MOTION);
-        let force = race.laws.force(&elastic, &PointMotion::of_numbers(seen), ln_viscosity);
+        let [_, _, u1, u2, _, dl, wt, wl, wn]: [Pack<S, K>; POINT_MOTION] = load(simd, &contact.motion, lane);
+        let of = Duals::<SEEN, Pack<S, K>>::variable;
+        let zero = Duals::lift(Pack::all(simd, 0.0));
+        let normal = NormalForce {
+            force: of(Pack::load(simd, &contact.force[0][lane..]), 0),
+            stiffness: zero,
+            damping: zero,
+        };
+        let (u1, u2) = (of(u1, 1), of(u2, 2));
+        let motion = PointMotion {
+            delta: zero,
+            delta_dot: zero,
+            surface_speeds: [u1, u2],
+            slip: [u1 - u2, of(dl, 3)],
+            turning: [of(wt, 4), of(wl, 5), of(wn, 6)],
+        };
+        let ln_viscosity = of(Pack::all(simd, self.ln_viscosity), 7);
+        let force = race.laws.under(normal, &elastic, &motion, ln_viscosity);
         let ([ft, fl], [mt, ml, mn]) = (force.friction.force, force.friction.couple);
-        let forces = [force.normal, ft, fl, mt, ml, mn, force.rolling_resistance];
+        let forces = [ft, fl, mt, ml, mn, force.rolling_resistance];
         let slopes = &mut self.slopes[place][k];
         for i in 0..FORCES {
             for d in 0..SEEN {
