@@ -223,7 +223,6 @@ impl PointContact {
         let zero = normal.force.like(0.0);
         // A NaN counts as contact and is passed on.
         let apart = normal.force.at_most(0.0);
-        let held = |x: T| T::select(apart, zero, x);
         let load = T::select(apart, zero.like(1.0), normal.force);
         let ln_load = load.ln();
         let half_axes = elastic.half_axes(ln_load);
@@ -232,8 +231,8 @@ impl PointContact {
             normal: normal.force,
             stiffness: normal.stiffness,
             damping: normal.damping,
-            half_axes: half_axes.map(held),
-            pressure: held(pressure),
+            half_axes: held(apart, half_axes),
+            pressure: T::select(apart, zero, pressure),
             film: zero,
             film_ratio: zero,
             friction: EllipseFriction {
@@ -250,17 +249,17 @@ impl PointContact {
         let rolling = entrainment(motion, ln_viscosity);
         if let Some(resistance) = &self.rolling_resistance {
             let force = resistance.force(load, ln_load, pressure / elastic.effective_modulus, &rolling);
-            out.rolling_resistance = held(-(force * rolling.direction));
+            out.rolling_resistance = T::select(apart, zero, -(force * rolling.direction));
         }
         let Some(film) = &self.film else { return out };
         let thickness = film.ln_central(ln_load, pressure, &rolling).exp();
-        out.film = held(thickness);
+        out.film = T::select(apart, zero, thickness);
         let mut share = zero;
         let mut boundary = None;
         if let Some(regime) = &self.regime {
             let regime = regime.map(&mut |x| zero.base().splat(*x));
             let ratio = regime.film_ratio(thickness);
-            out.film_ratio = held(ratio);
+            out.film_ratio = T::select(apart, zero, ratio);
             share = regime.boundary_share(ratio);
             boundary = Some(regime.boundary);
         }
@@ -278,13 +277,13 @@ impl PointContact {
             };
             let found = traction.friction(&state, boundary.as_ref());
             out.friction = EllipseFriction {
-                force: found.force.map(held),
-                couple: found.couple.map(held),
+                force: held(apart, found.force),
+                couple: held(apart, found.couple),
                 secants: Secants {
-                    first: found.secants.first.map(held),
-                    second: found.secants.second.map(held),
+                    first: held(apart, found.secants.first),
+                    second: held(apart, found.secants.second),
                 },
-                temperature_rise: held(found.temperature_rise),
+                temperature_rise: T::select(apart, zero, found.temperature_rise),
             };
         }
         out
@@ -313,6 +312,15 @@ impl PointResistance {
             Extent::Loaded { threshold } => force * smoothstep((q - threshold) / threshold),
         }
     }
+}
+
+/// Zero of contacts that are apart. A loop, because closures would not always be inlined.
+#[inline(always)]
+fn held<T: Numeric, const N: usize>(apart: T::Mask, mut list: [T; N]) -> [T; N] {
+    for x in &mut list {
+        *x = T::select(apart, x.like(0.0), *x);
+    }
+    list
 }
 
 /// Rolling and sliding of the middle of the contact.

@@ -34,7 +34,7 @@ const SLIP_FLOOR: f64 = 1e-24;
 const FAST_STEPS: usize = 12;
 const MOST_STEPS: usize = 80;
 /// Error of the logarithm of the viscosity at which the temperature is found.
-const ACCURACY: f64 = 1e-10;
+const ACCURACY: f64 = 1e-7;
 
 /// Places and weights on the unit disc: strips across the race, each with places along it.
 #[derive(Clone, Debug, PartialEq)]
@@ -170,6 +170,13 @@ impl<T: Numeric> Secants<T> {
     }
 }
 
+/// What the stress of a strip follows from: eta/(tau0 h), s/m; 1/k times the slip, m/s, and its inverse.
+struct Constants<T> {
+    thickness: T,
+    compliance: T,
+    stiffness: T,
+}
+
 /// What a strip has in common.
 struct Strip<T> {
     y: T,
@@ -200,15 +207,16 @@ impl EllipseTraction {
         EllipseFriction { force, couple, secants, temperature_rise: rise }
     }
 
-    /// ln(eta/(tau0 h)) of a strip, and 1/k times its slip.
+    /// What the stress of a strip with the half length `c` times that of the middle follows from.
     #[inline(always)]
-    fn strip_constants<T: Numeric>(&self, at: &EllipseState<T>, c: f64, rise: T) -> [T; 2] {
+    fn strip_constants<T: Numeric>(&self, at: &EllipseState<T>, c: f64, rise: T) -> Constants<T> {
         let beta = self.self_heating.map_or(0.0, |heating| heating.temperature_viscosity);
         let ln_eta = at.pressure * (0.25 * PI * c * self.pressure_viscosity) + at.ln_viscosity + self.ln_time
             - rise * beta;
         let held = T::select(ln_eta.above(LARGEST_LN_VISCOSITY), ln_eta.like(LARGEST_LN_VISCOSITY), ln_eta);
-        let compliance = at.rolling_speed * at.film * (self.eyring_stress / (self.shear_modulus * c));
-        [held.exp() / at.film, compliance / at.half_axes[1]]
+        let drift = at.rolling_speed * at.film * (self.eyring_stress / (self.shear_modulus * c));
+        let compliance = drift / at.half_axes[1];
+        Constants { thickness: held.exp() / at.film, compliance, stiffness: at.half_axes[1] / drift }
     }
 
     /// Slip of the strip at `t` half axes across the race.
@@ -222,18 +230,18 @@ impl EllipseTraction {
         Strip { y, height, slip_t: dt - wn * y - wl * height, slip_l: dl + wt * height }
     }
 
-    /// S at a place with this slip (m/s), with dS over d(ln eta).
+    /// S over the slip (m/s) at a place with this slip and its inverse, and dS over d(ln eta).
     #[inline(always)]
-    fn stress<T: Numeric>([thickness, compliance]: [T; 2], slip: T) -> [T; 2] {
+    fn secant<T: Numeric>(strip: &Constants<T>, slip: T, inverse: T) -> [T; 2] {
+        let Constants { thickness, compliance, stiffness } = *strip;
         let sigma = thickness * slip;
         let arc = sigma.asinh();
-        let share = arc * compliance / slip;
+        let share = arc * compliance * inverse;
         let elastic = share.at_least(2.0);
         let one = slip.like(1.0);
-        let viscous = arc * (-share * 0.25 + 1.0);
-        let stress = T::select(elastic, slip / compliance, viscous);
+        let viscous = arc * (-share * 0.25 + 1.0) * inverse;
         let slope = sigma / (sigma * sigma + 1.0).sqrt() * (-share * 0.5 + 1.0);
-        [stress, T::select(elastic, one.like(0.0), slope)]
+        [T::select(elastic, stiffness, viscous), T::select(elastic, one.like(0.0), slope)]
     }
 
     /// R(dT), the rise that the friction at the rise dT sustains, K, and -dR/d(ln eta).
@@ -247,9 +255,10 @@ impl EllipseTraction {
                 let strip = self.strip(at, side * t);
                 for &[s, w, _] in &self.temperature_rule.places {
                     let along = strip.slip_l + at.turning[2] * at.half_axes[1] * (c * s);
-                    let slip = (strip.slip_t * strip.slip_t + along * along + SLIP_FLOOR).sqrt();
-                    let [stress, steep] = Self::stress(constants, slip);
-                    sum += stress * slip * (weight * w);
+                    let square = strip.slip_t * strip.slip_t + along * along + SLIP_FLOOR;
+                    let slip = square.sqrt();
+                    let [secant, steep] = Self::secant(&constants, slip, slip.like(1.0) / slip);
+                    sum += secant * square * (weight * w);
                     slope += steep * slip * (weight * w);
                 }
             }
@@ -326,10 +335,11 @@ impl EllipseTraction {
                     let x = at.half_axes[1] * (c * s);
                     let along = strip.slip_l + at.turning[2] * x;
                     let slip = (strip.slip_t * strip.slip_t + along * along + SLIP_FLOOR).sqrt();
-                    let [stress, _] = Self::stress(constants, slip);
-                    let mut g = stress * wet * (weight * w) / slip;
+                    let inverse = slip.like(1.0) / slip;
+                    let [secant, _] = Self::secant(&constants, slip, inverse);
+                    let mut g = secant * wet * (weight * w);
                     if let Some((law, load)) = &dry {
-                        g += law.at(slip) * *load * (weight * c * pressed) / slip;
+                        g += law.at(slip) * *load * (weight * c * pressed) * inverse;
                     }
                     g0 += g;
                     g1 += g * x;
@@ -362,13 +372,13 @@ impl<T: Numeric> EllipseState<T> {
     fn base(&self) -> EllipseState<T::Base> {
         EllipseState {
             pressure: self.pressure.base(),
-            half_axes: self.half_axes.map(Numeric::base),
+            half_axes: [self.half_axes[0].base(), self.half_axes[1].base()],
             film: self.film.base(),
             ln_viscosity: self.ln_viscosity.base(),
             rolling_speed: self.rolling_speed.base(),
-            surface_speeds: self.surface_speeds.map(Numeric::base),
-            slip: self.slip.map(Numeric::base),
-            turning: self.turning.map(Numeric::base),
+            surface_speeds: [self.surface_speeds[0].base(), self.surface_speeds[1].base()],
+            slip: [self.slip[0].base(), self.slip[1].base()],
+            turning: [self.turning[0].base(), self.turning[1].base(), self.turning[2].base()],
             boundary_share: self.boundary_share.base(),
         }
     }

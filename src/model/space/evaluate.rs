@@ -354,8 +354,8 @@ impl Columns for Apply<'_> {
         found.touch.in_meridian[0].store(&mut contact.axial[lane..]);
         let ([fx, fr, ft], [mx, mr, mt]) = (found.on_ball.force, found.on_ball.moment);
         let on_ball = [fx, fr, ft, mx, mr, mt];
-        let [[fx, fy, fz], [mx, my, mz]] =
-            [found.on_ring.force, found.on_ring.moment].map(|v| to_global(v, direction));
+        let [fx, fy, fz] = to_global(found.on_ring.force, direction);
+        let [mx, my, mz] = to_global(found.on_ring.moment, direction);
         store([fx, fy, fz, mx, my, mz], &mut contact.on_ring, lane);
         if self.place == 0 {
             store(on_ball, &mut block.on_ball, lane);

@@ -13,7 +13,7 @@ use crate::laws::point_contact::{POINT_FORCE, POINT_MOTION, PointForce, PointMot
 use crate::pairs::groove::{InGroove, OnBody, Race, Wave};
 use crate::scalar::{Columns, Dual, Duals, Lanes, Numeric, Pack, ZEROS, dispatch, place_of};
 use crate::space::solid::{Moving, Tilt, scaled, sum};
-use pulp::Simd;
+use pulp::{Simd, WithSimd};
 
 /// What a law sees: Q, u_1, u_2, D_l, w_t, w_l, w_n, and the logarithm of the viscosity. The slip along the race is u_1 - u_2.
 const SEEN: usize = 8;
@@ -104,7 +104,8 @@ impl Space {
                 [1.0 / mass, 1.0 / mass, 1.0 / (mass * r), 1.0 / inertia, 1.0 / inertia, 1.0 / inertia];
             let local = LocalRing::new(ws.ring.position, ws.ring.rate, [cos, sin]);
             for k in 0..RACES.len() {
-                let Sloped { on_ball, on_ring } = self.sloped(ws, j, k, rates, ln_rate);
+                let sloping = Sloping { space: self, ws, contact: (j, k), rates, ln_rate };
+                let Sloped { on_ball, on_ring } = ws.instructions.dispatch(sloping);
                 let still = LocalRing::default();
                 let place = if k == 1 { &local } else { &still };
                 for row in 0..OF_BALL {
@@ -219,6 +220,7 @@ impl Space {
 
     /// What the contact of ball `j` with race `k` does to both, while the inputs change at `rates` and the logarithm of the viscosity at
     /// `ln_rate`.
+    #[inline(always)]
     fn sloped(&self, ws: &Workspace, j: usize, k: usize, rates: &InputValues, ln_rate: f64) -> Sloped {
         let (place, lane) = place_of(j);
         let block = &ws.blocks[place];
@@ -373,6 +375,26 @@ fn to_global_rows(on: &[Relative; 6], [cos, sin]: [f64; 2]) -> [Row; 6] {
         (out[first + 1], out[first + 2]) = (turned([cos, -sin]), turned([sin, cos]));
     }
     out
+}
+
+/// One contact, differentiated with the instructions of the machine.
+struct Sloping<'a> {
+    space: &'a Space,
+    ws: &'a Workspace,
+    /// Ball and race.
+    contact: (usize, usize),
+    rates: &'a InputValues,
+    ln_rate: f64,
+}
+
+impl WithSimd for Sloping<'_> {
+    type Output = Sloped;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Sloped {
+        let (j, k) = self.contact;
+        self.space.sloped(self.ws, j, k, self.rates, self.ln_rate)
+    }
 }
 
 /// Derivatives of the laws of all contacts with one race.

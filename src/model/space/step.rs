@@ -352,8 +352,8 @@ impl Columns for Step<'_> {
             let (by_slip, couple) = force.friction.secants.friction(slip, turning);
             (change.friction.force, change.friction.couple) = (by_slip, couple);
             let [_, on_ring] = ball.wrenches(&touch, &change);
-            let [[fx, fy, fz], [mx, my, mz]] =
-                [on_ring.force, on_ring.moment].map(|v| to_global(v, direction));
+            let [fx, fy, fz] = to_global(on_ring.force, direction);
+            let [mx, my, mz] = to_global(on_ring.moment, direction);
             reaction = [fx, fy, fz, mx, my, mz];
             force.normal += change.normal;
             for i in 0..2 {

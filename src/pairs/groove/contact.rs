@@ -17,7 +17,7 @@ use super::waviness::{Wave, closing};
 use crate::bodies::MovingRing;
 use crate::laws::elastic::point::ElasticPoint;
 use crate::laws::point_contact::{PointContact, PointForce, PointMotion};
-use crate::scalar::{Base, Of};
+use crate::scalar::{Base, Numeric, Of};
 use crate::space::solid::{Moving, Vector, cross, difference, dot, scaled, sum};
 
 /// Force, N, and moment about the centre of the body, N m.
@@ -103,7 +103,8 @@ fn motion<B: Base, T: Of<B>>(
     let swept = difference(passing, cross(tilting, touch.from_ring));
     let turn = dot(swept, touch.along) / touch.ball_distance;
     let spun = difference(difference(ball.turning, tilting), scaled(axis, turn));
-    let to_contact = touch.normal.map(|n| n * radius);
+    let [nx, nr, nt] = touch.normal;
+    let to_contact = [nx * radius, nr * radius, nt * radius];
     let lever = sum(touch.from_ring, to_contact);
     let at_contact = sum(passing, difference(cross(ball.turning, to_contact), cross(w_ring, lever)));
     let speeds = [dot(spun, touch.across) * radius, (ring.speed - turn) * touch.contact_distance];
@@ -117,25 +118,30 @@ fn motion<B: Base, T: Of<B>>(
         delta_dot,
         surface_speeds: speeds,
         slip: [speeds[0] - speeds[1], dot(at_contact, touch.across)],
-        turning: [touch.along, touch.across, touch.normal].map(|axis| dot(turning, axis)),
+        turning: [dot(turning, touch.along), dot(turning, touch.across), dot(turning, touch.normal)],
     }
+}
+
+/// The vector with these components along t, l and n.
+#[inline(always)]
+fn in_axes<T: Numeric>(touch: &Touch<T>, [t, l, n]: [T; 3]) -> Vector<T> {
+    sum(sum(scaled(touch.along, t), scaled(touch.across, l)), scaled(touch.normal, n))
 }
 
 /// What the forces of a contact do to a ball of this radius (m) and to the ring.
 #[inline(always)]
 fn wrenches<B: Base, T: Of<B>>(touch: &Touch<T>, radius: B, force: &PointForce<T>) -> [OnBody<T>; 2] {
     let ([ft, fl], [mt, ml, mn]) = (force.friction.force, force.friction.couple);
-    let in_axes = |[t, l, n]: [T; 3]| {
-        sum(sum(scaled(touch.along, t), scaled(touch.across, l)), scaled(touch.normal, n))
-    };
-    let (pushed, couple) = (in_axes([ft, fl, -force.normal]), in_axes([mt, ml, mn]));
+    let pushed = in_axes(touch, [ft, fl, -force.normal]);
+    let couple = in_axes(touch, [mt, ml, mn]);
     let rolling = force.rolling_resistance;
     let resisted = scaled(touch.along, rolling);
     // R k and the shares of the film pressure.
     let curved = -(touch.in_meridian[1] * radius / touch.contact_distance);
     let pressure = -(rolling * 2.0) / (curved + 1.0);
     let on_surface = sum(pushed, resisted);
-    let to_contact = touch.normal.map(|n| n * radius);
+    let [nx, nr, nt] = touch.normal;
+    let to_contact = [nx * radius, nr * radius, nt * radius];
     let lever = sum(touch.from_ring, to_contact);
     let through_axis = scaled(touch.along, pressure * curved);
     let on_race = sum(difference(resisted, pushed), through_axis);
