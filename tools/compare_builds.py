@@ -5,7 +5,8 @@
 
 For every scene it runs 2 ms with each method, and asks both libraries for everything that they know: states, outputs,
 contact and body forces, works, counts, and at states around the run rates and exact derivatives. It prints what is not equal
-to the last bit, and the largest difference as a share of the largest number of its kind.
+to the last bit, and the largest difference as a share of the largest number of its kind. Powers, counts and forces that only
+one of them has are left out.
 """
 
 import ctypes as c
@@ -43,6 +44,17 @@ class Library:
         status = getattr(self.c, "cagedyn_" + name)(sim, out, c.c_int64(n))
         return [float(status), *out]
 
+    def listed(self, kind):
+        """Names of what every model has of a kind, in their order."""
+        return self.names(kind + "_name", self.count(kind + "_count"))
+
+    def sources(self, scene):
+        """Names of the sources of forces in a scene."""
+        model = c.c_void_p(self.c.cagedyn_model_from_json(json.dumps(scene).encode()))
+        names = self.names("model_force_source_name", self.count("model_force_source_count", model), model) if model else []
+        self.c.cagedyn_model_free(model)
+        return names
+
     def message(self):
         return c.string_at(self.c.cagedyn_error_message())
 
@@ -54,8 +66,17 @@ def states_around(start, rng):
         yield [x * (1 + spread * rng.uniform(-1, 1)) + spread * 2e-4 * rng.uniform(-1, 1) for x in start]
 
 
-def everything(lib, scene, states):
-    """Lists of numbers by what they are. `states`: those to differentiate at, filled when empty."""
+def shared(numbers, names, known):
+    """The status and the numbers of those names that are known, each of as many numbers as the list has for a name."""
+    status, *values = numbers
+    size = max(len(values) // max(len(names), 1), 1)
+    kept = [i for i, name in enumerate(names) if name in known]
+    return [status] + [x for i in kept for x in values[i * size:(i + 1) * size]]
+
+
+def everything(lib, scene, states, known):
+    """Lists of numbers by what they are. `states`: those to differentiate at, filled when empty; `known`: names by kind of what both
+    libraries have."""
     model = c.c_void_p(lib.c.cagedyn_model_from_json(json.dumps(scene).encode()))
     if not model:
         return {"error": lib.message()}
@@ -74,15 +95,23 @@ def everything(lib, scene, states):
     if not sim:
         return {**found, "error": lib.message()}
     put = lambda kind, values: found.setdefault(kind, []).extend(values)
+    sources = lib.names("model_force_source_name", lib.count("model_force_source_count", model), model)
+
+    def named(kind, function):
+        return shared(lib.numbers(function, sim, lib.count(kind + "_count")), lib.listed(kind), known[kind])
+
     for step in range(1, 11):
         put("status", [lib.c.cagedyn_sim_advance_to(sim, c.c_double(2e-4 * step))])
         put("state", lib.numbers("sim_get_state", sim, n))
         put("outputs", lib.numbers("sim_get_outputs", sim, outputs))
         put("contacts", lib.numbers("sim_contact_forces", sim, contacts))
-        put("bodies", lib.numbers("sim_body_forces", sim, bodies))
-        put("works", lib.numbers("sim_power_balance", sim, lib.count("balance_count")))
-    put("counts", lib.numbers("sim_statistics", sim, lib.count("statistic_count")))
-    put("counts", lib.numbers("sim_law_evaluations", sim, lib.count("law_count")))
+        status, *values = lib.numbers("sim_body_forces", sim, bodies)
+        of_body = 3 * len(sources)
+        for first in range(0, len(values), of_body):
+            put("bodies", shared([status, *values[first:first + of_body]], sources, known["model_force_source"]))
+        put("works", named("balance", "sim_power_balance"))
+    put("counts", named("statistic", "sim_statistics"))
+    put("counts", named("law", "sim_law_evaluations"))
     found["report"] = [c.string_at(lib.c.cagedyn_sim_report(sim))]
     if not states:
         state = lib.numbers("sim_get_state", sim, n)[1:]
@@ -119,13 +148,15 @@ def difference(before, after):
 
 def main():
     before, after = Library(sys.argv[1]), Library(sys.argv[2])
+    known = {kind: {*before.listed(kind)} & {*after.listed(kind)} for kind in ("balance", "statistic", "law")}
     unequal = total = compared = 0
     for path in sys.argv[3:]:
         scene = json.loads(pathlib.Path(path).read_text())
+        known["model_force_source"] = {*before.sources(scene)} & {*after.sources(scene)}
         for method in METHODS:
             scene["solver"] = {"method": method}
             states = []
-            a, b = everything(before, scene, states), everything(after, scene, states)
+            a, b = everything(before, scene, states, known), everything(after, scene, states, known)
             total += 1
             if "error" in a and "error" in b:
                 raise SystemExit(f"{path} {method}: both refuse it: {a['error']}")
