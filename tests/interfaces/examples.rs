@@ -58,9 +58,13 @@ fn bad_output_is_seen() {
 
 /// Compiles and runs an example on the scene of the NU2310.
 fn run(source: &str, standard: &str, expected: &str, more: &[&OsStr]) {
+    run_on("scenes/nu2310.json", source, standard, expected, more);
+}
+
+fn run_on(scene: &str, source: &str, standard: &str, expected: &str, more: &[&OsStr]) {
     let library = library();
     let program = compile(&Path::new("examples").join(source), standard, library.path(), more);
-    let output = succeed(Command::new(&program).arg(root().join("scenes/nu2310.json")));
+    let output = succeed(Command::new(&program).arg(root().join(scene)));
     check(expected, &output.stdout);
     let refused = Command::new(&program).arg("no such scene").output().expect("it starts");
     let message = String::from_utf8_lossy(&refused.stderr);
@@ -109,6 +113,13 @@ fn cvode_of_the_system() {
     let names = names.map(|name| format!("-l{name}"));
     let more: Vec<&OsStr> = names.iter().map(OsStr::new).collect();
     run("cvode.c", "c99", "cvode.txt", &more);
+}
+
+#[test]
+fn ball_bearing() {
+    let scene = "scenes/angular_contact_70.json";
+    run_on(scene, "ball_bearing.c", "c99", "ball_bearing.txt", &[]);
+    run_on(scene, "ball_bearing.cpp", "c++17", "ball_bearing.txt", &[]);
 }
 
 #[test]

@@ -53,6 +53,9 @@ fn python_examples() {
     if let Some(mut python) = python(library.path(), "numpy, cffi") {
         check("nu2310.txt", &succeed(python.arg("examples/nu2310.py")).stdout);
     }
+    if let Some(mut python) = python(library.path(), "numpy, cffi") {
+        check("ball_bearing.txt", &succeed(python.arg("python/examples/ball_bearing.py")).stdout);
+    }
     if let Some(mut python) = python(library.path(), "numpy, cffi, matplotlib") {
         let picture = library.path().join("orbit.png");
         let output =
