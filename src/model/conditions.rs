@@ -12,6 +12,8 @@ pub(crate) enum Condition {
     AtFloor,
     /// An ellipse reaches beyond its shoulder.
     BeyondShoulder,
+    /// A ball presses the side of the low shoulder of a bearing with a contact angle.
+    OnLowShoulder,
     /// A pressure is above [`STATIC_LIMIT`].
     OverPressed,
     /// No ball presses the inner ring.
@@ -20,8 +22,8 @@ pub(crate) enum Condition {
 
 impl Condition {
     /// All of them, in their order behind the powers.
-    pub(crate) const ALL: [Self; 4] =
-        [Self::AtFloor, Self::BeyondShoulder, Self::OverPressed, Self::Unloaded];
+    pub(crate) const ALL: [Self; 5] =
+        [Self::AtFloor, Self::BeyondShoulder, Self::OnLowShoulder, Self::OverPressed, Self::Unloaded];
 
     /// Its place among the rates: powers, then these, each 1 while it holds and else 0.
     pub(crate) const fn place(self) -> usize {

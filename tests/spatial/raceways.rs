@@ -82,7 +82,7 @@ fn a_run_notices_shoulders_pressures_and_rings_without_load() {
     };
     let load = "inner_ring.motion.space.load.z.constant";
     let still = ("initial.inner_ring", json!("equilibrium"));
-    let heavy = told(&[(load, json!(-2.2e4)), still.clone()]);
+    let heavy = told(&[(load, json!(-2.5e4)), still.clone()]);
     assert!(heavy.contains("in 100.00 % of the time a contact pressure was above 4.2 GPa"), "{heavy}");
     assert!(!heavy.contains("shoulder") && !heavy.contains("no ball"), "{heavy}");
     let shallow = told(&[("inner_ring.shoulder_height", json!(1e-4)), still]);

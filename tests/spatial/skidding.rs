@@ -30,15 +30,17 @@ fn lag(load: f64, drag: Value, law: &str, time: f64) -> f64 {
     let turning = with_speed(SPEED);
     let control = orbit_speeds(&equilibrium(&turning, RaceControl::Outer).unwrap());
     let still = equilibrium(&with_speed(0.0), RaceControl::None).unwrap();
+    // Where centrifugal forces hold them: elsewhere they would throw the ring out of the bearing first.
+    let placed = equilibrium(&turning, RaceControl::Outer).unwrap();
     let of_ball = |name: &str| {
-        let place = still.element_quantities.iter().position(|q| q.name == name).unwrap();
-        still.elements[0][place]
+        let place = placed.element_quantities.iter().position(|q| q.name == name).unwrap();
+        placed.elements[0][place]
     };
     let angle = still.contact_values[1][1];
     let mut sim = Sim::new(turning.clone()).unwrap();
     let mut state = sim.state().to_vec();
     let (nq, layout) = (turning.layout().positions(), turning.layout());
-    state[0] = still.displacement[0];
+    state[0] = placed.displacement[0];
     let (radius, pitch) = (11.115e-3, 62.63e-3);
     let gamma = radius * angle.cos() / pitch;
     let own = -0.5 * SPEED * pitch / radius * (1.0 - gamma * gamma);

@@ -9,9 +9,10 @@ use crate::scalar::{Columns, Numeric, Pack, dispatch, math, place_of};
 use crate::space::solid::{LARGEST_TILT, Moving, Tilt, Vector, dot, scaled, sum};
 use pulp::Simd;
 
-/// Least distance of a ball from the middle of the arc of its groove, over that of one that just touches: nearer to it there is no
-/// normal.
-const NEAREST: f64 = 0.2;
+/// Which way the normal of a contact with outer and inner race points from the axis of the ring.
+pub(super) const OUTWARDS: [f64; 2] = [1.0, -1.0];
+/// Outward part of the normal below which a ball is behind its groove, 135 degrees from the middle of that.
+const BEHIND: f64 = -std::f64::consts::FRAC_1_SQRT_2;
 
 /// A vector in the axes of the azimuth with this cosine and sine.
 #[inline(always)]
@@ -68,8 +69,9 @@ impl Space {
             self.count(ws);
         }
         self.assemble(ws, a);
+        self.in_grooves(ws)?;
         match a.iter().position(|x| !x.is_finite()) {
-            None => self.in_grooves(ws),
+            None => Ok(()),
             Some(velocity) => Err(Fault::NotFinite { velocity, contact: self.contact_not_finite(ws) }),
         }
     }
@@ -289,14 +291,15 @@ impl Space {
         }
     }
 
-    /// Whether every ball is in its grooves.
+    /// Whether every ball is in its grooves: none presses an arc from behind, or with an ellipse wider than that is.
     fn in_grooves(&self, ws: &Workspace) -> Result<(), Fault> {
         for (k, race) in self.races.iter().enumerate() {
             for (j, (contact, lane)) in ws.contacts(k).enumerate() {
-                let length = race.groove.length() - self.balls.set.radius_excess[j];
-                let (drop, long) = (contact.motion[0][lane], contact.force[3][lane]);
-                if drop + length < NEAREST * length || long > race.pressed_radius() {
-                    return Err(Fault::LostBall { ball: j, race: RACES[k], approach: drop });
+                let (loaded, long) = (contact.force[0][lane] > 0.0, contact.force[3][lane]);
+                let behind = OUTWARDS[k] * contact.in_meridian[1][lane] < BEHIND;
+                if loaded && behind || long > race.pressed_radius() {
+                    let approach = contact.motion[0][lane];
+                    return Err(Fault::LostBall { ball: j, race: RACES[k], approach });
                 }
             }
         }
@@ -351,7 +354,7 @@ impl Columns for Apply<'_> {
         let found = ball.contact(&self.race.laws, &ring, wave, Pack::all(simd, self.ln_viscosity));
         store(found.motion.numbers(), &mut contact.motion, lane);
         store(found.force.numbers(), &mut contact.force, lane);
-        found.touch.in_meridian[0].store(&mut contact.axial[lane..]);
+        store(found.touch.in_meridian, &mut contact.in_meridian, lane);
         let ([fx, fr, ft], [mx, mr, mt]) = (found.on_ball.force, found.on_ball.moment);
         let on_ball = [fx, fr, ft, mx, mr, mt];
         let [fx, fy, fz] = to_global(found.on_ring.force, direction);

@@ -8,17 +8,20 @@
 //!
 //! Rows of J are those of the rigid-body slip of a ball, so a step loses by friction what its forces say.
 
-use super::evaluate::{beside, moving, to_global};
+use super::evaluate::{OUTWARDS, beside, moving, to_global};
 use super::workspace::{BallBlock, WRENCH, Workspace, at_lane, load, store};
 use super::{RACES, Space};
 use crate::bodies::{Fault, MovingRing, OF_BALL, Power, SOUND};
 use crate::integrate::{GroupDamping, SemiImplicit, SpokeDamping, implicit_share};
 use crate::laws::point_contact::{PointForce, PointMotion};
 use crate::model::{Condition, Energy, RATES, STATIC_LIMIT};
-use crate::pairs::groove::{InGroove, Race};
+use crate::pairs::groove::{Fit, InGroove, Race, fit};
 use crate::scalar::{Columns, Lanes, Numeric, Pack, dispatch, math, place_of};
 use crate::space::solid::{dot, scaled, sum};
 use pulp::Simd;
+
+/// How far the grooves of a bearing with a contact angle are used on the side of the low shoulder, over that angle (assumed).
+const LOW_SHOULDER: f64 = 0.5;
 
 /// Rates of decay of the velocities of a ball by damping and by friction of a contact, 1/s: largest of each.
 #[inline(always)]
@@ -154,9 +157,18 @@ impl Space {
             }),
             Condition::BeyondShoulder => all.any(|(k, contact, lane)| {
                 let (load, long) = (contact.force[0][lane], contact.force[3][lane]);
-                let beyond = || self.races[k].beyond_shoulder(math::asin(contact.axial[lane]), long);
+                let beyond = || self.races[k].beyond_shoulder(math::asin(contact.in_meridian[0][lane]), long);
                 load > 0.0 && beyond().is_some_and(|beyond| beyond > 0.0)
             }),
+            Condition::OnLowShoulder => match fit(&self.scene) {
+                Fit::ContactAngle(angle) => {
+                    let steepest = -math::sin(LOW_SHOULDER * angle);
+                    all.any(|(k, contact, lane)| {
+                        contact.force[0][lane] > 0.0 && OUTWARDS[k] * contact.in_meridian[0][lane] < steepest
+                    })
+                }
+                Fit::RadialClearance(_) => false,
+            },
             Condition::OverPressed => {
                 all.any(|(_, contact, lane)| contact.force_of(lane).pressure > STATIC_LIMIT)
             }

@@ -25,8 +25,8 @@ pub(super) struct ContactLanes {
     pub(super) wave: [Lanes; 3],
     pub(super) motion: [Lanes; POINT_MOTION],
     pub(super) force: [Lanes; POINT_FORCE],
-    /// Normal along the axis of the ring: sine of the contact angle, but for its sign.
-    pub(super) axial: Lanes,
+    /// Normal along the axis of the ring and outwards from it.
+    pub(super) in_meridian: [Lanes; 2],
     /// On the ring: force and moment about its centre, in axes of the bearing.
     pub(super) on_ring: [Lanes; WRENCH],
     /// In the step from the last evaluated state: what the forces on the ring have changed by, normal force, and powers of damping,
@@ -100,7 +100,7 @@ impl ContactLanes {
             wave: [ZEROS; 3],
             motion: [ZEROS; POINT_MOTION],
             force: [ZEROS; POINT_FORCE],
-            axial: ZEROS,
+            in_meridian: [ZEROS; 2],
             on_ring: [ZEROS; WRENCH],
             reaction: [ZEROS; WRENCH],
             normal: ZEROS,

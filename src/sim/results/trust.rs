@@ -137,6 +137,10 @@ impl Sim {
             Condition::BeyondShoulder => {
                 Some("an ellipse reached beyond the shoulder of its ring".to_owned())
             }
+            Condition::OnLowShoulder => Some(
+                "a ball pressed the side of a low shoulder, which no bearing with a contact angle counts on"
+                    .to_owned(),
+            ),
             Condition::OverPressed => {
                 let limit = 1e-9 * STATIC_LIMIT;
                 Some(format!(
