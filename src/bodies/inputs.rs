@@ -1,6 +1,5 @@
 //! Inputs of the model: what drives the bodies from outside.
 
-use super::OF_RING;
 use crate::registry::registry;
 use crate::stored::stored;
 
@@ -67,15 +66,20 @@ pub struct InputValues {
     /// Values by [`Input`]; zero for inputs that the model does not have. Orbit and spin speed are those of rolling
     /// where the scene asks for it.
     pub values: [f64; INPUTS],
-    /// Orbit angle that kinematic elements have travelled since the start, rad.
-    pub orbit_travel: f64,
-    /// Angles that outer and inner ring have turned since the start, rad; zero where nothing asks for them.
-    pub turned: [f64; 2],
-    /// Coordinates of a ring in space that are prescribed: m or rad, and their first and second rates; zero for others.
-    pub ring: [[f64; 3]; OF_RING],
+    /// Angles since the start that follow from speeds, rad: orbit of kinematic elements in the plane; turning of outer and inner ring in space,
+    /// where something asks for it.
+    pub angles: [f64; 2],
+    /// Time, s, where something follows it beside the inputs; else zero.
+    pub time: f64,
 }
 
 impl InputValues {
+    /// Orbit angle that kinematic elements have travelled since the start, rad.
+    #[inline]
+    pub fn orbit_travel(&self) -> f64 {
+        self.angles[0]
+    }
+
     /// Value of one input.
     pub fn of(&self, input: Input) -> f64 {
         self.values[input as usize]
@@ -89,8 +93,8 @@ pub struct HostInputs {
     values: [Option<f64>; INPUTS],
     /// How many are set.
     set: u64,
-    /// Time (s), and orbit travel and angles of both rings (rad) from which these count on.
-    pub anchor: [f64; 4],
+    /// Time (s) and [`InputValues::angles`] (rad) from which these count on.
+    pub anchor: [f64; 3],
 }
 
 impl HostInputs {

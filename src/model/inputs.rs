@@ -1,14 +1,12 @@
 //! Inputs of a model: from the scene to functions of time, and what hosts may set.
 
-use super::signals::{Beside, Drive, InputSignals, InputSource, Oil, Orbit, Turning};
+use super::signals::{Beside, Drive, InSpace, InputSignals, InputSource, Oil, Orbit, Turning};
 use super::{HostInputs, Input, InputValues, Model, StateInfo};
 use crate::error::{Error, Result, Status};
 use crate::laws::fluid::walther::Walther;
 use crate::pairs;
 use crate::scalar::math;
-use crate::scene::{
-    ElementMotion, FORCE, MOMENT, RingCoordinate, RingMotion, SPEED, Scene, Signal, TEMPERATURE, TORQUE,
-};
+use crate::scene::{ElementMotion, FORCE, MOMENT, RingMotion, SPEED, Scene, Signal, TEMPERATURE, TORQUE};
 use crate::scene::{Temperature, VISCOSITY, Viscosity, bad_scene, interpolate};
 
 impl Model {
@@ -181,7 +179,13 @@ pub(super) fn inputs(scene: &Scene) -> Result<InputSignals> {
         }
         _ => None,
     };
-    Ok(InputSignals::new(list, Beside { orbit, angles: angles(scene), ring: prescribed(scene) }, oil))
+    let in_space = InSpace { angles: angles(scene), ring: prescribed(scene) };
+    let beside = match orbit {
+        Some(orbit) => Beside::Orbit(orbit),
+        None if in_space == InSpace::default() => Beside::Nothing,
+        None => Beside::Space(Box::new(in_space)),
+    };
+    Ok(InputSignals::new(list, beside, oil))
 }
 
 /// Rings whose raceways are wavy, which makes their angles count.
@@ -194,16 +198,12 @@ fn angles(scene: &Scene) -> [Option<Turning>; 2] {
     ]
 }
 
-/// Coordinates of a ring in space that are prescribed over time.
-fn prescribed(scene: &Scene) -> Vec<(usize, Signal)> {
+/// How the coordinates of a ring in space move that are prescribed over time.
+fn prescribed(scene: &Scene) -> Vec<Signal> {
     let Some(RingMotion::Space(ring)) = scene.inner_ring.as_ref().map(|ring| &ring.motion) else {
         return Vec::new();
     };
-    let signal = |(k, (_, coordinate)): (usize, (&str, &RingCoordinate))| match coordinate {
-        RingCoordinate::Prescribed(signal) => Some((k, signal.clone())),
-        _ => None,
-    };
-    ring.coordinates().into_iter().enumerate().filter_map(signal).collect()
+    ring.coordinates().into_iter().filter_map(|(_, coordinate)| coordinate.prescribed().cloned()).collect()
 }
 
 /// Elements that roll without slip on both rings; `radius_ratio` is element over pitch radius.

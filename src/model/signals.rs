@@ -41,15 +41,23 @@ pub(super) struct Turning {
     pub(super) integral: SignalIntegral,
 }
 
-/// What follows time beside the inputs, where a scene asks for it.
+/// What follows time beside the inputs.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Beside {
+    Nothing,
+    /// Kinematic elements.
+    Orbit(Orbit),
+    /// A bearing in space.
+    Space(Box<InSpace>),
+}
+
+/// What follows time in a bearing in space beside its inputs.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Beside {
-    /// Orbit of kinematic elements.
-    pub(super) orbit: Option<Orbit>,
-    /// Angles of outer and inner ring.
+pub(super) struct InSpace {
+    /// Angles of outer and inner ring, where something follows them.
     pub(super) angles: [Option<Turning>; 2],
-    /// Prescribed coordinates of a ring in space, with their places.
-    pub(super) ring: Vec<(usize, Signal)>,
+    /// Prescribed coordinates of the inner ring.
+    pub(super) ring: Vec<Signal>,
 }
 
 /// Viscosity that follows the temperature.
@@ -119,24 +127,18 @@ impl InputSignals {
     #[inline]
     pub(crate) fn at(&self, t: f64, host: &HostInputs) -> InputValues {
         let mut now = self.listed_at(t, host);
-        if let Some(orbit) = &self.beside.orbit {
-            orbit.follow(&mut now);
-            now.orbit_travel = orbit.travel(t, host);
-        }
-        self.angles(t, host, &mut now.turned);
-        for (k, signal) in &self.beside.ring {
-            now.ring[*k] = [signal.at(t), signal.rate(t), signal.higher_rates(t)[0]];
-        }
-        now
-    }
-
-    /// Writes the angles of both rings at time `t` in s, where they are asked for.
-    fn angles(&self, t: f64, host: &HostInputs, out: &mut [f64; 2]) {
-        for ((out, turning), before) in out.iter_mut().zip(&self.beside.angles).zip(&host.anchor[2..]) {
-            if let Some(turning) = turning {
-                *out = before + turning.since(host.anchor[0], t, host);
+        match &self.beside {
+            Beside::Nothing => {}
+            Beside::Orbit(orbit) => {
+                orbit.follow(&mut now);
+                now.angles[0] = orbit.travel(t, host);
+            }
+            Beside::Space(space) => {
+                now.angles = space.turned(t, host);
+                now.time = t;
             }
         }
+        now
     }
 
     /// Rates of what [`InputSignals::at`] gives, per second.
@@ -152,25 +154,23 @@ impl InputSignals {
                 }
             };
         }
-        if let Some(orbit) = &self.beside.orbit {
-            orbit.follow(&mut rates);
-            rates.orbit_travel = self.at(t, host).of(Input::OrbitSpeed);
-        }
-        if self.beside.angles.iter().any(Option::is_some) {
-            let now = self.listed_at(t, host);
-            rates.turned = [Input::OuterRingSpeed, Input::RingSpeed].map(|input| now.of(input));
-        }
-        for (k, signal) in &self.beside.ring {
-            let [second, third] = signal.higher_rates(t);
-            rates.ring[*k] = [signal.rate(t), second, third];
+        match &self.beside {
+            Beside::Nothing => {}
+            Beside::Orbit(orbit) => {
+                orbit.follow(&mut rates);
+                rates.angles[0] = self.at(t, host).of(Input::OrbitSpeed);
+            }
+            Beside::Space(_) => {
+                let now = self.listed_at(t, host);
+                rates.angles = [Input::OuterRingSpeed, Input::RingSpeed].map(|input| now.of(input));
+            }
         }
         rates
     }
 
     /// The first jump or kink after `t`, s.
     pub(super) fn next_event(&self, t: f64, host: &HostInputs) -> f64 {
-        let of_ring = self.beside.ring.iter().map(|(_, signal)| signal.next_event(t));
-        let first = of_ring.fold(f64::INFINITY, f64::min);
+        let first = self.of_ring(|signal| signal.next_event(t));
         if self.constant.is_some() {
             return first;
         }
@@ -194,10 +194,18 @@ impl InputSignals {
         both.map(|speed| signal.next_passage(t, speed)).fold(f64::INFINITY, f64::min)
     }
 
+    /// The least of a number of every prescribed coordinate of a ring; infinity without any.
+    fn of_ring(&self, number: impl Fn(&Signal) -> f64) -> f64 {
+        let list = match &self.beside {
+            Beside::Space(space) => &space.ring[..],
+            _ => &[],
+        };
+        list.iter().map(number).fold(f64::INFINITY, f64::min)
+    }
+
     /// Shortest period of the sines that are followed, s; infinity without any.
     pub(super) fn shortest_period(&self, host: &HostInputs) -> f64 {
-        let of_ring = self.beside.ring.iter().map(|(_, signal)| signal.period());
-        let shortest = of_ring.fold(f64::INFINITY, f64::min);
+        let shortest = self.of_ring(Signal::period);
         if self.constant.is_some() {
             return shortest;
         }
@@ -226,10 +234,12 @@ impl InputSignals {
 
     /// Sets or releases an input at time `t` in s. The elements stay where they are.
     pub(super) fn set(&self, host: &mut HostInputs, t: f64, input: Input, value: Option<f64>) {
-        let travel = self.beside.orbit.as_ref().map_or(host.anchor[1], |orbit| orbit.travel(t, host));
-        let mut angles = [host.anchor[2], host.anchor[3]];
-        self.angles(t, host, &mut angles);
-        host.anchor = [t, travel, angles[0], angles[1]];
+        let [first, second] = match &self.beside {
+            Beside::Nothing => [0.0; 2],
+            Beside::Orbit(orbit) => [orbit.travel(t, host), 0.0],
+            Beside::Space(space) => space.turned(t, host),
+        };
+        host.anchor = [t, first, second];
         host.hold(input, value);
     }
 
@@ -261,13 +271,24 @@ impl Orbit {
 
     #[inline]
     fn travel(&self, t: f64, host: &HostInputs) -> f64 {
-        let [since, before, ..] = host.anchor;
+        let [since, before, _] = host.anchor;
         let turned = |drive: &Drive| drive.speed.since(since, t, host);
         let travel = before + self.drive.orbit_ratio * turned(&self.drive);
         match &self.by_outer {
             None => travel,
             Some(drive) => travel + drive.orbit_ratio * turned(drive),
         }
+    }
+}
+
+impl InSpace {
+    /// Angles of outer and inner ring at time `t` in s, rad; zero where nothing follows them.
+    fn turned(&self, t: f64, host: &HostInputs) -> [f64; 2] {
+        let [since, outer, inner] = host.anchor;
+        let angle = |turning: &Option<Turning>, before: f64| {
+            turning.as_ref().map_or(0.0, |turning| before + turning.since(since, t, host))
+        };
+        [angle(&self.angles[0], outer), angle(&self.angles[1], inner)]
     }
 }
 
@@ -278,7 +299,7 @@ impl Turning {
     }
 
     /// Angle from time `since` to time `t` (s), rad.
-    #[inline]
+    #[inline(always)]
     fn since(&self, since: f64, t: f64, host: &HostInputs) -> f64 {
         match host.of(self.input) {
             Some(speed) => speed * (t - since),

@@ -189,7 +189,7 @@ impl SlopeSums<'_> {
                 .map(|c| &on_mate[c]);
         let rates = self.rates;
         for (i, place) in places.enumerate().take(OF_ELEMENT) {
-            self.out.over_time[place] += travel[i][lane] * rates.orbit_travel
+            self.out.over_time[place] += travel[i][lane] * rates.orbit_travel()
                 + orbit[i][lane] * rates.of(Input::OrbitSpeed)
                 + spin[i][lane] * rates.of(Input::SpinSpeed);
         }
@@ -220,7 +220,7 @@ impl SlopeSums<'_> {
         let free = j < self.layout.count;
         // Rates of what is prescribed.
         let rates = self.rates;
-        let prescribed = [rates.orbit_travel, rates.of(Input::OrbitSpeed), rates.of(Input::SpinSpeed)];
+        let prescribed = [rates.orbit_travel(), rates.of(Input::OrbitSpeed), rates.of(Input::SpinSpeed)];
         let of = |rows: &[[Lanes; OF_ELEMENT]; C::COUNT], c: usize, i: usize| rows[c][i][lane];
         // Over the displacement in global axes, of component i.
         let over_place = |rows: &[[Lanes; OF_ELEMENT]; C::COUNT], i: usize| {

@@ -135,6 +135,16 @@ pub enum RingCoordinate {
     Prescribed(Signal),
 }
 
+impl RingCoordinate {
+    /// How it is moved over time, if it is.
+    pub fn prescribed(&self) -> Option<&Signal> {
+        match self {
+            Self::Prescribed(signal) => Some(signal),
+            _ => None,
+        }
+    }
+}
+
 impl Default for RingCoordinate {
     fn default() -> Self {
         Self::Held(0.0)

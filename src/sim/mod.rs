@@ -497,7 +497,9 @@ impl Sim {
         if state.len() != self.state.len() {
             return Err(wrong_size("state", state.len(), self.state.len()));
         }
-        match state.iter().position(|x| x.is_nan() || x.abs() > LARGEST_STATE) {
+        // What is not a number is not within it.
+        let within = |x: &f64| x.abs() <= LARGEST_STATE;
+        match state.iter().position(|x| !within(x)) {
             None => Ok(()),
             Some(i) => {
                 let info = &self.model().state_infos()[i];

@@ -366,7 +366,7 @@ impl Averaged {
     fn evaluate(&mut self, state: &State, turned: f64) -> Result<()> {
         let n = CAGE_MOTION + state.waves.len();
         let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);
-        self.inputs.orbit_travel = state.lead;
+        self.inputs.angles[0] = state.lead;
         v[2] = state.speed;
         let (sin, cos) = math::sin_cos(turned);
         q[..2].copy_from_slice(&rotate(state.position, -sin, cos));

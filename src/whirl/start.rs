@@ -110,7 +110,7 @@ pub(super) fn run(scene: &Scene, averaged: &Averaged) -> Result<Unknowns> {
         sum.eccentricity += share * e;
         sum.speed += share * (y * v[cage + 1] - z * v[cage]) / (e * e);
         let inputs = model.inputs_at(sim.time(), &HostInputs::default());
-        sum.lead += share * (inputs.orbit_travel - angle);
+        sum.lead += share * (inputs.orbit_travel() - angle);
         let ahead = math::atan2(z, y) - angle;
         for (k, pair) in sum.waves.chunks_mut(2).enumerate() {
             let (sin, cos) = math::sin_cos((k + 2) as f64 * ahead);

@@ -69,14 +69,14 @@ impl Elements for KinematicElements {
                 motion.spin_speed.fill(spin_speed);
             }
         }
-        if out.together != Some(inputs.orbit_travel) {
-            out.turn_together(&self.set, inputs.orbit_travel);
+        if out.together != Some(inputs.orbit_travel()) {
+            out.turn_together(&self.set, inputs.orbit_travel());
         }
         Ok(())
     }
 
     fn travel(&self, _layout: &Layout, _q: &[f64], inputs: &InputValues, _j: usize) -> [f64; 2] {
-        [inputs.orbit_travel, 0.0]
+        [inputs.orbit_travel(), 0.0]
     }
 
     fn accelerate(&self, _: &Layout, _: &Motions, _: &[WrenchLanes], _: [f64; 2], _: &mut [f64]) {}

@@ -158,7 +158,7 @@ impl Space {
             let [_, outwards, along] = to_local([0.0, tilt[0], tilt[1]], direction);
             let [cos, sin] = touch.ahead(ring.axis, &Tilt::new([outwards, along]));
             let [azimuth, ahead] = [math::atan2(direction[1], direction[0]), math::atan2(sin, cos)];
-            let wave = waviness.at(azimuth + ahead - ws.inputs.turned[k]);
+            let wave = waviness.at(azimuth + ahead - ws.inputs.angles[k]);
             for (column, value) in ws.blocks[block].contacts[k].wave.iter_mut().zip(wave) {
                 column[lane] = value;
             }

@@ -86,7 +86,7 @@ fn longest_step(shape: &PlanePocket, law: &ContactLaw, ahead: &Ahead<'_>) -> f64
     // Position and velocity of the cage in its own axes.
     let (place, speed) = (rotate(cage.position, -sin, cos), rotate(cage.velocity, -sin, cos));
     let set = ahead.elements.set();
-    let prescribed = [ahead.inputs.orbit_travel, ahead.inputs.of(Input::OrbitSpeed)];
+    let prescribed = [ahead.inputs.orbit_travel(), ahead.inputs.of(Input::OrbitSpeed)];
     let free = ahead.elements.mass().is_some();
     let pitch = set.pitch_radius;
     let pass = Passage::of(contact, ahead.lightest(CAGE), ahead.tuning);

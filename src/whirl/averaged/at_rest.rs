@@ -30,7 +30,7 @@ impl Averaged {
     pub(in crate::whirl) fn full_rate(&mut self, t: f64, x: &DVector<f64>) -> Result<DVector<f64>> {
         self.limits.check()?;
         let n = x.len() / 2;
-        self.inputs.orbit_travel = self.orbit * t;
+        self.inputs.angles[0] = self.orbit * t;
         let (q, v) = x.as_slice().split_at(n);
         let Self { plane, inputs, ws, a, .. } = self;
         plane.accelerations(inputs, q, v, ws, a).map_err(|fault| failed(fault, plane))?;

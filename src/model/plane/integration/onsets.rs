@@ -69,7 +69,7 @@ mod tests {
     fn longest(model: &Plane, y: f64, speed: f64) -> f64 {
         let (mut q, mut v) = ([y, 0.0, 0.0], [speed, 0.0, 0.0]);
         let inputs = model.inputs.at(0.0, &HostInputs::default());
-        (q[2], v[2]) = (inputs.orbit_travel, inputs.of(Input::OrbitSpeed));
+        (q[2], v[2]) = (inputs.orbit_travel(), inputs.of(Input::OrbitSpeed));
         model.longest_step(0.0, [&q, &v], &HostInputs::default(), f64::INFINITY, &Tuning::default())
     }
 
