@@ -6,15 +6,17 @@ use cagedyn::{Sim, equilibrium::Equilibrium};
 use serde_json::{Value, json};
 
 const SPEED: f64 = 1_047.197_551_196_597_7;
+/// Orbit speeds over that of the ring by `tools/skidding.py`: 3000 and 1000 N without drag, 3000, 2000 and 1000 N with it.
+const OWN: [f64; 5] = [0.55514, 0.53028, 0.53291, 0.40416, 0.24352];
 
 fn orbit_speeds(found: &Equilibrium) -> f64 {
     let place = found.element_quantities.iter().position(|q| q.name == "orbit_speed").unwrap();
     found.elements[0][place]
 }
 
-/// Orbit speed of the balls of a 218 over that of outer race control at this time (s), from kinematic speeds at the contact angle under
-/// this axial load (N).
-fn lag(load: f64, drag: Value, law: &str, time: f64) -> f64 {
+/// Orbit speed of the balls of a 218 over that of the ring at this time (s), from kinematic speeds at the contact angle under this axial
+/// load (N), and that of outer race control.
+fn lag(load: f64, drag: Value, time: f64) -> [f64; 2] {
     let with_speed = |speed: f64| {
         model(
             ANGULAR,
@@ -23,7 +25,6 @@ fn lag(load: f64, drag: Value, law: &str, time: f64) -> f64 {
                 ("inner_ring.motion.space.mass", json!(2.0)),
                 ("inner_ring.speed.constant", json!(speed)),
                 ("balls.drag", drag.clone()),
-                ("raceways.rolling_resistance.law", json!(law)),
             ],
         )
     };
@@ -53,24 +54,29 @@ fn lag(load: f64, drag: Value, law: &str, time: f64) -> f64 {
     }
     sim.set_state(0.0, &state).unwrap();
     sim.advance_to(time).unwrap();
-    sim.state()[nq + layout.element(0) + 2] / control
+    [sim.state()[nq + layout.element(0) + 2], control].map(|speed| speed / SPEED)
 }
 
-/// Ratios of an independent program, whose law of rolling resistance beside drag is that of Houpert. Under 2000 N, where balls are about to
-/// let go, one law of rolling resistance more or less decides: 0.71 with that of Biboulet and Houpert, 0.78 with Houpert's, 0.74 there.
+/// By the model of its own of `tools/skidding.py`, as orbit speeds over that of the ring, and as printed for another program over that of
+/// outer race control, where both agree. Under 1000 and 2000 N in oil that program has 0.47 and 0.74, which is not what the same
+/// equations give.
 #[test]
 fn light_loads_skid_in_oil() {
-    for (load, density, law, independent) in [
-        (3000.0, None, "biboulet_houpert", 0.994),
-        (1000.0, None, "biboulet_houpert", 0.91),
-        (3000.0, Some(60.0), "houpert", 0.956),
-        (1000.0, Some(60.0), "houpert", 0.47),
+    for (load, density, own_model, printed) in [
+        (3000.0, None, OWN[0], Some(0.994)),
+        (1000.0, None, OWN[1], Some(0.91)),
+        (3000.0, Some(60.0), OWN[2], Some(0.956)),
+        (2000.0, Some(60.0), OWN[3], None),
+        (1000.0, Some(60.0), OWN[4], None),
     ] {
         let drag = density.map_or(Value::Null, |density| json!({"density": density}));
-        let found = lag(load, drag, law, 0.4);
-        assert!((found / independent - 1.0).abs() < 0.02, "{load} N {density:?}: {found} {independent}");
+        let [orbit, control] = lag(load, drag, 0.4);
+        let ratio = orbit / control;
+        println!(
+            "{load} N, drag {density:?}: orbit {orbit:.5} of the ring, {ratio:.4} of outer race control"
+        );
+        assert!((orbit / own_model - 1.0).abs() < 3e-3, "{load} N {density:?}: {orbit} {own_model}");
+        let near = printed.is_none_or(|printed: f64| (ratio / printed - 1.0).abs() < 0.02);
+        assert!(near, "{load} N {density:?}: {ratio} {printed:?}");
     }
-    let drag = json!({"density": 60.0});
-    let [held, let_go] = ["biboulet_houpert", "houpert"].map(|law| lag(2000.0, drag.clone(), law, 0.4));
-    assert!(held < 0.74 && 0.74 < let_go && let_go < 0.8, "{held} {let_go}");
 }
