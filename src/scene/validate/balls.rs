@@ -60,6 +60,21 @@ impl Scene {
             }
         }
         self.validate_fit(judge, balls, inner, grooves)?;
+        for ((ring, shoulder), groove) in
+            [("outer_ring", outer.shoulder_height), ("inner_ring", inner.shoulder_height)]
+                .into_iter()
+                .zip(grooves)
+        {
+            let angle = balls.contact_angle.unwrap_or(0.0);
+            let least = groove * (1.0 - math::cos(angle));
+            if let Some(height) = shoulder.filter(|height| *height <= least) {
+                let text = format!(
+                    "{height:?} m is too low for balls that touch at {angle:?} rad: they would leave the groove without any load; more than {} m",
+                    shown(least)
+                );
+                judge.refuse(&format!("{ring}.shoulder_height"), text)?;
+            }
+        }
         if let Some(drag) = &balls.drag {
             judge.number("balls.drag.density", drag.density, range(1e-3, 2000.0, "kg/m^3"))?;
             judge.number("balls.drag.coefficient", drag.coefficient, range(0.0, 10.0, "1"))?;

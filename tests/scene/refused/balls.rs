@@ -14,6 +14,12 @@ pub fn rows() -> Vec<Row> {
             json!(4.7e-3),
             &["0.0047 m", "0.0047625 m", "1.03 to 1.06"],
         ),
+        angular.scene(
+            "shoulder below the contact",
+            &[("inner_ring.shoulder_height", json!(1e-3))],
+            "inner_ring.shoulder_height",
+            &["0.001 m", "too low", "leave the groove"],
+        ),
         deep.value("groove in millimetres", "outer_ring.groove_radius", json!(5.0), &["5.0 m", "milli"]),
         deep.value("balls that overlap", "balls.count", json!(16), &["16 balls", "overlap"]),
         deep.scene(
