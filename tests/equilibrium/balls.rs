@@ -177,7 +177,7 @@ fn a_spring_presses_the_ring() {
 #[test]
 fn what_is_amiss_is_told() {
     let changes = [
-        ("inner_ring.shoulder_height", json!(2e-3)),
+        ("inner_ring.shoulder_height", json!(2.8e-3)),
         ("inner_ring.motion.space.load.x.constant", json!(1e5)),
     ];
     let found = of(ANGULAR, RaceControl::Outer, &changes).unwrap();
