@@ -226,7 +226,7 @@ struct WithoutSlip {
     cage_beyond: f64,
     /// Angle of an orbit during the run, rad; none where that is small.
     rolled: Option<f64>,
-    /// Mean drag torque that gives the shaft as much as rollers and cage hold and the load in its clearance, N m.
+    /// Mean drag torque that gives the shaft as much as rollers, balls and cage hold and the load in its clearance, N m.
     holds: f64,
 }
 
@@ -255,6 +255,8 @@ impl WithoutSlip {
         let (radius, circle) = if scene["rollers"].is_object() {
             let radius = number("/rollers/radius");
             (radius, number("/outer_ring/raceway_radius") - radius)
+        } else if scene["balls"].is_object() {
+            (number("/balls/radius"), number("/balls/pitch_radius"))
         } else {
             (number("/kinematic_elements/radius"), number("/kinematic_elements/pitch_radius"))
         };
@@ -272,7 +274,9 @@ impl WithoutSlip {
         let soft = if whirls > 0.0 { 1.0 + slides / (whirls * clearance) } else { 0.0 };
         let travel = orbit * circle;
         let of_each = number("/rollers/mass") * travel * travel + number("/rollers/inertia") * spin * spin;
-        let moves = 0.5 * (number("/rollers/count") * of_each + number("/cage/inertia") * orbit * orbit);
+        let of_ball = number("/balls/mass") * (travel * travel + 0.4 * radius * radius * spin * spin);
+        let of_all = number("/rollers/count") * of_each + number("/balls/count") * of_ball;
+        let moves = 0.5 * (of_all + number("/cage/inertia") * orbit * orbit);
         let sinks = load.unwrap_or(f64::INFINITY).abs() * number("/inner_ring/radial_clearance").abs();
         Self {
             steady: [enough(inner + outer), enough(inner - outer) && load.is_some()],
