@@ -41,6 +41,13 @@ pub enum Fault {
         /// Angle by which it leads the pocket, rad.
         lead: f64,
     },
+    /// A rolling element is outside of the height of its pocket.
+    AbovePocket {
+        /// Number of the element.
+        element: usize,
+        /// How far it is outside of the pitch circle, in the axes of the pocket, m; negative inside.
+        distance: f64,
+    },
     /// The inner ring has left the bearing.
     LostRing {
         /// Distance of its centre from that of the bearing, and the most that rollers could let it have, m.
@@ -104,6 +111,7 @@ registry! {
         TooFast = "too_fast",
         EnergyCreated = "energy_created",
         LostBall = "lost_ball",
+        AbovePocket = "above_pocket",
     }
 }
 
@@ -126,6 +134,7 @@ impl Fault {
             Self::TooFast { .. } => FaultKind::TooFast,
             Self::EnergyCreated { .. } => FaultKind::EnergyCreated,
             Self::LostBall { .. } => FaultKind::LostBall,
+            Self::AbovePocket { .. } => FaultKind::AbovePocket,
         };
         kind as usize
     }

@@ -27,6 +27,12 @@ registry! {
         CageForceZ = "cage.force_z",
         /// External torque on the cage, N m.
         CageTorque = "cage.torque",
+        /// External force on a cage in space along the axis of the bearing, N.
+        CageForceX = "cage.force_x",
+        /// External moment on it about the axis to the right, N m.
+        CageMomentY = "cage.moment_y",
+        /// External moment on it about the upward axis, N m.
+        CageMomentZ = "cage.moment_z",
         /// Orbit speed of kinematic elements, rad/s.
         OrbitSpeed = "elements.orbit_speed",
         /// Spin speed of kinematic elements, rad/s.
@@ -50,6 +56,9 @@ impl Input {
             Self::CageForceY => ["N", "external force on the cage, to the right"],
             Self::CageForceZ => ["N", "external force on the cage, upwards"],
             Self::CageTorque => ["N m", "external torque on the cage"],
+            Self::CageForceX => ["N", "external force on the cage, along the axis of the bearing"],
+            Self::CageMomentY => ["N m", "external moment on the cage, about the axis to the right"],
+            Self::CageMomentZ => ["N m", "external moment on the cage, about the upward axis"],
             Self::OrbitSpeed => ["rad/s", "orbit speed of the rolling elements"],
             Self::SpinSpeed => ["rad/s", "spin speed of the rolling elements"],
             Self::Temperature => ["K", "temperature of the lubricant"],

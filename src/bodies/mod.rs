@@ -35,7 +35,10 @@ pub(crate) use heat::HeatBudget;
 pub(crate) use layout::{OF_ELEMENT, Owner};
 pub(crate) use motions::{Element, ElementBlock, ElementMotion, ElementSet, Motions, WrenchLanes};
 pub(crate) use nodes::{Node, NodeState, nodes};
-pub(crate) use spatial::{Balls, MovingRing, OF_BALL, OF_RING, RING_COORDINATES, RingInSpace, RingState};
+pub(crate) use spatial::{
+    Balls, CAGE_COORDINATES, CageInSpace, CageState, MovingCage, MovingRing, OF_BALL, OF_CAGE, OF_RING,
+    RING_COORDINATES, RingInSpace, RingState, tilt_of,
+};
 pub(crate) use states::{State, layout_of, states_of};
 
 use crate::registry::registry;

@@ -12,7 +12,7 @@ mod rollers;
 pub use crate::model::RaceControl;
 
 use crate::bodies::Coordinate;
-use crate::error::Result;
+use crate::error::{Error, Result, Status};
 use crate::model::{Model, Quantity, quantity};
 
 /// An equilibrium. Vectors are over `coordinates`, which are those of the inner ring.
@@ -52,6 +52,9 @@ impl Equilibrium {
     }
 }
 
+/// What is said where elements have no equilibrium.
+const PRESCRIBED: &str = "kinematic_elements: nothing presses on elements of prescribed motion";
+
 /// Finds the equilibrium of a model at its start: speeds and loads are those of the scene at t = 0, balls and rollers at the azimuths
 /// that they start at. Which race controls balls matters at speed only.
 ///
@@ -60,6 +63,7 @@ impl Equilibrium {
 /// prescribed motion.
 pub fn equilibrium(model: &Model, control: RaceControl) -> Result<Equilibrium> {
     match model.space() {
+        Some(space) if !space.free => Err(Error::new(Status::BadScene, PRESCRIBED)),
         Some(space) => balls::equilibrium(space, control),
         None => rollers::equilibrium(model, model.plane()?),
     }

@@ -1,6 +1,6 @@
 //! Ring and rollers in the plane.
 
-use super::{Equilibrium, named};
+use super::{Equilibrium, PRESCRIBED, named};
 use crate::bodies::CENTRE;
 use crate::error::{Error, Result, Status};
 use crate::model::plane::{Plane, StillBearing};
@@ -29,9 +29,7 @@ const CONTACT: [Quantity; 4] = [
 pub(super) fn equilibrium(model: &Model, plane: &Plane) -> Result<Equilibrium> {
     let inputs = model.inputs_at(0.0, &HostInputs::default());
     let [orbit, _] = model.kinematic_speeds(&inputs);
-    let still = StillBearing::new(plane, orbit).ok_or_else(|| {
-        Error::new(Status::BadScene, "kinematic_elements: nothing presses on elements of prescribed motion")
-    })?;
+    let still = StillBearing::new(plane, orbit).ok_or_else(|| Error::new(Status::BadScene, PRESCRIBED))?;
     let state = model.initial_state()?;
     let q = &state[..model.layout().positions()];
     let (load, held) = match model.scene().inner_ring.as_ref().map(|ring| &ring.motion) {

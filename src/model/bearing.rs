@@ -102,8 +102,13 @@ impl Model {
     pub fn plane(&self) -> Result<&Arc<Plane>> {
         match &self.bearing {
             Bearing::Plane(plane) => Ok(plane),
-            Bearing::Space(_) => {
-                let text = "balls: this is for bearings that move in the plane only";
+            Bearing::Space(space) => {
+                let text = match space.free {
+                    true => {
+                        "balls: this is for elements whose motion is prescribed, or rollers, in the plane"
+                    }
+                    false => "cage.space: this is for bearings that move in the plane only",
+                };
                 Err(Error::new(Status::BadScene, text))
             }
         }
@@ -135,7 +140,7 @@ impl Model {
 
     /// Whether elements roll under load on raceways, whose contacts keep steps short.
     pub fn rolls(&self) -> bool {
-        self.has_rollers() || self.space().is_some()
+        self.has_rollers() || self.space().is_some_and(|space| space.free)
     }
 
     /// Radius of the inner raceway in m, where there are rollers.
@@ -145,12 +150,18 @@ impl Model {
 
     /// Radial guide clearance in m, if the cage is guided.
     pub fn guide_clearance(&self) -> Option<f64> {
-        self.in_plane().and_then(|plane| plane.guide_clearance())
+        match &self.bearing {
+            Bearing::Plane(plane) => plane.guide_clearance(),
+            Bearing::Space(space) => space.guide_clearance(),
+        }
     }
 
     /// Clearance in m of an element to the pillar before or behind it, if there are pockets.
     pub fn pocket_clearance(&self) -> Option<f64> {
-        self.in_plane().and_then(|plane| plane.pocket_clearance())
+        match &self.bearing {
+            Bearing::Plane(plane) => plane.pocket_clearance(),
+            Bearing::Space(space) => space.pocket_clearance(),
+        }
     }
 
     /// Orders and frequencies in rad/s of the waves of an elastic ring of the cage, free and at rest.
@@ -160,7 +171,10 @@ impl Model {
 
     /// The field of the scene by which the film of the guide can give energy to the cage, if it can.
     pub fn energy_giving_film(&self) -> Option<String> {
-        self.in_plane().and_then(|plane| plane.energy_giving_film())
+        match &self.bearing {
+            Bearing::Plane(plane) => plane.energy_giving_film(),
+            Bearing::Space(space) => space.energy_giving_film(),
+        }
     }
 
     /// What force reports have of every contact.

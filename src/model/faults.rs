@@ -36,6 +36,9 @@ pub(super) fn in_words(fault: Fault, names: &Names<'_>) -> String {
         Fault::OutOfPocket { element, lead } => {
             format!("{kind}[{element}] is out of its pocket (ahead of it by {lead:e} rad)")
         }
+        Fault::AbovePocket { element, distance } => format!(
+            "{kind}[{element}] has left the height of its pocket ({distance:e} m outside of the pitch circle; cage.space.pocket_height)"
+        ),
         Fault::LostRing { distance, reach } => format!(
             "the inner ring has left the bearing (its centre is {distance:e} m off, {kind}s allow {reach:e} m)"
         ),

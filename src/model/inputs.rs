@@ -27,6 +27,12 @@ impl Model {
         self.inputs.at(t, host)
     }
 
+    /// Finds [`Model::inputs_at`] in place.
+    #[inline]
+    pub(crate) fn find_inputs(&self, t: f64, host: &HostInputs, now: &mut InputValues) {
+        self.inputs.find(t, host, now);
+    }
+
     /// Rates of the inputs at time `t` in s, per second; of `orbit_travel` too. At a jump or kink they are those after it.
     #[doc(hidden)]
     pub fn input_rates_at(&self, t: f64, host: &HostInputs) -> InputValues {
@@ -46,9 +52,10 @@ impl Model {
     pub fn check_input(&self, input: Input, value: f64) -> Result<()> {
         let allowed = match input {
             Input::RingSpeed | Input::OuterRingSpeed | Input::OrbitSpeed | Input::SpinSpeed => SPEED,
-            Input::LoadX | Input::LoadY | Input::LoadZ | Input::CageForceY | Input::CageForceZ => FORCE,
+            Input::LoadX | Input::LoadY | Input::LoadZ => FORCE,
+            Input::CageForceX | Input::CageForceY | Input::CageForceZ => FORCE,
             Input::CageTorque => TORQUE,
-            Input::MomentY | Input::MomentZ => MOMENT,
+            Input::MomentY | Input::MomentZ | Input::CageMomentY | Input::CageMomentZ => MOMENT,
             Input::Temperature => TEMPERATURE,
         };
         allowed.check("value", value).map_err(|e| Error::new(Status::BadValue, e.message))?;
@@ -112,6 +119,12 @@ pub(super) fn inputs(scene: &Scene) -> Result<InputSignals> {
         add(Input::CageForceY, &load.force_y);
         add(Input::CageForceZ, &load.force_z);
         add(Input::CageTorque, &load.torque);
+    }
+    let space = scene.cage.as_ref().and_then(|cage| cage.space.as_ref());
+    if let Some(load) = space.and_then(|space| space.load.as_ref()) {
+        add(Input::CageForceX, &load.force_x);
+        add(Input::CageMomentY, &load.moment_y);
+        add(Input::CageMomentZ, &load.moment_z);
     }
     let mut orbit = None;
     if let Some(elements) = &scene.kinematic_elements {

@@ -86,8 +86,10 @@ pub(crate) struct InputSignals {
     pub(super) beside: Beside,
     /// Oil whose viscosity follows the temperature.
     pub(super) oil: Option<Oil>,
-    /// Values of the list, where none of them follows time.
-    pub(super) constant: Option<InputValues>,
+    /// Values of the list at the start.
+    pub(super) start: InputValues,
+    /// Whether these do not follow time.
+    pub(super) steady: bool,
 }
 
 impl InputSignals {
@@ -97,22 +99,18 @@ impl InputSignals {
             InputSource::Time(signal) => matches!(signal, Signal::Constant(_)),
             InputSource::RingSpeed(..) => true,
         };
-        let constant = list.iter().all(steady);
-        let mut signals = Self { list, beside, oil, constant: None };
-        signals.constant = constant.then(|| signals.listed_at(0.0, &HostInputs::default()));
+        let steady = list.iter().all(steady);
+        let mut signals = Self { list, beside, oil, start: InputValues::default(), steady };
+        let mut start = InputValues::default();
+        signals.follow(0.0, &HostInputs::default(), &mut start);
+        signals.start = start;
         signals
     }
 
-    /// Values of the list at time `t` in s.
-    #[inline]
-    fn listed_at(&self, t: f64, host: &HostInputs) -> InputValues {
-        if let Some(constant) = self.constant.filter(|_| !host.sets_any()) {
-            return constant;
-        }
-        let mut now = InputValues::default();
+    /// Finds the values of the list one by one.
+    fn follow(&self, t: f64, host: &HostInputs, now: &mut InputValues) {
         for (input, source) in &self.list {
-            let i = *input as usize;
-            now.values[i] = match (host.of(*input), source) {
+            now.values[*input as usize] = match (host.of(*input), source) {
                 (Some(value), _) => value,
                 (None, InputSource::Time(signal)) => signal.at(t),
                 (None, InputSource::RingSpeed(speed, value)) => {
@@ -120,17 +118,27 @@ impl InputSignals {
                 }
             };
         }
-        now
     }
 
     /// All values at time `t` in s.
     #[inline]
     pub(crate) fn at(&self, t: f64, host: &HostInputs) -> InputValues {
-        let mut now = self.listed_at(t, host);
+        let mut now = InputValues::default();
+        self.find(t, host, &mut now);
+        now
+    }
+
+    /// Finds [`InputSignals::at`] in place: every evaluation of forces asks.
+    #[inline]
+    pub(super) fn find(&self, t: f64, host: &HostInputs, now: &mut InputValues) {
+        *now = self.start;
+        if !self.steady || host.sets_any() {
+            self.follow(t, host, now);
+        }
         match &self.beside {
             Beside::Nothing => {}
             Beside::Orbit(orbit) => {
-                orbit.follow(&mut now);
+                orbit.follow(now);
                 now.angles[0] = orbit.travel(t, host);
             }
             Beside::Space(space) => {
@@ -138,7 +146,6 @@ impl InputSignals {
                 now.time = t;
             }
         }
-        now
     }
 
     /// Rates of what [`InputSignals::at`] gives, per second.
@@ -161,7 +168,7 @@ impl InputSignals {
                 rates.angles[0] = self.at(t, host).of(Input::OrbitSpeed);
             }
             Beside::Space(_) => {
-                let now = self.listed_at(t, host);
+                let now = self.at(t, host);
                 rates.angles = [Input::OuterRingSpeed, Input::RingSpeed].map(|input| now.of(input));
             }
         }
@@ -171,7 +178,7 @@ impl InputSignals {
     /// The first jump or kink after `t`, s.
     pub(super) fn next_event(&self, t: f64, host: &HostInputs) -> f64 {
         let first = self.of_ring(|signal| signal.next_event(t));
-        if self.constant.is_some() {
+        if self.steady {
             return first;
         }
         let followed = self.list.iter().filter(|(input, _)| host.of(*input).is_none());
@@ -206,7 +213,7 @@ impl InputSignals {
     /// Shortest period of the sines that are followed, s; infinity without any.
     pub(super) fn shortest_period(&self, host: &HostInputs) -> f64 {
         let shortest = self.of_ring(Signal::period);
-        if self.constant.is_some() {
+        if self.steady {
             return shortest;
         }
         let followed = self.list.iter().filter(|(input, _)| host.of(*input).is_none());

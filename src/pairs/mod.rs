@@ -14,6 +14,7 @@
 //! file with the trait `ElementPair` and a line in `element_pairs`, or with `SharedPair` and a line in `shared_pairs`; and the
 //! names that it is counted and reported by, in `Law`, `ForceSource` and `Power`.
 
+pub(crate) mod ball_pocket;
 mod contacts;
 pub(crate) mod grip;
 pub(crate) mod groove;

@@ -1,6 +1,6 @@
 //! The cage of a scene, with its pockets and its guide.
 
-use super::{ContactLaws, ElasticRing, PlaneVector, Signal};
+use super::{ContactLaws, ElasticRing, PlaneVector, RoundPocket, Signal, SpatialCage};
 use serde::{Deserialize, Serialize};
 
 /// The cage.
@@ -33,6 +33,9 @@ pub struct Cage {
     /// Guidance by a ring. Absent: the cage is carried by the rolling elements alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub guide: Option<Guide>,
+    /// Motion in space. Needed beside `balls`; beside `kinematic_elements` it gives the cage three more coordinates.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub space: Option<Box<SpatialCage>>,
 }
 
 /// External force and torque on the cage over time; the host can take each of them over.
@@ -62,8 +65,28 @@ impl Default for CageLoad {
 pub enum Pocket {
     /// Cylindrical walls with edges and lubricated line contacts.
     LubricatedCylinder(CylinderPocket),
-    /// Plane walls across the circumference with solid contacts.
+    /// Plane walls across the circumference with solid contacts; in space along the axis, too.
     SolidPlane(PlanePocket),
+    /// In space: round walls about the outward axis with solid contacts. They do not hold the cage outwards.
+    SolidCylinder(RoundPocket),
+    /// In space: walls like a sphere with solid contacts.
+    SolidSphere(RoundPocket),
+}
+
+impl Pocket {
+    /// Clearance of an element that is centred along the orbit, m.
+    pub fn clearance(&self) -> f64 {
+        match self {
+            Self::LubricatedCylinder(pocket) => pocket.radial_clearance,
+            Self::SolidPlane(pocket) => 0.5 * pocket.diametral_clearance,
+            Self::SolidCylinder(pocket) | Self::SolidSphere(pocket) => 0.5 * pocket.diametral_clearance,
+        }
+    }
+
+    /// Whether only cages in space have it.
+    pub(crate) fn is_in_space(&self) -> bool {
+        matches!(self, Self::SolidCylinder(_) | Self::SolidSphere(_))
+    }
 }
 
 /// Cylindrical pockets.
@@ -96,6 +119,10 @@ pub struct PlanePocket {
     /// Circumferential clearance c_p between both walls (diametral), m.
     #[cfg_attr(feature = "schema", schemars(range(min = 1e-07, max = 0.01)))]
     pub diametral_clearance: f64,
+    /// In space: the same of walls along the axis. Absent: there are none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-07, max = 0.01)))]
+    pub axial_clearance: Option<f64>,
     /// Contact between element and wall.
     pub contact: SolidContact,
 }

@@ -19,6 +19,7 @@ pub(crate) mod problems;
 mod rings;
 mod run;
 mod signal;
+mod spatial_cage;
 mod validate;
 
 pub use balls::{BallDrag, Balls, Preload, RingCoordinate, RotorInertia, SpatialLoad, SpatialRing};
@@ -50,6 +51,9 @@ pub use lubricant::{Lubricant, Temperature, Viscosity, ViscosityPoint, WaltherVi
 pub use rings::{FreeRing, InnerRing, Load, OuterRing, RingMotion, WavinessHarmonic};
 pub use run::{Auto, ErrorControl, Initial, Leapfrog, Method, Preset, Record, RingStart, Solver};
 pub use signal::{Signal, SignalIntegral, interpolate, slope};
+pub use spatial_cage::{
+    CageShape, HertzPocket, Land, PocketLaw, RoundPocket, SpatialCage, SpatialCageLoad, SpatialCageStart,
+};
 pub(crate) use validate::{FORCE, MOMENT, SPEED, TEMPERATURE, TORQUE, VISCOSITY};
 
 use crate::error::{Error, Result, Status};

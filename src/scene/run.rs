@@ -1,6 +1,6 @@
 //! Start, integration and records of a scene.
 
-use super::PlaneVector;
+use super::{PlaneVector, SpatialCageStart};
 use serde::{Deserialize, Serialize};
 
 /// Start of the run. Rolling elements start at kinematic speeds in the centres of their pockets.
@@ -26,6 +26,9 @@ pub struct Initial {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = -100000.0, max = 100000.0)))]
     pub cage_speed: Option<f64>,
+    /// The rest of the start of a cage in space. Absent: upright, in the middle, at rest in these coordinates.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cage_space: Option<SpatialCageStart>,
 }
 
 /// Start of the inner ring and the radial position of the rollers.

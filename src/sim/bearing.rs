@@ -187,10 +187,10 @@ impl Bearing {
     /// Accelerations of a state vector; not counted as an evaluation of the integration.
     pub(super) fn accelerations_at(&mut self, t: f64, state: &[f64], a: &mut [f64]) -> Result<(), Fault> {
         let (q, v) = state.split_at(self.model.layout().positions());
-        let inputs = self.model.inputs_at(t, &self.host);
         of_moving!(self, bearing, workspace => {
             workspace.set_counting(false);
-            let result = bearing.accelerations(&inputs, q, v, workspace, a);
+            self.model.find_inputs(t, &self.host, workspace.inputs_mut());
+            let result = bearing.evaluate(q, v, workspace, a);
             workspace.set_counting(true);
             result
         })
@@ -344,8 +344,10 @@ impl System for Bearing {
 
     fn accelerations(&mut self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> Result<(), Fault> {
         self.evaluations += 1;
-        let inputs = self.model.inputs_at(t, &self.host);
-        of_moving!(self, bearing, workspace => bearing.accelerations(&inputs, q, v, workspace, a))
+        of_moving!(self, bearing, workspace => {
+            self.model.find_inputs(t, &self.host, workspace.inputs_mut());
+            bearing.evaluate(q, v, workspace, a)
+        })
     }
 
     fn not_finite(&self, velocity: usize) -> Fault {
@@ -359,7 +361,7 @@ impl System for Bearing {
     fn longest_step(&self, t: f64, q: &[f64], v: &[f64], wanted: f64) -> f64 {
         match &self.moving {
             Moving::Plane(plane, _) => plane.longest_step(t, [q, v], &self.host, wanted, &self.tuning),
-            Moving::Space(space, _) => space.longest_step(&self.host, &self.tuning),
+            Moving::Space(space, _) => space.longest_step(t, [q, v], &self.host, &self.tuning),
         }
     }
 

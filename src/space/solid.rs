@@ -65,8 +65,8 @@ pub struct Tilt<T> {
     pub angles: [T; 2],
     /// u.
     pub axis: Vector<T>,
-    /// A1 and A2.
-    coefficients: [T; 2],
+    /// A1, A2 and s.
+    coefficients: [T; 3],
 }
 
 /// Turning of the frame of a body that does not spin, in its own axes, rad/s.
@@ -78,6 +78,8 @@ pub struct Across<T> {
     pub drift: [T; 2],
     /// W_1, about it.
     pub own: T,
+    /// Its rate at constant rates of the angles, rad/s^2.
+    pub own_drift: T,
 }
 
 /// 1 - x/m_1 (1 - x/m_2 (1 - ...)) over these divisors.
@@ -100,13 +102,13 @@ impl<T: Numeric> Tilt<T> {
         let first = series(x, [12.0, 30.0, 56.0, 90.0, 132.0, 182.0, 240.0]) * 0.5;
         let second = series(x, [20.0, 42.0, 72.0, 110.0, 156.0, 210.0, 272.0]) * (1.0 / 6.0);
         let axis = [-(first * x) + 1.0, sine * b, -(sine * a)];
-        Self { angles, axis, coefficients: [first, second] }
+        Self { angles, axis, coefficients: [first, second, sine] }
     }
 
     /// Angular velocity of a body whose angles change at these rates (rad/s) and which does not turn in its own frame, rad/s.
     #[inline(always)]
     pub fn angular_velocity(&self, [da, db]: [T; 2]) -> Vector<T> {
-        let ([a, b], [first, second]) = (self.angles, self.coefficients);
+        let ([a, b], [first, second, _]) = (self.angles, self.coefficients);
         // T x T' = (a b' - b a', 0, 0).
         let turn = a * db - b * da;
         [first * turn, da + second * b * turn, db - second * a * turn]
@@ -116,22 +118,54 @@ impl<T: Numeric> Tilt<T> {
     /// the angles: that and its rate at constant rates of the angles; and the angular velocity of this frame about the own axis, rad/s.
     #[inline(always)]
     pub fn across(&self, [da, db]: [T; 2]) -> Across<T> {
-        let ([a, b], [first, second]) = (self.angles, self.coefficients);
+        let ([a, b], [first, second, _]) = (self.angles, self.coefficients);
         let turn = a * db - b * da;
         let x = a * a + b * b;
         let slope = series(x, [21.0, 48.0, 82.5, 124.8, 175.0]) * (-1.0 / 120.0);
-        let rate = slope * (a * da + b * db) * 2.0;
+        let changing = (a * da + b * db) * 2.0;
+        let rate = slope * changing;
+        let first_slope = series(x, [15.0, 112.0 / 3.0, 67.5, 105.6, 455.0 / 3.0]) * (-1.0 / 24.0);
         Across {
             speed: [da + second * b * turn, db - second * a * turn],
             drift: [(rate * b + second * db) * turn, -(rate * a + second * da) * turn],
             own: -(first * turn),
+            own_drift: -(first_slope * changing * turn),
         }
+    }
+
+    /// Rate of W_1 by second rates of the angles (rad/s^2) alone, rad/s^2.
+    #[inline(always)]
+    pub fn own_rate(&self, [dda, ddb]: [T; 2]) -> T {
+        let ([a, b], [first, _, _]) = (self.angles, self.coefficients);
+        -(first * (a * ddb - b * dda))
+    }
+
+    /// What turning a vector with the body adds to it.
+    #[inline(always)]
+    pub fn moved_by(&self, v: Vector<T>) -> Vector<T> {
+        let ([a, b], [first, _, sine]) = (self.angles, self.coefficients);
+        let by = |[x, y, z]: Vector<T>| [a * z - b * y, b * x, -(a * x)];
+        let once = by(v);
+        sum(scaled(once, sine), scaled(by(once), first))
+    }
+
+    /// A vector of the frame of the body that does not spin, in outer axes.
+    #[inline(always)]
+    pub fn turned(&self, v: Vector<T>) -> Vector<T> {
+        sum(v, self.moved_by(v))
+    }
+
+    /// A vector in outer axes, in those of the frame of the body that does not spin.
+    #[inline(always)]
+    pub fn turned_back(&self, v: Vector<T>) -> Vector<T> {
+        let [a, b] = self.angles;
+        Self { angles: [-a, -b], ..*self }.turned(v)
     }
 
     /// Derivatives of [`Tilt::across`] over the rates of the angles: by row those of one component.
     #[inline(always)]
     pub fn over_rates(&self) -> [[T; 2]; 2] {
-        let ([a, b], [_, second]) = (self.angles, self.coefficients);
+        let ([a, b], [_, second, _]) = (self.angles, self.coefficients);
         let mixed = second * a * b;
         [[-(second * b * b) + 1.0, mixed], [mixed, -(second * a * a) + 1.0]]
     }
@@ -139,7 +173,7 @@ impl<T: Numeric> Tilt<T> {
     /// Components of a vector along the two axes across the own one of the frame of the body that does not spin.
     #[inline(always)]
     pub fn crosswise(&self, v: Vector<T>) -> [T; 2] {
-        let ([a, b], [first, _]) = (self.angles, self.coefficients);
+        let ([a, b], [first, _, _]) = (self.angles, self.coefficients);
         let [_, sb, sa] = self.axis;
         let mixed = first * a * b;
         let [second, third] = [[-sb, -(first * b * b) + 1.0, mixed], [-sa, mixed, -(first * a * a) + 1.0]];
@@ -150,7 +184,7 @@ impl<T: Numeric> Tilt<T> {
     /// moment.
     #[inline(always)]
     pub fn moments_over_angles(&self, [mx, my, mz]: Vector<T>) -> [T; 2] {
-        let ([a, b], [first, second]) = (self.angles, self.coefficients);
+        let ([a, b], [first, second, _]) = (self.angles, self.coefficients);
         let turned = first * mx + second * (b * my - a * mz);
         [my - b * turned, mz + a * turned]
     }
@@ -207,6 +241,30 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn vectors_turn_with_the_body() {
+        for [a, b] in [[1e-3, -2e-3], [0.18, 0.24], [-0.29, 0.05]] {
+            let (tilt, m, v) = (Tilt::new([a, b]), matrix(a, b), [0.7, -0.4, 0.3]);
+            let turned = tilt.turned(v);
+            for (i, row) in m.iter().enumerate() {
+                assert!((turned[i] - dot(*row, v)).abs() < 3e-16, "{turned:?}");
+            }
+            let back = tilt.turned_back(turned);
+            assert!(back.iter().zip(v).all(|(x, y)| (x - y).abs() < 3e-16), "{back:?}");
+            assert!((tilt.crosswise(turned)[0] - v[1]).abs() < 3e-16);
+        }
+    }
+
+    #[test]
+    fn the_frame_turns_about_its_axis_at_the_rate_told() {
+        let ([a, b], [da, db], [dda, ddb]) = ([0.2, -0.15], [0.7, 1.3], [-3.0, 2.0]);
+        let along = |x: f64, dx: f64| Dual::<1> { re: x, eps: [dx] };
+        let moving = Tilt::new([along(a, da), along(b, db)]).across([along(da, dda), along(db, ddb)]);
+        let tilt = Tilt::new([a, b]);
+        let told = tilt.across([da, db]).own_drift + tilt.own_rate([dda, ddb]);
+        assert!((moving.own.eps[0] - told).abs() < 1e-15, "{moving:?} {told}");
     }
 
     #[test]

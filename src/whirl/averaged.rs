@@ -147,11 +147,7 @@ impl Averaged {
             _ => None,
         };
         let orders = cage.elastic_ring.as_ref().map_or(Vec::new(), |ring| (2..=ring.modes).collect());
-        let play = match &cage.pocket {
-            Some(Pocket::SolidPlane(pocket)) => 0.5 * pocket.diametral_clearance,
-            Some(Pocket::LubricatedCylinder(pocket)) => pocket.radial_clearance,
-            None => f64::INFINITY,
-        };
+        let play = cage.pocket.as_ref().map_or(f64::INFINITY, Pocket::clearance);
         let growth = cage.elastic_ring.as_ref().map_or(0.0, |ring| ring.growth);
         let model = Model::new(scene)?;
         let inputs = model.inputs_at(0.0, &HostInputs::default());

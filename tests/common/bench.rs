@@ -26,7 +26,7 @@ impl Bearing {
         let sim = Sim::new(Arc::new(Model::new(checked.clone()).unwrap())).unwrap_or_else(|e| panic!("{e}"));
         let pocket = checked.cage.as_ref().and_then(|c| match c.pocket.as_ref()? {
             Pocket::LubricatedCylinder(pocket) => Some([pocket.radial_clearance, pocket.half_angle]),
-            Pocket::SolidPlane(_) => None,
+            _ => None,
         });
         Self {
             pitch: sim.model().pitch_radius(),

@@ -11,12 +11,14 @@ use std::sync::Arc;
 const SCENE_PAGE: &str = "docs/scene.md and the pages in docs/scene";
 
 /// Types that `docs/scene.md` describes once, under these names.
-const SHARED: [(&str, &str); 5] = [
+const SHARED: [(&str, &str); 7] = [
     ("Signal", "<signal>"),
     ("PlaneVector", "<vector>"),
     ("ContactLaws", "<contact>"),
     ("SolidContact", "<solid>"),
     ("Friction", "<friction>"),
+    ("Guide", "<guide>"),
+    ("RoundPocket", "<round_pocket>"),
 ];
 
 /// The page on scenes with those that it leads to.

@@ -1,14 +1,22 @@
 //! What no motion may change, and the balance of forces and powers at any state.
 
-use crate::{ANGULAR, DEEP, driven, everything, free_ring, model, states};
+use crate::{ANGULAR, DEEP, cages, driven, everything, free_ring, model, states};
 use cagedyn::{Model, Sim};
 use serde_json::{Value, json};
+use std::sync::Arc;
 
 /// Forces and moments of both rings and all balls on each other cancel.
 #[test]
 fn forces_and_moments_cancel() {
-    let model = everything();
+    cancel(&everything(), 1e3);
+    for model in cages() {
+        cancel(&model, 10.0);
+    }
+}
+
+fn cancel(model: &Arc<Model>, largest: f64) {
     let mut sim = Sim::new(model.clone()).unwrap();
+    let mut acts = [false; 4];
     for state in states(&sim, 20, 1.0, 7) {
         let forces = sim.forces_at(0.0, &state).unwrap().space.clone();
         let names = model.state_infos();
@@ -18,15 +26,17 @@ fn forces_and_moments_cancel() {
         for (body, name) in forces.bodies.iter().zip(model.body_names()) {
             let centre = match name.as_str() {
                 "outer_ring" => [0.0; 3],
-                "inner_ring" => ["x", "y", "z"].map(|c| at(&format!("inner_ring.{c}"))),
+                ring @ ("inner_ring" | "cage") => ["x", "y", "z"].map(|c| at(&format!("{ring}.{c}"))),
                 ball => {
                     let j: f64 = ball[5..ball.len() - 1].parse().unwrap();
-                    let psi = j * std::f64::consts::TAU / 16.0 + at(&format!("{ball}.orbit_travel"));
+                    let psi = j * std::f64::consts::TAU / model.element_count() as f64
+                        + at(&format!("{ball}.orbit_travel"));
                     let r = model.pitch_radius() + at(&format!("{ball}.radial_offset"));
                     [at(&format!("{ball}.axial_offset")), r * psi.cos(), r * psi.sin()]
                 }
             };
-            for [fx, fy, fz, mx, my, mz] in &body[..2] {
+            for (source, [fx, fy, fz, mx, my, mz]) in body[..4].iter().enumerate() {
+                acts[source] |= *fy != 0.0;
                 let [x, y, z] = centre;
                 let about = [mx + y * fz - z * fy, my + z * fx - x * fz, mz + x * fy - y * fx];
                 for (sum, part) in sum.iter_mut().zip([*fx, *fy, *fz].into_iter().chain(about)) {
@@ -35,17 +45,19 @@ fn forces_and_moments_cancel() {
                 size = size.max(fx.abs()).max(fy.abs()).max(fz.abs());
             }
         }
-        assert!(size > 1e3);
+        assert!(size > largest);
         for part in sum {
             assert!(part.abs() < 1e-11 * size, "{sum:?} of {size}");
         }
     }
+    let caged = model.body_names().contains(&"cage".to_owned());
+    assert_eq!(acts, [true, true, caged, caged]);
 }
 
 /// The powers are the rate of the energy.
 #[test]
 fn powers_are_the_rate_of_the_energy() {
-    for model in [everything(), driven()] {
+    for model in [everything(), driven()].into_iter().chain(cages()) {
         let mut sim = Sim::new(model.clone()).unwrap();
         for (k, state) in states(&sim, 5, 0.5, 9).into_iter().enumerate() {
             let (t, n) = (1e-4 + 3e-4 * k as f64, state.len());

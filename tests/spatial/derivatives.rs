@@ -1,6 +1,6 @@
 //! Exact derivatives of the accelerations against differences.
 
-use crate::{DEEP, driven, everything, free_ring, model, states};
+use crate::{DEEP, cages, driven, everything, free_ring, model, states};
 use cagedyn::{Model, Sim};
 use serde_json::json;
 use std::sync::Arc;
@@ -22,7 +22,7 @@ fn error(model: &Arc<Model>, spread: f64) -> f64 {
             rate
         };
         for k in 0..n {
-            let h = 2e-4 * scales[k];
+            let h = 5e-5 * scales[k];
             let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|s| rate_at(k, s * h));
             for i in 0..n {
                 let difference = (a[i] - d[i] + 8.0 * (c[i] - b[i])) / (12.0 * h);
@@ -49,10 +49,18 @@ fn derivatives_are_those_of_the_accelerations() {
     }
 }
 
+#[test]
+fn derivatives_with_a_cage() {
+    for model in cages() {
+        let off = error(&model, 0.1);
+        assert!(off < 1e-6, "{off}");
+    }
+}
+
 /// With waves that turn, and a ring that is moved.
 #[test]
 fn rates_at_a_state_that_stands_still() {
-    for model in [everything(), driven()] {
+    for model in [everything(), driven()].into_iter().chain(cages()) {
         let mut sim = Sim::new(model.clone()).unwrap();
         let scales = model.state_scales();
         for state in states(&sim, 3, 0.3, 6) {

@@ -1,8 +1,9 @@
-//! Balls that move in space over time: conservation, balances of forces and powers, derivatives, published motions.
+//! Balls that move in space over time: conservation, balances of forces and powers, derivatives, published motions; with a cage among them.
 
 #[path = "../common/mod.rs"]
 mod common;
 
+mod cage;
 mod conservation;
 mod derivatives;
 mod raceways;
@@ -16,6 +17,7 @@ use serde_json::{Value, json};
 use std::sync::Arc;
 
 const ANGULAR: &str = "scenes/angular_contact_218.json";
+const CAGED: &str = "scenes/angular_contact_70_cage.json";
 const DEEP: &str = "scenes/deep_groove_6206.json";
 
 /// A scene with changes.
@@ -71,6 +73,61 @@ fn with_everything(changes: &[(&str, Value)]) -> Arc<Model> {
         ("initial", json!({"inner_ring": "equilibrium"})),
     ];
     model(ANGULAR, &[&all[..], changes].concat())
+}
+
+/// The bearing of the series 70 with a cage that touches everything: an unbalanced one, tilted, pressed to lands on both rings, in
+/// these pockets.
+fn caged(pocket: Value) -> Arc<Model> {
+    let constant = |value: f64| json!({"constant": value});
+    let solid = json!({"contact": {
+        "stiffness": 1e6, "damping": 44.4, "softening_depth": 1e-6, "friction": {"coefficient": 0.1, "transition_speed": 0.01},
+    }});
+    let land = |ring: &str, x: f64, radius: f64, film: Value| {
+        json!({"x": x, "width": 3e-3, "guide": {
+            "ring": ring, "guide_radius": radius, "diametral_clearance": 1e-4, "film": film, "solid": solid,
+            "film_share": {"roughness": 1e-6},
+        }})
+    };
+    let layer =
+        json!({"lubricant_layer": {"land_width": 3e-3, "thickness": 4e-5, "pressure_shear": "with_edges"}});
+    let bearing = json!({"short_bearing": {"land_width": 3e-3}});
+    let space = json!({
+        "transverse_inertia": 1.285e-5,
+        "mass_offset_x": 1e-4,
+        "lands": [land("outer_ring", -6e-3, 46.875e-3, layer), land("inner_ring", 5e-3, 42e-3, bearing)],
+        "load": {"force_x": constant(0.3), "moment_y": {"sine": {"mean": 0.0, "amplitude": 1e-3, "frequency": 200.0, "phase": 0.0}}, "moment_z": constant(-2e-3)},
+    });
+    model(
+        CAGED,
+        &[
+            ("inner_ring.motion", free_ring([687.0, 100.0, -200.0, 2.0, -1.0])),
+            ("inner_ring.motion.space.support_damping", json!(3000.0)),
+            ("outer_ring.speed", json!({"constant": -40.0})),
+            ("balls.radius_deviations", json!({"groups": [{"balls": [0, 4], "deviation": 1e-6}]})),
+            ("cage.pocket", pocket),
+            ("cage.guide", Value::Null),
+            ("cage.space", space),
+            ("cage.material", json!("phenolic")),
+            ("materials.phenolic", json!({"young_modulus": 7e9, "poisson_ratio": 0.35})),
+            ("cage.mass_eccentricity", json!({"y": 5e-5, "z": -3e-5})),
+            ("cage.load", json!({"force_z": constant(0.2), "torque": constant(-1e-3)})),
+            ("initial.cage", json!({"y": 4e-5, "z": 3e-5})),
+            ("initial.cage_space", json!({"x": 3e-5, "tilt_y": 2e-3, "tilt_z": -1e-3, "tilt_speed_z": 1.0})),
+        ],
+    )
+}
+
+/// Cages in all shapes of pockets, narrow ones.
+fn cages() -> [Arc<Model>; 3] {
+    let friction = json!({"coefficient": 0.1, "transition_speed": 0.01});
+    let spring = json!({"stiffness": 1e6, "damping": 44.4, "softening_depth": 1e-6, "friction": friction});
+    let hertz = json!({"hertz": {"damping": {"relaxation_time": 1e-6, "softening_depth": 1e-7}, "friction": friction}});
+    [
+        json!({"solid_cylinder": {"diametral_clearance": 4e-5, "axial_clearance": 9e-5, "law": {"spring": spring}}}),
+        json!({"solid_sphere": {"diametral_clearance": 2e-4, "law": hertz}}),
+        json!({"solid_plane": {"diametral_clearance": 4e-5, "axial_clearance": 5e-5, "contact": spring}}),
+    ]
+    .map(caged)
 }
 
 /// States near the start: positions and velocities off by so many of their scales.

@@ -2,8 +2,8 @@
 
 use cagedyn::Scene;
 use cagedyn::scene::{
-    ContactLaws, Extent, FilmLaw, Guide, GuideFilm, GuideRing, Pocket, PressureShear, RingMotion,
-    RollerProfile, SolidContact, Viscosity,
+    ContactLaws, Extent, FilmLaw, Guide, GuideFilm, GuideRing, Pocket, PocketLaw, PressureShear, RingMotion,
+    RollerProfile, RoundPocket, SolidContact, Viscosity,
 };
 
 /// An optional block of a scene.
@@ -142,7 +142,9 @@ fn cage(scene: &Scene, list: &mut List) {
         list.add("cage", None);
         return;
     };
-    list.add("cage", Some(format!("6 states: cage of {} kg moves and turns in the plane", cage.mass)));
+    let [states, space] = if cage.space.is_some() { [12, 1] } else { [6, 0] };
+    let moves = ["the plane", "space, and tilts"][space];
+    list.add("cage", Some(format!("{states} states: cage of {} kg moves and turns in {moves}", cage.mass)));
     let offset = cage.mass_eccentricity.map(|u| format!("inertia: centre of mass ({}, {}) m off", u.y, u.z));
     list.add("cage.mass_eccentricity", offset);
     let ring = cage.elastic_ring.as_ref();
@@ -152,7 +154,10 @@ fn cage(scene: &Scene, list: &mut List) {
     list.add("cage.elastic_ring", ring.map(|ring| states(ring.modes)));
     list.flag("cage.load", cage.load.is_some(), "inputs: external force and torque on the cage");
     pocket(cage.pocket.as_ref(), list);
-    guide(cage.guide.as_ref(), list);
+    guide(cage.guide.as_ref(), "cage.guide", list);
+    for (k, land) in cage.space.iter().flat_map(|space| &space.lands).enumerate() {
+        guide(Some(&land.guide), &format!("cage.space.lands[{k}].guide"), list);
+    }
 }
 
 fn lubricant(scene: &Scene, list: &mut List) {
@@ -188,6 +193,24 @@ fn pocket(pocket: Option<&Pocket>, list: &mut List) {
             list.add(path, Some(text));
             solid(&pocket.contact, &format!("{path}.contact"), list);
         }
+        Some(Pocket::SolidCylinder(pocket)) => round_pocket(pocket, "solid_cylinder", list),
+        Some(Pocket::SolidSphere(pocket)) => round_pocket(pocket, "solid_sphere", list),
+    }
+}
+
+fn round_pocket(pocket: &RoundPocket, shape: &str, list: &mut List) {
+    let path = format!("cage.pocket.{shape}");
+    let clearance = 1e3 * pocket.diametral_clearance;
+    list.add(path.clone(), Some(format!("1 solid contact per element; clearance {clearance} mm")));
+    match &pocket.law {
+        PocketLaw::Spring(contact) => solid(contact, &format!("{path}.law.spring"), list),
+        PocketLaw::Hertz(law) => {
+            let damping = law.damping.as_ref().map(|_| "law: contact damping".to_owned());
+            list.add(format!("{path}.law.hertz.damping"), damping);
+            let text = |mu: f64| format!("law: solid friction, coefficient {mu}");
+            let friction = law.friction.as_ref().map(|f| text(f.coefficient));
+            list.add(format!("{path}.law.hertz.friction"), friction);
+        }
     }
 }
 
@@ -200,41 +223,43 @@ fn solid(contact: &SolidContact, path: &str, list: &mut List) {
     list.add(format!("{path}.friction"), friction.map(|f| text(f.coefficient)));
 }
 
-fn guide(guide: Option<&Guide>, list: &mut List) {
+fn guide(guide: Option<&Guide>, path: &str, list: &mut List) {
+    let at = |field: &str| format!("{path}.{field}");
     let Some(guide) = guide else {
-        list.add("cage.guide", None);
+        list.add(path, None);
         return;
     };
+    let lands = if path == "cage.guide" { "two lands" } else { "one land" };
     let ring = match guide.ring {
         GuideRing::OuterRing => "outer ring",
         GuideRing::InnerRing => "inner ring",
     };
     match &guide.film {
-        None => list.add("cage.guide.film", None),
+        None => list.add(at("film"), None),
         Some(GuideFilm::ShortBearing(film)) => {
-            let text = format!("force and moment: oil film of two lands between cage and {ring}");
-            list.add("cage.guide.film.short_bearing", Some(text));
+            let text = format!("force and moment: oil film of {lands} between cage and {ring}");
+            list.add(at("film.short_bearing"), Some(text));
             let text = "law: film squeezed by the motion of the cage";
-            list.flag("cage.guide.film.short_bearing.squeeze", film.squeeze, text);
+            list.flag(at("film.short_bearing.squeeze"), film.squeeze, text);
         }
         Some(GuideFilm::LubricantLayer(film)) => {
             let thickness = 1e6 * film.thickness;
             let text = format!("force and moment: layer of {thickness} um between cage and {ring}");
-            list.add("cage.guide.film.lubricant_layer", Some(text));
+            list.add(at("film.lubricant_layer"), Some(text));
             let present = film.pressure_shear != PressureShear::Absent;
             let text = "law: shear stress of the pressure gradient";
-            list.flag("cage.guide.film.lubricant_layer.pressure_shear", present, text);
+            list.flag(at("film.lubricant_layer.pressure_shear"), present, text);
         }
     }
     match &guide.solid {
-        None => list.add("cage.guide.solid", None),
+        None => list.add(at("solid"), None),
         Some(law) => {
             let text = format!("force and moment: solid contact between cage and {ring}");
-            list.add("cage.guide.solid", Some(text));
-            solid(&law.contact, "cage.guide.solid.contact", list);
+            list.add(at("solid"), Some(text));
+            solid(&law.contact, &at("solid.contact"), list);
         }
     }
     let orders: Vec<String> = guide.roundness.iter().map(|h| h.order.to_string()).collect();
     let roundness = (!orders.is_empty()).then(|| format!("shape: cage with harmonics {}", orders.join(", ")));
-    list.add("cage.guide.roundness", roundness);
+    list.add(at("roundness"), roundness);
 }

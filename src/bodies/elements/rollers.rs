@@ -28,11 +28,7 @@ fn play(scene: &Scene) -> Option<f64> {
     let spacing = TAU / f64::from(rollers.count);
     let radius = scene.pitch_radius();
     let play = spacing - 2.0 * math::asin((rollers.radius + scene.largest_deviation()) / radius);
-    let pocket = match scene.cage.as_ref().and_then(|cage| cage.pocket.as_ref()) {
-        Some(Pocket::LubricatedCylinder(pocket)) => Some(pocket.radial_clearance),
-        Some(Pocket::SolidPlane(pocket)) => Some(0.5 * pocket.diametral_clearance),
-        None => None,
-    };
+    let pocket = scene.cage.as_ref().and_then(|cage| cage.pocket.as_ref()).map(Pocket::clearance);
     let held = pocket.is_some_and(|clearance| HELD * 2.0 * clearance < play * radius);
     (!held).then_some(play.max(0.0))
 }

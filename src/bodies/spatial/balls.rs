@@ -58,10 +58,9 @@ const COORDINATES: [Coordinate; OF_BALL] = [
 ];
 
 impl Balls {
-    /// Those of a scene, if it has any.
-    pub(crate) fn new(scene: &Scene) -> Option<Self> {
-        let balls = scene.balls.as_ref()?;
-        Some(Self { set: ElementSet::new(scene), mass: balls.mass })
+    /// Those of a scene, or its elements of prescribed motion, which have no mass.
+    pub(crate) fn new(scene: &Scene) -> Self {
+        Self { set: ElementSet::new(scene), mass: scene.balls.as_ref().map_or(0.0, |balls| balls.mass) }
     }
 
     /// Its coordinates.

@@ -10,33 +10,15 @@
 //! angles; moments of the supports act over the rates of the angles. What turns the ring is no state: its energy is not counted, and it
 //! takes the moment M_1. Source: Euler's equations; a, b as in `space/solid`.
 
-use super::OF_RING;
-use crate::bodies::{BodyEnergy, CENTRE, Coordinate, Input, InputValues, Moves};
+use super::{ALONG, OF_RING, TILTS};
+use crate::bodies::{BodyEnergy, CENTRE, Coordinate, Input, InputValues};
 use crate::error::Result;
 use crate::scalar::Numeric;
 use crate::scene::{Preload, RingCoordinate, RingMotion, Scene, Signal, SpatialRing, bad_scene};
 use crate::space::solid::{Moving, Tilt, Vector, scaled, sum};
 
 /// Coordinates of a ring in space.
-pub(crate) const RING_COORDINATES: [Coordinate; OF_RING] = [
-    Coordinate {
-        position: Some(["x", "m", "centre position along the axis of the bearing"]),
-        rate: ["vx", "m/s", "velocity of the centre along the axis of the bearing"],
-        moves: Moves::Itself,
-    },
-    CENTRE[0],
-    CENTRE[1],
-    Coordinate {
-        position: Some(["tilt_y", "rad", "rotation vector of the axis, to the right"]),
-        rate: ["tilt_speed_y", "rad/s", "rate of tilt_y"],
-        moves: Moves::PitchCircle,
-    },
-    Coordinate {
-        position: Some(["tilt_z", "rad", "rotation vector of the axis, upwards"]),
-        rate: ["tilt_speed_z", "rad/s", "rate of tilt_z"],
-        moves: Moves::PitchCircle,
-    },
-];
+pub(crate) const RING_COORDINATES: [Coordinate; OF_RING] = [ALONG, CENTRE[0], CENTRE[1], TILTS[0], TILTS[1]];
 
 /// Inputs that are its load, by coordinate.
 const LOADS: [Input; OF_RING] = [Input::LoadX, Input::LoadY, Input::LoadZ, Input::MomentY, Input::MomentZ];

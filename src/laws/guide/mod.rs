@@ -192,10 +192,7 @@ impl GuideLaw {
     /// [`NoFilm`] for a film without solid contact that is gone.
     #[inline]
     pub fn force<T: Real>(&self, m: &JournalMotion<T>, fluid: Fluid) -> Result<GuideForce<T>, NoFilm> {
-        let [y, z] = m.position;
-        let r2 = y * y + z * z;
-        // A centred journal has no direction; its solid contact is open and its film finds its own.
-        let e = if r2.value() > 0.0 { r2.sqrt() } else { T::constant(0.0) };
+        let e = distance(m);
         let gap = -e + self.free_clearance;
         match (&self.film, &self.solid) {
             (Some(film), None) => Ok(from_film(film.force(m, fluid)?, T::constant(1.0))),
@@ -207,6 +204,30 @@ impl GuideLaw {
                 Ok(self.add_solid(solid, m, e, gap, film))
             }
             (None, None) => Ok(apart()),
+        }
+    }
+
+    /// The part of the film of [`GuideLaw::force`], with its share.
+    ///
+    /// # Errors
+    /// As that.
+    pub fn of_film<T: Real>(&self, m: &JournalMotion<T>, fluid: Fluid) -> Result<GuideForce<T>, NoFilm> {
+        let Some(film) = &self.film else { return Ok(apart()) };
+        let share = match self.solid {
+            None => T::constant(1.0),
+            Some(_) => self.film_share(-distance(m) + self.free_clearance),
+        };
+        if share.value() > 0.0 { Ok(from_film(film.force(m, fluid)?, share)) } else { Ok(apart()) }
+    }
+
+    /// The part of the solid contact where the film has this share.
+    pub fn of_solid<T: Real>(&self, m: &JournalMotion<T>, film_share: T) -> GuideForce<T> {
+        let mut none = apart();
+        none.film_share = film_share;
+        let e = distance(m);
+        match &self.solid {
+            None => none,
+            Some(solid) => self.add_solid(solid, m, e, -e + self.free_clearance, none),
         }
     }
 
@@ -265,6 +286,14 @@ impl GuideLaw {
         out.moment += friction * self.radius;
         out
     }
+}
+
+/// e, m. A centred journal has no direction; its solid contact is open and its film finds its own.
+#[inline]
+fn distance<T: Real>(m: &JournalMotion<T>) -> T {
+    let [y, z] = m.position;
+    let r2 = y * y + z * z;
+    if r2.value() > 0.0 { r2.sqrt() } else { T::constant(0.0) }
 }
 
 #[inline]

@@ -68,7 +68,7 @@ impl EllipseRule {
 }
 
 /// Places and weights of Gauss and Legendre on (-1, 1).
-fn legendre(n: usize) -> Vec<[f64; 2]> {
+pub(crate) fn legendre(n: usize) -> Vec<[f64; 2]> {
     let place = |i: usize| {
         let mut x = math::cos(PI * (i as f64 + 0.75) / (n as f64 + 0.5));
         let mut slope = 1.0;

@@ -28,7 +28,19 @@ impl Plane {
         ws: &mut Workspace,
         a: &mut [f64],
     ) -> Result<(), Fault> {
-        ws.inputs = self.with_lumps(inputs, v);
+        ws.inputs = *inputs;
+        self.evaluate(q, v, ws, a)
+    }
+
+    /// [`Plane::accelerations`] at the inputs that `ws` holds.
+    pub(crate) fn evaluate(
+        &self,
+        q: &[f64],
+        v: &[f64],
+        ws: &mut Workspace,
+        a: &mut [f64],
+    ) -> Result<(), Fault> {
+        self.set_lumps(v, &mut ws.inputs);
         self.heat(ws)?;
         self.locate(q, v, ws)?;
         self.apply_laws(ws)?;

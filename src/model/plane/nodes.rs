@@ -12,14 +12,12 @@ impl Plane {
         self.nodes.iter().map(|node| &**node).zip(self.layout.nodes())
     }
 
-    /// The inputs at velocities `v`: the temperature of the lubricant is that of its lump, where that is a state.
+    /// Gives inputs at velocities `v` the temperature of the lubricant's lump, where that is a state.
     #[inline]
-    pub(super) fn with_lumps(&self, inputs: &InputValues, v: &[f64]) -> InputValues {
-        let mut inputs = *inputs;
+    pub(super) fn set_lumps(&self, v: &[f64], inputs: &mut InputValues) {
         if let Some(place) = self.lubricant {
             inputs.values[Input::Temperature as usize] = v[place];
         }
-        inputs
     }
 
     /// Whether the lubricant has a viscosity at the temperature that these velocities give it, where that is a state: one that

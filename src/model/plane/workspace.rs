@@ -124,6 +124,12 @@ impl Workspace {
         counts
     }
 
+    /// Inputs of the next evaluation.
+    #[inline]
+    pub(crate) fn inputs_mut(&mut self) -> &mut InputValues {
+        &mut self.inputs
+    }
+
     /// Whether the next evaluations count; they do at first.
     pub fn set_counting(&mut self, counting: bool) {
         self.counting = counting;

@@ -1,6 +1,6 @@
 //! Where the time of a force evaluation in space goes, and what its derivatives take.
 
-use super::{RACES, Space, Workspace};
+use super::{Space, Workspace};
 use crate::bodies::{Fault, InputValues};
 use crate::model::PartTimes;
 use crate::model::plane::shortest;
@@ -28,11 +28,14 @@ impl Space {
         self.accelerations(inputs, q, v, ws, &mut a)?;
         let mut times = PartTimes::default();
         times[0] = shortest(repeats, &mut || self.locate(black_box(q), v, ws))?;
-        for race in 0..RACES.len() {
+        for race in 0..self.races.len() {
             times[1 + race] = shortest(repeats, &mut || {
                 self.apply(race, black_box(&mut *ws));
                 Ok(())
             })?;
+        }
+        if self.cage.is_some() {
+            times[4] = shortest(repeats, &mut || self.apply_cage(black_box(&mut *ws)))?;
         }
         // The last pass added up once more; what follows collects the forces of one.
         self.accelerations(inputs, q, v, ws, &mut a)?;

@@ -2,7 +2,9 @@
 
 use super::workspace::{BallBlock, WRENCH, Workspace, at_lane, load, store};
 use super::{RACES, Space};
-use crate::bodies::{Balls, Fault, Input, InputValues, MovingRing, OF_BALL, SOUND};
+use crate::bodies::{
+    Balls, CAGE_COORDINATES, Fault, INNER_RING, Input, InputValues, Moves, MovingRing, OF_BALL, SOUND,
+};
 use crate::pairs::Law;
 use crate::pairs::groove::{InGroove, Race, Waviness};
 use crate::scalar::{Columns, Numeric, Pack, dispatch, math, place_of};
@@ -60,14 +62,26 @@ impl Space {
         a: &mut [f64],
     ) -> Result<(), Fault> {
         ws.inputs = *inputs;
+        self.evaluate(q, v, ws, a)
+    }
+
+    /// [`Space::accelerations`] at the inputs that `ws` holds.
+    pub(crate) fn evaluate(
+        &self,
+        q: &[f64],
+        v: &[f64],
+        ws: &mut Workspace,
+        a: &mut [f64],
+    ) -> Result<(), Fault> {
         self.heat(ws)?;
         self.locate(q, v, ws)?;
-        for race in 0..RACES.len() {
+        for race in 0..self.races.len() {
             self.apply(race, ws);
         }
-        if ws.counting {
+        if ws.counting && self.free {
             self.count(ws);
         }
+        self.apply_cage(ws)?;
         self.assemble(ws, a);
         self.in_grooves(ws)?;
         match a.iter().position(|x| !x.is_finite()) {
@@ -94,8 +108,8 @@ impl Space {
     /// Finds the motion of all bodies.
     pub(super) fn locate(&self, q: &[f64], v: &[f64], ws: &mut Workspace) -> Result<(), Fault> {
         ws.step = None;
-        let of_ring = self.layout.of_shared();
-        ws.ring = self.ring.state(&q[..of_ring], &v[..of_ring], &ws.inputs);
+        let of_ring = self.layout.range(INNER_RING);
+        ws.ring = self.ring.state(&q[of_ring.clone()], &v[of_ring.clone()], &ws.inputs);
         ws.load = self.ring.load(&ws.inputs);
         let [_, y, z, a, b] = ws.ring.position;
         let (tilted, pitch) = (math::hypot(a, b), self.balls.set.pitch_radius);
@@ -110,9 +124,13 @@ impl Space {
         ws.rings[0].speed = outer;
         ws.rings[0].moving.turning = [outer, 0.0, 0.0];
         ws.rings[1] = ws.ring.motion();
+        self.locate_cage(q, v, ws)?;
+        if !self.free {
+            self.locate_prescribed(ws);
+        }
         let levers = self.levers();
         let mut fastest = (0, 0.0);
-        for j in 0..ws.count {
+        for j in 0..self.layout.count {
             let (block, lane) = place_of(j);
             let block = &mut ws.blocks[block];
             let places: [usize; OF_BALL] = self.layout.of_element(j);
@@ -121,6 +139,7 @@ impl Space {
             }
             let (sin, cos) = math::sin_cos(self.balls.set.reference_angles[j] + q[places[2]]);
             (block.direction[0][lane], block.direction[1][lane]) = (cos, sin);
+            block.travel[lane] = q[places[2]];
             for ((speeds, place), lever) in block.speeds.iter_mut().zip(places).zip(levers) {
                 speeds[lane] = v[place];
                 let speed = v[place].abs() * lever;
@@ -129,8 +148,10 @@ impl Space {
                 }
             }
         }
-        let of_ring = self.ring.free().map(|k| if k < 3 { 1.0 } else { pitch }).zip(v).enumerate();
-        for (place, (lever, v)) in of_ring {
+        let of_ring = self.ring.free().map(|k| if k < 3 { 1.0 } else { pitch });
+        let of_cage = CAGE_COORDINATES.iter().filter(|_| self.cage.is_some());
+        let of_cage = of_cage.map(|c| if c.moves == Moves::Itself { 1.0 } else { pitch });
+        for (place, (lever, v)) in of_ring.chain(of_cage).zip(v).enumerate() {
             if v.abs() * lever > fastest.1 {
                 fastest = (place, v.abs() * lever);
             }
@@ -143,6 +164,25 @@ impl Space {
         match fastest {
             (velocity, speed) if speed > SOUND => Err(Fault::TooFast { velocity, speed }),
             _ => Ok(()),
+        }
+    }
+
+    /// Finds the motion of elements that is prescribed.
+    fn locate_prescribed(&self, ws: &mut Workspace) {
+        let travel = ws.inputs.orbit_travel();
+        let [orbit, spin] = [Input::OrbitSpeed, Input::SpinSpeed].map(|input| ws.inputs.of(input));
+        for j in 0..ws.count {
+            let (block, lane) = place_of(j);
+            let block = &mut ws.blocks[block];
+            let (sin, cos) = math::sin_cos(self.balls.set.reference_angles[j] + travel);
+            (block.direction[0][lane], block.direction[1][lane]) = (cos, sin);
+            block.travel[lane] = travel;
+            for (column, speed) in block.speeds.iter_mut().zip([0.0, 0.0, orbit, spin, 0.0, 0.0]) {
+                column[lane] = speed;
+            }
+            for column in &mut block.on_ball {
+                column[lane] = 0.0;
+            }
         }
     }
 
@@ -216,16 +256,18 @@ impl Space {
 
     /// The laws of the contacts with one race beside elasticity.
     pub(super) fn parts(&self, race: usize) -> impl Iterator<Item = Law> {
-        let laws = &self.races[race].laws;
-        let heated = laws.traction.as_ref().is_some_and(|traction| traction.self_heating.is_some());
-        let list = [
-            (laws.film.is_some(), Law::FilmThickness),
-            (laws.traction.is_some(), Law::Traction),
-            (heated, Law::SelfHeating),
-            (laws.regime.is_some(), Law::LubricationRegime),
-            (laws.rolling_resistance.is_some(), Law::RollingResistance),
-        ];
-        list.into_iter().filter(|(present, _)| *present).map(|(_, law)| law)
+        let list = self.races.get(race).map(|race| {
+            let laws = &race.laws;
+            let heated = laws.traction.as_ref().is_some_and(|traction| traction.self_heating.is_some());
+            [
+                (laws.film.is_some(), Law::FilmThickness),
+                (laws.traction.is_some(), Law::Traction),
+                (heated, Law::SelfHeating),
+                (laws.regime.is_some(), Law::LubricationRegime),
+                (laws.rolling_resistance.is_some(), Law::RollingResistance),
+            ]
+        });
+        list.into_iter().flatten().filter(|(present, _)| *present).map(|(_, law)| law)
     }
 
     /// Collects forces on the bodies and lets them accelerate.
@@ -239,8 +281,15 @@ impl Space {
             }
             ws.on_rings[race] = halves(total);
         }
+        if let Some(cage) = &self.cage {
+            for (land, force) in cage.lands.iter().zip(&ws.cage.lands) {
+                let on_ring = &mut ws.on_rings[land.ring];
+                *on_ring = [0, 1].map(|k| sum(on_ring[k], force.on[1][k]));
+            }
+        }
         self.accelerate_ring(ws, ws.on_rings[1], a);
-        for j in 0..ws.count {
+        self.accelerate_cage(ws, ws.cage.on_cage, a);
+        for j in 0..self.layout.count {
             let (block, lane) = place_of(j);
             let block = &ws.blocks[block];
             let [cos, sin] = at_lane(&block.direction, lane);
@@ -282,7 +331,7 @@ impl Space {
 
     /// Writes the accelerations of the ring under these forces of all balls.
     pub(super) fn accelerate_ring(&self, ws: &Workspace, on_ring: [Vector<f64>; 2], a: &mut [f64]) {
-        if self.layout.of_shared() == 0 {
+        if self.layout.range(INNER_RING).is_empty() {
             return;
         }
         let all = self.ring.accelerations(&ws.ring, on_ring, ws.load, self.gravity);
@@ -308,10 +357,16 @@ impl Space {
 
     /// The first contact whose force is not finite, as a place in [`Space::contact_names`].
     fn contact_not_finite(&self, ws: &Workspace) -> Option<usize> {
-        (0..ws.count).flat_map(|j| [2 * j, 2 * j + 1]).find(|place| {
-            let (contact, lane) = ws.contact(place % 2, place / 2);
+        let (races, of_ball) = (self.races.len(), self.contacts_of_ball.len());
+        let on_race = (0..ws.count).flat_map(|j| (0..races).map(move |k| (j, k))).find(|(j, k)| {
+            let (contact, lane) = ws.contact(*k, *j);
             contact.on_ring.iter().any(|column| !column[lane].is_finite())
-        })
+        });
+        let in_pocket = || {
+            let lost = ws.cage.touching.iter().find(|touching| !touching.contact.force.is_finite())?;
+            Some((lost.ball, races + lost.wall))
+        };
+        on_race.or_else(in_pocket).map(|(j, k)| of_ball * j + k)
     }
 }
 

@@ -33,6 +33,9 @@ type Relative = Dual<RELATIVE>;
 /// What the ring's own motion follows: force and moment, its positions, their rates; last time.
 const OF_TIME: usize = 6 + 2 * OF_RING;
 
+/// Accelerations of the ring over these.
+pub(super) type RingSlopes = [Dual<{ OF_TIME + 1 }>; OF_RING];
+
 /// What a ball's own motion follows: rho, azimuth, speeds, logarithm of the viscosity.
 const OF_OWN: usize = 3 + OF_BALL;
 
@@ -54,7 +57,7 @@ fn numbers(on: &OnBody<Relative>) -> [Relative; 6] {
 }
 
 impl Space {
-    /// Which velocities are coupled: the ring is the hub, balls the spokes.
+    /// Which velocities are coupled: ring and cage are the hub, balls the spokes.
     pub(crate) fn structure(&self) -> Structure<OF_BALL> {
         self.layout.structure()
     }
@@ -68,14 +71,14 @@ impl Space {
     ) {
         out.clear();
         ws.slopes.resize(ws.blocks.len(), [[[ZEROS; SEEN]; FORCES]; 2]);
-        for place in 0..RACES.len() {
+        for place in 0..self.races.len() {
             let Workspace { blocks, fluid, count, instructions, slopes, .. } = &mut *ws;
             let (race, ln_viscosity) = ((&self.races[place], place), fluid.ln_viscosity);
             dispatch(*instructions, Differentiate { race, blocks, slopes, count: *count, ln_viscosity });
         }
         let ring = self.ring_slopes(ws, rates);
         let free: Vec<usize> = self.ring.free().collect();
-        let width = free.len();
+        let width = self.layout.hub();
         for (i, row) in free.iter().enumerate() {
             for (k, column) in free.iter().enumerate() {
                 out.over_positions.hub[(i, k)] = ring[*row].eps[6 + column];
@@ -91,7 +94,8 @@ impl Space {
                 oil.law.relative_slope(ws.inputs.of(Input::Temperature)) * warming
             }
         });
-        for j in 0..ws.count {
+        self.add_cage_slopes(ws, (rates, ln_rate), &ring, out);
+        for j in 0..self.layout.count {
             let places = self.layout.of_element::<OF_BALL>(j);
             let ball = self.ball_slopes(ws, j);
             let (block, lane) = place_of(j);
@@ -132,7 +136,7 @@ impl Space {
                         }
                     }
                 }
-                if k == 1 && width > 0 {
+                if k == 1 && !free.is_empty() {
                     let global = to_global_rows(&on_ring, [cos, sin]);
                     let (contact, lane) = ws.contact(1, j);
                     let [fx, fy, fz, mx, my, mz] = at_lane(&contact.on_ring, lane);
@@ -176,7 +180,7 @@ impl Space {
     }
 
     /// Accelerations of the ring over force and moment, positions, rates, and time while all these stand still.
-    fn ring_slopes(&self, ws: &Workspace, rates: &InputValues) -> [Dual<{ OF_TIME + 1 }>; OF_RING] {
+    fn ring_slopes(&self, ws: &Workspace, rates: &InputValues) -> RingSlopes {
         let variable = Dual::<{ OF_TIME + 1 }>::variable;
         let [force, moment] = ws.on_rings[1];
         let at = |first: usize, x: [f64; 3]| [0, 1, 2].map(|k| variable(x[k], first + k));
@@ -199,7 +203,7 @@ impl Space {
 
     /// What moves the ring from outside at the last evaluated state: coordinates, m or rad, and their first to third rates; zero of those that
     /// are free or held.
-    fn given(&self, ws: &Workspace) -> [[f64; OF_RING]; 4] {
+    pub(super) fn given(&self, ws: &Workspace) -> [[f64; OF_RING]; 4] {
         let all = self.ring.prescribed_at(ws.inputs.time);
         std::array::from_fn(|i| all.map(|given| given.map_or(0.0, |given| given[i])))
     }

@@ -1,14 +1,16 @@
-//! A bearing whose balls and inner ring move in space.
+//! A bearing whose balls, inner ring and cage move in space.
 //!
 //! | file | what |
 //! |---|---|
 //! | `evaluate`, `workspace` | forces and accelerations, balls in columns |
+//! | `cage/` | pockets and lands at a state and in a step, their derivatives, what is told of them |
 //! | `step` | damping, forces of a semi-implicit step, energies, powers |
 //! | `linearize` | exact derivatives |
 //! | `rest/`, `initial` | ring and balls at rest or in steady motion; start of a run |
 //! | `scales`, `costs` | units of errors, frequencies; where time goes |
 //! | `report` | force reports, channels, what is followed in every step |
 
+mod cage;
 mod costs;
 mod evaluate;
 mod initial;
@@ -28,13 +30,19 @@ pub use workspace::Workspace;
 use super::faults::{Names, in_words};
 use super::signals::InputSignals;
 use super::{HostInputs, Layout, Quantity, StateInfo, quantity};
-use crate::bodies::{Balls, Coordinate, Fault, Input, Owner, RING_COORDINATES, RingInSpace};
+use crate::bodies::{
+    Balls, CAGE, CAGE_COORDINATES, CageInSpace, Coordinate, Fault, Input, OF_CAGE, Owner, RING_COORDINATES,
+    RingInSpace,
+};
 use crate::error::Result;
 use crate::integrate::Tuning;
 use crate::laws::drag::MixtureDrag;
 use crate::pairs::Law;
+use crate::pairs::ball_pocket::{BallPockets, WALLS};
 use crate::pairs::groove::{Fit, Race, angle_of_drop, fit, races};
+use crate::pairs::guide::land::Land;
 use crate::scene::{BallDrag, Scene, needed};
+use cage::CageOfScene;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -53,8 +61,13 @@ pub struct Space {
     pub(crate) gravity: [f64; 2],
     pub(crate) ring: RingInSpace,
     pub(crate) balls: Balls,
-    /// Of outer and inner ring.
-    pub(crate) races: [Race; 2],
+    /// Whether balls have states; else their motion is prescribed.
+    pub(crate) free: bool,
+    /// Of outer and inner ring, where balls are free; else none.
+    pub(crate) races: Vec<Race>,
+    cage: Option<CageOfScene>,
+    /// What a ball touches, in the order of its contacts.
+    contacts_of_ball: Vec<&'static str>,
     /// Of the mixture around the balls.
     drag: Option<MixtureDrag>,
     /// Channels that are followed in every step.
@@ -62,11 +75,15 @@ pub struct Space {
 }
 
 impl Space {
-    /// Builds that of a checked scene with these inputs, if it has balls.
+    /// Builds that of a checked scene with these inputs, if it has balls or a cage in space.
     pub(in crate::model) fn new(scene: Arc<Scene>, inputs: Arc<InputSignals>) -> Result<Option<Self>> {
-        let Some(balls) = Balls::new(&scene) else { return Ok(None) };
+        let free = scene.balls.is_some();
+        if !free && !scene.has_spatial_cage() {
+            return Ok(None);
+        }
+        let balls = Balls::new(&scene);
         let viscosity = inputs.viscosity_at_start(&scene);
-        let Some(races) = races(&scene, &balls.set.radius_excess, viscosity)? else { return Ok(None) };
+        let races = races(&scene, &balls.set.radius_excess, viscosity)?.map_or_else(Vec::new, Vec::from);
         let of_drag = |drag: &BallDrag| {
             let viscosity = needed("lubricant", viscosity, "balls.drag")?;
             Ok(MixtureDrag { density: drag.density, coefficient: drag.coefficient, viscosity })
@@ -74,10 +91,43 @@ impl Space {
         let drag = scene.balls.as_ref().and_then(|balls| balls.drag.as_ref()).map(of_drag).transpose()?;
         let ring = RingInSpace::new(&scene);
         let spins = balls.coordinates().iter().filter(|c| c.position.is_none()).count();
-        let of_balls = [balls.set.count, balls.coordinates().len() - spins, spins];
-        let layout = Layout::new([0, ring.free().count(), 0], of_balls, false, Vec::new());
+        let count = if free { balls.set.count } else { 0 };
+        let of_balls = [count, balls.coordinates().len() - spins, spins];
+        let cage = match CageInSpace::new(&scene) {
+            None => None,
+            Some(body) => Some(CageOfScene {
+                body,
+                pockets: BallPockets::new(&scene, viscosity)?,
+                lands: Land::all(&scene, viscosity)?,
+            }),
+        };
+        let mut contacts_of_ball: Vec<&'static str> = RACES[..races.len()].to_vec();
+        if let Some(pockets) = cage.as_ref().and_then(|cage| cage.pockets.as_ref()) {
+            contacts_of_ball.extend(pockets.wall_names());
+        }
+        let of_cage = if cage.is_some() { OF_CAGE } else { 0 };
+        let layout = Layout::new([0, ring.free().count(), of_cage], of_balls, false, Vec::new());
         let gravity = scene.gravity.map_or([0.0; 2], |g| [g.y, g.z]);
-        Ok(Some(Self { scene, inputs, layout, gravity, ring, balls, races, drag, watched: Vec::new() }))
+        let watched = Vec::new();
+        Ok(Some(Self {
+            scene,
+            inputs,
+            layout,
+            gravity,
+            ring,
+            balls,
+            free,
+            races,
+            cage,
+            contacts_of_ball,
+            drag,
+            watched,
+        }))
+    }
+
+    /// Outer and inner race of balls that are free.
+    pub(crate) fn both_races(&self) -> [&Race; 2] {
+        [&self.races[0], &self.races[1]]
     }
 
     /// Order of the coordinates in the state vector.
@@ -85,9 +135,20 @@ impl Space {
         &self.layout
     }
 
-    /// The longest step (s) from time `t` in which no signal is passed unseen.
-    pub(crate) fn longest_step(&self, host: &HostInputs, tuning: &Tuning) -> f64 {
-        self.inputs.shortest_period(host).min(self.shortest_wave(host)) / tuning.steps_per_period
+    /// The longest step (s) from the state (q, v) at time `t` in which no signal and no onset of a land is passed unseen.
+    pub(crate) fn longest_step(
+        &self,
+        t: f64,
+        [q, v]: [&[f64]; 2],
+        host: &HostInputs,
+        tuning: &Tuning,
+    ) -> f64 {
+        let longest =
+            self.inputs.shortest_period(host).min(self.shortest_wave(host)) / tuning.steps_per_period;
+        if self.cage.is_none() {
+            return longest;
+        }
+        longest.min(self.longest_cage_step([q, v], &self.inputs.at(t, host), tuning))
     }
 
     /// Shortest period of the waves of races that balls pass, s: at most that by which both rings turn; infinity where they are round.
@@ -104,7 +165,8 @@ impl Space {
     /// Name of the body of a group of velocities.
     pub(crate) fn group_name(&self, group: usize) -> Option<String> {
         match self.layout.owner_of_group(group) {
-            Owner::Element(j) => Some(format!("ball[{j}]")),
+            Owner::Element(j) => Some(format!("{}[{j}]", self.element_kind())),
+            Owner::Shared(CAGE) => Some("cage".to_owned()),
             Owner::Shared(_) => Some(RINGS[1].to_owned()),
             Owner::Node(_) => None,
         }
@@ -117,14 +179,29 @@ impl Space {
             states: &|| self.state_infos(),
             positions: self.layout.positions(),
             contacts: &|| self.contact_names(),
-            giving: None,
+            giving: self.energy_giving_film(),
         };
         in_words(fault, &names)
     }
 
     /// What the elements are called in names.
     pub(crate) fn element_kind(&self) -> &'static str {
-        "ball"
+        if self.free { "ball" } else { "element" }
+    }
+
+    /// The field of the scene by which the film of a land can give energy, if it can.
+    pub(crate) fn energy_giving_film(&self) -> Option<String> {
+        self.cage.as_ref()?.lands.iter().find_map(Land::energy_giving_field)
+    }
+
+    /// Smallest radial clearance of the lands of its cage, m, if it has any.
+    pub(crate) fn guide_clearance(&self) -> Option<f64> {
+        self.cage.as_ref()?.lands.iter().map(Land::clearance).reduce(f64::min)
+    }
+
+    /// Clearance of a centred ball in its pocket along the orbit, m, if there are pockets.
+    pub(crate) fn pocket_clearance(&self) -> Option<f64> {
+        self.cage.as_ref()?.pockets.as_ref()?.walls.clearances()[0]
     }
 
     /// Number of balls.
@@ -146,32 +223,52 @@ impl Space {
     pub(crate) fn laws_in_use(&self) -> Vec<(&'static str, usize)> {
         let mut most = [0; Law::ALL.len()];
         for (race, law) in [Law::OuterRaceway, Law::InnerRaceway].into_iter().enumerate() {
-            for law in std::iter::once(law).chain(self.parts(race)) {
+            for law in std::iter::once(law).filter(|_| self.free).chain(self.parts(race)) {
                 most[law as usize] += self.element_count();
+            }
+        }
+        if let Some(cage) = &self.cage {
+            if let Some(pockets) = &cage.pockets {
+                most[Law::PocketWall as usize] += self.element_count()
+                    * pockets.walls.clearances().into_iter().flatten().count().min(WALLS);
+            }
+            for law in cage.lands.iter().flat_map(Land::laws_listed) {
+                most[law as usize] += 1;
             }
         }
         most[Law::ViscosityTemperature as usize] += usize::from(self.inputs.oil.is_some());
         Law::ALL.iter().map(|law| (law.name(), most[*law as usize])).filter(|(_, n)| *n > 0).collect()
     }
 
-    /// Names of the bodies: outer ring, inner ring, balls.
+    /// Names of the bodies: outer ring, inner ring, cage, balls.
     pub(crate) fn body_names(&self) -> Vec<String> {
-        let rings = RINGS.iter().map(|name| (*name).to_owned());
-        rings.chain((0..self.balls.set.count).map(|j| format!("ball[{j}]"))).collect()
+        let cage = self.cage.iter().map(|_| "cage".to_owned());
+        let balls = (0..self.balls.set.count).map(|j| format!("{}[{j}]", self.element_kind()));
+        RINGS.iter().map(|name| (*name).to_owned()).chain(cage).chain(balls).collect()
+    }
+
+    /// Place of ball `j` among the bodies.
+    fn body_of_ball(&self, j: usize) -> usize {
+        RINGS.len() + usize::from(self.cage.is_some()) + j
     }
 
     /// Names of all contacts, those of a ball together.
     pub(crate) fn contact_names(&self) -> Vec<String> {
-        let of_ball = |j: usize| RACES.map(|contact| format!("ball[{j}].{contact}"));
-        (0..self.balls.set.count).flat_map(of_ball).collect()
+        let kind = self.element_kind();
+        let mut names = Vec::with_capacity(self.balls.set.count * self.contacts_of_ball.len());
+        for j in 0..self.balls.set.count {
+            names.extend(self.contacts_of_ball.iter().map(|contact| format!("{kind}[{j}].{contact}")));
+        }
+        names
     }
 
     /// The state vector: positions, their rates, then speeds without position.
     pub(crate) fn state_infos(&self) -> Vec<StateInfo> {
         let ring = self.ring.free().map(|k| ("inner_ring".to_owned(), &RING_COORDINATES[k]));
-        let balls = (0..self.balls.set.count)
+        let cage = self.cage.iter().flat_map(|_| &CAGE_COORDINATES).map(|c| ("cage".to_owned(), c));
+        let balls = (0..self.layout.count)
             .flat_map(|j| self.balls.coordinates().iter().map(move |c| (format!("ball[{j}]"), c)));
-        let all: Vec<(String, &Coordinate)> = ring.chain(balls).collect();
+        let all: Vec<(String, &Coordinate)> = ring.chain(cage).chain(balls).collect();
         let placed = || all.iter().filter(|(_, c)| c.position.is_some());
         let positions = placed().filter_map(|(body, c)| Some((body, c.position?)));
         let rates = placed().map(|(body, c)| (body, c.rate));
@@ -186,24 +283,34 @@ impl Space {
 
     /// Lengths, angles and counts of the bearing that follow from its scene.
     pub(crate) fn geometry(&self) -> Vec<(Quantity, f64)> {
-        let (set, [outer, inner]) = (&self.balls.set, &self.races);
+        let set = &self.balls.set;
         let mut list = vec![
             (quantity("element_count", "1", "number of rolling elements"), set.count as f64),
             (quantity("element_radius", "m", "radius of a rolling element"), set.radius),
             (quantity("pitch_radius", "m", "radius of the pitch circle"), set.pitch_radius),
-            (
-                quantity("outer_groove_radius", "m", "radius of the outer groove across its length"),
-                outer.groove.radius,
-            ),
-            (
-                quantity("inner_groove_radius", "m", "radius of the inner groove across its length"),
-                inner.groove.radius,
-            ),
-            (
-                quantity("free_contact_angle", "rad", "contact angle at which balls just touch"),
-                self.free_contact_angle(),
-            ),
         ];
+        if let [outer, inner] = &self.races[..] {
+            let about = quantity("outer_groove_radius", "m", "radius of the outer groove across its length");
+            list.push((about, outer.groove.radius));
+            let about = quantity("inner_groove_radius", "m", "radius of the inner groove across its length");
+            list.push((about, inner.groove.radius));
+            let about = quantity("free_contact_angle", "rad", "contact angle at which balls just touch");
+            list.push((about, self.free_contact_angle()));
+        }
+        if let Some(clearance) = self.guide_clearance() {
+            list.push((
+                quantity("guide_clearance", "m", "smallest radial clearance of the lands of the cage"),
+                clearance,
+            ));
+        }
+        if let Some(clearance) = self.pocket_clearance() {
+            let about = quantity(
+                "pocket_clearance",
+                "m",
+                "clearance of a centred element in its pocket along the orbit",
+            );
+            list.push((about, clearance));
+        }
         if let Some(clearance) = self.scene.inner_ring.as_ref().and_then(|ring| ring.radial_clearance) {
             let about =
                 quantity("radial_internal_clearance", "m", "radial internal clearance between the raceways");

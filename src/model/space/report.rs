@@ -1,5 +1,6 @@
 //! What a bearing in space tells of a state: forces of every contact and on every body, output channels, what is followed in every step.
 
+use super::cage::OfCage;
 use super::evaluate::{moving, to_global};
 use super::workspace::{Workspace, at_lane};
 use super::{RACES, Space};
@@ -9,8 +10,8 @@ use crate::model::{Channel, Quantity, Source as AnySource, quantity};
 use crate::scalar::{math, place_of};
 use crate::space::solid::{dot, sum};
 
-/// What is reported of a contact in space. t points along the race, l across it and n from the ball to the contact; (t, l, n) is
-/// right-handed. Friction and couple act on the ball, at the contact; the opposite on the ring.
+/// What is reported of a contact in space. t points along the race, in a pocket outwards; l across, and n from the ball to the contact;
+/// (t, l, n) is right-handed. Friction and couple act on the ball, at the contact; the opposite on ring or cage.
 pub const SPATIAL_CONTACT_QUANTITIES: [Quantity; 30] = [
     quantity("normal_force", "N", "normal force Q"),
     quantity("approach", "m", "elastic approach delta; negative where they are apart"),
@@ -104,19 +105,33 @@ pub(crate) enum Source {
     SlidingPower(usize, usize),
     /// Angle left to the edge of the shoulder, of race and ball.
     Shoulder(usize, usize),
+    Cage(OfCage),
 }
 
 impl Source {
     /// Whether it may peak between two records and is known in every step.
     fn can_be_watched(self) -> bool {
-        matches!(
-            self,
+        match self {
+            Self::Cage(source) => source.can_be_watched(),
             Self::Contact(NORMAL_FORCE, ..)
-                | Self::DragTorque
-                | Self::OuterRingTorque
-                | Self::OuterDragTorque
-        )
+            | Self::DragTorque
+            | Self::OuterRingTorque
+            | Self::OuterDragTorque => true,
+            _ => false,
+        }
     }
+}
+
+/// A channel of a bearing in space.
+pub(super) fn channel(
+    name: String,
+    unit: &'static str,
+    description: &'static str,
+    source: Source,
+    detail: bool,
+) -> Channel {
+    let can_be_watched = source.can_be_watched();
+    Channel { name, unit, description, source: AnySource::Space(source), detail, can_be_watched }
 }
 
 /// A state with what channels show of it.
@@ -134,16 +149,9 @@ impl Space {
     /// All channels, details behind the others.
     pub(in crate::model) fn list_channels(&self) -> Vec<Channel> {
         let mut list = Vec::new();
+        self.add_cage_channels(&mut list);
         let mut push = |name: String, unit, description, source: Source, detail| {
-            let can_be_watched = source.can_be_watched();
-            list.push(Channel {
-                name,
-                unit,
-                description,
-                source: AnySource::Space(source),
-                detail,
-                can_be_watched,
-            });
+            list.push(channel(name, unit, description, source, detail));
         };
         for (k, coordinate) in crate::bodies::RING_COORDINATES.iter().enumerate() {
             if let Some([name, unit, description]) = coordinate.position {
@@ -162,56 +170,72 @@ impl Space {
             let text = "dynamic viscosity of the lubricant at its temperature";
             push("lubricant.viscosity".to_owned(), "Pa s", text, Source::Viscosity, false);
         }
-        let text = "mean orbit speed of the balls over that of rolling at the free contact angle";
-        push("balls.orbit_ratio".to_owned(), "1", text, Source::MeanOrbitRatio, false);
-        for j in 0..self.balls.set.count {
-            let name = |field: &str| format!("ball[{j}].{field}");
-            let text = "angle of the element about the bearing";
-            push(name("orbit_angle"), "rad", text, Source::OrbitAngle(j), false);
-            let text = "orbit speed over that of rolling at the free contact angle";
-            push(name("orbit_ratio"), "1", text, Source::OrbitRatio(j), false);
-            let text = "angle of the axis about which it turns against the train to that of the bearing, in the plane of both";
-            push(name("pitch_angle"), "rad", text, Source::Pitch(j), false);
-            let text = "angle of that axis out of the plane through the axis of the bearing";
-            push(name("yaw_angle"), "rad", text, Source::Yaw(j), false);
-            for (k, race) in RACES.into_iter().enumerate().rev() {
-                let ring = race.trim_end_matches("_raceway");
-                let laws = &self.races[k].laws;
-                let mut of_contact = |field: &str, place: usize, detail| {
-                    let Quantity { unit, description, .. } = SPATIAL_CONTACT_QUANTITIES[place];
-                    push(
-                        name(&format!("{ring}_{field}")),
-                        unit,
-                        description,
-                        Source::Contact(place, k, j),
-                        detail,
-                    );
-                };
-                of_contact("force", NORMAL_FORCE, false);
-                of_contact("angle", CONTACT_ANGLE, false);
-                of_contact("spin_to_roll", SPIN_TO_ROLL, false);
-                of_contact("slip_along", SLIP, false);
-                of_contact("slip_across", SLIP + 1, false);
-                if laws.film.is_some() {
-                    of_contact("film", FILM, false);
-                }
-                if laws.regime.is_some() {
-                    of_contact("film_ratio", FILM_RATIO, true);
-                }
-                if laws.traction.is_some() {
-                    of_contact("temperature_rise", TEMPERATURE, true);
-                }
-                of_contact("pressure", PRESSURE, true);
-                let text = "power lost by friction of slip and spin in the contact";
-                push(name(&format!("{ring}_sliding_power")), "W", text, Source::SlidingPower(k, j), true);
-                if self.races[k].shoulder.is_some() {
-                    let text = "angle left between the ellipse and the edge of the shoulder, negative beyond it; zero without load";
-                    push(name(&format!("{ring}_shoulder_margin")), "rad", text, Source::Shoulder(k, j), true);
-                }
-            }
+        if self.free {
+            let text = "mean orbit speed of the balls over that of rolling at the free contact angle";
+            push("balls.orbit_ratio".to_owned(), "1", text, Source::MeanOrbitRatio, false);
+        }
+        for j in 0..self.element_count() {
+            self.add_ball_channels(j, &mut list);
         }
         list.sort_by_key(|channel| channel.detail);
         list
+    }
+
+    /// Channels of ball `j`.
+    fn add_ball_channels(&self, j: usize, list: &mut Vec<Channel>) {
+        let kind = self.element_kind();
+        let name = |field: &str| format!("{kind}[{j}].{field}");
+        let mut push = |name: String, unit, description, source: Source, detail| {
+            list.push(channel(name, unit, description, source, detail));
+        };
+        let text = "angle of the element about the bearing";
+        push(name("orbit_angle"), "rad", text, Source::OrbitAngle(j), false);
+        if !self.free {
+            self.add_pocket_channels(j, list);
+            return;
+        }
+        let text = "orbit speed over that of rolling at the free contact angle";
+        push(name("orbit_ratio"), "1", text, Source::OrbitRatio(j), false);
+        let text = "angle of the axis about which it turns against the train to that of the bearing, in the plane of both";
+        push(name("pitch_angle"), "rad", text, Source::Pitch(j), false);
+        let text = "angle of that axis out of the plane through the axis of the bearing";
+        push(name("yaw_angle"), "rad", text, Source::Yaw(j), false);
+        for (k, race) in RACES.into_iter().enumerate().rev() {
+            let ring = race.trim_end_matches("_raceway");
+            let laws = &self.races[k].laws;
+            let mut of_contact = |field: &str, place: usize, detail| {
+                let Quantity { unit, description, .. } = SPATIAL_CONTACT_QUANTITIES[place];
+                push(
+                    name(&format!("{ring}_{field}")),
+                    unit,
+                    description,
+                    Source::Contact(place, k, j),
+                    detail,
+                );
+            };
+            of_contact("force", NORMAL_FORCE, false);
+            of_contact("angle", CONTACT_ANGLE, false);
+            of_contact("spin_to_roll", SPIN_TO_ROLL, false);
+            of_contact("slip_along", SLIP, false);
+            of_contact("slip_across", SLIP + 1, false);
+            if laws.film.is_some() {
+                of_contact("film", FILM, false);
+            }
+            if laws.regime.is_some() {
+                of_contact("film_ratio", FILM_RATIO, true);
+            }
+            if laws.traction.is_some() {
+                of_contact("temperature_rise", TEMPERATURE, true);
+            }
+            of_contact("pressure", PRESSURE, true);
+            let text = "power lost by friction of slip and spin in the contact";
+            push(name(&format!("{ring}_sliding_power")), "W", text, Source::SlidingPower(k, j), true);
+            if self.races[k].shoulder.is_some() {
+                let text = "angle left between the ellipse and the edge of the shoulder, negative beyond it; zero without load";
+                push(name(&format!("{ring}_shoulder_margin")), "rad", text, Source::Shoulder(k, j), true);
+            }
+        }
+        self.add_pocket_channels(j, list);
     }
 
     /// Chooses the channels that are followed in every step, by their places among all.
@@ -238,6 +262,7 @@ impl Space {
                     let (contact, lane) = ws.contact(k, j);
                     contact.normal[lane]
                 }
+                Source::Cage(source) => self.cage_value(source, ws),
                 source => self.torque(source, ws),
             };
         }
@@ -336,17 +361,23 @@ impl Space {
     pub(crate) fn report(&self, ws: &Workspace, out: &mut SpatialForces) {
         out.contacts.clear();
         out.bodies.clear();
-        out.bodies.resize(RACES.len() + ws.count, SpatialBodyForces::default());
+        out.bodies.resize(self.body_of_ball(ws.count), SpatialBodyForces::default());
         let [gy, gz] = self.gravity;
+        let walls = self.contacts_of_ball.len() - self.races.len();
         for j in 0..ws.count {
-            for (k, source) in [ForceSource::OuterRaceway, ForceSource::InnerRaceway].into_iter().enumerate()
-            {
+            let body = self.body_of_ball(j);
+            let sources = [ForceSource::OuterRaceway, ForceSource::InnerRaceway];
+            for (k, source) in sources.into_iter().enumerate().take(self.races.len()) {
                 out.contacts.push(self.contact_values(ws, k, j));
-                for (body, wrench) in [RACES.len() + j, k].into_iter().zip(self.wrenches_of(ws, k, j)) {
+                for (body, wrench) in [body, k].into_iter().zip(self.wrenches_of(ws, k, j)) {
                     for (sum, part) in out.bodies[body][source as usize].iter_mut().zip(wrench) {
                         *sum += part;
                     }
                 }
+            }
+            out.contacts.extend((0..walls).map(|wall| self.pocket_values(ws, wall, j)));
+            if !self.free {
+                continue;
             }
             let (block, lane) = place_of(j);
             let block = &ws.blocks[block];
@@ -355,12 +386,12 @@ impl Space {
             let of_ball = moving(at_lane(&block.speeds, lane), r);
             if let Some(drag) = self.drag_on(j, &of_ball, ws.fluid.ln_viscosity) {
                 let [[a, b, c], [d, e, f]] = drag.map(|v| to_global(v, direction));
-                out.bodies[RACES.len() + j][ForceSource::Drag as usize] = [a, b, c, d, e, f];
+                out.bodies[body][ForceSource::Drag as usize] = [a, b, c, d, e, f];
             }
             let [mass, _] = self.balls.inertia(j);
-            out.bodies[RACES.len() + j][ForceSource::Gravity as usize] =
-                [0.0, mass * gy, mass * gz, 0.0, 0.0, 0.0];
+            out.bodies[body][ForceSource::Gravity as usize] = [0.0, mass * gy, mass * gz, 0.0, 0.0, 0.0];
         }
+        self.report_cage(ws, &mut out.bodies);
         let inner = &mut out.bodies[1];
         let [wy, wz] = self.ring.weight(self.gravity);
         inner[ForceSource::Gravity as usize] = [0.0, wy, wz, 0.0, 0.0, 0.0];
@@ -374,7 +405,7 @@ impl Space {
 
 impl Reading<'_> {
     fn contact(&self, k: usize, j: usize) -> &SpatialContact {
-        &self.forces.contacts[RACES.len() * j + k]
+        &self.forces.contacts[self.space.contacts_of_ball.len() * j + k]
     }
 
     /// Value of a channel.
@@ -384,6 +415,7 @@ impl Reading<'_> {
         let kinematic = || space.kinematic_speeds(inputs)[0];
         let ratio = |speed: f64| if kinematic() == 0.0 { 0.0 } else { speed / kinematic() };
         match source {
+            Source::Cage(source) => self.cage(source),
             Source::Ring(k) => space.ring.state(q, v, inputs).position[k],
             Source::DragTorque | Source::OuterRingTorque | Source::OuterDragTorque => {
                 space.torque(source, ws)
@@ -393,7 +425,10 @@ impl Reading<'_> {
                 let count = space.balls.set.count;
                 ratio((0..count).map(|j| v[of_ball(j)[2]]).sum::<f64>() / count as f64)
             }
-            Source::OrbitAngle(j) => space.balls.set.reference_angles[j] + q[of_ball(j)[2]],
+            Source::OrbitAngle(j) => {
+                let travel = if space.free { q[of_ball(j)[2]] } else { inputs.orbit_travel() };
+                space.balls.set.reference_angles[j] + travel
+            }
             Source::OrbitRatio(j) => ratio(v[of_ball(j)[2]]),
             Source::Pitch(j) | Source::Yaw(j) => {
                 let [_, _, orbit, wx, wr, wt] = of_ball(j).map(|place| v[place]);

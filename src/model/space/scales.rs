@@ -1,7 +1,7 @@
 //! Lengths, frequencies and speeds that describe a bearing in space as a whole.
 
 use super::Space;
-use crate::bodies::{Input, InputValues, Moves, OF_RING, RING_COORDINATES};
+use crate::bodies::{CAGE_COORDINATES, Input, InputValues, Moves, OF_RING, RING_COORDINATES};
 use crate::pairs::groove::Race;
 use crate::scalar::math;
 
@@ -22,7 +22,9 @@ impl Space {
     pub(crate) fn state_scales(&self) -> Vec<f64> {
         let set = &self.balls.set;
         let ring = self.ring.free().map(|k| &RING_COORDINATES[k]);
-        let all: Vec<_> = ring.chain((0..set.count).flat_map(|_| self.balls.coordinates())).collect();
+        let cage = CAGE_COORDINATES.iter().filter(|_| self.cage.is_some());
+        let balls = (0..self.layout.count).flat_map(|_| self.balls.coordinates());
+        let all: Vec<_> = ring.chain(cage).chain(balls).collect();
         let unit = |moves: Moves| match moves {
             Moves::Itself => REFERENCE_LENGTH,
             Moves::PitchCircle => REFERENCE_LENGTH / set.pitch_radius,
@@ -33,8 +35,11 @@ impl Space {
         placed().chain(placed().chain(spins).map(|unit| unit * RATE_SCALE)).collect()
     }
 
-    /// Orbit speed and speed of rotation about the axis of the bearing of balls that roll at the free contact angle, rad/s.
+    /// Orbit speed and speed of rotation about the axis of the bearing of balls that roll at the free contact angle, or as prescribed, rad/s.
     pub(crate) fn kinematic_speeds(&self, inputs: &InputValues) -> [f64; 2] {
+        if !self.free {
+            return [Input::OrbitSpeed, Input::SpinSpeed].map(|input| inputs.of(input));
+        }
         let set = &self.balls.set;
         let cos = math::cos(self.free_contact_angle());
         let gamma = set.radius * cos / set.pitch_radius;
@@ -44,8 +49,11 @@ impl Space {
         [orbit, orbit + about_own * cos]
     }
 
-    /// Highest frequency of a ball between its races in rad/s, at the largest load of the scene.
+    /// Highest frequency of a ball between its races in rad/s, at the largest load of the scene; of prescribed ones that of the cage.
     pub(crate) fn contact_frequency(&self) -> f64 {
+        if !self.free {
+            return self.cage_frequency();
+        }
         let largest = |input| self.inputs.largest(input);
         let sin = math::sin(self.free_contact_angle()).max(0.05);
         let held: f64 = (0..OF_RING).filter_map(|k| self.ring.held[k]).map(f64::abs).fold(0.0, f64::max);
@@ -66,7 +74,7 @@ impl Space {
 
     /// The highest of all frequencies, rad/s.
     pub(crate) fn highest_frequency(&self) -> f64 {
-        self.contact_frequency()
+        self.contact_frequency().max(self.cage_frequency())
     }
 
     /// Whether the contacts that set the highest frequency are damped.

@@ -8,10 +8,10 @@
 //!
 //! Rows of J are those of the rigid-body slip of a ball, so a step loses by friction what its forces say.
 
+use super::Space;
 use super::evaluate::{OUTWARDS, beside, moving, to_global};
 use super::workspace::{BallBlock, WRENCH, Workspace, at_lane, load, store};
-use super::{RACES, Space};
-use crate::bodies::{Fault, MovingRing, OF_BALL, Power, SOUND};
+use crate::bodies::{CAGE, Fault, MovingRing, OF_BALL, Power, SOUND};
 use crate::integrate::{GroupDamping, SemiImplicit, SpokeDamping, implicit_share};
 use crate::laws::point_contact::{PointForce, PointMotion};
 use crate::model::{Condition, Energy, RATES, STATIC_LIMIT};
@@ -33,12 +33,17 @@ fn decays<T: Numeric>(force: &PointForce<T>, [mass, inertia]: [T; 2], radius: T)
 impl Space {
     /// Damping of every group for a step of size `h` (s), after an evaluation.
     pub(crate) fn damping(&self, h: f64, ws: &mut Workspace, out: &mut GroupDamping<OF_BALL>) {
-        for race in 0..RACES.len() {
+        for race in 0..self.races.len() {
             let Workspace { blocks, rings, count, instructions, .. } = &mut *ws;
             let (race, ring) = ((&self.races[race], race), &rings[race]);
             dispatch(*instructions, Damp { race, ring, blocks, count: *count, h, spokes: &mut out.spokes });
         }
-        for block in &mut out.bodies {
+        self.damp_in_pockets(h, ws, out);
+        for (body, block) in self.layout.free().zip(&mut out.bodies) {
+            if body == CAGE {
+                self.damp_cage(h, ws, block);
+                continue;
+            }
             block.full.fill(0.0);
             for (i, k) in self.ring.free().enumerate() {
                 block.full[(i, i)] = self.ring.decay(k);
@@ -47,7 +52,7 @@ impl Space {
         }
     }
 
-    /// Adds to the accelerations `a` of the ring what the forces on it have become in the step of the balls.
+    /// Makes the accelerations `a` of ring and cage those by what the forces on them have become in the step of the balls.
     pub(crate) fn react(&self, v: &[f64], step: &SemiImplicit<'_>, ws: &mut Workspace, a: &mut [f64]) {
         self.find_step(v, Some(step), ws);
         let [mut force, mut moment] = ws.on_rings[1];
@@ -58,6 +63,7 @@ impl Space {
             }
         }
         self.accelerate_ring(ws, [force, moment], a);
+        self.accelerate_cage(ws, Self::on_cage_in_step(ws), a);
     }
 
     /// Finds forces and powers of all contacts in a step from the last evaluated state, whose velocities are `v`, or at that state, unless
@@ -68,8 +74,9 @@ impl Space {
             return;
         }
         ws.step = Some(wanted);
+        self.find_cage_step(v, step, ws);
         if let Some(step) = step {
-            for j in 0..ws.count {
+            for j in 0..self.layout.count {
                 let (block, lane) = place_of(j);
                 for (k, place) in self.layout.of_element::<OF_BALL>(j).into_iter().enumerate() {
                     let [mean, end] = &mut ws.changes[block];
@@ -78,7 +85,7 @@ impl Space {
                 }
             }
         }
-        for place in 0..RACES.len() {
+        for place in 0..self.races.len() {
             let Workspace { blocks, rings, count, instructions, changes, .. } = &mut *ws;
             let (race, ring) = ((&self.races[place], place), &rings[place]);
             let changes = step.map(|_| changes.as_slice());
@@ -94,6 +101,9 @@ impl Space {
             for (force, acting) in contact.force[0].iter_mut().zip(&contact.normal) {
                 *force = acting.max(0.0);
             }
+        }
+        for touching in &mut ws.cage.touching {
+            touching.contact.force = touching.normal.max(0.0);
         }
     }
 
@@ -121,7 +131,8 @@ impl Space {
                 on_inner = sum(on_inner, [3, 4, 5].map(|k| contact.reaction[k][lane]));
             }
         }
-        for j in 0..ws.count {
+        self.add_cage_powers(ws, p);
+        for j in 0..self.layout.count {
             let (block, lane) = place_of(j);
             let block = &ws.blocks[block];
             let r = self.balls.set.pitch_radius + block.at[1][lane];
@@ -172,7 +183,9 @@ impl Space {
             Condition::OverPressed => {
                 all.any(|(_, contact, lane)| contact.force_of(lane).pressure > STATIC_LIMIT)
             }
-            Condition::Unloaded => ws.contacts(1).all(|(contact, lane)| contact.force[0][lane] == 0.0),
+            Condition::Unloaded => {
+                self.free && ws.contacts(1).all(|(contact, lane)| contact.force[0][lane] == 0.0)
+            }
         }
     }
 
@@ -180,8 +193,14 @@ impl Space {
     pub(crate) fn energy(&self, ws: &Workspace) -> Energy {
         let of_ring = self.ring.energy(&ws.ring, self.gravity);
         let mut sum = Energy { kinetic: of_ring.kinetic, elastic: 0.0, potential: of_ring.potential };
+        if let Some(cage) = &self.cage {
+            let of_cage = cage.body.energy(&ws.cage.state, self.gravity);
+            sum.kinetic += of_cage.kinetic;
+            sum.potential += of_cage.potential;
+            sum.elastic += self.energy_in_pockets(ws);
+        }
         let [gy, gz] = self.gravity;
-        for j in 0..ws.count {
+        for j in 0..self.layout.count {
             let (block, lane) = place_of(j);
             let block = &ws.blocks[block];
             let [mass, inertia] = at_lane(&block.inertia, lane);
@@ -207,7 +226,7 @@ impl Space {
     /// [`Fault::TooFast`].
     pub(crate) fn admit(&self, v: &[f64]) -> Result<(), Fault> {
         let set = &self.balls.set;
-        for j in 0..set.count {
+        for j in 0..self.layout.count {
             for (k, velocity) in self.layout.of_element::<OF_BALL>(j).into_iter().enumerate() {
                 let lever = [1.0, 1.0, set.pitch_radius, set.radius, set.radius, set.radius][k];
                 let speed = v[velocity].abs() * lever;

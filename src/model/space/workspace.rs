@@ -1,6 +1,7 @@
-//! Memory of a force evaluation in space: balls and their contacts in columns, motion of both rings, all forces.
+//! Memory of a force evaluation in space: balls and their contacts in columns, motion of both rings and the cage, all forces.
 
 use super::Space;
+use super::cage::CageMemory;
 use crate::bodies::{InputValues, MovingRing, OF_BALL, OF_RING, RingState};
 use crate::integrate::Vibration;
 use crate::laws::elastic::point::ElasticPoint;
@@ -42,6 +43,8 @@ pub(super) struct BallBlock {
     /// x and rho, m; cosine and sine of the azimuth.
     pub(super) at: [Lanes; 2],
     pub(super) direction: [Lanes; 2],
+    /// Orbit angle since the start, rad.
+    pub(super) travel: Lanes,
     /// x', rho', psi', w_x, w_r, w_psi.
     pub(super) speeds: [Lanes; OF_BALL],
     /// By how much each radius is larger than nominal, m, mass and moment of inertia.
@@ -157,6 +160,8 @@ impl ContactLanes {
 #[derive(Clone, Debug)]
 pub struct Workspace {
     pub(super) count: usize,
+    /// Number of those on races: all, or none where their motion is prescribed.
+    on_races: usize,
     pub(super) blocks: Vec<BallBlock>,
     pub(super) ring: RingState<f64>,
     /// Motion of outer and inner ring.
@@ -164,6 +169,7 @@ pub struct Workspace {
     /// Force and moment about the centre of what all balls do to each.
     pub(super) on_rings: [[Vector<f64>; 2]; 2],
     pub(super) load: [f64; OF_RING],
+    pub(super) cage: CageMemory,
     pub(super) inputs: InputValues,
     pub(super) instructions: Arch,
     /// Step whose forces the contacts have, s; zero where they have those of the state itself.
@@ -193,12 +199,14 @@ impl Workspace {
             BallBlock {
                 at: [ZEROS; 2],
                 direction,
+                travel: ZEROS,
                 speeds: [ZEROS; OF_BALL],
                 excess: column(&|j| space.balls.set.radius_excess[j]),
                 inertia: [0, 1].map(|k| column(&|j| space.balls.inertia(j)[k])),
-                contacts: space.races.each_ref().map(|race| {
-                    let elastic: Vec<&ElasticPoint> = lanes.iter().map(|j| &race.elastic[*j]).collect();
-                    ContactLanes::new(&elastic)
+                contacts: [0, 1].map(|k| {
+                    let elastic =
+                        space.races.get(k).map(|race| lanes.iter().map(|j| &race.elastic[*j]).collect());
+                    ContactLanes::new(&elastic.unwrap_or_else(Vec::<&ElasticPoint>::new))
                 }),
                 on_ball: [ZEROS; WRENCH],
             }
@@ -212,6 +220,7 @@ impl Workspace {
         let oil = space.inputs.oil;
         Self {
             count,
+            on_races: space.layout.count,
             blocks: (0..blocks_for(count)).map(|b| block(b * crate::scalar::WIDEST)).collect(),
             ring: RingState {
                 position: [0.0; OF_RING],
@@ -222,6 +231,7 @@ impl Workspace {
             rings: [at_rest; 2],
             on_rings: [[[0.0; 3]; 2]; 2],
             load: [0.0; OF_RING],
+            cage: CageMemory::new(count, space.cage.as_ref().map_or(0, |cage| cage.lands.len())),
             inputs: InputValues::default(),
             instructions: Arch::new(),
             step: None,
@@ -236,7 +246,7 @@ impl Workspace {
 
     /// Contacts of every ball with one race, with their lanes, in order.
     pub(super) fn contacts(&self, race: usize) -> impl Iterator<Item = (&ContactLanes, usize)> {
-        (0..self.count).map(move |j| {
+        (0..self.on_races).map(move |j| {
             let (block, lane) = place_of(j);
             (&self.blocks[block].contacts[race], lane)
         })
@@ -269,6 +279,12 @@ impl Workspace {
     /// Sets the counts.
     pub(crate) fn set_law_counts(&mut self, counts: LawCounts) {
         self.counts = counts;
+    }
+
+    /// Inputs of the next evaluation.
+    #[inline]
+    pub(crate) fn inputs_mut(&mut self) -> &mut InputValues {
+        &mut self.inputs
     }
 
     /// Whether the next evaluations count; they do at first.

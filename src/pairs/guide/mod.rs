@@ -4,6 +4,7 @@
 //! centre, so both wrenches balance.
 
 mod deformed;
+pub(crate) mod land;
 mod longest_step;
 pub mod side;
 
@@ -67,68 +68,82 @@ const SHORT_BEARING: Cost = Cost { value: 160.0, slopes: 1550.0, per_element: fa
 /// A layer, which is dry for most of the time in some scenes and never in others.
 const LAYER: Cost = Cost { value: 200.0, slopes: 400.0, per_element: false };
 
+/// The laws of a guide of a scene at the path of `laws`, with the side on which its ring is, that ring, and the profile of the cage.
+pub(super) fn laws_of(laws: &LawBuilder<'_>, guide: &scene::Guide) -> Result<Built> {
+    let clearance = guide.diametral_clearance / 2.0;
+    // A profile on the outside of the cage thins the film where it is high, one in its bore thickens it.
+    let (radius, sign) = match guide.ring {
+        GuideRing::OuterRing => (guide.guide_radius - clearance, 1.0),
+        GuideRing::InnerRing => (guide.guide_radius, -1.0),
+    };
+    let roundness: Vec<Harmonic> = guide
+        .roundness
+        .iter()
+        .map(|a| Harmonic { order: a.order, amplitude: sign * a.amplitude, phase: a.phase })
+        .collect();
+    let free_clearance = clearance - highest_place(&roundness);
+    let profile = roundness.clone();
+    let film = match &guide.film {
+        None => None,
+        Some(scene::GuideFilm::ShortBearing(film)) => Some(GuideFilm::ShortBearing(ShortBearing {
+            viscosity: laws.viscosity("short_bearing")?,
+            radius,
+            clearance,
+            land_width: film.land_width,
+            squeeze: film.squeeze,
+            pressure_moment: film.pressure_moment,
+            roundness,
+            profile_on_journal: guide.ring == GuideRing::OuterRing,
+        })),
+        Some(scene::GuideFilm::LubricantLayer(film)) => Some(GuideFilm::LubricantLayer(LubricantLayer {
+            viscosity: laws.viscosity("lubricant_layer")?,
+            thickener: laws.thickener("lubricant_layer")?,
+            pressure_viscosity: laws.pressure_viscosity("lubricant_layer")?,
+            cap: film.pressure_cap,
+            radius,
+            clearance,
+            width: film.land_width,
+            thickness: film.thickness,
+            pressure_shear: match film.pressure_shear {
+                scene::PressureShear::Absent => PressureShear::Absent,
+                scene::PressureShear::WithinArc => PressureShear::WithinArc,
+                scene::PressureShear::WithEdges => PressureShear::WithEdges,
+            },
+            roundness,
+            profile_on_journal: guide.ring == GuideRing::OuterRing,
+        })),
+    };
+    let share = guide.film_share.as_ref();
+    let (roughness, touching_ratio) = share.map_or((0.0, 0.0), |s| (s.roughness, s.touching_ratio));
+    let solid = guide.solid.as_ref().map(|law| GuideSolid {
+        contact: SolidContact::from(&law.contact),
+        asperity_height: law.asperity_height.unwrap_or(ASPERITY_HEIGHT * roughness),
+    });
+    let law = GuideLaw { radius, clearance, free_clearance, film, solid, roughness, touching_ratio };
+    let (side, ring) = match guide.ring {
+        GuideRing::OuterRing => (GuideSide::CageInside, OUTER_RING),
+        GuideRing::InnerRing => (GuideSide::CageOutside, INNER_RING),
+    };
+    Ok(Built { law, side, ring, profile })
+}
+
+/// A guide by its laws.
+pub(super) struct Built {
+    pub(super) law: GuideLaw,
+    pub(super) side: GuideSide,
+    /// The ring that guides, a shared body.
+    pub(super) ring: usize,
+    profile: Vec<Harmonic>,
+}
+
 impl Guide {
     /// The guide of a scene, if its cage has one.
     pub(super) fn of(laws: &LawBuilder<'_>) -> Result<Option<Box<dyn SharedPair>>> {
         let Some(guide) = laws.scene().cage.as_ref().and_then(|cage| cage.guide.as_ref()) else {
             return Ok(None);
         };
-        let laws = laws.at("cage.guide.film");
-        let clearance = guide.diametral_clearance / 2.0;
-        // A profile on the outside of the cage thins the film where it is high, one in its bore thickens it.
-        let (radius, sign) = match guide.ring {
-            GuideRing::OuterRing => (guide.guide_radius - clearance, 1.0),
-            GuideRing::InnerRing => (guide.guide_radius, -1.0),
-        };
-        let roundness: Vec<Harmonic> = guide
-            .roundness
-            .iter()
-            .map(|a| Harmonic { order: a.order, amplitude: sign * a.amplitude, phase: a.phase })
-            .collect();
-        let free_clearance = clearance - highest_place(&roundness);
-        let profile = roundness.clone();
-        let film = match &guide.film {
-            None => None,
-            Some(scene::GuideFilm::ShortBearing(film)) => Some(GuideFilm::ShortBearing(ShortBearing {
-                viscosity: laws.viscosity("short_bearing")?,
-                radius,
-                clearance,
-                land_width: film.land_width,
-                squeeze: film.squeeze,
-                pressure_moment: film.pressure_moment,
-                roundness,
-                profile_on_journal: guide.ring == GuideRing::OuterRing,
-            })),
-            Some(scene::GuideFilm::LubricantLayer(film)) => Some(GuideFilm::LubricantLayer(LubricantLayer {
-                viscosity: laws.viscosity("lubricant_layer")?,
-                thickener: laws.thickener("lubricant_layer")?,
-                pressure_viscosity: laws.pressure_viscosity("lubricant_layer")?,
-                cap: film.pressure_cap,
-                radius,
-                clearance,
-                width: film.land_width,
-                thickness: film.thickness,
-                pressure_shear: match film.pressure_shear {
-                    scene::PressureShear::Absent => PressureShear::Absent,
-                    scene::PressureShear::WithinArc => PressureShear::WithinArc,
-                    scene::PressureShear::WithEdges => PressureShear::WithEdges,
-                },
-                roundness,
-                profile_on_journal: guide.ring == GuideRing::OuterRing,
-            })),
-        };
-        let share = guide.film_share.as_ref();
-        let (roughness, touching_ratio) = share.map_or((0.0, 0.0), |s| (s.roughness, s.touching_ratio));
-        let solid = guide.solid.as_ref().map(|law| GuideSolid {
-            contact: SolidContact::from(&law.contact),
-            asperity_height: law.asperity_height.unwrap_or(ASPERITY_HEIGHT * roughness),
-        });
-        let law = GuideLaw { radius, clearance, free_clearance, film, solid, roughness, touching_ratio };
-        let (side, ring) = match guide.ring {
-            GuideRing::OuterRing => (GuideSide::CageInside, OUTER_RING),
-            GuideRing::InnerRing => (GuideSide::CageOutside, INNER_RING),
-        };
-        let deformed = DeformedGuide::of(laws.scene(), side, ring, radius, &profile);
+        let Built { law, side, ring, profile } = laws_of(&laws.at("cage.guide.film"), guide)?;
+        let deformed = DeformedGuide::of(laws.scene(), side, ring, law.radius, &profile);
         Ok(Some(Box::new(Self { law, side, ring, deformed })))
     }
 

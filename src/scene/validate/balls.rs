@@ -86,7 +86,6 @@ impl Scene {
             ("outer_ring.raceway_radius", outer.raceway_radius.is_some()),
             ("outer_ring.raceway_crown_radius", outer.raceway_crown_radius.is_some()),
             ("inner_ring.raceway_crown_radius", inner.raceway_crown_radius.is_some()),
-            ("cage", self.cage.is_some()),
             ("heat", self.heat.is_some()),
         ] {
             if present {

@@ -6,9 +6,9 @@ use crate::scene::validate::*;
 use crate::scene::*;
 use std::f64::consts::FRAC_PI_2;
 
-const POCKET_CLEARANCE: Range = range(1e-7, 1e-2, "m");
+pub(super) const POCKET_CLEARANCE: Range = range(1e-7, 1e-2, "m");
 const GUIDE_CLEARANCE: Range = range(1e-6, 1e-2, "m");
-const VELOCITY: Range = range(-100.0, 100.0, "m/s");
+pub(super) const VELOCITY: Range = range(-100.0, 100.0, "m/s");
 pub(crate) const TORQUE: Range = range(-1e9, 1e9, "N m");
 
 impl Scene {
@@ -41,6 +41,12 @@ impl Scene {
         match &cage.pocket {
             None => {}
             Some(Pocket::LubricatedCylinder(pocket)) => self.validate_cylinder_pocket(judge, pocket)?,
+            Some(Pocket::SolidCylinder(pocket)) => {
+                self.validate_round_pocket(judge, "cage.pocket.solid_cylinder", pocket)?;
+            }
+            Some(Pocket::SolidSphere(pocket)) => {
+                self.validate_round_pocket(judge, "cage.pocket.solid_sphere", pocket)?;
+            }
             Some(Pocket::SolidPlane(pocket)) => {
                 let path = "cage.pocket.solid_plane";
                 judge.number(
@@ -54,8 +60,9 @@ impl Scene {
             }
         }
         if let Some(guide) = &cage.guide {
-            self.validate_guide(judge, guide)?;
+            self.validate_guide(judge, "cage.guide", guide)?;
         }
+        self.validate_motion_of_cage(judge, cage)?;
         // Where a free ring starts is not known before its equilibrium is found.
         match self.known_guide_centre() {
             Some(centre) => judge.pass("initial.cage", || {
@@ -71,7 +78,11 @@ impl Scene {
         let inner = guide.is_some_and(|guide| guide.ring == GuideRing::InnerRing);
         match self.inner_ring.as_ref().filter(|_| inner).map(|ring| &ring.motion) {
             Some(RingMotion::Fixed(position)) => Some([position.y, position.z]),
-            Some(RingMotion::Free(_)) if self.initial.inner_ring == RingStart::Equilibrium => None,
+            Some(RingMotion::Free(_) | RingMotion::Space(_))
+                if self.initial.inner_ring == RingStart::Equilibrium =>
+            {
+                None
+            }
             _ => Some([0.0; 2]),
         }
     }
@@ -125,10 +136,7 @@ impl Scene {
         {
             // Prescribed elements do not start beside each other in displaced pockets: the cage may press on them, but
             // not be pushed through.
-            let clearance = match pocket {
-                Pocket::LubricatedCylinder(pocket) => pocket.radial_clearance,
-                Pocket::SolidPlane(pocket) => pocket.diametral_clearance / 2.0,
-            };
+            let clearance = pocket.clearance();
             if start > 2.0 * clearance {
                 let text = format!(
                     "the centre {start:?} m off presses elements through pockets of {clearance:?} m clearance; at most \
@@ -153,11 +161,11 @@ impl Scene {
         self.neighbours_apart(judge, &at("radial_clearance"), radius, "pockets")
     }
 
-    fn validate_guide(&self, judge: Judge<'_>, guide: &Guide) -> Result<()> {
-        let at = |field: &str| format!("cage.guide.{field}");
+    pub(super) fn validate_guide(&self, judge: Judge<'_>, path: &str, guide: &Guide) -> Result<()> {
+        let at = |field: &str| format!("{path}.{field}");
         let pitch = self.pitch_radius();
         if guide.ring == GuideRing::InnerRing && self.inner_ring.is_none() {
-            judge.refuse("inner_ring", "missing; cage.guide.ring needs it")?;
+            judge.refuse("inner_ring", format!("missing; {path}.ring needs it"))?;
         }
         // A shoulder of the ring: beside the elements, not beyond its raceway.
         let (near, beyond) = (0.1 * self.element_radius(), 1.25 * self.element_radius());
@@ -194,8 +202,7 @@ impl Scene {
         }
         match (&guide.film, &guide.solid, &guide.film_share) {
             (None, None, _) => {
-                judge
-                    .refuse("cage.guide", "guides by nothing: give 'film', 'solid' or both; or remove it")?;
+                judge.refuse(path, "guides by nothing: give 'film', 'solid' or both; or remove it")?;
             }
             (Some(_), Some(_), None) => {
                 judge.refuse(&at("film_share"), "missing; a guide with film and solid contact needs it")?;
@@ -210,12 +217,11 @@ impl Scene {
             }
             _ => {}
         }
-        self.validate_gap(judge, guide)
+        self.validate_gap(judge, &at("roundness"), guide)
     }
 
     /// Roundness must leave a gap.
-    fn validate_gap(&self, judge: Judge<'_>, guide: &Guide) -> Result<()> {
-        let path = "cage.guide.roundness";
+    fn validate_gap(&self, judge: Judge<'_>, path: &str, guide: &Guide) -> Result<()> {
         if guide.film.is_none() && !guide.roundness.is_empty() {
             judge.refuse(path, "needs 'film' beside it")?;
         }
@@ -233,7 +239,7 @@ impl Scene {
     }
 }
 
-fn solid(judge: Judge<'_>, path: &str, law: &SolidContact) -> Result<()> {
+pub(super) fn solid(judge: Judge<'_>, path: &str, law: &SolidContact) -> Result<()> {
     let at = |field: &str| format!("{path}.{field}");
     judge.number(&at("stiffness"), law.stiffness, range(1.0, 1e12, "N/m"))?;
     judge.number(&at("damping"), law.damping, range(0.0, 1e6, "N s/m"))?;
@@ -241,7 +247,7 @@ fn solid(judge: Judge<'_>, path: &str, law: &SolidContact) -> Result<()> {
     law.friction.as_ref().map_or(Ok(()), |law| friction(judge, &at("friction"), law))
 }
 
-fn friction(judge: Judge<'_>, path: &str, law: &Friction) -> Result<()> {
+pub(super) fn friction(judge: Judge<'_>, path: &str, law: &Friction) -> Result<()> {
     judge.number(&format!("{path}.coefficient"), law.coefficient, COEFFICIENT)?;
     judge.number(&format!("{path}.transition_speed"), law.transition_speed, TRANSITION_SPEED)
 }

@@ -16,6 +16,7 @@ mod plausible;
 mod profile;
 mod series;
 mod sizes;
+mod spatial_cage;
 
 pub(crate) use balls::MOMENT;
 pub(crate) use cage::TORQUE;

@@ -19,10 +19,7 @@ impl Scene {
         let Some(deviations) = deviations else { return Ok(()) };
         let one = elements.trim_end_matches('s');
         let bound = LARGEST * radius;
-        let pocket = self.cage.as_ref().and_then(|cage| cage.pocket.as_ref()).map(|pocket| match pocket {
-            Pocket::LubricatedCylinder(pocket) => pocket.radial_clearance,
-            Pocket::SolidPlane(pocket) => pocket.diametral_clearance / 2.0,
-        });
+        let pocket = self.cage.as_ref().and_then(|cage| cage.pocket.as_ref()).map(Pocket::clearance);
         // A larger roller does not fit into its pocket.
         let largest = pocket.filter(|clearance| *clearance < bound).unwrap_or(bound);
         let allowed = range(-bound, largest, "m");

@@ -54,6 +54,7 @@ registry! {
         FailedTooFast = "failed_too_fast",
         FailedEnergyCreated = "failed_energy_created",
         FailedLostBall = "failed_lost_ball",
+        FailedAbovePocket = "failed_above_pocket",
     }
 }
 
@@ -96,6 +97,7 @@ impl RunStatistics {
             Statistic::FailedTooFast => failed(FaultKind::TooFast),
             Statistic::FailedEnergyCreated => failed(FaultKind::EnergyCreated),
             Statistic::FailedLostBall => failed(FaultKind::LostBall),
+            Statistic::FailedAbovePocket => failed(FaultKind::AbovePocket),
         }
     }
 }

@@ -41,10 +41,10 @@ pub fn rows() -> Vec<Row> {
             &["no axial stop"],
         ),
         deep.scene(
-            "cage beside balls in space",
+            "planar cage beside balls",
             &[("cage", json!({"mass": 0.01, "inertia": 1e-5}))],
-            "cage",
-            &["not allowed beside 'balls'"],
+            "cage.space",
+            &["missing", "moves in space"],
         ),
         deep.value("wave of order zero", "outer_ring.waviness", wave(0, 1e-7), &["0 is not within 1 to 200"])
             .at("outer_ring.waviness.0.order"),

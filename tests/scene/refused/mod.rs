@@ -13,6 +13,7 @@ mod pocket;
 mod profile;
 mod ranges;
 mod signals;
+mod spatial_cage;
 mod start;
 mod syntax;
 pub mod table;
@@ -35,6 +36,7 @@ pub fn rows() -> Vec<Row> {
         oil::rows(),
         beyond::rows(),
         cage::rows(),
+        spatial_cage::rows(),
         pocket::rows(),
         profile::rows(),
         guide::rows(),

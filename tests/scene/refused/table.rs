@@ -56,6 +56,14 @@ pub fn angular_contact() -> Base {
     Base(serde_json::from_str(&read("scenes/angular_contact_218.json")).expect("the example scene is JSON"))
 }
 
+/// The same with a cage.
+pub fn caged() -> Base {
+    Base(
+        serde_json::from_str(&read("scenes/angular_contact_70_cage.json"))
+            .expect("the example scene is JSON"),
+    )
+}
+
 fn grease_text() -> String {
     read("scenes/grease_guide.json")
 }

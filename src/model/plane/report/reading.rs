@@ -116,7 +116,11 @@ impl<'a> Reading<'a> {
                 forces.guide.along([y, z])[k]
             }
             Source::PocketMoment => pocket[2],
-            Source::Viscosity => model.inputs.viscosity(&model.with_lumps(inputs, v)).unwrap_or(f64::NAN),
+            Source::Viscosity => {
+                let mut inputs = *inputs;
+                model.set_lumps(v, &mut inputs);
+                model.inputs.viscosity(&inputs).unwrap_or(f64::NAN)
+            }
             Source::Node(place) => v[place],
             Source::RingY => model.motion_of(INNER_RING, q, v, inputs).position[0],
             Source::RingZ => model.motion_of(INNER_RING, q, v, inputs).position[1],

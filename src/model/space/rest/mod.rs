@@ -73,11 +73,12 @@ pub(crate) struct Bearing<'a> {
 
 impl<'a> Bearing<'a> {
     fn ball(&self, j: usize) -> Ball<'a> {
-        let Space { balls, races, gravity: [gy, gz], .. } = self.space;
+        let Space { balls, gravity: [gy, gz], .. } = self.space;
+        let races = self.space.both_races();
         let (sin, cos) = self.direction(j);
         Ball {
-            grooves: races.each_ref().map(|race| &race.groove),
-            elastic: races.each_ref().map(|race| &race.elastic[j]),
+            grooves: races.map(|race| &race.groove),
+            elastic: races.map(|race| &race.elastic[j]),
             excess: balls.set.radius_excess[j],
             inertia: balls.inertia(j),
             speeds: self.speeds,
@@ -108,7 +109,7 @@ impl<'a> Bearing<'a> {
 
     /// A place (m) of a ball between both grooves, on the line that joins the centres of their arcs.
     fn between(&self, ring: &[f64; OF_RING]) -> [f64; 2] {
-        let [outer, inner] = self.space.races.each_ref().map(|race| &race.groove);
+        let [outer, inner] = self.space.both_races().map(|race| &race.groove);
         let ([ox, or], [ix, ir]) = (outer.centre(), inner.centre());
         let line = [ring[0] - ring[4] * outer.pitch_radius - ix + ox, ring[1] - ir + or];
         let distance = math::hypot(line[0], line[1]);
@@ -131,7 +132,7 @@ impl<'a> Bearing<'a> {
             let place = ball.rest(from, beside)?;
             return Some(AtRest::Controlled(ball, place));
         }
-        let ball = SteadyBall { ball, laws: self.space.races.each_ref().map(|race| &race.laws) };
+        let ball = SteadyBall { ball, laws: self.space.both_races().map(|race| &race.laws) };
         let motion = ball.steady(from, beside)?;
         Some(AtRest::Steady(ball, motion))
     }

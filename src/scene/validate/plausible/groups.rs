@@ -313,7 +313,7 @@ pub(super) const GROUPS: &[Group] = &[
             Pocket::LubricatedCylinder(pocket) => {
                 Some((pocket.radial_clearance, range(5e-4, 0.5, "m").times(s.element_radius())))
             }
-            Pocket::SolidPlane(_) => None,
+            _ => None,
         },
         UNUSUAL,
     ),
@@ -337,6 +337,66 @@ pub(super) const GROUPS: &[Group] = &[
         &[POCKET, "cage.mass"],
         |s| {
             let contact = &s.plane_pocket()?.contact;
+            Some((contact.damping, damping(contact.stiffness, s.cage.as_ref()?.mass)))
+        },
+        WEAK,
+    ),
+    group(
+        "cage.pocket.solid_cylinder.diametral_clearance",
+        SIZE,
+        |s| Some((s.solid_cylinder()?.diametral_clearance, range(1e-3, 1.0, "m").times(s.element_radius()))),
+        UNUSUAL,
+    ),
+    group(
+        "cage.pocket.solid_cylinder.axial_clearance",
+        SIZE,
+        |s| Some((s.solid_cylinder()?.axial_clearance?, range(1e-3, 1.0, "m").times(s.element_radius()))),
+        UNUSUAL,
+    ),
+    group(
+        "cage.pocket.solid_cylinder.law.spring.stiffness",
+        &["cage.mass", "cage.pocket.solid_cylinder.diametral_clearance"],
+        |s| {
+            let pocket = s.solid_cylinder()?;
+            Some((pocket.spring()?.stiffness, s.stiffnesses(pocket.diametral_clearance)?))
+        },
+        SOFT,
+    ),
+    group(
+        "cage.pocket.solid_cylinder.law.spring.damping",
+        &["cage.pocket.solid_cylinder.law.spring.stiffness", "cage.mass"],
+        |s| {
+            let contact = s.solid_cylinder()?.spring()?;
+            Some((contact.damping, damping(contact.stiffness, s.cage.as_ref()?.mass)))
+        },
+        WEAK,
+    ),
+    group(
+        "cage.pocket.solid_sphere.diametral_clearance",
+        SIZE,
+        |s| Some((s.solid_sphere()?.diametral_clearance, range(1e-3, 1.0, "m").times(s.element_radius()))),
+        UNUSUAL,
+    ),
+    group(
+        "cage.pocket.solid_sphere.axial_clearance",
+        SIZE,
+        |s| Some((s.solid_sphere()?.axial_clearance?, range(1e-3, 1.0, "m").times(s.element_radius()))),
+        UNUSUAL,
+    ),
+    group(
+        "cage.pocket.solid_sphere.law.spring.stiffness",
+        &["cage.mass", "cage.pocket.solid_sphere.diametral_clearance"],
+        |s| {
+            let pocket = s.solid_sphere()?;
+            Some((pocket.spring()?.stiffness, s.stiffnesses(pocket.diametral_clearance)?))
+        },
+        SOFT,
+    ),
+    group(
+        "cage.pocket.solid_sphere.law.spring.damping",
+        &["cage.pocket.solid_sphere.law.spring.stiffness", "cage.mass"],
+        |s| {
+            let contact = s.solid_sphere()?.spring()?;
             Some((contact.damping, damping(contact.stiffness, s.cage.as_ref()?.mass)))
         },
         WEAK,
@@ -505,10 +565,24 @@ impl Scene {
         }
     }
 
+    fn solid_cylinder(&self) -> Option<&RoundPocket> {
+        match self.cage.as_ref()?.pocket.as_ref()? {
+            Pocket::SolidCylinder(pocket) => Some(pocket),
+            _ => None,
+        }
+    }
+
+    fn solid_sphere(&self) -> Option<&RoundPocket> {
+        match self.cage.as_ref()?.pocket.as_ref()? {
+            Pocket::SolidSphere(pocket) => Some(pocket),
+            _ => None,
+        }
+    }
+
     fn plane_pocket(&self) -> Option<&PlanePocket> {
         match self.cage.as_ref()?.pocket.as_ref()? {
             Pocket::SolidPlane(pocket) => Some(pocket),
-            Pocket::LubricatedCylinder(_) => None,
+            _ => None,
         }
     }
 

@@ -254,6 +254,8 @@ mod tests {
             "kinematic_elements.effective_length",
             "inner_ring.motion.fixed",
             "cage.guide.guide_radius",
+            "cage.space.transverse_inertia",
+            "cage.space.mass_offset_x",
             "initial.cage",
             "initial.cage_velocity",
             "solver",

@@ -1,0 +1,250 @@
+//! Derivatives of what pockets and lands do, by dual numbers over the coordinates of all that they are between.
+
+use super::super::Space;
+use super::super::evaluate::{moving, to_global};
+use super::super::linearize::RingSlopes;
+use super::super::workspace::{Workspace, at_lane};
+use super::turning_outer;
+use crate::bodies::{
+    CAGE, CageState, INNER_RING, Input, InputValues, MovingRing, OF_BALL, OF_CAGE, OF_RING, RingState,
+};
+use crate::integrate::Linearization;
+use crate::pairs::ball_pocket::BallAt;
+use crate::pairs::guide::land::Land;
+use crate::scalar::{Dual, Numeric, place_of};
+use crate::space::solid::Vector;
+
+/// What a pocket sees: x, rho and azimuth of a ball, its six speeds, coordinates of the cage, their rates, time.
+const IN_POCKET: usize = 3 + OF_BALL + 2 * OF_CAGE + 1;
+const BALL_SPEEDS: usize = 3;
+const CAGE_IN_POCKET: usize = 3 + OF_BALL;
+const POCKET_TIME: usize = IN_POCKET - 1;
+type InPocket = Dual<IN_POCKET>;
+
+/// What a land sees: coordinates of the ring, their rates, coordinates of the cage, their rates, time.
+const AT_LAND: usize = 2 * OF_RING + 2 * OF_CAGE + 1;
+const CAGE_AT_LAND: usize = 2 * OF_RING;
+const LAND_TIME: usize = AT_LAND - 1;
+type AtLand = Dual<AT_LAND>;
+
+/// What the cage's own motion follows: force and moment, its coordinates, their rates.
+const OF_OWN: usize = 6 + 2 * OF_CAGE;
+
+/// Step of the logarithm of the viscosity for differences.
+const WARMING: f64 = 1e-4;
+
+/// Derivatives of accelerations of the cage over force and moment.
+type ByWrench = [[f64; 6]; OF_CAGE];
+
+fn numbers<T>([[a, b, c], [d, e, f]]: [Vector<T>; 2]) -> [T; 6] {
+    [a, b, c, d, e, f]
+}
+
+impl Space {
+    /// Adds what follows from the cage, while the inputs change at `rates` and the logarithm of the viscosity at `ln_rate`; `ring` are the
+    /// accelerations of the ring over what its motion follows.
+    pub(in super::super) fn add_cage_slopes(
+        &self,
+        ws: &Workspace,
+        (rates, ln_rate): (&InputValues, f64),
+        ring: &RingSlopes,
+        out: &mut Linearization<OF_BALL>,
+    ) {
+        let Some(cage) = &self.cage else { return };
+        let first = self.layout.range(CAGE).start;
+        let state = &ws.cage.state;
+        let variable = Dual::<OF_OWN>::variable;
+        let wrench = [0, 1].map(|i| [0, 1, 2].map(|k| variable(ws.cage.on_cage[i][k], 3 * i + k)));
+        let own = CageState {
+            position: std::array::from_fn(|k| variable(state.position[k], 6 + k)),
+            rate: std::array::from_fn(|k| variable(state.rate[k], 6 + OF_CAGE + k)),
+        };
+        let own = cage.body.accelerations(&own, wrench, self.gravity);
+        let by_wrench: ByWrench = own.map(|row| std::array::from_fn(|w| row.eps[w]));
+        let load_rates = numbers(cage.body.load(rates));
+        for (i, row) in own.iter().enumerate() {
+            for k in 0..OF_CAGE {
+                out.over_positions.hub[(first + i, first + k)] += row.eps[6 + k];
+                out.over_velocities.hub[(first + i, first + k)] += row.eps[6 + OF_CAGE + k];
+            }
+            out.over_time[first + i] += (0..6).map(|w| by_wrench[i][w] * load_rates[w]).sum::<f64>();
+        }
+        for place in 0..ws.cage.touching.len() {
+            self.add_pocket_slopes(ws, place, rates, &by_wrench, out);
+        }
+        for land in &cage.lands {
+            self.add_land_slopes(land, ws, (rates, ln_rate), (ring, &by_wrench), out);
+        }
+    }
+
+    /// Change of the logarithm of a soap's structure over that of the viscosity.
+    fn ln_structure_ratio(&self, ws: &Workspace) -> f64 {
+        let slope = |oil: &crate::model::signals::Oil| {
+            let of_viscosity = oil.law.relative_slope(ws.inputs.of(Input::Temperature));
+            oil.thickener.map_or(0.0, |law| law.ln_structure_slope() / of_viscosity)
+        };
+        self.inputs.oil.as_ref().map_or(0.0, slope)
+    }
+
+    fn add_pocket_slopes(
+        &self,
+        ws: &Workspace,
+        place: usize,
+        rates: &InputValues,
+        by_wrench: &ByWrench,
+        out: &mut Linearization<OF_BALL>,
+    ) {
+        let Some(pockets) = self.cage.as_ref().and_then(|cage| cage.pockets.as_ref()) else { return };
+        let touching = &ws.cage.touching[place];
+        let (j, first, width) = (touching.ball, self.layout.range(CAGE).start, self.layout.hub());
+        let (block, lane) = place_of(j);
+        let block = &ws.blocks[block];
+        let variable = InPocket::variable;
+        let timed = |x: InPocket, rate: f64| {
+            let mut x = x;
+            x.eps[POCKET_TIME] += rate;
+            x
+        };
+        // Elements of prescribed motion go on in time.
+        let [orbit, orbit_rate, spin_rate] = if self.free {
+            [0.0; 3]
+        } else {
+            [rates.angles[0], rates.of(Input::OrbitSpeed), rates.of(Input::SpinSpeed)]
+        };
+        let [x, rho] = at_lane(&block.at, lane);
+        let [cos, sin] = at_lane(&block.direction, lane);
+        let mut direction = [InPocket::lift(cos), InPocket::lift(sin)];
+        (direction[0].eps[2], direction[1].eps[2]) = (-sin, cos);
+        direction = [timed(direction[0], -sin * orbit), timed(direction[1], cos * orbit)];
+        let speeds = at_lane(&block.speeds, lane);
+        let mut of_ball: [InPocket; OF_BALL] = std::array::from_fn(|k| variable(speeds[k], BALL_SPEEDS + k));
+        of_ball[2] = timed(of_ball[2], orbit_rate);
+        of_ball[3] = timed(of_ball[3], spin_rate);
+        let state = CageState {
+            position: std::array::from_fn(|k| variable(ws.cage.state.position[k], CAGE_IN_POCKET + k)),
+            rate: std::array::from_fn(|k| variable(ws.cage.state.rate[k], CAGE_IN_POCKET + OF_CAGE + k)),
+        };
+        let cage = state.motion();
+        let rho = variable(rho, 1);
+        let mut lead = InPocket::lift(block.travel[lane] - ws.cage.moving.angle);
+        (lead.eps[2], lead.eps[CAGE_IN_POCKET + 3]) = (1.0, -1.0);
+        let ball = BallAt {
+            at: [variable(x, 0), rho],
+            direction,
+            lead: timed(lead, orbit),
+            moving: moving(of_ball, rho + self.balls.set.pitch_radius),
+            excess: block.excess[lane],
+        };
+        let in_pocket = pockets.place(&ball, &cage);
+        let Some(contact) = pockets.contact(touching.wall, &ball, &in_pocket, &cage) else { return };
+        let [on_ball, on_cage] = contact.wrenches();
+        let (on_ball, on_cage) = (numbers(on_ball), numbers(on_cage.map(|v| to_global(v, direction))));
+        let rows_of_cage: [[f64; IN_POCKET]; OF_CAGE] = by_wrench
+            .map(|by| std::array::from_fn(|d| (0..6).map(|w| by[w] * on_cage[w].eps[d]).sum::<f64>()));
+        let columns = [(0, CAGE_IN_POCKET), (BALL_SPEEDS, CAGE_IN_POCKET + OF_CAGE)];
+        let positions = [3, OF_BALL];
+        let parts = [&mut out.over_positions, &mut out.over_velocities];
+        let [mass, inertia] = at_lane(&block.inertia, lane);
+        let r = self.balls.set.pitch_radius + rho.re;
+        let inverse = [mass, mass, mass * r, inertia, inertia, inertia].map(|x| 1.0 / x);
+        for ((part, (of_ball, of_cage)), positions) in parts.into_iter().zip(columns).zip(positions) {
+            for (i, row) in rows_of_cage.iter().enumerate() {
+                for k in 0..OF_CAGE {
+                    part.hub[(first + i, first + k)] += row[of_cage + k];
+                }
+                for k in 0..if self.free { positions } else { 0 } {
+                    part.to_hub[(first + i, j * OF_BALL + k)] += row[of_ball + k];
+                }
+            }
+            if !self.free {
+                continue;
+            }
+            let own = part.own.as_mut_slice().as_chunks_mut::<OF_BALL>().0;
+            for k in 0..positions {
+                for row in 0..OF_BALL {
+                    own[j * OF_BALL + k][row] += on_ball[row].eps[of_ball + k] * inverse[row];
+                }
+            }
+            let from_hub = part.from_hub.as_mut_slice().as_chunks_mut::<OF_BALL>().0;
+            for k in 0..OF_CAGE {
+                for row in 0..OF_BALL {
+                    from_hub[j * width + first + k][row] += on_ball[row].eps[of_cage + k] * inverse[row];
+                }
+            }
+        }
+        for (i, row) in rows_of_cage.iter().enumerate() {
+            out.over_time[first + i] += row[POCKET_TIME];
+        }
+    }
+
+    fn add_land_slopes(
+        &self,
+        land: &Land,
+        ws: &Workspace,
+        (rates, ln_rate): (&InputValues, f64),
+        (ring, by_wrench): (&RingSlopes, &ByWrench),
+        out: &mut Linearization<OF_BALL>,
+    ) {
+        let first = self.layout.range(CAGE).start;
+        let variable = AtLand::variable;
+        let timed = |x: AtLand, rate: f64| {
+            let mut x = x;
+            x.eps[LAND_TIME] += rate;
+            x
+        };
+        let state = CageState {
+            position: std::array::from_fn(|k| variable(ws.cage.state.position[k], CAGE_AT_LAND + k)),
+            rate: std::array::from_fn(|k| variable(ws.cage.state.rate[k], CAGE_AT_LAND + OF_CAGE + k)),
+        };
+        let cage = state.motion();
+        let moving_ring: MovingRing<AtLand> = if land.ring == 0 {
+            turning_outer(timed(AtLand::lift(ws.rings[0].speed), rates.of(Input::OuterRingSpeed)))
+        } else {
+            let [_, at, rate, second] = self.given(ws);
+            let state = RingState {
+                position: std::array::from_fn(|k| timed(variable(ws.ring.position[k], k), at[k])),
+                rate: std::array::from_fn(|k| timed(variable(ws.ring.rate[k], OF_RING + k), rate[k])),
+                given: second.map(AtLand::lift),
+                speed: timed(AtLand::lift(ws.ring.speed), rates.of(Input::RingSpeed)),
+            };
+            state.motion()
+        };
+        let Ok(force) = land.force_slopes(&cage, &moving_ring, ws.fluid) else { return };
+        let mut on = force.on.map(numbers);
+        if ln_rate != 0.0 && land.laws()[0].is_some() {
+            let at = |step: f64| {
+                let fluid = ws.fluid.moved(step, self.ln_structure_ratio(ws));
+                land.force(&ws.cage.moving, &ws.rings[land.ring], fluid).map(|force| force.on.map(numbers))
+            };
+            if let (Ok(high), Ok(low)) = (at(WARMING), at(-WARMING)) {
+                for (body, on) in on.iter_mut().enumerate() {
+                    for (w, x) in on.iter_mut().enumerate() {
+                        x.eps[LAND_TIME] += ln_rate * (high[body][w] - low[body][w]) / (2.0 * WARMING);
+                    }
+                }
+            }
+        }
+        let free: Vec<usize> = self.ring.free().collect();
+        let of_cage = (0..OF_CAGE).map(|i| (first + i, by_wrench[i], 0));
+        let start = self.layout.range(INNER_RING).start;
+        let of_ring = free
+            .iter()
+            .enumerate()
+            .filter(|_| land.ring == 1)
+            .map(|(i, k)| (start + i, std::array::from_fn(|w| ring[*k].eps[w]), 1));
+        for (place, by, body) in of_cage.chain(of_ring) {
+            let slope = |d: usize| (0..6).map(|w| by[w] * on[body][w].eps[d]).sum::<f64>();
+            let parts = [&mut out.over_positions, &mut out.over_velocities];
+            let columns = [(0, CAGE_AT_LAND), (OF_RING, CAGE_AT_LAND + OF_CAGE)];
+            for (part, (over_ring, over_cage)) in parts.into_iter().zip(columns) {
+                for k in 0..OF_CAGE {
+                    part.hub[(place, first + k)] += slope(over_cage + k);
+                }
+                for (i, k) in free.iter().enumerate() {
+                    part.hub[(place, start + i)] += slope(over_ring + k);
+                }
+            }
+            out.over_time[place] += slope(LAND_TIME);
+        }
+    }
+}
