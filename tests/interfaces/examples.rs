@@ -123,6 +123,13 @@ fn ball_bearing() {
 }
 
 #[test]
+fn cage_in_space() {
+    let scene = "scenes/angular_contact_70_cage.json";
+    run_on(scene, "cage_in_space.c", "c99", "cage_in_space.txt", &[]);
+    run_on(scene, "cage_in_space.cpp", "c++17", "cage_in_space.txt", &[]);
+}
+
+#[test]
 fn cpp() {
     run("nu2310.cpp", "c++17", "nu2310.txt", &[]);
     run("nu2310.cpp", "c++20", "nu2310.txt", &[]);

@@ -56,6 +56,9 @@ fn python_examples() {
     if let Some(mut python) = python(library.path(), "numpy, cffi") {
         check("ball_bearing.txt", &succeed(python.arg("python/examples/ball_bearing.py")).stdout);
     }
+    if let Some(mut python) = python(library.path(), "numpy, cffi") {
+        check("cage_in_space.txt", &succeed(python.arg("python/examples/cage_in_space.py")).stdout);
+    }
     if let Some(mut python) = python(library.path(), "numpy, cffi, matplotlib") {
         let picture = library.path().join("orbit.png");
         let output =
@@ -106,6 +109,7 @@ fn octave() {
     };
     let output = succeed(octave().args(["--eval", "test_cagedyn('scenes/nu2310.json')"]));
     assert!(String::from_utf8_lossy(&output.stdout).contains("all checks passed"));
+    check("cage_in_space.txt", &succeed(octave().arg("examples/cage_in_space.m")).stdout);
     let output = succeed(octave().arg("examples/nu2310.m"));
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     let (of_host, ours): (Vec<&str>, Vec<&str>) = text.lines().partition(|line| line.starts_with("ode15s"));
