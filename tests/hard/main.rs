@@ -9,6 +9,7 @@ mod common;
 /// Where the judged scenes expect them.
 mod agreement;
 mod bearing;
+mod cage_in_space;
 mod elastic_and_warm;
 mod guide;
 mod motion;
@@ -87,7 +88,8 @@ fn move_cage(sim: &mut Sim, share: f64) {
 
 /// All cases.
 pub fn cases() -> Vec<Case> {
-    bearing::cases().into_iter().chain(guide::cases()).chain(elastic_and_warm::cases()).collect()
+    let plane = bearing::cases().into_iter().chain(guide::cases()).chain(elastic_and_warm::cases());
+    plane.chain(cage_in_space::cases()).collect()
 }
 
 /// The case of this name.
@@ -158,6 +160,9 @@ pub fn run(case: &Case, solver: &Value, wall_time: f64) -> Outcome {
 /// Mass times acceleration less the sum of the reported forces, of ring and cage, as a share of the largest force: how far
 /// bodies are from accelerating by what is reported.
 fn unexplained(sim: &mut Sim) -> f64 {
+    if sim.model().plane().is_err() {
+        return unexplained_in_space(sim);
+    }
     let (layout, scene, state) =
         (sim.model().layout().clone(), sim.model().scene().clone(), sim.state().to_vec());
     let forces = sim.forces().expect("forces");
@@ -184,6 +189,30 @@ fn unexplained(sim: &mut Sim) -> f64 {
             let sum: f64 = forces.bodies[body].iter().map(|force| force[k]).sum();
             let largest = forces.bodies[body].iter().fold(mass, |m: f64, force| m.max(force[k].abs()));
             worst = worst.max((mass * acceleration - sum).abs() / largest);
+        }
+    }
+    worst
+}
+
+/// The same of ring and cage in space, whose centre of mass is in the middle.
+fn unexplained_in_space(sim: &mut Sim) -> f64 {
+    let (names, scene) = (sim.model().state_infos(), sim.model().scene().clone());
+    let velocity = |name: String| names.iter().position(|info| info.name == name);
+    let ring = scene.inner_ring.as_ref().and_then(|ring| match &ring.motion {
+        RingMotion::Space(ring) => ring.mass,
+        _ => None,
+    });
+    let masses = [("inner_ring", 1, ring), ("cage", 2, scene.cage.as_ref().map(|cage| cage.mass))];
+    let positions = sim.model().layout().positions();
+    let forces = sim.forces().expect("forces");
+    let mut worst = 0.0f64;
+    for (body, place, mass) in masses {
+        for (k, axis) in ["vx", "vy", "vz"].into_iter().enumerate() {
+            let (Some(mass), Some(at)) = (mass, velocity(format!("{body}.{axis}"))) else { continue };
+            let sources = &forces.space.bodies[place];
+            let sum: f64 = sources.iter().map(|force| force[k]).sum();
+            let largest = sources.iter().fold(mass, |m: f64, force| m.max(force[k].abs()));
+            worst = worst.max((mass * forces.accelerations[at - positions] - sum).abs() / largest);
         }
     }
     worst

@@ -9,6 +9,9 @@ const RING_BEYOND: f64 = 0.1;
 /// Largest distance of a cage from its guide in radial clearances: beyond one a solid contact gives way or the cage bends. On a
 /// soft contact friction drives its whirl until it rolls.
 const CAGE_BEYOND: f64 = 2.0;
+/// Tilt of a cage that its pockets cannot allow, rad, and its way along the axis in radii of a ball.
+const TILTED: f64 = 0.15;
+const ALONG: f64 = 1.0;
 /// Slip that is more than all, beyond what rounding of a stop gives.
 const ALL: f64 = 1.001;
 /// Mean slip of what is faster than without slip. A roller on one ring alone is so by the slip of its orbit, and a cage on a guide
@@ -48,9 +51,12 @@ pub struct Watch {
     /// Largest magnitude of the drag torque, N m.
     torque: f64,
     ring: [Option<usize>; 2],
+    loads: LoadsInSpace,
     /// Orbit angles of rollers, and the radius of a roller over that of their circle.
     orbits: Vec<usize>,
     share: f64,
+    /// m; infinite without balls.
+    ball_radius: f64,
     /// Orbit angles of the first and the last record, rad.
     from: Vec<f64>,
     to: Vec<f64>,
@@ -62,6 +68,9 @@ enum Quantity {
     /// Of this roller, whose load on the outer raceway has this place.
     RollerSlip(usize, usize),
     Eccentricity,
+    Tilt,
+    /// Along the axis of the bearing.
+    Along,
     Temperature,
     Torque,
 }
@@ -71,6 +80,8 @@ impl Watch {
         let quantity = |name: &str| match name {
             "cage.slip" => Some(Quantity::CageSlip),
             "cage.eccentricity" => Some(Quantity::Eccentricity),
+            "cage.tilt" => Some(Quantity::Tilt),
+            "cage.x" => Some(Quantity::Along),
             "inner_ring.drag_torque" => Some(Quantity::Torque),
             _ if name.starts_with("roller[") && name.ends_with(".slip") => {
                 let load = name.replace(".slip", ".outer_force");
@@ -100,9 +111,11 @@ impl Watch {
             torque: 0.0,
             orbits,
             share,
+            ball_radius: number(scene, "/balls/radius").unwrap_or(f64::INFINITY),
             without,
             from: Vec::new(),
             to: Vec::new(),
+            loads: LoadsInSpace::of(scene, names),
             ring: ["inner_ring.y", "inner_ring.z"].map(|name| names.iter().position(|n| n == name)),
         }
     }
@@ -114,6 +127,7 @@ impl Watch {
             self.note("no number", 0.0, name);
         }
         self.records += 1.0;
+        self.loads.see(out);
         self.fastest = self.cage.map_or(0.0, |cage| self.fastest.min(out[cage]));
         let seized = 1.0 + self.without.seized * (1.0 - self.fastest);
         for k in 0..self.places.len() {
@@ -129,6 +143,8 @@ impl Watch {
                     "roller on its raceway spins backwards"
                 }
                 Quantity::Eccentricity if value > self.without.cage_beyond => "cage outside its guide",
+                Quantity::Tilt if value > TILTED => "cage tilted out of its pockets",
+                Quantity::Along if value.abs() > ALONG * self.ball_radius => "cage beside its balls",
                 Quantity::Temperature if !(TEMPERATURES[0]..TEMPERATURES[1]).contains(&value) => {
                     "temperature"
                 }
@@ -201,7 +217,9 @@ impl Watch {
                 Quantity::Torque
                     if self.without.steady[1]
                         && !outer_turns
-                        && mean < (DRIVES * self.torque).min(-self.without.holds) - NO_TORQUE =>
+                        && mean
+                            < (DRIVES * self.torque).min(-self.without.torque_of(self.loads.most()))
+                                - NO_TORQUE =>
                 {
                     "bearing drives its shaft"
                 }
@@ -226,8 +244,62 @@ struct WithoutSlip {
     cage_beyond: f64,
     /// Angle of an orbit during the run, rad; none where that is small.
     rolled: Option<f64>,
-    /// Mean drag torque that gives the shaft as much as rollers, balls and cage hold and the load in its clearance, N m.
+    /// What rollers, balls and cage hold, and the load of a ring in its clearance, J.
     holds: f64,
+    /// Of the shaft during the run, rad.
+    turn: f64,
+}
+
+/// Loads of a ring in space, which give or take what they are moved by.
+struct LoadsInSpace(Vec<OneLoad>);
+
+struct OneLoad {
+    place: usize,
+    /// Largest magnitude, N or N m.
+    size: f64,
+    /// Where the ring was, m or rad.
+    range: [f64; 2],
+}
+
+impl LoadsInSpace {
+    fn of(scene: &Value, names: &[String]) -> Self {
+        let ring = &scene["inner_ring"]["motion"]["space"];
+        let weight = number(scene, "/gravity/z").unwrap_or(0.0).abs() * ring["mass"].as_f64().unwrap_or(0.0);
+        let coordinates =
+            [("x", "x"), ("y", "y"), ("z", "z"), ("tilt_y", "moment_y"), ("tilt_z", "moment_z")];
+        let of = |(coordinate, load): (&str, &str)| {
+            let place = names.iter().position(|name| *name == format!("inner_ring.{coordinate}"))?;
+            let size = largest(&ring["load"][load]) + if coordinate == "z" { weight } else { 0.0 };
+            Some(OneLoad { place, size, range: [f64::INFINITY, f64::NEG_INFINITY] })
+        };
+        Self(coordinates.into_iter().filter_map(of).collect())
+    }
+
+    fn see(&mut self, out: &[f64]) {
+        for OneLoad { place, range, .. } in &mut self.0 {
+            *range = [range[0].min(out[*place]), range[1].max(out[*place])];
+        }
+    }
+
+    /// Most that they can have given, J.
+    fn most(&self) -> f64 {
+        self.0.iter().map(|load| load.size * (load.range[1] - load.range[0]).max(0.0)).sum()
+    }
+}
+
+/// No less than the largest magnitude of a signal.
+fn largest(signal: &Value) -> f64 {
+    match signal {
+        Value::Number(number) => number.as_f64().map_or(0.0, f64::abs),
+        Value::Array(values) => values.iter().map(largest).fold(0.0, f64::max),
+        Value::Object(fields) => {
+            let of_values = fields
+                .iter()
+                .filter(|(name, _)| !["time", "start", "end", "frequency", "phase"].contains(&name.as_str()));
+            of_values.map(|(_, value)| largest(value)).sum()
+        }
+        _ => 0.0,
+    }
 }
 
 impl WithoutSlip {
@@ -247,6 +319,7 @@ impl WithoutSlip {
                 cage_beyond,
                 rolled: None,
                 holds,
+                turn: 0.0,
             };
         };
         let load = constant(scene.pointer("/inner_ring/motion/free/load/z"));
@@ -266,11 +339,14 @@ impl WithoutSlip {
         let enough = |sum: f64| sum.abs() > AT_REST * (inner.abs() + outer.abs());
         // Neighbours roll on each other, and turn one another backwards.
         let mates = scene["rollers"]["neighbours"].is_object();
-        let guide = &scene["cage"]["guide"];
+        let lands = scene["cage"]["space"]["lands"].as_array().map_or(&[][..], Vec::as_slice);
+        let of_first = lands.first().map_or(&Value::Null, |land| &land["guide"]);
+        let guide = Some(&scene["cage"]["guide"]).filter(|guide| guide.is_object()).unwrap_or(of_first);
+        let of_guide_number = |path: &str| guide.pointer(path).and_then(Value::as_f64).unwrap_or(0.0);
         let of_guide = if guide["ring"] == "inner_ring" { inner } else { outer };
-        let clearance = 0.5 * number("/cage/guide/diametral_clearance");
-        let slides = (orbit - of_guide).abs() * number("/cage/guide/guide_radius");
-        let whirls = (number("/cage/guide/solid/contact/stiffness") / number("/cage/mass")).sqrt();
+        let clearance = 0.5 * of_guide_number("/diametral_clearance");
+        let slides = (orbit - of_guide).abs() * of_guide_number("/guide_radius");
+        let whirls = (of_guide_number("/solid/contact/stiffness") / number("/cage/mass")).sqrt();
         let soft = if whirls > 0.0 { 1.0 + slides / (whirls * clearance) } else { 0.0 };
         let travel = orbit * circle;
         let of_each = number("/rollers/mass") * travel * travel + number("/rollers/inertia") * spin * spin;
@@ -284,8 +360,14 @@ impl WithoutSlip {
             cage_faster: if guide.is_object() { FASTER.min(1.0 - of_guide / orbit) } else { FASTER },
             cage_beyond: CAGE_BEYOND.max(soft),
             rolled: enough(inner + outer).then_some(orbit * duration),
-            holds: (moves + sinks) / (inner.abs() * duration),
+            holds: moves + sinks,
+            turn: inner.abs() * duration,
         }
+    }
+
+    /// Mean drag torque that gives the shaft what the bearing holds and this much more (J), N m.
+    fn torque_of(&self, more: f64) -> f64 {
+        (self.holds + more) / self.turn
     }
 }
 

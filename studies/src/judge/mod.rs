@@ -1,5 +1,6 @@
 //! Presets on random scenes that nothing was tuned to.
 
+mod cage_in_space;
 pub mod impossible;
 mod parts;
 pub mod published;

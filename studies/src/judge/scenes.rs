@@ -60,7 +60,7 @@ impl Draw {
     }
 
     /// Spring and damper against a body of `mass` kg, 1 to 50 percent of critical damping.
-    fn solid(&mut self, mass: f64) -> Value {
+    pub(super) fn solid(&mut self, mass: f64) -> Value {
         let stiffness = self.log(1e5, 3e7);
         let critical = 2.0 * (stiffness * mass).sqrt();
         let softening = self.log(1e-7, 3e-6);
@@ -110,7 +110,7 @@ impl Draw {
 
     /// Guide of a cage of `mass` kg at the radius `radius` m with at least the diametral clearance `least` m, land of `width` m;
     /// none now and then.
-    fn guide(&mut self, ring: &str, radius: f64, least: f64, width: f64, mass: f64) -> Value {
+    pub(super) fn guide(&mut self, ring: &str, radius: f64, least: f64, width: f64, mass: f64) -> Value {
         let kind = self.0.index(8);
         if kind == 0 {
             return Value::Null;

@@ -3,8 +3,9 @@
 //! Ranges: pitch diameter 20 to 300 mm, 3e3 to 6e5 mm/min times that, ball loads of 0.05 to 5 N per mm^2 of their diameter's square, radial
 //! loads up to half of the axial one, misalignment up to 2 mrad, clearance of deep grooves up to 3e-4 of the pitch diameter, oils as in
 //! [`scenes`](super::scenes), mixtures of 1 to 60 kg/m^3, waves of orders 2 to 60 and up to 1e-4 of the pitch radius over the square of the
-//! order, rings that are moved over time.
+//! order, rings that are moved over time. Six of ten have a [cage](super::cage_in_space).
 
+use super::cage_in_space::{self, Sizes};
 use super::scenes::Draw;
 use crate::random::Random;
 use serde_json::{Value, json};
@@ -125,7 +126,7 @@ pub fn scene(number: u64, duration: f64) -> Value {
             ring["waviness"] = json!(waves);
         }
     }
-    json!({
+    let mut scene = json!({
         "schema": "cagedyn.scene/1",
         "title": format!("balls in space, random scene {number}"),
         "gravity": {"y": 0.0, "z": -9.80665},
@@ -139,5 +140,11 @@ pub fn scene(number: u64, duration: f64) -> Value {
         "balls": balls, "outer_ring": outer, "inner_ring": inner, "raceways": raceways,
         "initial": {"inner_ring": if draw.chance(0.7) { "equilibrium" } else { "centred" }, "first_roller_angle": draw.angle()},
         "record": {"duration": duration, "interval": 1e-4}
-    })
+    });
+    if draw.chance(0.6) {
+        let room = pitch * (PI / count).sin() - radius;
+        let clearance = if angle.is_some() { 0.0 } else { clearance };
+        cage_in_space::add(draw, &mut scene, Sizes { radius, pitch, room, clearance }, duration);
+    }
+    scene
 }
