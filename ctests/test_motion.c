@@ -23,10 +23,11 @@ int main(int argc, char **argv)
     }
     int64_t n = cagedyn_motion_count();
     double *x = numbers(n);
-    CHECK(n == 8 && strcmp(cagedyn_motion_name(n), "") == 0);
+    CHECK(n == 14 && strcmp(cagedyn_motion_name(n), "") == 0);
     CHECK(cagedyn_cage_motion(t, y, z, whirl, cage, RECORDS, 2e-4, 0.05, x, n) == CAGEDYN_OK);
     CHECK(x[quantity("motion")] == 3.0 && x[quantity("mean_whirl_speed")] == -2000.0);
     CHECK(fabs(x[quantity("mean_radius")] - 1e-4) < 1e-12 && fabs(x[quantity("turns")] + 15.88) < 0.01);
+    CHECK(x[quantity("backward_share")] == 1.0 && x[quantity("irregular_share")] == 0.0 && x[quantity("intermittent")] == 0.0);
     CHECK(x[quantity("settling_time")] == 0.0 && fabs(x[quantity("velocity_deviation")]) < 1e-9);
 
     /* A cage that rests has a place and no velocity; without a guide too. */
@@ -42,7 +43,7 @@ int main(int argc, char **argv)
     CHECK_FAILS(cagedyn_cage_motion(y, y, z, whirl, cage, RECORDS, 2e-4, 0.0, x, n), CAGEDYN_ERR_BAD_VALUE, "times: do not grow");
     z[5] = NAN;
     CHECK_FAILS(cagedyn_cage_motion(t, y, z, whirl, cage, RECORDS, 2e-4, 0.0, x, n), CAGEDYN_ERR_BAD_VALUE, "z[5]: NaN");
-    CHECK_FAILS(cagedyn_cage_motion(t, y, z, whirl, cage, RECORDS, 2e-4, 0.0, x, n - 1), CAGEDYN_ERR_WRONG_SIZE, "out: length 7");
+    CHECK_FAILS(cagedyn_cage_motion(t, y, z, whirl, cage, RECORDS, 2e-4, 0.0, x, n - 1), CAGEDYN_ERR_WRONG_SIZE, "out: length 13");
     CHECK(x[0] == -7.0);
 
     /* A load within 45 degrees of the bottom, over several turns. */

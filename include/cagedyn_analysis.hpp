@@ -186,7 +186,8 @@ public:
     {
         double x[detail::room] = {};
         detail::check(cagedyn_heat_quantities(get(), x, cagedyn_heat_quantity_count()));
-        return {x[0], x[1], x[2], x[3], x[4], x[5], x[6], x[7]};
+        return {x[0], x[1], x[2], x[3], x[4], x[5], x[6], x[7],
+            x[8], x[9], x[10], x[11], x[12], x[13] > 0.0};
     }
 
 private:
@@ -309,6 +310,10 @@ enum class MotionKind : std::int32_t { resting, stable, forward_whirl, backward_
 struct Motion {
     MotionKind kind;
     double mean_whirl_speed, p05_whirl_speed, p95_whirl_speed, mean_radius, turns, settling_time, velocity_deviation;
+    // Of the time in each class, stretch by stretch.
+    double resting_share, stable_share, forward_share, backward_share, irregular_share;
+    // Whether a whirl comes and goes.
+    bool intermittent;
 };
 
 // Records of a cage: times in s, its centre in m relative to that of the guide, angular speed about that centre and rotation speed
@@ -328,7 +333,8 @@ inline Motion cage_motion(const MotionRecords &records, double clearance, double
     detail::check(cagedyn_cage_motion(records.times.data(), records.y.data(), records.z.data(), records.whirl_speed.data(),
                                       records.cage_speed.data(), equal ? n : -1, clearance, from, x,
                                       cagedyn_motion_count()));
-    return {static_cast<MotionKind>(static_cast<std::int32_t>(x[0])), x[1], x[2], x[3], x[4], x[5], x[6], x[7]};
+    return {static_cast<MotionKind>(static_cast<std::int32_t>(x[0])), x[1], x[2], x[3], x[4], x[5], x[6], x[7],
+            x[8], x[9], x[10], x[11], x[12], x[13] > 0.0};
 }
 
 // What samples are in each sector of the orbit: cagedyn_over_orbit_name().

@@ -51,4 +51,4 @@ pub use check::Problem;
 pub use error::{Error, Result, Status};
 pub use model::Model;
 pub use scene::Scene;
-pub use sim::{CageMotion, Interval, Recording, Sim, Spread, WhirlRecord, WhirlSummary};
+pub use sim::{CageMotion, Interval, MotionOfCage, Recording, Sim, Spread, WhirlRecord, WhirlSummary};

@@ -279,6 +279,14 @@ class Motion:
     settling_time: float
     #: Standard deviation of the speed of the centre over its mean, from one record to the next.
     velocity_deviation: float
+    #: Share of the time in each class, stretch by stretch.
+    resting_share: float
+    stable_share: float
+    forward_share: float
+    backward_share: float
+    irregular_share: float
+    #: Whether a whirl comes and goes.
+    intermittent: bool
 
 
 def cage_motion(
@@ -295,6 +303,7 @@ def cage_motion(
 
     Arrays of one shape (records,): times in s, centre of the cage relative to that of its guide in m, its angular speed about that
     centre and the rotation speed of the cage in rad/s. `clearance` is the radial guide clearance in m; 0 for a cage without a guide.
+    The wobble of a cage in space is that of its tilts times the pitch radius in the place of `y` and `z`.
     """
     rows = [numbers(row) for row in (times, y, z, whirl_speed, cage_speed)]
     count = _one_length([length for _, length, _ in rows])
@@ -303,7 +312,7 @@ def cage_motion(
         lib.cagedyn_motion_count(),
         lambda p, n: lib.cagedyn_cage_motion(*pointers, count, clearance, begin, p, n),
     )
-    return Motion(_MOTIONS[int(x[0])], *x[1:].tolist())
+    return Motion(_MOTIONS[int(x[0])], *x[1:-1].tolist(), bool(x[-1]))
 
 
 def over_orbit(angles: ArrayLike, values: ArrayLike, sectors: int) -> dict[str, Array]:

@@ -10,7 +10,7 @@ use libc::c_char;
 use std::ffi::CStr;
 
 /// Names of the numbers of a motion.
-const MOTION: [&CStr; 8] = [
+const MOTION: [&CStr; 14] = [
     c"motion",
     c"mean_whirl_speed",
     c"p05_whirl_speed",
@@ -19,6 +19,12 @@ const MOTION: [&CStr; 8] = [
     c"turns",
     c"settling_time",
     c"velocity_deviation",
+    c"resting_share",
+    c"stable_share",
+    c"forward_share",
+    c"backward_share",
+    c"irregular_share",
+    c"intermittent",
 ];
 /// Names of the rows of quantities over the orbit.
 const ROWS: [&CStr; 4] = [c"mean", c"p95", c"peak", c"positive_share"];
@@ -38,6 +44,7 @@ pub extern "C" fn cagedyn_motion_count() -> i64 {
 /// - mean_radius: distance from the centre of the guide, m; turns: net turns about it, counter-clockwise positive.
 /// - settling_time: from which on the whirl speed stays within 15 % of its mean, s.
 /// - velocity_deviation: standard deviation of the speed of the centre over its mean, from one record to the next.
+/// - resting_share to irregular_share: share of the time in each class, stretch by stretch; intermittent: 1 where a whirl comes and goes.
 #[unsafe(no_mangle)]
 pub extern "C" fn cagedyn_motion_name(index: i64) -> *const c_char {
     static_name(&MOTION, index)
@@ -82,10 +89,12 @@ pub unsafe extern "C" fn cagedyn_cage_motion(
         let whirl_radius: Vec<f64> = y.iter().zip(z).map(|(y, z)| math::hypot(*y, *z)).collect();
         let clearance = Some(clearance).filter(|c| *c > 0.0);
         let whirl_radius = whirl_radius.as_slice();
-        let record = WhirlRecord { times, whirl_speed, whirl_radius, centre: [y, z], cage_speed, clearance };
+        let (centre, along) = ([y, z], None);
+        let record = WhirlRecord { times, whirl_speed, whirl_radius, centre, along, cage_speed, clearance };
         let found = WhirlSummary::of(&record, from);
         let w = found.ok_or_else(|| bad(format!("from: fewer than three records from {from} s on")))?;
         let speed = |part: fn(&crate::sim::Spread) -> f64| w.speed.as_ref().map_or(f64::NAN, part);
+        let [resting, stable, forward, backward, irregular] = w.shares.unwrap_or([f64::NAN; 5]);
         let values = [
             f64::from(w.motion as u8),
             speed(|s| s.mean),
@@ -95,6 +104,12 @@ pub unsafe extern "C" fn cagedyn_cage_motion(
             w.turns,
             w.settling_time.unwrap_or(f64::NAN),
             w.velocity_deviation.unwrap_or(f64::NAN),
+            resting,
+            stable,
+            forward,
+            backward,
+            irregular,
+            f64::from(u8::from(w.intermittent)),
         ];
         // SAFETY: see above.
         unsafe { write_array("out", &values, out, length) }

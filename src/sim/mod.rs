@@ -17,6 +17,7 @@ pub use balance::{BALANCE_ITEMS, PowerBalance};
 pub use limits::{Canceller, RunLimits};
 pub use linear::sparse::SparsePattern;
 pub use results::interval::Interval;
+pub use results::motion::MotionOfCage;
 pub use results::over_orbit::{LoadZone, OverOrbit};
 pub use results::recording::{Recording, Spread};
 pub use results::sample::{LEVEL, Sample, Verdict, student};

@@ -1,11 +1,10 @@
 //! The same scene from slightly different starts: which kinds of motion there are, and how often. Where a cage has more than
 //! one, a single start says nothing about the bearing.
 
-use crate::results::motion::{CHANNELS, whirl};
 use crate::terminal;
 use crate::workers;
 use cagedyn::scene::Record;
-use cagedyn::{CageMotion, Error, Model, Recording, Result, Scene, Sim, Status, WhirlSummary};
+use cagedyn::{CageMotion, Error, Model, MotionOfCage, Recording, Result, Scene, Sim, Status, WhirlSummary};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{SQRT_2, TAU};
 use std::sync::Arc;
@@ -118,7 +117,8 @@ pub fn try_starts(
 ) -> Result<Starts> {
     // The same bearing, of which only the motion of the cage is recorded.
     let known = model.channels();
-    let channels = CHANNELS.iter().filter(|name| known.iter().any(|channel| channel.name == **name));
+    let channels =
+        MotionOfCage::CHANNELS.iter().filter(|name| known.iter().any(|channel| channel.name == **name));
     let channels = Some(channels.map(|name| (*name).to_owned()).collect());
     let scene = model.scene().clone();
     let record = Record { channels, extremes: Some(Vec::new()), ..scene.record.clone() };
@@ -177,15 +177,18 @@ fn motion_from(
         let mut state = sim.state().to_vec();
         // The fractions of two irrational numbers spread over a square without pattern.
         let [angle, spin] = [GOLDEN_SECTION, SQRT_2].map(|part| (part * k as f64).fract());
-        if let Some(cage) = model.layout().cage() {
-            state[cage] += apart.shift_m * (TAU * angle).cos();
-            state[cage + 1] += apart.shift_m * (TAU * angle).sin();
-            state[model.layout().positions() + cage + 2] *= 1.0 + apart.spin_share * (2.0 * spin - 1.0);
+        for (x, info) in state.iter_mut().zip(model.state_infos()) {
+            match info.name.as_str() {
+                "cage.y" => *x += apart.shift_m * (TAU * angle).cos(),
+                "cage.z" => *x += apart.shift_m * (TAU * angle).sin(),
+                "cage.speed" => *x *= 1.0 + apart.spin_share * (2.0 * spin - 1.0),
+                _ => {}
+            }
         }
         sim.set_state(0.0, &state)?;
     }
     let Record { duration, interval, .. } = model.scene().record;
     let mut recording = Recording::default();
     recording.run(&mut sim, duration, interval, |_, _| !terminal::stop_requested())?;
-    Ok(whirl(model, &recording, from))
+    Ok(MotionOfCage::of(model, &recording, from).map(|moved| moved.whirl))
 }

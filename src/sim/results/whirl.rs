@@ -16,8 +16,12 @@
 //! the mean of that speed: near zero of a regular whirl, about one half of a random walk, and larger of a cage that rests and is
 //! hit now and then. It says nothing of a cage that rests.
 //!
+//! Of a cage in space the same rules tell of its *wobble*: the way of the point on its axis that is one pitch radius away from its centre,
+//! beside which its own edge shifts as far. How long it moves in which way: [`super::stretches`].
+//!
 //! Without a clearance, the largest distance of the centre from the guide centre in the window stands in for it.
 
+use super::stretches::{MotionShares, intermittent};
 use crate::scalar::math;
 use crate::sim::Spread;
 use serde::{Deserialize, Serialize};
@@ -49,6 +53,8 @@ pub struct WhirlRecord<'a> {
     pub whirl_radius: &'a [f64],
     /// Cage centre (y, z) relative to the guide centre, m.
     pub centre: [&'a [f64]; 2],
+    /// Cage centre along the axis of the bearing, m, where it moves there.
+    pub along: Option<&'a [f64]>,
     /// Rotation speed of the cage, rad/s.
     pub cage_speed: &'a [f64],
     /// Radial guide clearance, m.
@@ -110,16 +116,20 @@ pub struct WhirlSummary {
     pub velocity_deviation: Option<f64>,
     /// Class of the motion.
     pub motion: CageMotion,
+    /// Share of the time in each class; `None` of a window with too few records for it.
+    pub shares: Option<MotionShares>,
+    /// Whether a whirl comes and goes.
+    pub intermittent: bool,
 }
 
 impl WhirlSummary {
     /// Whirl from time `from` (s) on. `None` when the window holds fewer than three records, or a value that is not
     /// finite.
     pub fn of(record: &WhirlRecord<'_>, from: f64) -> Option<Self> {
-        let count = record.columns().map(<[f64]>::len).into_iter().min()?;
+        let count = record.columns().map(<[f64]>::len).min()?;
         let first = record.times.get(..count)?.partition_point(|&t| t < from);
         let window = record.part(first, count)?;
-        let finite = window.columns().iter().all(|column| column.iter().all(|x| x.is_finite()));
+        let finite = window.columns().all(|column| column.iter().all(|x| x.is_finite()));
         if window.times.len() < MIN_RECORDS || !finite {
             return None;
         }
@@ -127,39 +137,42 @@ impl WhirlSummary {
         let speed = Spread::of(&speeds);
         let radius = mean(window.whirl_radius);
         let turns = window.turns(speed.as_ref());
-        let motion = window.motion(speed.as_ref(), radius, turns);
+        let motion = window.motion(speed.as_ref(), radius, turns.abs() >= WHIRL_TURNS);
+        let shares = window.shares();
+        let intermittent = shares.as_ref().is_some_and(intermittent);
         let settling_time = speed.and_then(|speed| settling_time(&record.part(0, count)?, first, speed.mean));
         let velocity_deviation = window.velocity_deviation();
-        Some(Self { speed, radius, settling_time, turns, velocity_deviation, motion })
+        Some(Self { speed, radius, settling_time, turns, velocity_deviation, motion, shares, intermittent })
     }
 }
 
 impl<'a> WhirlRecord<'a> {
-    fn columns(&self) -> [&'a [f64]; 6] {
+    fn columns(&self) -> impl Iterator<Item = &'a [f64]> {
         let [y, z] = self.centre;
-        [self.times, self.whirl_speed, self.whirl_radius, y, z, self.cage_speed]
+        [self.times, self.whirl_speed, self.whirl_radius, y, z, self.cage_speed].into_iter().chain(self.along)
     }
 
     /// Records `first` to `end`, without the latter.
-    fn part(&self, first: usize, end: usize) -> Option<Self> {
+    pub(super) fn part(&self, first: usize, end: usize) -> Option<Self> {
         let part = |column: &'a [f64]| column.get(first..end);
         Some(Self {
             times: part(self.times)?,
             whirl_speed: part(self.whirl_speed)?,
             whirl_radius: part(self.whirl_radius)?,
             centre: [part(self.centre[0])?, part(self.centre[1])?],
+            along: self.along.and_then(part),
             cage_speed: part(self.cage_speed)?,
             clearance: self.clearance,
         })
     }
 
     /// Distance that shares are of, m.
-    fn reference(&self) -> f64 {
+    pub(super) fn reference(&self) -> f64 {
         self.clearance.unwrap_or_else(|| self.places().map(|(y, z)| math::hypot(y, z)).fold(0.0, f64::max))
     }
 
     /// Records far enough from the guide centre to have a whirl speed, with that.
-    fn known_speeds(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+    pub(super) fn known_speeds(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         let smallest = SMALLEST_WHIRL_RADIUS * self.reference();
         let all = self.whirl_radius.iter().zip(self.whirl_speed).enumerate();
         all.filter(move |(_, (radius, _))| **radius >= smallest).map(|(i, (_, speed))| (i, *speed))
@@ -171,26 +184,33 @@ impl<'a> WhirlRecord<'a> {
 
     /// Net turns: the angle between successive records added up, or mean speed times time where most of a half turn
     /// and more may lie between two records.
-    fn turns(&self, speed: Option<&Spread>) -> f64 {
+    pub(super) fn turns(&self, speed: Option<&Spread>) -> f64 {
         let interval = self.times.windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max);
         if let Some(speed) = speed.filter(|speed| speed.p05.abs().max(speed.p95.abs()) * interval > PI) {
             let [first, .., last] = self.times else { return 0.0 };
             return speed.mean * (last - first) / TAU;
         }
+        self.angles().sum::<f64>() / TAU
+    }
+
+    /// Angles about the guide centre from record to record, rad.
+    pub(super) fn angles(&self) -> impl Iterator<Item = f64> + '_ {
         let steps = self.places().zip(self.places().skip(1));
-        let angles = steps.map(|((y0, z0), (y1, z1))| math::atan2(y0 * z1 - z0 * y1, y0 * y1 + z0 * z1));
-        angles.sum::<f64>() / TAU
+        steps.map(|((y0, z0), (y1, z1))| math::atan2(y0 * z1 - z0 * y1, y0 * y1 + z0 * z1))
     }
 
     fn velocity_deviation(&self) -> Option<f64> {
         let steps = self.places().zip(self.places().skip(1)).zip(self.times.windows(2));
-        let speeds: Vec<f64> =
-            steps.map(|(((y0, z0), (y1, z1)), t)| math::hypot(y1 - y0, z1 - z0) / (t[1] - t[0])).collect();
+        let across =
+            steps.map(|(((y0, z0), (y1, z1)), t)| (math::hypot(y1 - y0, z1 - z0), t[1] - t[0])).enumerate();
+        let along = |i: usize| self.along.map_or(0.0, |x| x[i + 1] - x[i]);
+        let speeds: Vec<f64> = across.map(|(i, (way, time))| math::hypot(way, along(i)) / time).collect();
         let speed = Spread::of(&speeds).filter(|speed| speed.mean > 0.0)?;
         Some(speed.deviation / speed.mean)
     }
 
-    fn motion(&self, speed: Option<&Spread>, radius: f64, turns: f64) -> CageMotion {
+    /// The class; `turns`: whether the centre goes round often enough for a whirl.
+    pub(super) fn motion(&self, speed: Option<&Spread>, radius: f64, turns: bool) -> CageMotion {
         let reference = self.reference();
         let centre = self.centre.map(mean);
         let distances: Vec<f64> =
@@ -199,9 +219,7 @@ impl<'a> WhirlRecord<'a> {
         let sense = speed.filter(|speed| speed.p05 * speed.p95 > 0.0).map(|speed| speed.mean);
         if distance.max <= RESTING_REACH * reference {
             CageMotion::Resting
-        } else if let Some(speed) =
-            sense.filter(|_| turns.abs() >= WHIRL_TURNS && radius >= WHIRL_RADIUS * reference)
-        {
+        } else if let Some(speed) = sense.filter(|_| turns && radius >= WHIRL_RADIUS * reference) {
             let cage = if mean(self.cage_speed) < 0.0 { -1.0 } else { 1.0 };
             if cage * speed > 0.0 { CageMotion::ForwardWhirl } else { CageMotion::BackwardWhirl }
         } else if distance.p95 <= STABLE_REACH * reference {
@@ -220,23 +238,23 @@ fn settling_time(record: &WhirlRecord<'_>, window: usize, mean: f64) -> Option<f
     if first > window { None } else { record.times.get(first).copied() }
 }
 
-fn mean(values: &[f64]) -> f64 {
+pub(super) fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
 
-    const CLEARANCE: f64 = 2e-4;
-    const INTERVAL: f64 = 1e-4;
+    pub(crate) const CLEARANCE: f64 = 2e-4;
+    pub(crate) const INTERVAL: f64 = 1e-4;
 
     /// Columns of a synthetic orbit: times, whirl speed, radius, y, z, cage speed.
-    struct Orbit([Vec<f64>; 6]);
+    pub(crate) struct Orbit([Vec<f64>; 6]);
 
     impl Orbit {
         /// An orbit of 1000 records at positions (y, z) in units of the clearance over time in s.
-        fn new(cage_speed: f64, interval: f64, place: impl Fn(f64) -> (f64, f64)) -> Self {
+        pub(crate) fn new(cage_speed: f64, interval: f64, place: impl Fn(f64) -> (f64, f64)) -> Self {
             let mut columns: [Vec<f64>; 6] = Default::default();
             for i in 0..1000 {
                 let t = f64::from(i) * interval;
@@ -250,18 +268,26 @@ mod tests {
             Self(columns)
         }
 
-        fn record(&self) -> WhirlRecord<'_> {
+        pub(crate) fn record(&self) -> WhirlRecord<'_> {
             let [times, whirl_speed, whirl_radius, y, z, cage_speed] = &self.0;
             let clearance = Some(CLEARANCE);
-            WhirlRecord { times, whirl_speed, whirl_radius, centre: [y, z], cage_speed, clearance }
+            WhirlRecord {
+                times,
+                whirl_speed,
+                whirl_radius,
+                centre: [y, z],
+                along: None,
+                cage_speed,
+                clearance,
+            }
         }
 
-        fn summary(&self) -> WhirlSummary {
+        pub(crate) fn summary(&self) -> WhirlSummary {
             WhirlSummary::of(&self.record(), 0.05).expect("a window")
         }
     }
 
-    fn circle(radius: f64, speed: f64) -> impl Fn(f64) -> (f64, f64) {
+    pub(crate) fn circle(radius: f64, speed: f64) -> impl Fn(f64) -> (f64, f64) {
         move |t| (radius * (speed * t).cos(), radius * (speed * t).sin())
     }
 

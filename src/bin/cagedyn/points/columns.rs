@@ -38,6 +38,9 @@ fn mean_slip(s: &Summary) -> Option<f64> {
 /// Column of [`OF_WHIRL`] that is no number.
 pub const MOTION: &str = "motion";
 
+/// Class of the motion of the axis of a cage in space.
+pub const WOBBLE: &str = "wobble";
+
 /// Columns on the motion of the cage centre.
 pub const OF_WHIRL: [&str; 7] = [
     "whirl speed mean [rad/s]",

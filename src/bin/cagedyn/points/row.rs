@@ -1,6 +1,6 @@
 //! What is kept of a run that is done: its results as cells of tables, and how it ended.
 
-use super::columns::{OF_ROLLERS, OF_WHIRL, of_rollers, of_whirl};
+use super::columns::{OF_ROLLERS, OF_WHIRL, WOBBLE, of_rollers, of_whirl};
 use super::spectrum::Spectrum;
 use crate::results::files::plain;
 use crate::results::summary::{FEW_TURNS, Summary};
@@ -50,6 +50,9 @@ impl Row {
         if summary.whirl.is_some() {
             results.extend(OF_WHIRL.map(str::to_owned).into_iter().zip(of_whirl(summary)));
         }
+        if let Some(wobble) = &summary.wobble {
+            results.push((WOBBLE.to_owned(), wobble.motion.name().to_owned()));
+        }
         let of_rollers = OF_ROLLERS.map(str::to_owned).into_iter().zip(of_rollers(summary));
         results.extend(of_rollers.filter(|(_, text)| !text.is_empty()));
         let mut add = |name: &str, value: Option<f64>| {
@@ -57,6 +60,10 @@ impl Row {
         };
         add(CAGE_TURNS, summary.cage_turns);
         add("velocity deviation [1]", summary.whirl.as_ref().and_then(|whirl| whirl.velocity_deviation));
+        for motion in CageMotion::ALL {
+            let share = summary.whirl.as_ref().and_then(|whirl| whirl.share(motion));
+            add(&format!("share of time: {} [1]", motion.name()), share);
+        }
         add("load zone [rad]", summary.load_zone.map(|zone| zone.extent_rad));
         add("power loss [W]", summary.power_loss.as_ref().map(|loss| loss.total_w));
         if let Some(starts) = &summary.starts {

@@ -42,12 +42,17 @@ pub struct Line {
     pub peak: bool,
 }
 
-/// Spectrum of the height of the cage centre in m, and the time in s that it begins at; `None` without a cage or with too few
-/// records. `cage` is the frequency of the cage, Hz.
+/// Spectrum of the height of the cage centre in m, as [`spectrum_of`].
 pub fn spectrum(run: &Run, cage: Option<f64>) -> Option<(Spectrum, f64)> {
+    spectrum_of(run, "cage.z", cage)
+}
+
+/// Spectrum of a channel, and the time in s that it begins at; `None` where it is not recorded or has too few records. `cage` is the
+/// frequency of the cage, Hz.
+pub fn spectrum_of(run: &Run, channel: &str, cage: Option<f64>) -> Option<(Spectrum, f64)> {
     let start = SETTLED.min(LARGEST_START_SHARE * run.end()) - 1e-6 * run.interval();
     let from = run.recording.index_at(start);
-    let samples = run.column("cage.z")?.get(from..)?;
+    let samples = run.column(channel)?.get(from..)?;
     let wanted = cage.map_or(0.0, |f| RESOLUTION * f);
     Some((averaged_spectrum(samples, run.interval(), wanted)?, *run.recording.times.get(from)?))
 }

@@ -7,7 +7,6 @@ pub mod formats;
 pub mod intervals;
 pub mod lines;
 pub mod map;
-pub mod motion;
 pub mod output;
 pub mod report;
 pub mod sectors;

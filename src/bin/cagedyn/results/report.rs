@@ -3,6 +3,7 @@
 use crate::results::finished::Run;
 use crate::results::summary::{Balance, Statistics, Summary, Whirl, Window};
 use crate::results::table::{self, Align, celsius, grouped, number, rounded};
+use cagedyn::CageMotion;
 use std::borrow::Cow;
 use std::path::Path;
 
@@ -85,6 +86,9 @@ pub fn text(run: &Run, summary: &Summary, folder: &Path) -> String {
     if let Some(whirl) = &summary.whirl {
         text.push_str(&format!("cage motion in this time: {}\n", motion(whirl)));
     }
+    if let Some(wobble) = &summary.wobble {
+        text.push_str(&format!("wobble of its axis: {}\n", motion(wobble)));
+    }
     if let Some(starts) = &summary.starts {
         let (shift, spin) = (number(starts.apart.shift_m), number(100.0 * starts.apart.spin_share));
         let apart = format!("{shift} m and up to {spin} % of the cage speed apart");
@@ -110,14 +114,21 @@ pub fn window(window: &Window) -> String {
 
 /// "backward whirl, 10.4 turns, within 15 % of its speed from 0.024 s on".
 pub fn motion(whirl: &Whirl) -> String {
+    let name = whirl.motion.name();
+    if whirl.intermittent {
+        let share = |motion: CageMotion| whirl.share(motion).filter(|share| *share > 0.0);
+        let part = |motion: CageMotion| Some(format!("{} {:.0} %", motion.name(), 100.0 * share(motion)?));
+        let parts: Vec<String> = CageMotion::ALL.into_iter().filter_map(part).collect();
+        return format!("{name}; a whirl comes and goes: {} of the time", parts.join(", "));
+    }
     if !whirl.motion.is_whirl() {
-        return whirl.motion.name().to_owned();
+        return name.to_owned();
     }
     let settled = match whirl.settling_time_s {
         Some(t) => format!("within 15 % of its speed from {} s on", rounded(t)),
         None => "not settled within 15 % of its speed".to_owned(),
     };
-    format!("{}, {:.1} turns, {settled}", whirl.motion.name(), whirl.turns.abs())
+    format!("{name}, {:.1} turns, {settled}", whirl.turns.abs())
 }
 
 /// Results in the averaging window.

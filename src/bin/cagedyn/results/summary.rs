@@ -6,17 +6,17 @@ use crate::results::files::{SERIES, UNFINISHED};
 use crate::results::finished::Run;
 use crate::results::lines::{Lines, lines};
 use crate::results::map::{as_map, from_map};
-use crate::results::motion::whirl;
 use crate::results::sectors::{self, Sectors};
 use crate::starts::Starts;
 use cagedyn::sim::LoadZone;
-use cagedyn::{CageMotion, Spread, WhirlSummary};
+use cagedyn::{CageMotion, MotionOfCage, Spread, WhirlSummary};
 use found::{
     balance, cage_turns, extremes, integration, key_statistics, max_roller_slip, pocket_forces, power_loss,
     window,
 };
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::path::Path;
 
@@ -86,6 +86,9 @@ pub struct Summary {
     /// Motion of the cage centre about the guide centre in the window.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub whirl: Option<Whirl>,
+    /// The same of the axis of a cage in space about that of the bearing: of the point that is one pitch radius from the centre.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wobble: Option<Whirl>,
     /// Spectrum of the height of the cage centre at frequencies of the bearing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spectrum: Option<Lines>,
@@ -236,6 +239,12 @@ pub struct Whirl {
     /// Standard deviation of the speed of the cage centre over its mean; none where it stays in its place.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub velocity_deviation: Option<f64>,
+    /// Share of the time in each class, stretch by stretch; none of a window with too few records.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shares: Option<BTreeMap<String, f64>>,
+    /// Whether a whirl comes and goes.
+    #[serde(default)]
+    pub intermittent: bool,
     /// Time from which on the whirl speed stays within 15 % of its mean, s; none if it never does.
     pub settling_time_s: Option<f64>,
     /// Turns of the cage in the run, where they are too few for a mean to say much.
@@ -303,7 +312,8 @@ impl Summary {
     /// Results of a run; `scene` is the file it came from.
     pub fn new(run: &Run, scene: &Path, case: Option<&str>, set: Vec<String>) -> Self {
         let from = run.window_start();
-        let whirl = whirl(&run.model, &run.recording, from);
+        let moved = MotionOfCage::of(&run.model, &run.recording, from);
+        let (whirl, wobble) = moved.map_or((None, None), |moved| (Some(moved.whirl), moved.wobble));
         let speed = whirl.as_ref().and_then(|whirl| whirl.speed);
         let cage_turns = cage_turns(run, 0.0);
         let few = cage_turns.filter(|turns| *turns < FEW_TURNS);
@@ -312,7 +322,7 @@ impl Summary {
         let layout = run.model.layout();
         let (over_orbit, load_zone) = sectors::of(run, from);
         let cage_frequency_hz = mean("cage.speed").map(|speed| speed.abs() / TAU);
-        let whirl = whirl.map(|whirl| Whirl::new(whirl, few));
+        let [whirl, wobble] = [whirl, wobble].map(|way| way.map(|way| Whirl::new(way, few)));
         let spectrum = lines(run, cage_frequency_hz, whirl.as_ref().and_then(Whirl::frequency));
         Self {
             title: run.title.clone(),
@@ -338,6 +348,7 @@ impl Summary {
             window: window(run, from),
             cage_frequency_hz,
             whirl,
+            wobble,
             spectrum,
             starts: None,
             max_roller_slip: max_roller_slip(run, from),
@@ -372,6 +383,12 @@ impl Whirl {
         Some(self.mean_speed_rad_per_s.filter(|_| self.motion.is_whirl())?.abs() / TAU)
     }
 
+    /// Share of the time in a class.
+    pub fn share(&self, motion: CageMotion) -> Option<f64> {
+        let shares = self.shares.as_ref()?;
+        Some(shares.get(&motion.name().replace(' ', "_")).copied().unwrap_or(0.0))
+    }
+
     fn new(w: WhirlSummary, few_cage_turns: Option<f64>) -> Self {
         Self {
             motion: w.motion,
@@ -381,6 +398,11 @@ impl Whirl {
             mean_radius_m: w.radius,
             turns: w.turns,
             velocity_deviation: w.velocity_deviation,
+            shares: w.shares.map(|shares| {
+                let names = CageMotion::ALL.map(|motion| motion.name().replace(' ', "_"));
+                names.into_iter().zip(shares).filter(|(_, share)| *share > 0.0).collect()
+            }),
+            intermittent: w.intermittent,
             settling_time_s: w.settling_time,
             few_cage_turns,
         }

@@ -1,7 +1,7 @@
 //! The table of a sweep: one row for each point, with what was varied, statistics of the run, and how it ended.
 
 use super::grid::{Vary, plain_text};
-use crate::points::columns::MOTION;
+use crate::points::columns::{MOTION, WOBBLE};
 use crate::points::{Row, spectrum};
 use crate::results::formats::parquet::{Column, Values};
 use cagedyn::scene::parse_override;
@@ -48,9 +48,9 @@ impl Table {
         let varied = vary
             .iter()
             .map(|one| (one.path.clone(), if one.values.numeric() { Kind::Number } else { Kind::Text }));
-        let found = results
-            .iter()
-            .map(|name| ((*name).to_owned(), if *name == MOTION { Kind::Text } else { Kind::Number }));
+        let found = results.iter().map(|name| {
+            ((*name).to_owned(), if [MOTION, WOBBLE].contains(name) { Kind::Text } else { Kind::Number })
+        });
         let ending = ENDING.map(|name| {
             let kind = match name {
                 "simulated time [s]" => Kind::Number,
