@@ -3,6 +3,7 @@
 mod axis;
 mod cage_positions;
 mod cage_shape;
+mod cage_views;
 mod ellipse;
 pub mod equilibrium;
 mod forces;
@@ -13,6 +14,7 @@ mod over_orbit;
 mod panel;
 mod position;
 mod roller;
+mod spectrogram;
 mod spectrum;
 mod strips;
 pub mod style;
@@ -56,7 +58,7 @@ fn look(k: usize) -> (Marker, Paint) {
 }
 
 /// File names of the pictures of a run.
-pub const PICTURES: [&str; 8] = [
+pub const PICTURES: [&str; 11] = [
     "cage_orbit.svg",
     "cage_position.svg",
     "roller_history.svg",
@@ -65,6 +67,9 @@ pub const PICTURES: [&str; 8] = [
     "cage_spectrum.svg",
     "contact_forces.svg",
     "contact_ellipse.svg",
+    "cage_spectrogram.svg",
+    "cage_views.svg",
+    "land_gaps.svg",
 ];
 
 /// File names and contents of the pictures of a run.
@@ -85,6 +90,9 @@ pub fn pictures(run: &Run, summary: &Summary) -> Result<Vec<(&'static str, Strin
         spectrum::cage_spectrum(run, summary),
         forces::contact_forces(run),
         ellipse::contact_ellipse(run),
+        spectrogram::cage_spectrogram(run, summary),
+        cage_views::cage_views(run, summary),
+        cage_views::land_gaps(run, summary),
     ];
     PICTURES.into_iter().zip(drawn).filter_map(|(name, svg)| Some(svg?.map(|svg| (name, svg)))).collect()
 }
