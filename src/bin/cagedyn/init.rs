@@ -17,7 +17,9 @@ pub enum Kind {
     OiledBall,
     /// Balls that move freely in space, angular contact, an inner ring under combined load; no cage.
     AngularContact,
-    /// The same of a deep groove bearing.
+    /// The same with a cage that tilts, on two lands of the outer ring.
+    AngularContactCage,
+    /// Balls that move freely in a deep groove bearing; no cage.
     DeepGroove,
 }
 
@@ -29,6 +31,7 @@ impl Kind {
             Self::GreasedBall => include_str!("starters/greased-ball.json"),
             Self::OiledBall => include_str!("starters/oiled-ball.json"),
             Self::AngularContact => include_str!("starters/angular-contact.json"),
+            Self::AngularContactCage => include_str!("starters/angular-contact-cage.json"),
             Self::DeepGroove => include_str!("starters/deep-groove.json"),
         }
     }
