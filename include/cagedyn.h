@@ -729,7 +729,8 @@ int64_t cagedyn_motion_count(void);
  * - mean_whirl_speed, p05_whirl_speed, p95_whirl_speed: mean and percentiles, rad/s; not of a centre next to that of the guide.
  * - mean_radius: distance from the centre of the guide, m; turns: net turns about it, counter-clockwise positive.
  * - settling_time: from which on the whirl speed stays within 15 % of its mean, s.
- * - velocity_deviation: standard deviation of the speed of the centre over its mean, from one record to the next. */
+ * - velocity_deviation: standard deviation of the speed of the centre over its mean, from one record to the next.
+ * - resting_share to irregular_share: share of the time in each class, stretch by stretch; intermittent: 1 where a whirl comes and goes. */
 const char *cagedyn_motion_name(int64_t index);
 
 /* Writes class and statistics of the motion of a cage from time `from` (s) on to `out` (length: motion count). Each array has
