@@ -102,6 +102,7 @@ static void check_motion()
     Motion motion = cage_motion({t, y, z, whirl, cage}, 2e-4, 0.05);
     CHECK(motion.kind == MotionKind::backward_whirl && motion.mean_whirl_speed == -2000.0);
     CHECK(std::fabs(motion.mean_radius - 1e-4) < 1e-12 && motion.settling_time == 0.0);
+    CHECK(motion.backward_share == 1.0 && !motion.intermittent);
     z.pop_back();
     CHECK(status_of([&] { cage_motion({t, y, z, whirl, cage}, 2e-4, 0.05); }) == CAGEDYN_ERR_WRONG_SIZE);
 

@@ -186,8 +186,7 @@ public:
     {
         double x[detail::room] = {};
         detail::check(cagedyn_heat_quantities(get(), x, cagedyn_heat_quantity_count()));
-        return {x[0], x[1], x[2], x[3], x[4], x[5], x[6], x[7],
-            x[8], x[9], x[10], x[11], x[12], x[13] > 0.0};
+        return {x[0], x[1], x[2], x[3], x[4], x[5], x[6], x[7]};
     }
 
 private:

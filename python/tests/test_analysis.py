@@ -130,6 +130,7 @@ def test_motion():
     motion = cagedyn.cage_motion(t, circle.real, circle.imag, **cage, clearance=2e-4, begin=0.05)
     assert motion.motion == "backward whirl" and motion.mean_whirl_speed == -2000.0
     assert motion.mean_radius == pytest.approx(1e-4) and motion.settling_time == 0.0
+    assert motion.backward_share == 1.0 and motion.intermittent is False
     with pytest.raises(ValueError, match="of one length"):
         cagedyn.cage_motion(t, circle.real, circle.imag[1:], **cage, clearance=2e-4)
     with pytest.raises(cagedyn.Error, match="clearance: -1"):

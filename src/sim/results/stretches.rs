@@ -45,9 +45,9 @@ impl WhirlRecord<'_> {
         for k in 0..count {
             let [first, last] = [k, k + 1].map(|k| k * (records - 1) / count);
             let stretch = WhirlRecord { clearance, ..self.part(first, last + 1)? };
-            shares[stretch.class() as usize] += 1.0 / count as f64;
+            shares[stretch.class() as usize] += 1.0;
         }
-        Some(shares)
+        Some(shares.map(|stretches| stretches / count as f64))
     }
 
     fn class(&self) -> CageMotion {
