@@ -1,7 +1,7 @@
 //! A cage among balls: the planar limit, conservation without friction, the whirl of a greased guide.
 
 use crate::{CAGED, free_ring, model};
-use cagedyn::{Model, Sim};
+use cagedyn::{CageMotion, Model, MotionOfCage, Recording, Sim};
 use serde_json::{Value, json};
 use std::sync::Arc;
 
@@ -184,4 +184,28 @@ fn a_greased_cage_whirls_and_wobbles() {
     let [whirl, _, _, orbit] = means(&axial(50.0), names, [0.12, 0.3]);
     assert!(whirl.abs() < 100.0, "{whirl}");
     assert!((0.96..0.97).contains(&orbit), "{orbit}");
+}
+
+/// A cage that nothing touches wobbles forward as it nutates: its axis swings about its angular momentum at I_p w / I_t.
+#[test]
+fn the_wobble_of_a_free_cage_is_its_nutation() {
+    let speed = 142.0;
+    let changes = [
+        ("gravity", Value::Null),
+        ("cage.guide", Value::Null),
+        ("cage.pocket", Value::Null),
+        ("initial.cage_speed", json!(speed)),
+        ("initial.cage_space", json!({"tilt_y": 1e-3, "tilt_speed_z": 1e-3 * speed * 2.511 / 1.285})),
+        ("record", json!({"duration": 0.1, "interval": 1e-4})),
+    ];
+    let model = model(CAGED, &changes);
+    let mut recording = Recording::default();
+    recording.run(&mut Sim::new(model.clone()).unwrap(), 0.1, 1e-4, |_, _| true).unwrap();
+    let wobble = MotionOfCage::of(&model, &recording, 0.0).unwrap().wobble.unwrap();
+    let nutation = speed * 2.511 / 1.285;
+    let found = wobble.speed.unwrap();
+    assert_eq!(wobble.motion, CageMotion::ForwardWhirl, "{wobble:?}");
+    assert!((found.mean / nutation - 1.0).abs() < 1e-4 && found.deviation < 1e-2, "{found:?} {nutation}");
+    assert!((wobble.radius - 1e-3 * model.pitch_radius()).abs() < 1e-9, "{wobble:?}");
+    assert_eq!(wobble.shares.unwrap()[CageMotion::ForwardWhirl as usize], 1.0);
 }
