@@ -74,6 +74,8 @@ struct SpaceOf {
     angles: [Option<Packed>; 2],
     /// Pitch and yaw of the axes of the balls.
     axes: Option<[Packed; 2]>,
+    /// x, y, z and tilts of the cage.
+    cage: Option<[Packed; 5]>,
 }
 
 #[derive(Serialize)]
@@ -120,7 +122,8 @@ const OF_ELEMENT: [&str; 11] = [
     "pitch_angle",
     "yaw_angle",
 ];
-const OF_RING: [&str; 5] = ["x", "y", "z", "tilt_y", "tilt_z"];
+/// Coordinates of ring and cage in space.
+const OF_BODY: [&str; 5] = ["x", "y", "z", "tilt_y", "tilt_z"];
 const OF_CAGE: [&str; 7] =
     ["cage.y", "cage.z", "cage.angle", "guide.force_y", "guide.force_z", "inner_ring.y", "inner_ring.z"];
 
@@ -130,8 +133,15 @@ pub fn columns(model: &Model) -> Vec<String> {
     let of_elements =
         (0..model.element_count()).flat_map(|j| OF_ELEMENT.map(|field| format!("{kind}[{j}].{field}")));
     let waves = (2..=orders(model)).flat_map(|n| ["amplitude", "phase"].map(|part| wave(n, part)));
-    let ring = ["x", "tilt_y", "tilt_z"].map(|field| format!("inner_ring.{field}"));
-    OF_CAGE.map(str::to_owned).into_iter().chain(ring).chain(waves).chain(of_elements).collect()
+    let tilts =
+        ["inner_ring", "cage"].map(|body| ["x", "tilt_y", "tilt_z"].map(|field| format!("{body}.{field}")));
+    OF_CAGE
+        .map(str::to_owned)
+        .into_iter()
+        .chain(tilts.into_iter().flatten())
+        .chain(waves)
+        .chain(of_elements)
+        .collect()
 }
 
 /// Highest order of the waves of the cage; below 2 without any.
@@ -392,21 +402,32 @@ impl<'a> Shown<'a> {
         scene.balls.as_ref()?;
         let (outer, inner) = (scene.outer_ring.as_ref()?, scene.inner_ring.as_ref()?);
         let grooves = [outer.groove_radius?, inner.groove_radius?];
-        let ring = OF_RING.map(|field| self.series.column(&format!("inner_ring.{field}")));
-        let [Some(x), Some(y), Some(z), Some(tilt_y), Some(tilt_z)] = ring else {
+        let Some(ring) = self.in_space("inner_ring") else {
             self.miss("the bearing in space", "inner_ring.x, .y, .z, .tilt_y or .tilt_z");
             return None;
         };
+        let cage = scene.cage.as_ref().and_then(|_| self.in_space("cage"));
+        if scene.cage.is_some() && cage.is_none() {
+            self.miss("the cage", "cage.x, .y, .z, .tilt_y or .tilt_z");
+        }
         let contact_angle =
             self.model.geometry().into_iter().find(|(q, _)| q.name == "free_contact_angle")?.1;
         let axes = self.of_elements("pitch_angle").zip(self.of_elements("yaw_angle"));
         Some(SpaceOf {
             grooves,
             contact_angle,
-            ring: [x, y, z, tilt_y, tilt_z].map(|column| self.packed(column)),
+            ring,
             angles: ["outer_angle", "inner_angle"].map(|field| self.of_elements(field)),
             axes: axes.map(|(pitch, yaw)| [pitch, yaw]),
+            cage,
         })
+    }
+
+    /// Place and tilts of a body at the frames.
+    fn in_space(&self, body: &str) -> Option<[Packed; 5]> {
+        let columns = OF_BODY.map(|field| self.series.column(&format!("{body}.{field}")));
+        let [x, y, z, tilt_y, tilt_z] = columns;
+        Some([x?, y?, z?, tilt_y?, tilt_z?].map(|column| self.packed(column)))
     }
 
     /// -1 where the elements go clockwise: the table has pocket forces positive where they drive the cage.

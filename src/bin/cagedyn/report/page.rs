@@ -164,6 +164,9 @@ fn summary_table(s: &Summary) -> String {
     if let Some(whirl) = &s.whirl {
         html.push_str(&format!(" Motion of the cage in it: <b>{}</b>.", escaped(&motion(whirl))));
     }
+    if let Some(wobble) = &s.wobble {
+        html.push_str(&format!(" Wobble of its axis: <b>{}</b>.", escaped(&motion(wobble))));
+    }
     html.push_str("</p>\n");
     if let Some(starts) = &s.starts {
         html.push_str(&format!("<p>From {} starts: {}</p>\n", starts.count, escaped(&starts.in_words())));

@@ -107,7 +107,7 @@
 
   function caption(s) {
     if (spatial) {
-      element("caption").textContent = `Displacements and tilts of the inner ring are drawn ${round(s.m)} times as large as they are; balls stand on the pitch circle. The outer ring is cut open towards the viewer. Width and thickness of the rings are not of the scene.`;
+      element("caption").textContent = `Displacements and tilts of the inner ring${data.space.cage ? " and the cage" : ""} are drawn ${round(s.m)} times as large as they are; balls stand on the pitch circle. The outer ring is cut open towards the viewer. Width and thickness of the rings are not of the scene.`;
       return;
     }
     const smaller = s.shown < 0.995 * radius ? `, but ${data.kind}s, to leave room for that, with ${Math.round(100 * s.shown / radius)} % of their size` : "";

@@ -7,11 +7,14 @@ function inSpace(data, state, { between, reached, scales, colors, canvas }) {
   const sum = (a, b) => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
   const times = (a, x) => [a[0] * x, a[1] * x, a[2] * x];
 
-  // Largest displacement of the ring, which the usual magnification makes a sixth of a ball.
+  // Largest displacement of ring or cage, which the usual magnification makes a sixth of a ball.
   const displaced = (at) => space.ring.map((packed) => between(packed, at));
+  const ofCage = (at) => (space.cage ?? []).map((packed) => between(packed, at));
   const lever = [1, 1, 1, pitch, pitch];
   let most = 0;
-  for (let i = 0; i < data.times.length; i += 1) displaced(i).forEach((x, k) => { most = Math.max(most, Math.abs(x) * lever[k]); });
+  for (let i = 0; i < data.times.length; i += 1) {
+    [displaced(i), ofCage(i)].forEach((all) => all.forEach((x, k) => { most = Math.max(most, Math.abs(x) * lever[k]); }));
+  }
   const wanted = most > 0 ? Math.max(radius / 6 / most, 1) : 1;
   const digit = 10 ** Math.floor(Math.log10(wanted));
   const limits = { low: 1, high: Math.max(4 * wanted, 1), usual: Math.floor(wanted / digit) * digit };
@@ -46,6 +49,33 @@ function inSpace(data, state, { between, reached, scales, colors, canvas }) {
   }
   const profiles = [profile(0), profile(1)];
 
+  // Two rims and the bars between the pockets.
+  function drawCage(face, moves, towards, at) {
+    const [half, inside, low, high] = [1.35 * radius, 1.1 * radius, pitch - 0.22 * radius, pitch + 0.22 * radius];
+    const at3 = (along, out, angle) => moves([along, out * Math.cos(angle), out * Math.sin(angle)]);
+    const strip = (p, q, from, to, tone) =>
+      face([at3(...p, from), at3(...q, from), at3(...q, to), at3(...p, to)], tone, "hsl(43, 40%, 42%)", "43, 58%");
+    const turned = data.first_angle + between(data.turn, at);
+    const steps = 4 * data.count;
+    for (let i = 0; i < steps; i += 1) {
+      const [from, to] = [i, i + 1].map((k) => turned + TURN * (k + 0.5) / steps);
+      const facing = dot([0, Math.cos(from), Math.sin(from)], towards);
+      [1, -1].forEach((side) => {
+        strip([side * half, high], [side * inside, high], from, to, 66 + 14 * facing);
+        strip([side * half, low], [side * inside, low], from, to, 60 - 10 * facing);
+        strip([side * half, low], [side * half, high], from, to, 70);
+        strip([side * inside, low], [side * inside, high], from, to, 56);
+      });
+    }
+    const width = Math.max(Math.PI / data.count - 1.08 * radius / pitch, 0.1 * Math.PI / data.count);
+    for (let j = 0; j < data.count; j += 1) {
+      const middle = turned + TURN * (j + 0.5) / data.count;
+      const facing = dot([0, Math.cos(middle), Math.sin(middle)], towards);
+      strip([-inside, high], [inside, high], middle - width, middle + width, 66 + 14 * facing);
+      strip([-inside, low], [inside, low], middle - width, middle + width, 60 - 10 * facing);
+    }
+  }
+
   function draw(at) {
     const size = Math.max(canvas.clientWidth, 200);
     const ratio = Math.max(2, window.devicePixelRatio || 1);
@@ -59,17 +89,21 @@ function inSpace(data, state, { between, reached, scales, colors, canvas }) {
     const { right, up, towards } = camera();
     const px = (p) => [0.5 * canvas.width + scale * dot(p, right), 0.5 * canvas.height - scale * dot(p, up)];
     const m = state.magnification;
-    const [x, y, z, a, b] = displaced(at).map((value) => m * value);
     // Small angles: p + (0, a, b) x p.
-    const tilted = ([along, p, q]) => sum([x, y, z], [along + a * q - b * p, p + b * along, q - a * along]);
+    const moved = (at) => {
+      const [x, y, z, a, b] = at.map((value) => m * value);
+      return ([along, p, q]) => sum([x, y, z], [along + a * q - b * p, p + b * along, q - a * along]);
+    };
+    const [, y, z] = displaced(at).map((value) => m * value);
+    const tilted = moved(displaced(at));
     const list = [];
-    const face = (points, tone, line) => {
+    const face = (points, tone, line, hue = "212, 14%") => {
       const depth = points.reduce((all, p) => all + dot(p, towards), 0) / points.length;
       list.push({ depth, paint: () => {
         on.beginPath();
         points.forEach((p, i) => (i ? on.lineTo(...px(p)) : on.moveTo(...px(p))));
         on.closePath();
-        on.fillStyle = `hsl(212, 14%, ${tone}%)`;
+        on.fillStyle = `hsl(${hue}, ${tone}%)`;
         on.fill();
         on.strokeStyle = line ?? on.fillStyle;
         on.lineWidth = 0.6 * ratio;
@@ -95,6 +129,7 @@ function inSpace(data, state, { between, reached, scales, colors, canvas }) {
         band(ends[1], edge[1], 78);
       }
     });
+    if (space.cage) drawCage(face, moved(ofCage(at)), towards, at);
     const overlay = [];
     const angles = [];
     for (let j = 0; j < data.count; j += 1) {
