@@ -6,6 +6,7 @@
 # make example   the C example, compiled and run, table in out/
 # make figures   the figures of both papers beside what the library gives: docs/papers.md
 # make effects   cost of every effect and what it changes: docs/results/effects.md
+# make cage-in-space the cage of the second paper in space: docs/results/cage-in-space.md
 # make second-paper  whirl of the second paper with elastic cage and heat balance: docs/results/second-paper.md
 # make verify    errors of the integration methods against CVODE: docs/results/verification.md
 # make hard     hard cases with every method and preset: docs/results/hard-cases.md
@@ -35,7 +36,7 @@ CARGO ?= cargo
 # Python with what tests of its package need.
 PYTHON := $(abspath out/venv/bin/python)
 
-.PHONY: check test release-check tools python-env fmt lint doc shipped quick unit abi deb run cases example figures effects second-paper verify hard judge tuning ellipse-rules random statistics \
+.PHONY: check test release-check tools python-env fmt lint doc shipped quick unit abi deb run cases example figures effects second-paper cage-in-space verify hard judge tuning ellipse-rules random statistics \
 	accuracy bench build-times header build install uninstall clean
 
 # The same flags everywhere, so that nothing is built twice.
@@ -132,6 +133,9 @@ example:
 
 second-paper: tools
 	$(CARGO) run --release --locked --package cagedyn-studies --bin second_paper -- --docs
+
+cage-in-space: tools
+	$(CARGO) run --release --locked --package cagedyn-studies --bin cage_in_space -- --docs
 
 effects: tools
 	$(CARGO) run --release --locked --package cagedyn-studies --bin effects -- --docs
