@@ -100,11 +100,14 @@ impl Averaged {
     pub(super) fn new(scene: &Scene, limits: &RunLimits) -> Result<Self> {
         let refused = |path: &str, text: &str| Err(Error::new(Status::BadScene, format!("{path}: {text}")));
         let scene = Scene { gravity: None, ..scene.clone() };
+        if scene.balls.is_some() {
+            let text = "a steady whirl is that of a cage among elements of prescribed motion in the plane; \
+                        runs from several starts tell whether this one whirls: 'cagedyn sweep --starts'";
+            return refused("balls", text);
+        }
         if scene.kinematic_elements.is_none() {
-            return refused(
-                "rollers",
-                "a steady whirl is that of a cage among elements of prescribed motion",
-            );
+            let text = "a steady whirl is that of a cage among elements of prescribed motion";
+            return refused("rollers", text);
         }
         let Some(cage) = &scene.cage else { return refused("cage", "missing; it is what whirls") };
         let Some(guide) = &cage.guide else {

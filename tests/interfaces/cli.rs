@@ -442,7 +442,11 @@ fn whirl_tells_the_steady_state_and_follows_it() {
     let svg = std::fs::read_to_string(out.join("whirl.svg")).expect("a picture");
     assert!(svg.contains("whirl speed [rad/s]") && !svg.contains("NaN"));
     for (arguments, says) in [
-        (vec!["whirl", "scenes/nu2310.json"], "elements of prescribed motion"),
+        (
+            vec!["whirl", "scenes/nu2310.json"],
+            "rollers: a steady whirl is that of a cage among elements of prescribed motion",
+        ),
+        (vec!["whirl", "scenes/angular_contact_70_cage.json"], "balls: a steady whirl is that"),
         (vec!["whirl", scene, "--vary", "cage.mass=1"], "PATH=FROM:TO"),
         (vec!["whirl", scene, "--vary", "cage.masses=1e-2:2e-2"], "cage.masses"),
     ] {
