@@ -67,18 +67,21 @@ mod tests {
     fn a_whirl_that_comes_and_goes_is_intermittent() {
         let share = |summary: &WhirlSummary, motion: CageMotion| summary.shares.unwrap()[motion as usize];
         // The window is from 0.05 s to 0.1 s; half of it on a circle, half at rest.
-        let (round, back) = (circle(0.6, -2000.0), circle(0.6, 2000.0));
+        let round = circle(0.6, -2000.0);
         let halves =
             Orbit::new(140.0, INTERVAL, |t| if t < 0.075 { round(t) } else { round(0.075) }).summary();
-        let [whirls, rests] = [CageMotion::BackwardWhirl, CageMotion::Resting].map(|m| share(&halves, m));
-        assert!((whirls - 0.5).abs() < 0.15 && (rests - 0.5).abs() < 0.15, "{halves:?}");
+        // A stretch at rest has the last step of the whirl before it.
+        let rests = share(&halves, CageMotion::Resting) + share(&halves, CageMotion::Stable);
+        assert_eq!([share(&halves, CageMotion::BackwardWhirl), rests], [0.5; 2], "{halves:?}");
         assert!(halves.intermittent);
         let steady = Orbit::new(140.0, INTERVAL, &round).summary();
         assert_eq!(share(&steady, CageMotion::BackwardWhirl), 1.0);
         assert!(!steady.intermittent);
-        let turned = Orbit::new(140.0, INTERVAL, |t| if t < 0.075 { round(t) } else { back(t) }).summary();
-        assert!(share(&turned, CageMotion::ForwardWhirl) > 0.4, "{turned:?}");
-        assert!(share(&turned, CageMotion::BackwardWhirl) > 0.4 && !turned.intermittent);
+        // Seven stretches, in the middle one of which it turns back.
+        let turned = Orbit::new(140.0, INTERVAL, |t| round(t.min(0.15 - t))).summary();
+        for sense in [CageMotion::ForwardWhirl, CageMotion::BackwardWhirl] {
+            assert_eq!(share(&turned, sense), 3.0 / 7.0, "{turned:?}");
+        }
         let all: f64 = turned.shares.unwrap().iter().sum();
         assert!((all - 1.0).abs() < 1e-12);
     }
