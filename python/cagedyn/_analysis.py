@@ -312,7 +312,10 @@ def cage_motion(
         lib.cagedyn_motion_count(),
         lambda p, n: lib.cagedyn_cage_motion(*pointers, count, clearance, begin, p, n),
     )
-    return Motion(_MOTIONS[int(x[0])], *x[1:-1].tolist(), bool(x[-1]))
+    kind, *numbers_of, comes_and_goes = x.tolist()
+    names = _names(lib.cagedyn_motion_count(), lib.cagedyn_motion_name)[1:-1]
+    values: dict[str, float] = dict(zip(names, numbers_of, strict=True))
+    return Motion(motion=_MOTIONS[int(kind)], intermittent=bool(comes_and_goes), **values)
 
 
 def over_orbit(angles: ArrayLike, values: ArrayLike, sectors: int) -> dict[str, Array]:

@@ -75,6 +75,7 @@ fn a_folder_has_the_files_of_one_run() {
     let expected = [
         "cage_orbit.svg",
         "cage_position.svg",
+        "cage_spectrogram.svg",
         "cage_spectrum.svg",
         "contact_forces.svg",
         "notes.txt",
