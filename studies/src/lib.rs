@@ -18,6 +18,8 @@ pub mod random;
 pub mod spectrum;
 pub mod statistics;
 pub mod table;
+#[path = "../../src/bin/cagedyn/workers.rs"]
+pub mod workers;
 
 use cagedyn::{Error, Result, Status};
 use std::path::Path;

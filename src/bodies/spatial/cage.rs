@@ -89,10 +89,7 @@ impl CageInSpace {
     pub(crate) fn new(scene: &Scene) -> Option<Self> {
         let cage = scene.cage.as_ref()?;
         let space = cage.space.as_ref()?;
-        let by_shape = || {
-            let hole = scene.element_radius() + cage.pocket.as_ref().map_or(0.0, |pocket| pocket.clearance());
-            space.shape.as_ref().map(|shape| shape.transverse_inertia(scene.element_count(), hole))
-        };
+        let by_shape = || space.shape.as_ref().map(|shape| scene.transverse_inertia_of(shape));
         let transverse = space.transverse_inertia.or_else(by_shape)?;
         let across = cage.mass_eccentricity.unwrap_or_default();
         let offset = [space.mass_offset_x, across.y, across.z];

@@ -16,7 +16,7 @@ impl Space {
     /// Wall time of each part of one evaluation at positions `q` and velocities `v`, s: see [`super::super::Plane::time_parts`].
     ///
     /// # Errors
-    /// As [`Space::accelerations`].
+    /// As [`Space::evaluate`].
     pub(crate) fn time_parts(
         &self,
         inputs: &InputValues,
@@ -25,7 +25,8 @@ impl Space {
         repeats: u32,
     ) -> Result<PartTimes, Fault> {
         let mut a = vec![0.0; v.len()];
-        self.accelerations(inputs, q, v, ws, &mut a)?;
+        *ws.inputs_mut() = *inputs;
+        self.evaluate(q, v, ws, &mut a)?;
         let mut times = PartTimes::default();
         times[0] = shortest(repeats, &mut || self.locate(black_box(q), v, ws))?;
         for race in 0..self.races.len() {
@@ -38,7 +39,7 @@ impl Space {
             times[4] = shortest(repeats, &mut || self.apply_cage(black_box(&mut *ws)))?;
         }
         // The last pass added up once more; what follows collects the forces of one.
-        self.accelerations(inputs, q, v, ws, &mut a)?;
+        self.evaluate(q, v, ws, &mut a)?;
         times[5] = shortest(repeats, &mut || {
             self.assemble(black_box(&mut *ws), &mut a);
             Ok(())

@@ -2,9 +2,7 @@
 
 use super::workspace::{BallBlock, WRENCH, Workspace, at_lane, load, store};
 use super::{RACES, Space};
-use crate::bodies::{
-    Balls, CAGE_COORDINATES, Fault, INNER_RING, Input, InputValues, Moves, MovingRing, OF_BALL, SOUND,
-};
+use crate::bodies::{Balls, CAGE_COORDINATES, Fault, INNER_RING, Input, Moves, MovingRing, OF_BALL, SOUND};
 use crate::pairs::Law;
 use crate::pairs::groove::{InGroove, Race, Waviness};
 use crate::scalar::{Columns, Numeric, Pack, dispatch, math, place_of};
@@ -49,23 +47,10 @@ pub(super) fn moving<T: Numeric>([x, rho, orbit, wx, wr, wt]: [T; OF_BALL], r: T
 }
 
 impl Space {
-    /// Accelerations `a` (m/s^2 or rad/s^2) at positions `q` and velocities `v`.
+    /// Accelerations `a` (m/s^2 or rad/s^2) at positions `q`, velocities `v` and the inputs that `ws` holds.
     ///
     /// # Errors
     /// A [`Fault`] when forces are undefined at this state; `a` is then meaningless.
-    pub(crate) fn accelerations(
-        &self,
-        inputs: &InputValues,
-        q: &[f64],
-        v: &[f64],
-        ws: &mut Workspace,
-        a: &mut [f64],
-    ) -> Result<(), Fault> {
-        ws.inputs = *inputs;
-        self.evaluate(q, v, ws, a)
-    }
-
-    /// [`Space::accelerations`] at the inputs that `ws` holds.
     pub(crate) fn evaluate(
         &self,
         q: &[f64],

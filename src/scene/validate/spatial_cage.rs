@@ -14,6 +14,13 @@ impl Scene {
         self.cage.as_ref().is_some_and(|cage| cage.space.is_some())
     }
 
+    /// Moment of inertia across the axis of a cage of this shape with the pockets of the scene, kg m^2.
+    pub(crate) fn transverse_inertia_of(&self, shape: &CageShape) -> f64 {
+        let pocket = self.cage.as_ref().and_then(|cage| cage.pocket.as_ref());
+        let hole = self.element_radius() + pocket.map_or(0.0, Pocket::clearance);
+        shape.transverse_inertia(self.element_count(), hole)
+    }
+
     /// In the plane or in space, with what that needs.
     pub(super) fn validate_motion_of_cage(&self, judge: Judge<'_>, cage: &Cage) -> Result<()> {
         let Some(space) = &cage.space else { return self.validate_planar_cage(judge, cage) };
@@ -90,9 +97,7 @@ impl Scene {
                 judge.number(&at("outer_radius"), shape.outer_radius, outside)?;
                 judge.number(&at("width"), shape.width, range(1e-4, RADIUS.max, "m"))?;
                 judge.number(&at("density"), shape.density, DENSITY)?;
-                let hole =
-                    self.element_radius() + cage.pocket.as_ref().map_or(0.0, |pocket| pocket.clearance());
-                let found = shape.transverse_inertia(self.element_count(), hole);
+                let found = self.transverse_inertia_of(shape);
                 let fits = (allowed.min..=allowed.max).contains(&found) || found.is_nan();
                 if !fits {
                     let text = format!(

@@ -2,6 +2,7 @@
 
 use super::axis::Axis;
 use super::panel::{Panel, Place, panel};
+use super::spectrum::highest_shown;
 use super::style::{self, Drawn, INK, Paint, Symbol, TEXT, px};
 use crate::results::finished::Run;
 use crate::results::lines;
@@ -18,9 +19,6 @@ const SHOWN: [(&str, &str); 4] = [
     ("cage.x", "cage.x: frequency [Hz]"),
     ("cage.tilt_y", "cage.tilt_y: frequency [Hz]"),
 ];
-/// Highest frequency, Hz, if the cage does not whirl faster, or else in units of the whirl frequency.
-const HIGHEST: f64 = 1000.0;
-const ABOVE_WHIRL: f64 = 2.2;
 /// Resolution of a column in units of the frequency of the cage, and the largest part of the run in one.
 const RESOLUTION: f64 = 1.0;
 const LARGEST_PART: usize = 8;
@@ -61,7 +59,7 @@ struct Map {
 pub fn cage_spectrogram(run: &Run, summary: &Summary) -> Option<Result<String>> {
     let cage = summary.cage_frequency_hz.filter(|f| *f > 0.0)?;
     let whirl = summary.whirl.as_ref().and_then(Whirl::frequency);
-    let highest = whirl.map_or(HIGHEST, |f| HIGHEST.max(ABOVE_WHIRL * f)).min(0.5 / run.interval());
+    let highest = highest_shown(whirl).min(0.5 / run.interval());
     let known = lines::frequencies(run, cage, whirl);
     let map = |(channel, name): (&str, &'static str)| {
         let samples = run.column(channel).filter(|samples| samples.iter().any(|x| *x != samples[0]))?;

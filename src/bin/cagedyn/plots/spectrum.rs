@@ -46,7 +46,7 @@ pub fn cage_spectrum(run: &Run, summary: &Summary) -> Option<Result<String>> {
     let (mut spectrum, first) = lines::spectrum(run, summary.cage_frequency_hz)?;
     spectrum.amplitudes.iter_mut().for_each(|a| *a *= 1e3);
     let whirl = summary.whirl.as_ref().and_then(Whirl::frequency);
-    let highest = whirl.map_or(HIGHEST, |f| HIGHEST.max(ABOVE_WHIRL * f));
+    let highest = highest_shown(whirl);
     let shown = spectrum.frequencies.partition_point(|f| *f <= highest);
     spectrum.frequencies.truncate(shown);
     spectrum.amplitudes.truncate(shown);
@@ -72,6 +72,11 @@ pub fn cage_spectrum(run: &Run, summary: &Summary) -> Option<Result<String>> {
         labelled.push(Named { peak, label, clear: false });
     }
     Some(draw(&run.title, &run.subtitle(&what), &spectrum, &labelled))
+}
+
+/// Highest frequency of pictures of a cage that whirls with this one, Hz.
+pub fn highest_shown(whirl: Option<f64>) -> f64 {
+    whirl.map_or(HIGHEST, |f| HIGHEST.max(ABOVE_WHIRL * f))
 }
 
 fn draw(title: &str, subtitle: &str, spectrum: &Spectrum, peaks: &[Named]) -> Result<String> {

@@ -377,6 +377,11 @@ pub fn few_turns(turns: f64) -> String {
     format!("only {turns:.1} turns of the cage")
 }
 
+/// Key of a class.
+fn key_of(motion: CageMotion) -> String {
+    motion.name().replace(' ', "_")
+}
+
 impl Whirl {
     /// Turns of the cage centre per second of a whirl, Hz; none of another motion.
     pub fn frequency(&self) -> Option<f64> {
@@ -386,7 +391,7 @@ impl Whirl {
     /// Share of the time in a class.
     pub fn share(&self, motion: CageMotion) -> Option<f64> {
         let shares = self.shares.as_ref()?;
-        Some(shares.get(&motion.name().replace(' ', "_")).copied().unwrap_or(0.0))
+        Some(shares.get(&key_of(motion)).copied().unwrap_or(0.0))
     }
 
     fn new(w: WhirlSummary, few_cage_turns: Option<f64>) -> Self {
@@ -399,7 +404,7 @@ impl Whirl {
             turns: w.turns,
             velocity_deviation: w.velocity_deviation,
             shares: w.shares.map(|shares| {
-                let names = CageMotion::ALL.map(|motion| motion.name().replace(' ', "_"));
+                let names = CageMotion::ALL.map(key_of);
                 names.into_iter().zip(shares).filter(|(_, share)| *share > 0.0).collect()
             }),
             intermittent: w.intermittent,

@@ -36,6 +36,12 @@ const WARMING: f64 = 1e-4;
 /// Derivatives of accelerations of the cage over force and moment.
 type ByWrench = [[f64; 6]; OF_CAGE];
 
+/// What also changes with time, the last of what it is differentiated over, at this rate.
+fn timed<const N: usize>(mut x: Dual<N>, rate: f64) -> Dual<N> {
+    x.eps[N - 1] += rate;
+    x
+}
+
 fn numbers<T>([[a, b, c], [d, e, f]]: [Vector<T>; 2]) -> [T; 6] {
     [a, b, c, d, e, f]
 }
@@ -100,11 +106,6 @@ impl Space {
         let (block, lane) = place_of(j);
         let block = &ws.blocks[block];
         let variable = InPocket::variable;
-        let timed = |x: InPocket, rate: f64| {
-            let mut x = x;
-            x.eps[POCKET_TIME] += rate;
-            x
-        };
         // Elements of prescribed motion go on in time.
         let [orbit, orbit_rate, spin_rate] = if self.free {
             [0.0; 3]
@@ -187,11 +188,6 @@ impl Space {
     ) {
         let first = self.layout.range(CAGE).start;
         let variable = AtLand::variable;
-        let timed = |x: AtLand, rate: f64| {
-            let mut x = x;
-            x.eps[LAND_TIME] += rate;
-            x
-        };
         let state = CageState {
             position: std::array::from_fn(|k| variable(ws.cage.state.position[k], CAGE_AT_LAND + k)),
             rate: std::array::from_fn(|k| variable(ws.cage.state.rate[k], CAGE_AT_LAND + OF_CAGE + k)),

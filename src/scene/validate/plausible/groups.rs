@@ -18,7 +18,7 @@ pub(super) struct Group {
     pub(super) is: [&'static str; 2],
 }
 
-const fn group(
+pub(super) const fn group(
     path: &'static str,
     from: &'static [&'static str],
     find: fn(&Scene) -> Option<(f64, Range)>,
@@ -48,19 +48,19 @@ const LOOSEST: [f64; 2] = [1e-4, 1.5e-3];
 /// Turns of a ring in a run.
 const TURNS: f64 = 1e4;
 
-const SIZE: &[&str] = &[
+pub(super) const SIZE: &[&str] = &[
     "rollers.radius",
     "balls.radius",
     "balls.pitch_radius",
     "kinematic_elements.radius",
     "kinematic_elements.pitch_radius",
 ];
-const UNUSUAL: [&str; 2] = ["unusually small for this size", "unusually large for this size"];
+pub(super) const UNUSUAL: [&str; 2] = ["unusually small for this size", "unusually large for this size"];
 const FAST: [&str; 2] = ["", "a speed that only special bearings of this size reach"];
-const SOFT: [&str; 2] =
+pub(super) const SOFT: [&str; 2] =
     ["so soft that the weight of the cage takes the clearance", "stiffer than solid steel of this size"];
 const GROOVE: [&str; 2] = ["hardly wider than the ball", "unusually wide for the ball"];
-const WEAK: [&str; 2] =
+pub(super) const WEAK: [&str; 2] =
     ["hardly any damping of this mass on this stiffness", "many times the critical damping"];
 
 /// Laws of the plane contact of pockets, of the solid contact of the guide, of a free ring.
@@ -342,66 +342,6 @@ pub(super) const GROUPS: &[Group] = &[
         WEAK,
     ),
     group(
-        "cage.pocket.solid_cylinder.diametral_clearance",
-        SIZE,
-        |s| Some((s.solid_cylinder()?.diametral_clearance, range(1e-3, 1.0, "m").times(s.element_radius()))),
-        UNUSUAL,
-    ),
-    group(
-        "cage.pocket.solid_cylinder.axial_clearance",
-        SIZE,
-        |s| Some((s.solid_cylinder()?.axial_clearance?, range(1e-3, 1.0, "m").times(s.element_radius()))),
-        UNUSUAL,
-    ),
-    group(
-        "cage.pocket.solid_cylinder.law.spring.stiffness",
-        &["cage.mass", "cage.pocket.solid_cylinder.diametral_clearance"],
-        |s| {
-            let pocket = s.solid_cylinder()?;
-            Some((pocket.spring()?.stiffness, s.stiffnesses(pocket.diametral_clearance)?))
-        },
-        SOFT,
-    ),
-    group(
-        "cage.pocket.solid_cylinder.law.spring.damping",
-        &["cage.pocket.solid_cylinder.law.spring.stiffness", "cage.mass"],
-        |s| {
-            let contact = s.solid_cylinder()?.spring()?;
-            Some((contact.damping, damping(contact.stiffness, s.cage.as_ref()?.mass)))
-        },
-        WEAK,
-    ),
-    group(
-        "cage.pocket.solid_sphere.diametral_clearance",
-        SIZE,
-        |s| Some((s.solid_sphere()?.diametral_clearance, range(1e-3, 1.0, "m").times(s.element_radius()))),
-        UNUSUAL,
-    ),
-    group(
-        "cage.pocket.solid_sphere.axial_clearance",
-        SIZE,
-        |s| Some((s.solid_sphere()?.axial_clearance?, range(1e-3, 1.0, "m").times(s.element_radius()))),
-        UNUSUAL,
-    ),
-    group(
-        "cage.pocket.solid_sphere.law.spring.stiffness",
-        &["cage.mass", "cage.pocket.solid_sphere.diametral_clearance"],
-        |s| {
-            let pocket = s.solid_sphere()?;
-            Some((pocket.spring()?.stiffness, s.stiffnesses(pocket.diametral_clearance)?))
-        },
-        SOFT,
-    ),
-    group(
-        "cage.pocket.solid_sphere.law.spring.damping",
-        &["cage.pocket.solid_sphere.law.spring.stiffness", "cage.mass"],
-        |s| {
-            let contact = s.solid_sphere()?.spring()?;
-            Some((contact.damping, damping(contact.stiffness, s.cage.as_ref()?.mass)))
-        },
-        WEAK,
-    ),
-    group(
         "cage.guide.diametral_clearance",
         SIZE,
         |s| {
@@ -502,13 +442,13 @@ pub(super) const GROUPS: &[Group] = &[
 ];
 
 /// From hardly damped to overdamped, of a mass on a stiffness.
-fn damping(stiffness: f64, mass: f64) -> Range {
+pub(super) fn damping(stiffness: f64, mass: f64) -> Range {
     range(DAMPED[0], DAMPED[1], "N s/m").times(2.0 * (stiffness * mass).sqrt())
 }
 
 impl Range {
     /// This many times the range.
-    fn times(self, factor: f64) -> Self {
+    pub(super) fn times(self, factor: f64) -> Self {
         range(self.min * factor, self.max * factor, self.unit)
     }
 }
@@ -549,7 +489,7 @@ impl Scene {
     }
 
     /// Stiffnesses of solid contacts of the cage in a diametral clearance (m).
-    fn stiffnesses(&self, clearance: f64) -> Option<Range> {
+    pub(super) fn stiffnesses(&self, clearance: f64) -> Option<Range> {
         let softest = self.cage.as_ref()?.mass * EARTH / (SAG * 0.5 * clearance);
         Some(range(softest, 4.0 * STEEL * self.element_radius(), "N/m"))
     }
@@ -562,20 +502,6 @@ impl Scene {
         match &self.inner_ring.as_ref()?.motion {
             RingMotion::Free(ring) => Some(ring),
             RingMotion::Fixed(_) | RingMotion::Space(_) => None,
-        }
-    }
-
-    fn solid_cylinder(&self) -> Option<&RoundPocket> {
-        match self.cage.as_ref()?.pocket.as_ref()? {
-            Pocket::SolidCylinder(pocket) => Some(pocket),
-            _ => None,
-        }
-    }
-
-    fn solid_sphere(&self) -> Option<&RoundPocket> {
-        match self.cage.as_ref()?.pocket.as_ref()? {
-            Pocket::SolidSphere(pocket) => Some(pocket),
-            _ => None,
         }
     }
 

@@ -2,13 +2,15 @@
 
 mod groups;
 mod numbers;
+mod pockets;
 
 use crate::error::Error;
 use crate::scene::check::{Range, shown, slip_hint};
 use crate::scene::validate::is_at_or_below;
 use crate::scene::{Pocket, Scene, Signal};
-use groups::GROUPS;
+use groups::{GROUPS, Group};
 use numbers::NUMBERS;
+use pockets::ROUND;
 use serde::Deserialize;
 use serde_json::Value;
 
@@ -27,7 +29,7 @@ impl Scene {
                 }
             });
         }
-        for group in GROUPS {
+        for group in all_groups() {
             let because = |(path, _): &(String, String)| {
                 let related = |place: &str| is_at_or_below(path, place) || is_at_or_below(place, path);
                 related(group.path) || group.from.iter().any(|place| related(place))
@@ -56,6 +58,11 @@ impl Scene {
         let Some(first) = self.warnings().into_iter().next() else { return error };
         Error::new(error.status, format!("{}; unlikely in this scene: {first}", error.message))
     }
+}
+
+/// Numbers that are judged by others.
+fn all_groups() -> impl Iterator<Item = &'static Group> {
+    GROUPS.iter().chain(const { &ROUND }.as_flattened())
 }
 
 /// Tells the sizes of all numbers, and of functions of time, whose path has the form of a pattern.
@@ -319,7 +326,7 @@ mod tests {
             for (pattern, _) in NUMBERS {
                 at(&value, pattern, String::new(), &mut |path, _| seen.push(path));
             }
-            seen.extend(GROUPS.iter().map(|group| group.path.to_owned()));
+            seen.extend(all_groups().map(|group| group.path.to_owned()));
             seen.extend(OTHERS.iter().map(|path| (*path).to_owned()));
             let mut leaves = Vec::new();
             numbers(&value, String::new(), &mut leaves);

@@ -130,7 +130,7 @@ fn wobble(found: &Found) -> String {
 /// Results of scenes in their order; one that cannot be run is an error.
 fn results(scenes: impl IntoIterator<Item = Result<Scene>>) -> Result<Vec<Found>> {
     let runs = scenes.into_iter().map(|scene| Ok(Run::new(scene?))).collect::<Result<Vec<Run>>>()?;
-    all(runs).into_iter().collect()
+    all(&runs).into_iter().collect()
 }
 
 /// Whirl over the axial load, in round and plane pockets.
@@ -281,7 +281,7 @@ fn share_of_starts(name: &str) -> Result<Table> {
                 vec![(LOAD, json!(load)), ("cage.pocket.solid_cylinder.diametral_clearance", clearance)];
             runs.extend(starts(&caged(&changes)?, STARTS, START));
         }
-        let found = all(runs);
+        let found = all(&runs);
         let mut cells = found.chunks(STARTS as usize).map(shares);
         let mut cell = || cells.next().unwrap_or_default();
         table.add([format!("{load:.0}"), cell(), cell(), cell(), cell()]);
@@ -300,7 +300,7 @@ fn starts_over_speed(name: &str) -> Result<Table> {
             let scene = caged(&[vec![speed.clone()], more].concat())?;
             runs.extend(starts(&scene, STARTS, START));
         }
-        let found = all(runs);
+        let found = all(&runs);
         let mut cells = found.chunks(STARTS as usize).map(shares);
         let mut cell = || cells.next().unwrap_or_default();
         table.add([format!("{turns:.0}"), cell(), cell(), cell()]);
@@ -329,7 +329,7 @@ fn guided_by_balls(name: &str) -> Result<Table> {
     // Cages that rub hard take many small steps.
     let short = |scene: Result<Scene>| Ok(Run { until: 0.1, from: 0.05, ..Run::new(scene?) });
     let runs = scenes.map(short).collect::<Result<Vec<Run>>>()?;
-    let found = all(runs).into_iter().collect::<Result<Vec<Found>>>()?;
+    let found = all(&runs).into_iter().collect::<Result<Vec<Found>>>()?;
     for (friction, two) in frictions.iter().zip(found.chunks(2)) {
         let [free, heavy] = two else { continue };
         table.add([

@@ -1,9 +1,9 @@
 //! Runs of scenes on all cores, and what is read off them.
 
 use cagedyn::{Model, MotionOfCage, Recording, Result, Scene, Sim, WhirlSummary};
+use cagedyn_studies::workers;
 use std::f64::consts::{PI, TAU};
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
 /// Time between records, s.
 const INTERVAL: f64 = 1e-4;
@@ -38,14 +38,15 @@ impl Run {
         Self { scene, until: 0.3, from: 0.18, start: ([0.0; 2], 0.0) }
     }
 
-    fn run(mut self) -> Result<Found> {
-        let model = Model::new(self.scene.clone())?;
+    fn run(&self) -> Result<Found> {
+        let mut scene = self.scene.clone();
+        let model = Model::new(scene.clone())?;
         let known: Vec<String> = model.channels().iter().map(|channel| channel.name.clone()).collect();
         let asked = MotionOfCage::CHANNELS.into_iter().chain([ORBIT]);
         let channels = asked.filter(|name| known.iter().any(|k| k == name)).map(str::to_owned).collect();
-        self.scene.record.channels = Some(channels);
-        self.scene.record.extremes = Some(Vec::new());
-        let model = Arc::new(Model::new(self.scene)?);
+        scene.record.channels = Some(channels);
+        scene.record.extremes = Some(Vec::new());
+        let model = Arc::new(Model::new(scene)?);
         let mut sim = Sim::new(model.clone())?;
         let ([y, z], spin) = self.start;
         let mut state = sim.state().to_vec();
@@ -102,26 +103,15 @@ impl Found {
 }
 
 /// Runs all of them, as many at once as there are cores; results in their order.
-pub fn all(runs: Vec<Run>) -> Vec<Result<Found>> {
-    let next = AtomicUsize::new(0);
-    let waiting: Vec<Mutex<Option<Run>>> = runs.into_iter().map(|run| Mutex::new(Some(run))).collect();
-    let done: Vec<Mutex<Option<Result<Found>>>> = waiting.iter().map(|_| Mutex::new(None)).collect();
-    let threads = std::thread::available_parallelism().map_or(1, |n| n.get());
-    std::thread::scope(|scope| {
-        for _ in 0..threads {
-            scope.spawn(|| {
-                loop {
-                    let k = next.fetch_add(1, Ordering::Relaxed);
-                    let Some(run) = waiting.get(k).and_then(|run| run.lock().expect("no panic").take())
-                    else {
-                        return;
-                    };
-                    *done[k].lock().expect("no panic") = Some(run.run());
-                }
-            });
-        }
-    });
-    done.into_iter().map(|one| one.into_inner().expect("no panic").expect("a run")).collect()
+pub fn all(runs: &[Run]) -> Vec<Result<Found>> {
+    let mut done: Vec<Option<Result<Found>>> = runs.iter().map(|_| None).collect();
+    let places: Vec<usize> = (0..runs.len()).collect();
+    let keep = |k: usize, found| {
+        done[k] = Some(found);
+        true
+    };
+    workers::share(&places, workers::threads(None), |k| Some(runs[k].run()), keep);
+    done.into_iter().flatten().collect()
 }
 
 /// Starts with the cage at the distance `shift` (m) in directions that spread evenly, and speeds up to a tenth apart.
