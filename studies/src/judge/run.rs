@@ -18,8 +18,8 @@ pub enum Kind {
     Plain,
     /// Published bearings with everything that a scene can have.
     Published,
-    /// Balls that move in space.
-    Space,
+    /// Balls that move in space, with a cage or without.
+    Space { caged: bool },
 }
 
 impl Kind {
@@ -28,7 +28,7 @@ impl Kind {
         match self {
             Self::Plain => scenes::scene(number, duration),
             Self::Published => published::scene(number, duration),
-            Self::Space => space::scene(number, duration),
+            Self::Space { caged } => space::scene(number, duration, caged),
         }
     }
 }

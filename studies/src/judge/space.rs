@@ -3,7 +3,7 @@
 //! Ranges: pitch diameter 20 to 300 mm, 3e3 to 6e5 mm/min times that, ball loads of 0.05 to 5 N per mm^2 of their diameter's square, radial
 //! loads up to half of the axial one, misalignment up to 2 mrad, clearance of deep grooves up to 3e-4 of the pitch diameter, oils as in
 //! [`scenes`](super::scenes), mixtures of 1 to 60 kg/m^3, waves of orders 2 to 60 and up to 1e-4 of the pitch radius over the square of the
-//! order, rings that are moved over time. Six of ten have a [cage](super::cage_in_space).
+//! order, rings that are moved over time. With or without a [cage](super::cage_in_space).
 
 use super::cage_in_space::{self, Sizes};
 use super::scenes::Draw;
@@ -16,8 +16,8 @@ const SPEEDS: [f64; 2] = [3.0 * TAU / 60.0, 600.0 * TAU / 60.0];
 /// Seeds of these scenes are apart from those of others with the same number.
 const STREAM: u64 = 0x35a1_90c2_77b4_61e9;
 
-/// A scene of `duration` s for this number, the same on every machine.
-pub fn scene(number: u64, duration: f64) -> Value {
+/// A scene of `duration` s for this number, the same on every machine; `caged` but for its cage the same as without.
+pub fn scene(number: u64, duration: f64, caged: bool) -> Value {
     let draw = &mut Draw(Random::new(number.wrapping_mul(0x5851_f42d_4c95_7f2d) ^ STREAM));
     let pitch = draw.log(10e-3, 150e-3);
     let radius = pitch * draw.within(0.1, 0.22);
@@ -141,7 +141,7 @@ pub fn scene(number: u64, duration: f64) -> Value {
         "initial": {"inner_ring": if draw.chance(0.7) { "equilibrium" } else { "centred" }, "first_roller_angle": draw.angle()},
         "record": {"duration": duration, "interval": 1e-4}
     });
-    if draw.chance(0.6) {
+    if caged {
         let room = pitch * (PI / count).sin() - radius;
         let clearance = if angle.is_some() { 0.0 } else { clearance };
         cage_in_space::add(draw, &mut scene, Sizes { radius, pitch, room, clearance }, duration);

@@ -25,6 +25,9 @@ struct Arguments {
     /// Scenes of balls that move in space, with numbers of their own.
     #[arg(long, conflicts_with = "published")]
     space: bool,
+    /// The same scenes with cages that tilt among the balls.
+    #[arg(long, requires = "space")]
+    cages: bool,
     /// Print the table of published bearings instead.
     #[arg(long)]
     bearings: bool,
@@ -62,7 +65,7 @@ fn main() -> ExitCode {
     }
     let kind = match (arguments.published, arguments.space) {
         (true, _) => Kind::Published,
-        (_, true) => Kind::Space,
+        (_, true) => Kind::Space { caged: arguments.cages },
         _ => Kind::Plain,
     };
     if arguments.print {
