@@ -29,15 +29,15 @@ pub(crate) use fault::{FaultKind, SOUND};
 pub use inputs::{HostInputs, INPUTS, Input, InputValues};
 pub use layout::Layout;
 
-pub(crate) use cage::{OF_MOTION as CAGE_MOTION, along_factor};
+pub(crate) use cage::{OF_MOTION as CAGE_MOTION, ROOM as MOST_MODES, along_factor};
 pub(crate) use elements::{Damping, ElementSlopes, Elements, UPPER};
 pub(crate) use heat::HeatBudget;
 pub(crate) use layout::{OF_ELEMENT, Owner};
 pub(crate) use motions::{Element, ElementBlock, ElementMotion, ElementSet, Motions, WrenchLanes};
 pub(crate) use nodes::{Node, NodeState, nodes};
 pub(crate) use spatial::{
-    Balls, CAGE_COORDINATES, CageInSpace, CageState, MovingCage, MovingRing, OF_BALL, OF_CAGE, OF_RING,
-    RING_COORDINATES, RingInSpace, RingState, tilt_of,
+    Balls, CageInSpace, CageState, MovingCage, MovingRing, OF_BALL, OF_CAGE, OF_RING, RING_COORDINATES,
+    RingInSpace, RingState, tilt_of,
 };
 pub(crate) use states::{State, layout_of, states_of};
 

@@ -88,6 +88,8 @@ of_bearing! {
     contact_frequency() -> f64;
     /// The highest of all: contacts and waves, rad/s.
     highest_frequency() -> f64;
+    /// Orders and frequencies in rad/s of the waves of an elastic ring of the cage, free and at rest.
+    ring_waves() -> Vec<(u32, f64)>;
     /// Whether the contacts that set the highest frequency are damped.
     #[doc(hidden)]
     damped() -> bool;
@@ -162,11 +164,6 @@ impl Model {
             Bearing::Plane(plane) => plane.pocket_clearance(),
             Bearing::Space(space) => space.pocket_clearance(),
         }
-    }
-
-    /// Orders and frequencies in rad/s of the waves of an elastic ring of the cage, free and at rest.
-    pub fn ring_waves(&self) -> Vec<(u32, f64)> {
-        self.in_plane().map_or_else(Vec::new, |plane| plane.ring_waves())
     }
 
     /// The field of the scene by which the film of the guide can give energy to the cage, if it can.

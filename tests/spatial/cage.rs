@@ -1,6 +1,6 @@
 //! A cage among balls: the planar limit, conservation without friction, the whirl of a greased guide.
 
-use crate::{CAGED, free_ring, model};
+use crate::{CAGED, elastic_ring, free_ring, model};
 use cagedyn::{CageMotion, Model, MotionOfCage, Recording, Sim};
 use serde_json::{Value, json};
 use std::sync::Arc;
@@ -62,6 +62,47 @@ fn the_plane_is_a_limit() {
     }
 }
 
+/// The same of a cage that bends, in a state of its whirl and with every wave off.
+#[test]
+fn the_plane_is_a_limit_of_a_cage_that_bends() {
+    let elastic = "scenes/grease_guide_elastic.json";
+    let mut plane = Sim::new(model(elastic, &[])).unwrap();
+    let space_model = model(elastic, &[("cage.space", json!({"transverse_inertia": 1.285e-5}))]);
+    let mut space = Sim::new(space_model.clone()).unwrap();
+    let energy = |sim: &mut Sim, t: f64, state: &[f64]| sim.energy_at(t, state).unwrap().total();
+    // Places of the coordinates of the plane among those in space.
+    let places: Vec<usize> = [1, 2, 3].into_iter().chain(6..12).collect();
+    let mut touched = false;
+    for step in 1..=200 {
+        plane.advance_to(1e-4 * f64::from(step)).unwrap();
+        let planar = plane.state().to_vec();
+        let mut state = [0.0; 24];
+        for (k, place) in places.iter().enumerate() {
+            (state[*place], state[12 + place]) = (planar[k], planar[9 + k]);
+        }
+        let (mut of_plane, mut of_space) = ([0.0; 18], [0.0; 24]);
+        plane.derivative(plane.time(), &planar, &mut of_plane).unwrap();
+        space.derivative(plane.time(), &state, &mut of_space).unwrap();
+        let size = of_plane[9..].iter().fold(1.0, |a: f64, b| a.max(b.abs()));
+        for (k, place) in places.iter().enumerate() {
+            let off = (of_space[12 + place] - of_plane[9 + k]).abs();
+            assert!(off < 1e-11 * size, "{step} {k}: {} {}", of_space[12 + place], of_plane[9 + k]);
+        }
+        for k in [12, 16, 17] {
+            assert_eq!(of_space[k], 0.0);
+        }
+        let t = plane.time();
+        let [expected, found] = [energy(&mut plane, t, &planar), energy(&mut space, t, &state)];
+        assert!((found - expected).abs() < 1e-12 * expected.abs(), "{found} {expected}");
+        let [expected, found] = [plane.powers_at(t, &planar), space.powers_at(t, &state)].map(Result::unwrap);
+        touched |= expected.iter().filter(|p| **p != 0.0).count() > 3;
+        for (expected, found) in expected.iter().zip(&found) {
+            assert!((found - expected).abs() < 1e-9 * expected.abs().max(1.0), "{found} {expected}");
+        }
+    }
+    assert!(touched);
+}
+
 /// It moves and whirls as that does, within what error control leaves, and neither tilts nor moves along the axis.
 #[test]
 fn the_whirl_of_the_plane() {
@@ -98,6 +139,17 @@ fn the_whirl_of_the_plane() {
 /// Without friction and damping energy and the axial angular momentum of balls, ring and cage stay.
 #[test]
 fn without_friction_a_cage_loses_nothing() {
+    loses_nothing(&Value::Null);
+    // The damping of its waves would lose energy.
+    let mut ring = elastic_ring(ORDERS);
+    ring["damping"] = json!(0.0);
+    loses_nothing(&ring);
+}
+
+/// Highest order of the waves.
+const ORDERS: u32 = 4;
+
+fn loses_nothing(elastic_ring: &Value) {
     let speed = 837.0;
     let spring = json!({"stiffness": 1e6, "softening_depth": 1e-6});
     let guide = json!({
@@ -109,6 +161,7 @@ fn without_friction_a_cage_loses_nothing() {
         ("inner_ring.motion", free_ring([687.0, 0.0, 0.0, 0.0, 0.0])),
         ("inner_ring.speed", json!({"constant": speed})),
         ("cage.guide", guide),
+        ("cage.elastic_ring", elastic_ring.clone()),
         ("cage.pocket", json!({"solid_cylinder": {"diametral_clearance": 2e-4, "law": {"spring": spring}}})),
         ("initial.cage_space", json!({"tilt_y": 1e-3})),
         ("initial.cage_velocity", json!({"y": 0.05, "z": 0.02})),
@@ -165,9 +218,24 @@ fn axial_momentum(model: &Model, state: &[f64], speed: f64) -> f64 {
         // The frame turns about the axis of the cage, too.
         at(&format!("{body}.speed")) - share * (a * db - b * da)
     };
+    // What the waves of a cage that bends add about its own axis.
+    let waves = names.iter().any(|info| info.name == "cage.mode[2].a");
+    let of_waves: f64 = (2..=ORDERS)
+        .filter(|_| waves)
+        .map(|order| {
+            let n = f64::from(order);
+            let [a, b, a_rate, b_rate] =
+                ["a", "b", "a_rate", "b_rate"].map(|part| at(&format!("cage.mode[{order}].{part}")));
+            let mass = 12.34e-3;
+            mass * (a * b_rate - b * a_rate) / n
+                - 0.5 * mass * (n * n - 3.0) * (a * a + b * b) * cage_own("cage")
+        })
+        .sum();
+    let upright = at("cage.tilt_y").hypot(at("cage.tilt_z")).cos();
     of_balls.sum::<f64>()
         + around("inner_ring", 2.0, [4e-3, 3e-3], speed)
         + around("cage", 12.34e-3, [2.511e-5, 1.285e-5], cage_own("cage"))
+        + upright * of_waves
 }
 
 /// The bearing of the second paper: balls that yield slow the whirl and rub the cage into a wobble.

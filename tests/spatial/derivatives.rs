@@ -49,11 +49,16 @@ fn derivatives_are_those_of_the_accelerations() {
     }
 }
 
+fn bends(model: &Model) -> bool {
+    !model.ring_waves().is_empty()
+}
+
 #[test]
 fn derivatives_with_a_cage() {
     for model in cages() {
         let off = error(&model, 0.1);
-        assert!(off < 1e-6, "{off}");
+        // Differences of sums around a bent surface see their errors, derivatives are those of the exact integrals.
+        assert!(off < if bends(&model) { 1e-4 } else { 1e-6 }, "{off}");
     }
 }
 
@@ -64,7 +69,9 @@ fn rates_at_a_state_that_stands_still() {
         let mut sim = Sim::new(model.clone()).unwrap();
         let scales = model.state_scales();
         for state in states(&sim, 3, 0.3, 6) {
-            let (t, h, n) = (2.3e-3, 1e-7, state.len());
+            // Round-off of the sums around a bent surface over a short time would stand out.
+            let h = if bends(&model) { 1e-6 } else { 1e-7 };
+            let (t, n) = (2.3e-3, state.len());
             let mut exact = vec![0.0; n];
             sim.time_derivative(t, &state, &mut exact).unwrap();
             let mut rate_at = |s: f64| {

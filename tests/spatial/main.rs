@@ -76,16 +76,19 @@ fn with_everything(changes: &[(&str, Value)]) -> Arc<Model> {
 }
 
 /// The bearing of the series 70 with a cage that touches everything: an unbalanced one, tilted, pressed to lands on both rings, in
-/// these pockets.
-fn caged(pocket: Value) -> Arc<Model> {
+/// these pockets; on request one that bends.
+fn caged((pocket, elastic_ring): (Value, Value)) -> Arc<Model> {
     let constant = |value: f64| json!({"constant": value});
+    // Films of those that bend share with their solid contact.
+    let (roughness, place) =
+        if elastic_ring.is_null() { (1e-6, [4e-5, 3e-5]) } else { (8e-6, [2.7e-5, 1.5e-5]) };
     let solid = json!({"contact": {
         "stiffness": 1e6, "damping": 44.4, "softening_depth": 1e-6, "friction": {"coefficient": 0.1, "transition_speed": 0.01},
     }});
     let land = |ring: &str, x: f64, radius: f64, film: Value| {
         json!({"x": x, "width": 3e-3, "guide": {
             "ring": ring, "guide_radius": radius, "diametral_clearance": 1e-4, "film": film, "solid": solid,
-            "film_share": {"roughness": 1e-6},
+            "film_share": {"roughness": roughness},
         }})
     };
     let layer =
@@ -106,26 +109,40 @@ fn caged(pocket: Value) -> Arc<Model> {
             ("balls.radius_deviations", json!({"groups": [{"balls": [0, 4], "deviation": 1e-6}]})),
             ("cage.pocket", pocket),
             ("cage.guide", Value::Null),
+            ("cage.elastic_ring", elastic_ring),
             ("cage.space", space),
             ("cage.material", json!("phenolic")),
             ("materials.phenolic", json!({"young_modulus": 7e9, "poisson_ratio": 0.35})),
             ("cage.mass_eccentricity", json!({"y": 5e-5, "z": -3e-5})),
             ("cage.load", json!({"force_z": constant(0.2), "torque": constant(-1e-3)})),
-            ("initial.cage", json!({"y": 4e-5, "z": 3e-5})),
+            ("initial.cage", json!({"y": place[0], "z": place[1]})),
             ("initial.cage_space", json!({"x": 3e-5, "tilt_y": 2e-3, "tilt_z": -1e-3, "tilt_speed_z": 1.0})),
         ],
     )
 }
 
-/// Cages in all shapes of pockets, narrow ones.
-fn cages() -> [Arc<Model>; 3] {
+/// The elastic ring of the cage of the series 70 with waves up to this order.
+fn elastic_ring(modes: u32) -> Value {
+    json!({
+        "modes": modes, "neutral_radius": 45.081e-3, "stiffness": {"bending": 0.2572}, "damping": 0.03, "growth": 1.4e-11,
+    })
+}
+
+/// Cages in all shapes of pockets, narrow ones, rigid and elastic.
+fn cages() -> [Arc<Model>; 5] {
     let friction = json!({"coefficient": 0.1, "transition_speed": 0.01});
     let spring = json!({"stiffness": 1e6, "damping": 44.4, "softening_depth": 1e-6, "friction": friction});
     let hertz = json!({"hertz": {"damping": {"relaxation_time": 1e-6, "softening_depth": 1e-7}, "friction": friction}});
+    let cylinder = json!({"solid_cylinder": {"diametral_clearance": 4e-5, "axial_clearance": 9e-5, "law": {"spring": spring}}});
+    let sphere = json!({"solid_sphere": {"diametral_clearance": 2e-4, "law": hertz}});
+    let plane =
+        json!({"solid_plane": {"diametral_clearance": 4e-5, "axial_clearance": 5e-5, "contact": spring}});
     [
-        json!({"solid_cylinder": {"diametral_clearance": 4e-5, "axial_clearance": 9e-5, "law": {"spring": spring}}}),
-        json!({"solid_sphere": {"diametral_clearance": 2e-4, "law": hertz}}),
-        json!({"solid_plane": {"diametral_clearance": 4e-5, "axial_clearance": 5e-5, "contact": spring}}),
+        (cylinder.clone(), Value::Null),
+        (sphere, Value::Null),
+        (plane.clone(), Value::Null),
+        (cylinder, elastic_ring(4)),
+        (plane, elastic_ring(3)),
     ]
     .map(caged)
 }

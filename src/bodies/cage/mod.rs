@@ -10,7 +10,9 @@ mod names;
 mod pocket_waves;
 mod ring_modes;
 
-pub(crate) use ring_modes::along_factor;
+pub(super) use names::of_mode;
+pub(super) use ring_modes::RingModes;
+pub(crate) use ring_modes::{ROOM, along_factor};
 
 use super::{
     BodyEnergy, BodyForces, BodyState, CENTRE, Coordinate, ElementSet, Fault, ForceSource, Input,
@@ -21,7 +23,7 @@ use crate::scene::Scene;
 use crate::space::{Motion, Wrench, rotate};
 use nalgebra::DMatrixViewMut;
 use pulp::Arch;
-use ring_modes::{Over, ROOM, RingModes};
+use ring_modes::Over;
 
 /// The cage.
 #[derive(Debug)]
@@ -63,7 +65,7 @@ impl Cage {
             .elastic_ring
             .as_ref()
             .map(|ring| RingModes::new(ring, cage.mass, elements.pitch_radius, &elements.reference_angles));
-        let of_modes = modes.iter().flat_map(|modes| modes.orders()).flat_map(names::of_mode);
+        let of_modes = modes.iter().flat_map(|modes| modes.orders()).flat_map(of_mode);
         Some(Box::new(Self {
             mass: cage.mass,
             inertia: cage.inertia,

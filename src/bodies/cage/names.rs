@@ -25,7 +25,7 @@ const WAVES: [[&str; 2]; 2] = [
 ];
 
 /// The coordinates of a pair of modes.
-pub(super) fn of_mode(order: u32) -> [Coordinate; 2] {
+pub(in crate::bodies) fn of_mode(order: u32) -> [Coordinate; 2] {
     let names = NAMES[order as usize - 2];
     [0, 1].map(|wave| {
         let ([name, rate], [text, of_rate]) = (names[wave], WAVES[wave]);

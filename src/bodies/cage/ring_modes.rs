@@ -23,11 +23,11 @@ use pulp::Arch;
 use std::f64::consts::PI;
 
 /// Room for the coordinates of all modes.
-pub(super) const ROOM: usize = 2 * (MOST_RING_ORDERS as usize - 1);
+pub(crate) const ROOM: usize = 2 * (MOST_RING_ORDERS as usize - 1);
 
 /// One pair of modes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Mode {
+pub(in crate::bodies) struct Mode {
     /// n.
     order: u32,
     /// M, kg.
@@ -44,7 +44,7 @@ pub(super) struct Mode {
 
 /// The modes of a ring. Coordinates are A and B of every order in turn.
 #[derive(Debug)]
-pub(super) struct RingModes {
+pub(in crate::bodies) struct RingModes {
     modes: Vec<Mode>,
     /// How each coordinate displaces each pocket, outwards and counter-clockwise, per unit.
     of_pockets: Vec<Vec<[f64; 2]>>,
@@ -53,7 +53,7 @@ pub(super) struct RingModes {
 
 impl RingModes {
     /// Those of a ring of `mass` (kg) that carries pockets at these angles (rad) on a circle of `pitch_radius` (m).
-    pub(super) fn new(ring: &ElasticRing, mass: f64, pitch_radius: f64, pockets: &[f64]) -> Self {
+    pub(in crate::bodies) fn new(ring: &ElasticRing, mass: f64, pitch_radius: f64, pockets: &[f64]) -> Self {
         let a = ring.neutral_radius;
         let modes: Vec<Mode> = (2..=ring.modes)
             .map(|order| {
@@ -94,17 +94,17 @@ impl RingModes {
     }
 
     /// Orders in turn.
-    pub(super) fn orders(&self) -> impl Iterator<Item = u32> {
+    pub(in crate::bodies) fn orders(&self) -> impl Iterator<Item = u32> {
         self.modes.iter().map(|mode| mode.order)
     }
 
     /// How the coordinates displace pocket `j`, outwards and counter-clockwise, per unit.
-    pub(super) fn displacements(&self, j: usize) -> &[[f64; 2]] {
+    pub(in crate::bodies) fn displacements(&self, j: usize) -> &[[f64; 2]] {
         self.of_pockets.get(j).map_or(&[], Vec::as_slice)
     }
 
     /// How far these amplitudes (m) displace the pockets of a block, or rates.
-    pub(super) fn displace(
+    pub(in crate::bodies) fn displace(
         &self,
         block: usize,
         amplitudes: &[f64],
@@ -117,10 +117,10 @@ impl RingModes {
     /// Accelerations of the modes by forces `on` them, at these coordinates and their rates, and the angular acceleration of the
     /// cage by the moment `moment` about its centre of mass, where its speed is `speed` and its moment of inertia `inertia`.
     /// Dampers are left out where they are not wanted.
-    fn motion<T: Real>(
+    pub(in crate::bodies) fn motion<T: Real>(
         &self,
         [moment, inertia, speed]: [T; 3],
-        on: impl Fn(usize) -> f64,
+        on: impl Fn(usize) -> T,
         [q, v]: [&[T]; 2],
         damped: bool,
         out: &mut [T],
@@ -155,7 +155,7 @@ impl RingModes {
     }
 
     /// See [`RingModes::motion`].
-    pub(super) fn accelerate(
+    pub(in crate::bodies) fn accelerate(
         &self,
         turned: [f64; 3],
         on: &[f64],
@@ -167,7 +167,7 @@ impl RingModes {
 
     /// What a moment about the centre of mass (N m) and forces over the coordinates alone do, in place of the forces. Returns
     /// the angular acceleration.
-    pub(super) fn respond(&self, moment: f64, inertia: f64, q: &[f64], forces: &mut [f64]) -> f64 {
+    pub(in crate::bodies) fn respond(&self, moment: f64, inertia: f64, q: &[f64], forces: &mut [f64]) -> f64 {
         let (mut turning, mut held) = (moment, inertia);
         for (k, mode) in self.modes.iter().enumerate() {
             let [a, b] = [q[2 * k], q[2 * k + 1]];
@@ -187,7 +187,7 @@ impl RingModes {
     /// How the accelerations change at constant forces with the moment about the centre of mass, the speed, every coordinate and
     /// every rate, but for what dampers make of the rates: tells each of these in turn, and with it the slopes of the angular acceleration and of
     /// those of the modes.
-    pub(super) fn slopes(
+    pub(in crate::bodies) fn slopes(
         &self,
         [moment, inertia, speed]: [f64; 3],
         on: &[f64],
@@ -214,7 +214,8 @@ impl RingModes {
             varied.eps[0] = 1.0;
             let state = [&positions[..n], &rates[..n]];
             let damped = !matches!(over, Over::Rate(_));
-            let turned = self.motion([m, constant(inertia), w], |k| on[k], state, damped, &mut out[..n]);
+            let turned =
+                self.motion([m, constant(inertia), w], |k| constant(on[k]), state, damped, &mut out[..n]);
             slopes.iter_mut().zip(&out[..n]).for_each(|(slope, a)| *slope = a.eps[0]);
             match over {
                 Over::Coordinate(k) => positions[k].eps[0] = 0.0,
@@ -226,7 +227,7 @@ impl RingModes {
     }
 
     /// The moment about the centre of mass that turns the cage like this, N m: what [`RingModes::accelerate`] turns round.
-    pub(super) fn moment_for(
+    pub(in crate::bodies) fn moment_for(
         &self,
         [turned, inertia, speed]: [f64; 3],
         [q, v]: [&[f64]; 2],
@@ -243,7 +244,7 @@ impl RingModes {
     }
 
     /// What the modes add to the kinetic energy, and their elastic energy, J.
-    pub(super) fn energy(&self, speed: f64, [q, v]: [&[f64]; 2]) -> [f64; 2] {
+    pub(in crate::bodies) fn energy(&self, speed: f64, [q, v]: [&[f64]; 2]) -> [f64; 2] {
         let (mut kinetic, mut elastic) = (0.0, 0.0);
         for (k, mode) in self.modes.iter().enumerate() {
             let ([a, b], [a_rate, b_rate]) = ([q[2 * k], q[2 * k + 1]], [v[2 * k], v[2 * k + 1]]);
@@ -256,25 +257,28 @@ impl RingModes {
         [kinetic, elastic]
     }
 
-    /// Angular momentum of a cage with this moment of inertia and speed, kg m^2/s.
-    #[cfg(test)]
-    pub(super) fn angular_momentum(&self, inertia: f64, speed: f64, [q, v]: [&[f64]; 2]) -> f64 {
+    /// Angular momentum about its own axis of a cage with this moment of inertia and speed, kg m^2/s.
+    pub(in crate::bodies) fn angular_momentum<T: Real>(
+        &self,
+        [inertia, speed]: [T; 2],
+        [q, v]: [&[T]; 2],
+    ) -> T {
         let mut sum = inertia * speed;
         for (k, mode) in self.modes.iter().enumerate() {
             let ([a, b], [a_rate, b_rate]) = ([q[2 * k], q[2 * k + 1]], [v[2 * k], v[2 * k + 1]]);
-            sum += mode.mass * mode.gyroscopic * (a * b_rate - b * a_rate);
-            sum -= mode.hoop * (a * a + b * b) * speed;
+            sum += (a * b_rate - b * a_rate) * (mode.mass * mode.gyroscopic);
+            sum -= (a * a + b * b) * speed * mode.hoop;
         }
         sum
     }
 
     /// Damping of every coordinate, N s/m.
-    pub(super) fn damping(&self) -> impl Iterator<Item = f64> {
+    pub(in crate::bodies) fn damping(&self) -> impl Iterator<Item = f64> {
         self.modes.iter().flat_map(|mode| [mode.damping; 2])
     }
 
     /// Order and frequency (rad/s) of each mode.
-    pub(super) fn frequencies(&self) -> Vec<(u32, f64)> {
+    pub(in crate::bodies) fn frequencies(&self) -> Vec<(u32, f64)> {
         self.modes.iter().map(|mode| (mode.order, (mode.stiffness / mode.mass).sqrt())).collect()
     }
 }
@@ -287,7 +291,7 @@ fn of_bending(bending: f64, n: f64, a: f64) -> f64 {
 
 /// What accelerations change with.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Over {
+pub(in crate::bodies) enum Over {
     Moment,
     Speed,
     Coordinate(usize),

@@ -145,7 +145,7 @@ fn energy_and_angular_momentum_stay_at_their_exact_rates() {
             let [bending, elastic] = ring.energy(speed, [&q, &v]);
             [
                 bending + elastic + 0.5 * INERTIA * speed * speed,
-                ring.angular_momentum(INERTIA, speed, [&q, &v]),
+                ring.angular_momentum([INERTIA, speed], [&q, &v]),
             ]
         };
         let ([e_low, h_low], [e_high, h_high]) = (at(-dt), at(dt));

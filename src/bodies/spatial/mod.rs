@@ -5,7 +5,7 @@ mod cage;
 mod ring;
 
 pub(crate) use balls::{Balls, OF_BALL};
-pub(crate) use cage::{CAGE_COORDINATES, CageInSpace, CageState, MovingCage, OF_CAGE, tilt_of};
+pub(crate) use cage::{CageInSpace, CageState, MovingCage, OF_CAGE, tilt_of};
 pub(crate) use ring::{MovingRing, RING_COORDINATES, RingInSpace, RingState};
 
 use crate::bodies::{Coordinate, Moves};

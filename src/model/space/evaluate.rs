@@ -2,7 +2,7 @@
 
 use super::workspace::{BallBlock, WRENCH, Workspace, at_lane, load, store};
 use super::{RACES, Space};
-use crate::bodies::{Balls, CAGE_COORDINATES, Fault, INNER_RING, Input, Moves, MovingRing, OF_BALL, SOUND};
+use crate::bodies::{Balls, Fault, INNER_RING, Input, Moves, MovingRing, OF_BALL, SOUND};
 use crate::pairs::Law;
 use crate::pairs::groove::{InGroove, Race, Waviness};
 use crate::scalar::{Columns, Numeric, Pack, dispatch, math, place_of};
@@ -134,7 +134,7 @@ impl Space {
             }
         }
         let of_ring = self.ring.free().map(|k| if k < 3 { 1.0 } else { pitch });
-        let of_cage = CAGE_COORDINATES.iter().filter(|_| self.cage.is_some());
+        let of_cage = self.cage_coordinates().iter();
         let of_cage = of_cage.map(|c| if c.moves == Moves::Itself { 1.0 } else { pitch });
         for (place, (lever, v)) in of_ring.chain(of_cage).zip(v).enumerate() {
             if v.abs() * lever > fastest.1 {
@@ -273,7 +273,7 @@ impl Space {
             }
         }
         self.accelerate_ring(ws, ws.on_rings[1], a);
-        self.accelerate_cage(ws, ws.cage.on_cage, a);
+        self.accelerate_cage(ws, a);
         for j in 0..self.layout.count {
             let (block, lane) = place_of(j);
             let block = &ws.blocks[block];

@@ -3,7 +3,7 @@
 
 use super::rest::{RaceControl, settled};
 use super::{HostInputs, Space};
-use crate::bodies::{CAGE, OF_BALL, RingInSpace};
+use crate::bodies::{CAGE, OF_BALL, OF_CAGE, RingInSpace};
 use crate::error::Result;
 use crate::scalar::math;
 use crate::scene::{PlaneVector, RingStart};
@@ -62,7 +62,8 @@ impl Space {
         let rest = start.cage_space.unwrap_or_default();
         let [orbit, _] = self.kinematic_speeds(&self.inputs.at(0.0, &HostInputs::default()));
         let speed = start.cage_speed.unwrap_or(orbit);
-        let at = self.layout.range(CAGE);
+        let first = self.layout.range(CAGE).start;
+        let at = first..first + OF_CAGE;
         q[at.clone()].copy_from_slice(&[rest.x, y, z, 0.0, rest.tilt_y, rest.tilt_z]);
         v[at].copy_from_slice(&[rest.velocity_x, vy, vz, speed, rest.tilt_speed_y, rest.tilt_speed_z]);
     }

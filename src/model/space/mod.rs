@@ -31,8 +31,7 @@ use super::faults::{Names, in_words};
 use super::signals::InputSignals;
 use super::{HostInputs, Layout, Quantity, StateInfo, quantity};
 use crate::bodies::{
-    Balls, CAGE, CAGE_COORDINATES, CageInSpace, Coordinate, Fault, Input, OF_CAGE, Owner, RING_COORDINATES,
-    RingInSpace,
+    Balls, CAGE, CageInSpace, Coordinate, Fault, Input, Owner, RING_COORDINATES, RingInSpace,
 };
 use crate::error::Result;
 use crate::integrate::Tuning;
@@ -93,7 +92,7 @@ impl Space {
         let spins = balls.coordinates().iter().filter(|c| c.position.is_none()).count();
         let count = if free { balls.set.count } else { 0 };
         let of_balls = [count, balls.coordinates().len() - spins, spins];
-        let cage = match CageInSpace::new(&scene) {
+        let cage = match CageInSpace::new(&scene, &balls.set) {
             None => None,
             Some(body) => Some(CageOfScene {
                 body,
@@ -105,7 +104,7 @@ impl Space {
         if let Some(pockets) = cage.as_ref().and_then(|cage| cage.pockets.as_ref()) {
             contacts_of_ball.extend(pockets.wall_names());
         }
-        let of_cage = if cage.is_some() { OF_CAGE } else { 0 };
+        let of_cage = cage.as_ref().map_or(0, |cage| cage.body.coordinates().len());
         let layout = Layout::new([0, ring.free().count(), of_cage], of_balls, false, Vec::new());
         let gravity = scene.gravity.map_or([0.0; 2], |g| [g.y, g.z]);
         let watched = Vec::new();
@@ -128,6 +127,11 @@ impl Space {
     /// Outer and inner race of balls that are free.
     pub(crate) fn both_races(&self) -> [&Race; 2] {
         [&self.races[0], &self.races[1]]
+    }
+
+    /// Coordinates of the cage; none without one.
+    fn cage_coordinates(&self) -> &[Coordinate] {
+        self.cage.as_ref().map_or(&[], |cage| cage.body.coordinates())
     }
 
     /// Order of the coordinates in the state vector.
@@ -265,7 +269,7 @@ impl Space {
     /// The state vector: positions, their rates, then speeds without position.
     pub(crate) fn state_infos(&self) -> Vec<StateInfo> {
         let ring = self.ring.free().map(|k| ("inner_ring".to_owned(), &RING_COORDINATES[k]));
-        let cage = self.cage.iter().flat_map(|_| &CAGE_COORDINATES).map(|c| ("cage".to_owned(), c));
+        let cage = self.cage_coordinates().iter().map(|c| ("cage".to_owned(), c));
         let balls = (0..self.layout.count)
             .flat_map(|j| self.balls.coordinates().iter().map(move |c| (format!("ball[{j}]"), c)));
         let all: Vec<(String, &Coordinate)> = ring.chain(cage).chain(balls).collect();

@@ -1,7 +1,7 @@
 //! Lengths, frequencies and speeds that describe a bearing in space as a whole.
 
 use super::Space;
-use crate::bodies::{CAGE_COORDINATES, Input, InputValues, Moves, OF_RING, RING_COORDINATES};
+use crate::bodies::{Input, InputValues, Moves, OF_RING, RING_COORDINATES};
 use crate::pairs::groove::Race;
 use crate::scalar::math;
 
@@ -22,7 +22,7 @@ impl Space {
     pub(crate) fn state_scales(&self) -> Vec<f64> {
         let set = &self.balls.set;
         let ring = self.ring.free().map(|k| &RING_COORDINATES[k]);
-        let cage = CAGE_COORDINATES.iter().filter(|_| self.cage.is_some());
+        let cage = self.cage_coordinates().iter();
         let balls = (0..self.layout.count).flat_map(|_| self.balls.coordinates());
         let all: Vec<_> = ring.chain(cage).chain(balls).collect();
         let unit = |moves: Moves| match moves {
@@ -72,9 +72,15 @@ impl Space {
         (self.races.iter().map(stiffness).sum::<f64>() / mass).sqrt()
     }
 
+    /// Orders and frequencies in rad/s of the waves of an elastic ring of the cage, free and at rest.
+    pub(crate) fn ring_waves(&self) -> Vec<(u32, f64)> {
+        self.cage.as_ref().map_or_else(Vec::new, |cage| cage.body.waves())
+    }
+
     /// The highest of all frequencies, rad/s.
     pub(crate) fn highest_frequency(&self) -> f64 {
-        self.contact_frequency().max(self.cage_frequency())
+        let highest = self.contact_frequency().max(self.cage_frequency());
+        self.ring_waves().iter().fold(highest, |highest, (_, wave)| highest.max(*wave))
     }
 
     /// Whether the contacts that set the highest frequency are damped.

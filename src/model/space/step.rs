@@ -63,7 +63,7 @@ impl Space {
             }
         }
         self.accelerate_ring(ws, [force, moment], a);
-        self.accelerate_cage(ws, Self::on_cage_in_step(ws), a);
+        self.accelerate_cage_in_step(ws, a);
     }
 
     /// Finds forces and powers of all contacts in a step from the last evaluated state, whose velocities are `v`, or at that state, unless
@@ -194,10 +194,10 @@ impl Space {
         let of_ring = self.ring.energy(&ws.ring, self.gravity);
         let mut sum = Energy { kinetic: of_ring.kinetic, elastic: 0.0, potential: of_ring.potential };
         if let Some(cage) = &self.cage {
-            let of_cage = cage.body.energy(&ws.cage.state, self.gravity);
+            let of_cage = cage.body.energy(&ws.cage.state, ws.cage.bending(), self.gravity);
             sum.kinetic += of_cage.kinetic;
             sum.potential += of_cage.potential;
-            sum.elastic += self.energy_in_pockets(ws);
+            sum.elastic += of_cage.elastic + self.energy_in_pockets(ws);
         }
         let [gy, gz] = self.gravity;
         for j in 0..self.layout.count {

@@ -231,7 +231,7 @@ impl Workspace {
             rings: [at_rest; 2],
             on_rings: [[[0.0; 3]; 2]; 2],
             load: [0.0; OF_RING],
-            cage: CageMemory::new(count, space.cage.as_ref().map_or(0, |cage| cage.lands.len())),
+            cage: CageMemory::new(count, space.cage.as_ref()),
             inputs: InputValues::default(),
             instructions: Arch::new(),
             step: None,

@@ -2,13 +2,14 @@
 //!
 //! ```text
 //! pocket at the azimuth psi - beta, beta = travel of the ball - angle of the cage; axes x, outwards, ahead there, before the cage tilts
-//! q  = (x - x_c, rho - 2 r sin^2(beta/2) - Y_r, r sin beta - Y_psi) - r_p (Exp - 1) e_r,   then turned back by the tilt
-//! v  = v_ball + w_ball x R n - v_c - w_c x (P + R n - C)                                      slip of ball on wall, and approach
+//! q  = (x - x_c, rho - 2 r sin^2(beta/2) - Y_r, r sin beta - Y_psi) - r_p (Exp - 1) e_r,   then turned back by the tilt, less d
+//! v  = v_ball + w_ball x R n - v_c - w_c x (P + R n - C) - d'                                 slip of ball on wall, and approach
 //! N  of a spring and damper, or of Hertz's contact;   F = -N n - f D on the ball at P + R n, D the part of v across n;   the opposite on the cage
 //! ```
 //!
-//! r distance of the ball at P from the axis of the bearing, Y centre C of the cage. No radii are subtracted. Friction is Coulomb's with a smooth
-//! transition through zero slip, of two components and with the whole spin of the ball. Source: geometry; the laws are those of the plane.
+//! r distance of the ball at P from the axis of the bearing, Y centre C of the cage, d what a bent ring displaces the pocket by, outwards and
+//! ahead; its walls keep their directions. No radii are subtracted. Friction is Coulomb's with a smooth transition through zero slip, of two
+//! components and with the whole spin of the ball. Source: geometry; the laws are those of the plane.
 
 mod walls;
 
@@ -62,6 +63,8 @@ pub(crate) struct BallAt<T> {
     pub(crate) moving: Moving<T>,
     /// How much larger than nominal its radius is, m.
     pub(crate) excess: f64,
+    /// By how much a bent cage displaces its pocket, outwards and ahead, m, and the rates of that.
+    pub(crate) bent: Option<[[T; 2]; 2]>,
 }
 
 /// Where the centre of a ball is in its pocket.
@@ -88,6 +91,8 @@ pub(crate) struct PocketContact<T> {
     pub(crate) secant: T,
     /// Of the contact from the centres of ball and cage, m.
     pub(crate) levers: [Vector<T>; 2],
+    /// Directions outwards and ahead in the pocket of a cage that bends.
+    outwards_ahead: Option<[Vector<T>; 2]>,
 }
 
 /// Force, N, and moment about the centre, N m, on a body.
@@ -154,7 +159,11 @@ impl BallPockets {
         let r = rho + self.pitch_radius;
         let off = [x - cage.centre[0], rho - r * chord - out, r * sin - ahead];
         let moved = tilt.moved_by([zero, T::constant(self.pitch_radius), zero]);
-        InPocket { q: tilt.turned_back(difference(off, moved)), tilt, lead }
+        let mut q = tilt.turned_back(difference(off, moved));
+        if let Some([[out, ahead], _]) = ball.bent {
+            q = difference(q, [zero, out, ahead]);
+        }
+        InPocket { q, tilt, lead }
     }
 
     /// Contact with wall `k`, of a ball that is there; `None` where it touches none.
@@ -180,13 +189,31 @@ impl BallPockets {
         let from_cage = sum([x - centre[0], r - centre[1], -centre[2]], to_wall);
         let of_ball = sum(ball.moving.velocity, cross(ball.moving.turning, to_wall));
         let of_cage = sum(local(cage.moving.velocity), cross(local(cage.moving.turning), from_cage));
-        let passing = difference(of_ball, of_cage);
+        let mut passing = difference(of_ball, of_cage);
+        let outwards_ahead = ball.bent.map(|[_, rates]| {
+            let [zero, one] = [0.0, 1.0].map(T::constant);
+            let axes = [[zero, one, zero], [zero, zero, one]];
+            let axes = axes.map(|axis| ahead(place.tilt.turned(axis), place.lead));
+            passing = difference(passing, sum(scaled(axes[0], rates[0]), scaled(axes[1], rates[1])));
+            axes
+        });
         let depth_rate = dot(passing, normal);
         let slip = difference(passing, scaled(normal, depth_rate));
         let size = (dot(slip, slip) + SLIP_FLOOR).sqrt();
         let [force, damping, secant] = self.law.force(wall.depth, depth_rate, size);
         let levers = [to_wall, from_cage];
-        Some(PocketContact { depth: wall.depth, depth_rate, normal, slip, force, damping, secant, levers })
+        let depth = wall.depth;
+        Some(PocketContact {
+            depth,
+            depth_rate,
+            normal,
+            slip,
+            force,
+            damping,
+            secant,
+            levers,
+            outwards_ahead,
+        })
     }
 
     /// Elastic energy of a contact of this depth (m), J, and its force, N.
@@ -280,6 +307,18 @@ impl<T: Real> PocketContact<T> {
         let [of_ball, of_cage] = self.levers;
         // The normal goes through the centre of the ball.
         [[on_ball, cross(of_ball, friction)], [on_cage, cross(of_cage, on_cage)]]
+    }
+
+    /// Forces over the displacement of the pocket outwards and ahead by this one on the cage, N: what its modes get of it.
+    pub(crate) fn on_bending(&self, on_cage: Vector<T>) -> [T; 2] {
+        self.outwards_ahead.map_or([T::constant(0.0); 2], |axes| axes.map(|axis| dot(axis, on_cage)))
+    }
+
+    /// Velocity of the wall in axes of the azimuth by these rates of the displacement of the pocket outwards and ahead, m/s.
+    pub(crate) fn velocity_by_bending(&self, rates: [T; 2]) -> Vector<T> {
+        self.outwards_ahead.map_or([T::constant(0.0); 3], |[outwards, ahead]| {
+            sum(scaled(outwards, rates[0]), scaled(ahead, rates[1]))
+        })
     }
 
     /// Force and moment on ball and cage.

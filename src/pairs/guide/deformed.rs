@@ -3,23 +3,19 @@
 //! Forces act over the place of the cage, its angle and its waves. The ring feels the opposite force, and the moment that
 //! both together have about its centre.
 
+use super::longest_step::longest_bent_step;
 use super::side::GuideSide;
 use crate::bodies::{CAGE, CAGE_MOTION, Motions, SHARED, along_factor};
 use crate::laws::fluid::Fluid;
 use crate::laws::guide::bent::{BentForces, BentMotion, BentSurface, Wanted};
 use crate::laws::guide::journal::{Harmonic, NoFilm};
-use crate::laws::guide::{GuideFilm, GuideForce, GuideLaw};
-use crate::pairs::passage::Passage;
+use crate::laws::guide::{GuideForce, GuideLaw};
 use crate::pairs::slope_sums::SlopeSums;
 use crate::pairs::{Ahead, Cost, SharedForce};
 use crate::scalar::math;
-use crate::scene::Scene;
+use crate::scene::{ElasticRing, Scene};
 use crate::space::{Motion, rotate};
 use nalgebra::{DMatrix, DVector, Matrix3};
-use std::f64::consts::TAU;
-
-/// Places around the circle that tell how long a step may be, per order of the highest wave.
-const PLACES_PER_ORDER: u32 = 16;
 
 /// How a guide acts on a bent cage.
 #[derive(Debug)]
@@ -54,6 +50,19 @@ impl OnDeformed {
 
     pub(in crate::pairs) fn damping(&self) -> Option<&DMatrix<f64>> {
         self.damped.then_some(&self.damping)
+    }
+}
+
+impl BentSurface {
+    /// That of a guided surface of this radius (m) on a cage with this elastic ring.
+    pub(super) fn of(bends: &ElasticRing, radius: f64, side: GuideSide) -> Self {
+        let height = (radius - bends.neutral_radius) / bends.neutral_radius;
+        Self {
+            waves: (2..=bends.modes).map(|order| (order, along_factor(order, height))).collect(),
+            on_journal: side == GuideSide::CageInside,
+            growth: bends.growth,
+            contact_depth: bends.contact_depth,
+        }
     }
 }
 
@@ -104,13 +113,7 @@ impl DeformedGuide {
         profile: &[Harmonic],
     ) -> Option<Self> {
         let bends = scene.cage.as_ref()?.elastic_ring.as_ref()?;
-        let height = (radius - bends.neutral_radius) / bends.neutral_radius;
-        let surface = BentSurface {
-            waves: (2..=bends.modes).map(|order| (order, along_factor(order, height))).collect(),
-            on_journal: side == GuideSide::CageInside,
-            growth: bends.growth,
-            contact_depth: bends.contact_depth,
-        };
+        let surface = BentSurface::of(bends, radius, side);
         Some(Self { surface, side, ring, profile: profile.to_vec() })
     }
 
@@ -320,7 +323,9 @@ impl DeformedGuide {
     pub(super) fn smallest_gap(&self, law: &GuideLaw, motions: &Motions) -> f64 {
         let shared = &motions.shared;
         let beside = Beside::new(&shared[CAGE], &shared[self.ring]);
-        law.smallest_bent_gap(&self.surface, &beside.with(motions.modes.each_ref().map(Vec::as_slice)))
+        let [gap, _] =
+            law.smallest_bent_gap(&self.surface, &beside.with(motions.modes.each_ref().map(Vec::as_slice)));
+        gap
     }
 
     /// Number of wet arcs, and the angle that they take, rad.
@@ -330,66 +335,11 @@ impl DeformedGuide {
         law.wet_arcs(&self.surface, &beside.with(motions.modes.each_ref().map(Vec::as_slice)))
     }
 
-    /// The longest step (s) that passes no onset unseen. Every place of the surface moves on a straight line for this.
+    /// The longest step (s) that passes no onset unseen.
     pub(super) fn longest_step(&self, law: &GuideLaw, ahead: &Ahead<'_>) -> f64 {
-        let tuning = ahead.tuning;
         let shared: &[Motion<f64>] = ahead.shared;
         debug_assert_eq!(shared.len(), SHARED);
         let beside = Beside::new(&shared[CAGE], &shared[self.ring]);
-        let [amplitudes, rates] = ahead.modes();
-        let s = if self.surface.on_journal { 1.0 } else { -1.0 };
-        let ([y, z], [vy, vz], [speed, _]) = (beside.position, beside.velocity, beside.speeds);
-        // Velocity as it is seen in axes that turn with the cage.
-        let (vy, vz) = (vy + speed * z, vz - speed * y);
-        let highest = self.surface.waves.last().map_or(1, |(order, _)| *order);
-        let count = PLACES_PER_ORDER * highest.max(4);
-        let fading = tuning.fading * law.roughness;
-        let least = if law.solid.is_some() { fading } else { tuning.thinnest_film * law.free_clearance };
-        let share = tuning.onset_share;
-        let thickness = match &law.film {
-            Some(GuideFilm::LubricantLayer(layer)) => layer.thickness.min(law.free_clearance),
-            Some(GuideFilm::ShortBearing(_)) | None => law.free_clearance,
-        };
-        let mut longest = f64::INFINITY;
-        for i in 0..count {
-            let (sin, cos) = math::sin_cos(TAU * f64::from(i) / f64::from(count));
-            let mut gap = law.free_clearance - s * (y * cos + z * sin);
-            let mut closing = s * (vy * cos + vz * sin);
-            let mut wave = [cos, sin];
-            let mut order = 1;
-            for (k, (n, _)) in self.surface.waves.iter().enumerate() {
-                while order < *n {
-                    wave = [wave[0] * cos - wave[1] * sin, wave[1] * cos + wave[0] * sin];
-                    order += 1;
-                }
-                gap -= s * (amplitudes[2 * k] * wave[0] + amplitudes[2 * k + 1] * wave[1]);
-                closing += s * (rates[2 * k] * wave[0] + rates[2 * k + 1] * wave[1]);
-            }
-            if closing < 0.0 && gap <= 0.0 && law.film.is_some() {
-                longest = longest.min((share * thickness - gap) / -closing);
-            }
-            if closing <= 0.0 {
-                continue;
-            }
-            if gap > 0.0 && law.film.is_some() {
-                longest = longest.min(share * gap.max(least) / closing);
-            }
-            let mut onset = |rest: f64, depth: f64| {
-                if rest > 0.0 {
-                    longest = longest.min((rest + share * depth) / closing);
-                }
-            };
-            if let Some(GuideFilm::LubricantLayer(layer)) = &law.film {
-                onset(gap - layer.thickness, layer.thickness);
-            }
-            if let Some(solid) = &law.solid {
-                let pass = Passage::of(&solid.contact, ahead.masses[CAGE], tuning);
-                onset(gap - solid.asperity_height, pass.time(closing) * closing / share);
-                if law.film.is_some() {
-                    onset(gap - fading, fading);
-                }
-            }
-        }
-        longest
+        longest_bent_step(law, &self.surface, &beside.with(ahead.modes()), ahead.masses[CAGE], ahead.tuning)
     }
 }

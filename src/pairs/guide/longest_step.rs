@@ -1,9 +1,14 @@
-//! How long a step may be that passes no onset of a rigid guide unseen.
+//! How long a step may be that passes no onset of a guide unseen.
 
 use crate::integrate::Tuning;
+use crate::laws::guide::bent::{BentMotion, BentSurface};
 use crate::laws::guide::{GuideFilm, GuideLaw};
 use crate::pairs::passage::Passage;
 use crate::scalar::math;
+use std::f64::consts::TAU;
+
+/// Places around the circle that tell how long a step may be, per order of the highest wave.
+const PLACES_PER_ORDER: u32 = 16;
 
 /// Place (m) and velocity (m/s) of the cage seen from the centre of the guiding ring.
 pub(super) struct CagePlace {
@@ -68,4 +73,69 @@ pub(super) fn longest_step(guide: &GuideLaw, mass: f64, place: &CagePlace, tunin
         }
     }
     if longest.is_nan() { f64::INFINITY } else { longest }
+}
+
+/// The same of a bent cage of `mass` kg. Every place of the surface moves on a straight line for this.
+pub(super) fn longest_bent_step(
+    law: &GuideLaw,
+    surface: &BentSurface,
+    motion: &BentMotion<'_>,
+    mass: f64,
+    tuning: &Tuning,
+) -> f64 {
+    let s = if surface.on_journal { 1.0 } else { -1.0 };
+    let ([y, z], [vy, vz], [speed, _]) = (motion.position, motion.velocity, motion.speeds);
+    let [amplitudes, rates] = [motion.amplitudes, motion.rates];
+    // Velocity as it is seen in axes that turn with the cage.
+    let (vy, vz) = (vy + speed * z, vz - speed * y);
+    let highest = surface.waves.last().map_or(1, |(order, _)| *order);
+    let count = PLACES_PER_ORDER * highest.max(4);
+    let fading = tuning.fading * law.roughness;
+    let least = if law.solid.is_some() { fading } else { tuning.thinnest_film * law.free_clearance };
+    let share = tuning.onset_share;
+    let thickness = match &law.film {
+        Some(GuideFilm::LubricantLayer(layer)) => layer.thickness.min(law.free_clearance),
+        Some(GuideFilm::ShortBearing(_)) | None => law.free_clearance,
+    };
+    let mut longest = f64::INFINITY;
+    for i in 0..count {
+        let (sin, cos) = math::sin_cos(TAU * f64::from(i) / f64::from(count));
+        let mut gap = law.free_clearance - s * (y * cos + z * sin);
+        let mut closing = s * (vy * cos + vz * sin);
+        let mut wave = [cos, sin];
+        let mut order = 1;
+        for (k, (n, _)) in surface.waves.iter().enumerate() {
+            while order < *n {
+                wave = [wave[0] * cos - wave[1] * sin, wave[1] * cos + wave[0] * sin];
+                order += 1;
+            }
+            gap -= s * (amplitudes[2 * k] * wave[0] + amplitudes[2 * k + 1] * wave[1]);
+            closing += s * (rates[2 * k] * wave[0] + rates[2 * k + 1] * wave[1]);
+        }
+        if closing < 0.0 && gap <= 0.0 && law.film.is_some() {
+            longest = longest.min((share * thickness - gap) / -closing);
+        }
+        if closing <= 0.0 {
+            continue;
+        }
+        if gap > 0.0 && law.film.is_some() {
+            longest = longest.min(share * gap.max(least) / closing);
+        }
+        let mut onset = |rest: f64, depth: f64| {
+            if rest > 0.0 {
+                longest = longest.min((rest + share * depth) / closing);
+            }
+        };
+        if let Some(GuideFilm::LubricantLayer(layer)) = &law.film {
+            onset(gap - layer.thickness, layer.thickness);
+        }
+        if let Some(solid) = &law.solid {
+            let pass = Passage::of(&solid.contact, mass, tuning);
+            onset(gap - solid.asperity_height, pass.time(closing) * closing / share);
+            if law.film.is_some() {
+                onset(gap - fading, fading);
+            }
+        }
+    }
+    longest
 }

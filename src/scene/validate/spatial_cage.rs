@@ -28,10 +28,6 @@ impl Scene {
             let text = "not allowed beside 'rollers', which move in the plane; remove it";
             return judge.refuse("cage.space", text);
         }
-        if cage.elastic_ring.is_some() {
-            let text = "not allowed beside 'cage.space': the modes of a ring that tilts are not modelled; remove one of them";
-            judge.refuse("cage.elastic_ring", text)?;
-        }
         if let Some(Pocket::LubricatedCylinder(_)) = &cage.pocket {
             let text = "a law of the plane; in space give 'solid_plane', 'solid_cylinder' or 'solid_sphere'";
             judge.refuse("cage.pocket.lubricated_cylinder", text)?;

@@ -2,14 +2,16 @@
 //!
 //! Ranges: a twentieth to all of the mass of the cages of [`scenes`](super::scenes), half to six tenths of the polar inertia across the
 //! axis, clearances of 1 to 12 % of the ball in round, ball-shaped and square pockets, one land in the middle or off it, two of them, or
-//! none; guides, springs, friction and layers as there; starts that tilt by up to 3 mrad and shift along the axis.
+//! none; guides, springs, friction and layers as there; starts that tilt by up to 3 mrad and shift along the axis; every fourth ring bends.
 
+use super::parts::elastic_ring;
 use super::scenes::Draw;
 use serde_json::{Value, json};
 
-/// Ball radius, pitch radius, half of the room between neighbours and radial clearance of the balls, m.
+/// Number of balls, ball radius, pitch radius, half of the room between neighbours and radial clearance of the balls, m.
 #[derive(Clone, Copy)]
 pub(super) struct Sizes {
+    pub(super) count: usize,
     pub(super) radius: f64,
     pub(super) pitch: f64,
     pub(super) room: f64,
@@ -65,6 +67,10 @@ pub(super) fn add(draw: &mut Draw, scene: &mut Value, sizes: Sizes, duration: f6
         scene["initial"]["cage_space"] = json!({
             "x": small(0.3 * radius * 1e-2), "velocity_x": small(0.05), "tilt_y": small(3e-3), "tilt_z": small(3e-3)
         });
+    }
+    if draw.chance(0.25) {
+        let Sizes { count, .. } = sizes;
+        cage["elastic_ring"] = elastic_ring(draw, (pitch, count), mass);
     }
     cage["space"] = space;
     scene["cage"] = cage;

@@ -77,9 +77,13 @@ enum Quantity {
 
 impl Watch {
     pub fn new(scene: &Value, names: &[String]) -> Self {
+        let of_land = |name: &str| name.starts_with("land[") && name.ends_with(".eccentricity");
+        // The centre of a cage that tilts about a land off the middle goes further than that does.
+        let by_lands = names.iter().any(|name| of_land(name));
         let quantity = |name: &str| match name {
             "cage.slip" => Some(Quantity::CageSlip),
-            "cage.eccentricity" => Some(Quantity::Eccentricity),
+            "cage.eccentricity" if !by_lands => Some(Quantity::Eccentricity),
+            _ if of_land(name) => Some(Quantity::Eccentricity),
             "cage.tilt" => Some(Quantity::Tilt),
             "cage.x" => Some(Quantity::Along),
             "inner_ring.drag_torque" => Some(Quantity::Torque),

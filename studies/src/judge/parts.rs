@@ -78,9 +78,9 @@ pub(super) fn guide(draw: &mut Draw, bearing: &Bearing, clearance: Option<f64>, 
     guide
 }
 
-/// Bending of the ring of a cage of steel, brass or plastic.
-pub(super) fn elastic_ring(draw: &mut Draw, bearing: &Bearing, mass: f64) -> Value {
-    let (pitch, most) = (bearing.pitch(), 8.min(bearing.count / 2));
+/// Bending of the ring of a cage of steel, brass or plastic with this pitch radius (m) and number of pockets.
+pub(super) fn elastic_ring(draw: &mut Draw, (pitch, count): (f64, usize), mass: f64) -> Value {
+    let most = 8.min(count / 2);
     let modes = 2 + draw.0.index(most - 1);
     let (young, density) = [(206e9, STEEL), (103e9, 8500.0), (6e9, 1400.0)][draw.0.index(3)];
     // A ring of rectangular section that weighs what the cage does without its pillars.

@@ -208,7 +208,7 @@ fn cage(draw: &mut Draw, bearing: &Bearing, clearance: Option<f64>, duration: f6
         cage["load"] = json!({"force_z": draw.signal(size, duration, 1e5)});
     }
     if draw.chance(0.35) {
-        cage["elastic_ring"] = elastic_ring(draw, bearing, mass);
+        cage["elastic_ring"] = elastic_ring(draw, (bearing.pitch(), bearing.count), mass);
     }
     cage
 }

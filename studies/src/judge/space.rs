@@ -144,7 +144,12 @@ pub fn scene(number: u64, duration: f64, caged: bool) -> Value {
     if caged {
         let room = pitch * (PI / count).sin() - radius;
         let clearance = if angle.is_some() { 0.0 } else { clearance };
-        cage_in_space::add(draw, &mut scene, Sizes { radius, pitch, room, clearance }, duration);
+        cage_in_space::add(
+            draw,
+            &mut scene,
+            Sizes { count: count as usize, radius, pitch, room, clearance },
+            duration,
+        );
     }
     scene
 }

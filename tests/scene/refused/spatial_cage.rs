@@ -75,10 +75,10 @@ pub fn rows() -> Vec<Row> {
             &["missing"],
         ),
         caged.scene(
-            "ring that bends in space",
-            &[("cage.elastic_ring", json!({"modes": 4, "neutral_radius": 45.081e-3, "stiffness": {"bending": 0.2572}, "damping": 0.03, "growth": 1.4e-11}))],
-            "cage.elastic_ring",
-            &["not allowed beside 'cage.space'"],
+            "more waves than pockets carry",
+            &[("cage.elastic_ring", json!({"modes": 13, "neutral_radius": 45.081e-3, "stiffness": {"bending": 0.2572}, "damping": 0.03, "growth": 1.4e-11}))],
+            "cage.elastic_ring.modes",
+            &["within 2 to 12"],
         ),
         rollers.value("rollers", "cage.space", space.clone(), &["not allowed beside 'rollers'"]),
         grease.scene(

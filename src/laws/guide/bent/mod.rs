@@ -209,11 +209,12 @@ impl GuideLaw {
         found
     }
 
-    /// The smallest gap of a bent cage, m.
-    pub fn smallest_bent_gap(&self, surface: &BentSurface, motion: &BentMotion<'_>) -> f64 {
+    /// The smallest gap of a bent cage, m, and where it is in axes of the cage, rad.
+    pub fn smallest_bent_gap(&self, surface: &BentSurface, motion: &BentMotion<'_>) -> [f64; 2] {
         let mut lobes = Vec::with_capacity(surface.waves.len() + 8);
         self.find_lobes(surface, motion, &mut lobes);
-        thinnest(&self.gap(surface, motion, &lobes), Arch::new()).gap
+        let Thinnest { gap, angle } = thinnest(&self.gap(surface, motion, &lobes), Arch::new());
+        [gap, angle]
     }
 
     /// Number of wet arcs of a bent cage, and the angle that all of them take, rad; a guide full of oil is one.

@@ -1,7 +1,9 @@
 //! The cage among balls and rings: its pockets and lands at a state, in a semi-implicit step, and how they oppose velocities.
 
+mod bent_slopes;
 mod report;
 mod slopes;
+mod step;
 
 pub(crate) use report::OfCage;
 
@@ -9,15 +11,17 @@ use super::Space;
 use super::evaluate::{moving, to_global};
 use super::workspace::{Workspace, at_lane};
 use crate::bodies::{
-    CageInSpace, CageState, Fault, Input, InputValues, MovingCage, MovingRing, OF_BALL, OF_CAGE, Power,
-    tilt_of,
+    CAGE, CageInSpace, CageState, Fault, Input, InputValues, MovingCage, MovingRing, OF_CAGE, Power,
+    displaced, tilt_of,
 };
-use crate::integrate::{DampingBlock, GroupDamping, SemiImplicit, Tuning, implicit_share};
+use crate::integrate::Tuning;
+use crate::laws::guide::bent::Wanted;
 use crate::pairs::Law;
 use crate::pairs::ball_pocket::{BallAt, BallPockets, PocketContact, WALLS};
-use crate::pairs::guide::land::{Land, LandForce};
+use crate::pairs::guide::land::{BentLandForces, Land, LandForce};
 use crate::scalar::{Dual, Numeric, Real, math, place_of};
-use crate::space::solid::{LARGEST_TILT, Moving, Vector, cross, difference, dot, scaled, sum};
+use crate::space::solid::{LARGEST_TILT, Moving, Vector, dot, scaled, sum};
+use nalgebra::DMatrix;
 
 /// A cage with its pairs.
 #[derive(Debug)]
@@ -41,6 +45,32 @@ pub(super) struct Touching {
     powers: [f64; 2],
     /// Power on the ball, W.
     on_ball: f64,
+    /// The change of what acts on the displacement of the pocket of a cage that bends, N.
+    on_bending: [f64; 2],
+}
+
+/// Room for derivatives of a cage that bends along one direction: amplitudes and rates of its modes, forces over them, also of one land,
+/// their accelerations.
+#[derive(Clone, Debug, Default)]
+struct AlongOne {
+    of_modes: [Vec<Dual<1>>; 2],
+    on_modes: Vec<Dual<1>>,
+    by_land: Vec<Dual<1>>,
+    out: Vec<Dual<1>>,
+}
+
+impl AlongOne {
+    fn new(modes: usize) -> Self {
+        let zeros = || vec![Dual::lift(0.0); modes];
+        Self { of_modes: [zeros(), zeros()], on_modes: zeros(), by_land: zeros(), out: zeros() }
+    }
+
+    /// Takes these amplitudes and rates as constants.
+    fn hold(&mut self, of_modes: [&[f64]; 2]) {
+        for (to, from) in self.of_modes.iter_mut().zip(of_modes) {
+            to.iter_mut().zip(from).for_each(|(to, x)| *to = Dual::lift(*x));
+        }
+    }
 }
 
 /// What is known of the cage at the last evaluated state.
@@ -50,6 +80,13 @@ pub(super) struct CageMemory {
     pub(super) moving: MovingCage<f64>,
     pub(super) touching: Vec<Touching>,
     pub(super) lands: Vec<LandForce<f64>>,
+    /// Of a cage that bends: amplitudes of its modes, m, and their rates, m/s, forces over them, N, also those of a step, and each land.
+    pub(super) of_modes: [Vec<f64>; 2],
+    on_modes: [Vec<f64>; 2],
+    bent: Vec<BentLandForces>,
+    along: AlongOne,
+    /// Accelerations over forces: force and moment, those over the modes.
+    by_forces: DMatrix<f64>,
     pub(super) load: [Vector<f64>; 2],
     /// Of pockets alone.
     pub(super) by_pockets: [Vector<f64>; 2],
@@ -58,18 +95,32 @@ pub(super) struct CageMemory {
 }
 
 impl CageMemory {
-    /// For a cage with so many balls and lands.
-    pub(super) fn new(balls: usize, lands: usize) -> Self {
+    /// For a cage with so many balls.
+    pub(super) fn new(balls: usize, cage: Option<&CageOfScene>) -> Self {
         let state = CageState { position: [0.0; OF_CAGE], rate: [0.0; OF_CAGE] };
+        let modes = || vec![0.0; cage.map_or(0, |cage| cage.body.bending())];
+        let lands = cage.map_or(&[][..], |cage| &cage.lands);
         Self {
             state,
             moving: state.motion(),
             touching: Vec::with_capacity(WALLS * balls),
-            lands: vec![LandForce::default(); lands],
+            lands: vec![LandForce::default(); lands.len()],
+            of_modes: [modes(), modes()],
+            on_modes: [modes(), modes()],
+            bent: lands.iter().filter_map(Land::memory).collect(),
+            along: AlongOne::new(modes().len()),
+            by_forces: DMatrix::zeros(OF_CAGE + modes().len(), OF_CAGE + modes().len()),
             load: [[0.0; 3]; 2],
             by_pockets: [[0.0; 3]; 2],
             on_cage: [[0.0; 3]; 2],
         }
+    }
+}
+
+impl CageMemory {
+    /// Amplitudes and rates of the modes.
+    pub(super) fn bending(&self) -> [&[f64]; 2] {
+        self.of_modes.each_ref().map(Vec::as_slice)
     }
 }
 
@@ -86,10 +137,13 @@ impl Space {
     /// Finds how the cage moves.
     pub(super) fn locate_cage(&self, q: &[f64], v: &[f64], ws: &mut Workspace) -> Result<(), Fault> {
         let Some(cage) = &self.cage else { return Ok(()) };
-        let first = self.layout.range(crate::bodies::CAGE).start;
+        let first = self.layout.range(CAGE).start;
         let memory = &mut ws.cage;
         memory.state.position.copy_from_slice(&q[first..first + OF_CAGE]);
         memory.state.rate.copy_from_slice(&v[first..first + OF_CAGE]);
+        for (to, from) in memory.of_modes.iter_mut().zip([q, v]) {
+            to.copy_from_slice(&from[first + OF_CAGE..][..cage.body.bending()]);
+        }
         let [x, y, z, ..] = memory.state.position;
         let off = math::hypot(x, math::hypot(y, z));
         if off > self.balls.set.pitch_radius || tilt_of(&memory.state.position) > LARGEST_TILT {
@@ -111,7 +165,14 @@ impl Space {
             lead: block.travel[lane] - ws.cage.moving.angle,
             moving: moving(at_lane(&block.speeds, lane), self.balls.set.pitch_radius + at[1]),
             excess: block.excess[lane],
+            bent: self.displaced_pocket(ws, j),
         }
+    }
+
+    /// By how much a cage that bends displaces pocket `j`, outwards and ahead, m, and the rates of that.
+    fn displaced_pocket(&self, ws: &Workspace, j: usize) -> Option<[[f64; 2]; 2]> {
+        let body = &self.cage.as_ref()?.body;
+        (body.bending() > 0).then(|| ws.cage.bending().map(|x| displaced(body.displacements(j), x)))
     }
 
     /// Finds the forces of pockets and lands, and adds those on the balls to what acts on these.
@@ -119,13 +180,24 @@ impl Space {
         let Some(cage) = &self.cage else { return Ok(()) };
         ws.cage.touching.clear();
         ws.cage.by_pockets = [[0.0; 3]; 2];
+        ws.cage.on_modes[0].fill(0.0);
         if let Some(pockets) = &cage.pockets {
             self.touch_pockets(pockets, ws)?;
         }
         ws.cage.on_cage = added(ws.cage.load, ws.cage.by_pockets);
         for (k, land) in cage.lands.iter().enumerate() {
-            let Workspace { cage: CageMemory { moving, lands, on_cage, .. }, rings, fluid, .. } = ws;
-            let found = land.force(moving, &rings[land.ring], *fluid);
+            let Workspace { cage: memory, rings, fluid, .. } = ws;
+            let CageMemory { moving, lands, on_cage, of_modes, on_modes, bent, .. } = memory;
+            let found = match bent.get_mut(k) {
+                None => land.force(moving, &rings[land.ring], *fluid),
+                Some(bent) => {
+                    let of_modes = of_modes.each_ref().map(Vec::as_slice);
+                    let wanted = (*fluid, Wanted::Forces);
+                    let found = land.bend(moving, &rings[land.ring], of_modes, wanted, bent);
+                    on_modes[0].iter_mut().zip(&bent.on_modes[0]).for_each(|(sum, force)| *sum += force);
+                    found
+                }
+            };
             let force = found.map_err(|gone| Fault::NoGuideFilm { minimum_film: gone.minimum_film })?;
             *on_cage = added(*on_cage, force.on[0]);
             lands[k] = force;
@@ -166,6 +238,10 @@ impl Space {
                 for (sum, x) in ws.blocks[block].on_ball.iter_mut().zip([fx, fr, ft, mx, mr, mt]) {
                     sum[lane] += x;
                 }
+                if let Some(cage) = self.cage.as_ref().filter(|_| ball.bent.is_some()) {
+                    let by = contact.on_bending(on_cage[0]);
+                    add_to_modes(&mut ws.cage.on_modes[0], cage.body.displacements(j), by);
+                }
                 let on_cage = on_cage.map(|v| to_global(v, direction));
                 ws.cage.by_pockets = added(ws.cage.by_pockets, on_cage);
                 ws.cage.touching.push(Touching {
@@ -177,154 +253,27 @@ impl Space {
                     reaction: [[0.0; 3]; 2],
                     powers: [0.0; 2],
                     on_ball: 0.0,
+                    on_bending: [0.0; 2],
                 });
             }
         }
         Ok(())
     }
 
-    /// Writes the accelerations of the cage under this force and moment.
-    pub(super) fn accelerate_cage(&self, ws: &Workspace, on_cage: [Vector<f64>; 2], a: &mut [f64]) {
+    /// Writes the accelerations of the cage under this force and moment, and these forces over its modes.
+    fn accelerate_cage_by(&self, ws: &Workspace, on_cage: [Vector<f64>; 2], on_modes: &[f64], a: &mut [f64]) {
         if let Some(cage) = &self.cage {
-            let first = self.layout.range(crate::bodies::CAGE).start;
-            let all = cage.body.accelerations(&ws.cage.state, on_cage, self.gravity);
-            a[first..first + OF_CAGE].copy_from_slice(&all);
+            let (own, of_modes) = a[self.layout.range(CAGE)].split_at_mut(OF_CAGE);
+            let on = (on_cage, on_modes);
+            let bending = ws.cage.bending();
+            let all = cage.body.bent_accelerations(&ws.cage.state, on, bending, self.gravity, of_modes);
+            own.copy_from_slice(&all);
         }
     }
 
-    /// Shares of damping and friction of a contact that act on the change of a ball in a step of size `h`, s.
-    fn pocket_shares(&self, ws: &Workspace, touching: &Touching, h: f64) -> [f64; 2] {
-        if !self.free {
-            return [0.5; 2];
-        }
-        let (block, lane) = place_of(touching.ball);
-        let [mass, inertia] = at_lane(&ws.blocks[block].inertia, lane);
-        let radius = self.balls.set.radius;
-        let PocketContact { damping, secant, .. } = touching.contact;
-        let rubbing = secant * (1.0 / mass + radius * radius / inertia);
-        [damping / mass, rubbing].map(|rate| implicit_share(rate * h))
-    }
-
-    /// Adds the damping of balls by their pockets.
-    pub(super) fn damp_in_pockets(&self, h: f64, ws: &Workspace, out: &mut GroupDamping<OF_BALL>) {
-        for touching in ws.cage.touching.iter().filter(|_| self.free) {
-            let (block, lane) = place_of(touching.ball);
-            let of_ball = &ws.blocks[block];
-            let [mass, inertia] = at_lane(&of_ball.inertia, lane);
-            let r = self.balls.set.pitch_radius + of_ball.at[1][lane];
-            let [of_normal, of_friction] = self.pocket_shares(ws, touching, h);
-            let PocketContact { normal, damping, secant, levers: [to_wall, _], .. } = touching.contact;
-            let inverse = [mass, mass, mass * r, inertia, inertia, inertia];
-            for column in 0..OF_BALL {
-                let mut unit = [[0.0; 3]; 2];
-                unit[column / 3][column % 3] = if column == 2 { r } else { 1.0 };
-                let moved = sum(unit[0], cross(unit[1], to_wall));
-                let nearer = dot(moved, normal);
-                let rubbed = scaled(difference(moved, scaled(normal, nearer)), secant);
-                let pressed = scaled(normal, damping * nearer);
-                let couple = cross(to_wall, rubbed);
-                for row in 0..OF_BALL {
-                    let (by_friction, by_normal) =
-                        if row < 3 { (rubbed[row], pressed[row]) } else { (couple[row - 3], 0.0) };
-                    let spokes = &mut out.spokes[block];
-                    spokes.full[row][column][lane] += (by_friction + by_normal) / inverse[row];
-                    spokes.implicit[row][column][lane] +=
-                        (by_friction * of_friction + by_normal * of_normal) / inverse[row];
-                }
-            }
-        }
-    }
-
-    /// Damping of the cage by its lands, and by elements whose motion is prescribed.
-    pub(super) fn damp_cage(&self, h: f64, ws: &Workspace, out: &mut DampingBlock) {
-        let Some(cage) = &self.cage else { return };
-        type Rate = Dual<OF_CAGE>;
-        let constant = ws.cage.state.position.map(Rate::lift);
-        let state = CageState {
-            position: constant,
-            rate: std::array::from_fn(|k| Rate::variable(ws.cage.state.rate[k], k)),
-        };
-        let moving = state.motion();
-        let mut on_cage = [[Rate::lift(0.0); 3]; 2];
-        for land in &cage.lands {
-            let ring = lifted(&ws.rings[land.ring]);
-            if let Ok(force) = land.force_slopes(&moving, &ring, ws.fluid) {
-                on_cage = added(on_cage, force.on[0]);
-            }
-        }
-        for Touching { ball, contact, .. } in ws.cage.touching.iter().filter(|_| !self.free) {
-            on_cage = added(on_cage, secant_of(ws, *ball, contact, &moving));
-        }
-        let still = CageState { position: constant, rate: ws.cage.state.rate.map(Rate::lift) };
-        // The accelerations are linear in the forces.
-        let respond = |on_cage| cage.body.accelerations(&still, on_cage, self.gravity);
-        let all = respond(on_cage);
-        for (row, a) in all.into_iter().enumerate() {
-            for column in 0..OF_CAGE {
-                out.full[(row, column)] = -a.eps[column];
-            }
-        }
-        out.split(h, if cage.lands.iter().any(|land| land.ring == 1) { 2.0 } else { 1.0 });
-    }
-
-    /// Forces and powers of pockets in a step from the last evaluated state, or at that state.
-    pub(super) fn find_cage_step(&self, v: &[f64], step: Option<&SemiImplicit<'_>>, ws: &mut Workspace) {
-        let Some(pockets) = self.cage.as_ref().and_then(|cage| cage.pockets.as_ref()) else { return };
-        let mut list = std::mem::take(&mut ws.cage.touching);
-        for touching in &mut list {
-            let (block, lane) = place_of(touching.ball);
-            let block = &ws.blocks[block];
-            let direction = at_lane(&block.direction, lane);
-            let contact = &touching.contact;
-            let [to_wall, _] = contact.levers;
-            let r = self.balls.set.pitch_radius + block.at[1][lane];
-            let speeds = at_lane(&block.speeds, lane);
-            let (mut force, mut friction) = (contact.force, scaled(contact.slip, -contact.secant));
-            let mut rates = (contact.depth_rate, contact.slip);
-            let mut of_ball = moving(speeds, r);
-            touching.reaction = [[0.0; 3]; 2];
-            if let Some(step) = step.filter(|_| self.free) {
-                let places = self.layout.of_element::<OF_BALL>(touching.ball);
-                let [of_normal, of_friction] = self.pocket_shares(ws, touching, step.h);
-                // Change of approach and slip where a part acts, and the motion of the ball there.
-                let changed = |share: f64| {
-                    let change = places.map(|i| {
-                        (step.mean[i] - v[i]) * (2.0 - 2.0 * share)
-                            + (step.end[i] - v[i]) * (2.0 * share - 1.0)
-                    });
-                    let moved = moving(change, r);
-                    let passing = sum(moved.velocity, cross(moved.turning, to_wall));
-                    let nearer = dot(passing, contact.normal);
-                    (nearer, difference(passing, scaled(contact.normal, nearer)), moved)
-                };
-                let (nearer, ..) = changed(of_normal);
-                let (_, rubbed, _) = changed(of_friction);
-                let (mean_nearer, mean_slip, mean) = changed(0.5);
-                let by_normal = contact.damping * nearer;
-                let by_friction = scaled(rubbed, -contact.secant);
-                let [_, on_cage] = contact.wrenches_of(by_normal, by_friction);
-                touching.reaction = on_cage.map(|v| to_global(v, direction));
-                force += by_normal;
-                friction = sum(friction, by_friction);
-                rates = (rates.0 + mean_nearer, sum(rates.1, mean_slip));
-                of_ball = Moving {
-                    velocity: sum(of_ball.velocity, mean.velocity),
-                    turning: sum(of_ball.turning, mean.turning),
-                };
-            }
-            let [_, spring] = pockets.spring(contact.depth);
-            touching.normal = force;
-            touching.friction = friction;
-            touching.powers = [-(force - spring) * rates.0, dot(friction, rates.1)];
-            let [on_ball, _] = contact.wrenches_of(force, friction);
-            touching.on_ball = power(on_ball, &of_ball);
-        }
-        ws.cage.touching = list;
-    }
-
-    /// Force and moment on the cage in the step from the last evaluated state.
-    pub(super) fn on_cage_in_step(ws: &Workspace) -> [Vector<f64>; 2] {
-        ws.cage.touching.iter().fold(ws.cage.on_cage, |sum, touching| added(sum, touching.reaction))
+    /// Writes the accelerations of the cage at the last evaluated state.
+    pub(super) fn accelerate_cage(&self, ws: &Workspace, a: &mut [f64]) {
+        self.accelerate_cage_by(ws, ws.cage.on_cage, &ws.cage.on_modes[0], a);
     }
 
     /// Powers of pockets, lands and the load of the cage, W.
@@ -338,14 +287,37 @@ impl Space {
                 p[Power::ElementDrive as usize] -= touching.on_ball;
             }
         }
-        for (land, force) in cage.lands.iter().zip(&ws.cage.lands) {
+        let [film, solid] = self.guide_powers(ws);
+        p[Power::GuideFilm as usize] += film;
+        p[Power::GuideSolid as usize] += solid;
+        let [_, rates] = ws.cage.bending();
+        let lost: f64 = cage.body.damping_of_modes().zip(rates).map(|(damping, v)| damping * v * v).sum();
+        p[Power::CageBending as usize] -= lost;
+        p[Power::Loads as usize] += power(ws.cage.load, &ws.cage.moving.moving);
+    }
+
+    /// Powers of the films of all lands, and of their solid contacts, W.
+    fn guide_powers(&self, ws: &Workspace) -> [f64; 2] {
+        let mut sum = [0.0; 2];
+        let [_, rates] = ws.cage.bending();
+        let lands = self.cage.iter().flat_map(|cage| &cage.lands);
+        for (k, (land, force)) in lands.zip(&ws.cage.lands).enumerate() {
             let bodies = [&ws.cage.moving.moving, &ws.rings[land.ring].moving];
             let total = |on: &[[Vector<f64>; 2]; 2]| power(on[0], bodies[0]) + power(on[1], bodies[1]);
-            let film = total(&force.by_film);
-            p[Power::GuideFilm as usize] += film;
-            p[Power::GuideSolid as usize] += total(&force.on) - film;
+            let [bending, bending_by_film] = ws.cage.bent.get(k).map_or([0.0; 2], |bent| {
+                bent.on_modes.each_ref().map(|on| on.iter().zip(rates).map(|(f, v)| f * v).sum())
+            });
+            let film = total(&force.by_film) + bending_by_film;
+            sum[0] += film;
+            sum[1] += total(&force.on) + bending - film;
         }
-        p[Power::Loads as usize] += power(ws.cage.load, &ws.cage.moving.moving);
+        sum
+    }
+
+    /// Energy of the bent ring, J.
+    pub(super) fn energy_of_bending(&self, ws: &Workspace) -> f64 {
+        let Some(cage) = &self.cage else { return 0.0 };
+        cage.body.energy(&ws.cage.state, ws.cage.bending(), self.gravity).elastic
     }
 
     /// Springs of pockets hold this energy, J.
@@ -379,37 +351,27 @@ impl Space {
             return f64::INFINITY;
         };
         let of_ring = self.layout.range(crate::bodies::INNER_RING);
-        let first = self.layout.range(crate::bodies::CAGE).start;
+        let first = self.layout.range(CAGE).start;
         let state = CageState {
             position: std::array::from_fn(|k| q[first + k]),
             rate: std::array::from_fn(|k| v[first + k]),
         };
         let moving = state.motion();
+        let of_modes = [q, v].map(|x| &x[first + OF_CAGE..][..cage.body.bending()]);
         let outer = turning_outer(inputs.of(Input::OuterRingSpeed));
         let inner = self.ring.state(&q[of_ring.clone()], &v[of_ring], inputs).motion();
         let rings = [outer, inner];
-        let longest = |land: &Land| land.longest_step(cage.body.mass(), &moving, &rings[land.ring], tuning);
+        let longest =
+            |land: &Land| land.longest_step(cage.body.mass(), (&moving, of_modes), &rings[land.ring], tuning);
         cage.lands.iter().map(longest).fold(f64::INFINITY, f64::min)
     }
 }
 
-/// Damping and friction, as secants, of a contact with an element of prescribed motion, over the rates of the cage.
-fn secant_of(
-    ws: &Workspace,
-    ball: usize,
-    contact: &PocketContact<f64>,
-    cage: &MovingCage<Dual<OF_CAGE>>,
-) -> [Vector<Dual<OF_CAGE>>; 2] {
-    let (block, lane) = place_of(ball);
-    let direction = at_lane(&ws.blocks[block].direction, lane);
-    let lift = |v: Vector<f64>| to_global(v, direction).map(Dual::lift);
-    let (lever, normal) = (lift(contact.levers[1]), lift(contact.normal));
-    let of_cage = sum(cage.moving.velocity, cross(cage.moving.turning, lever));
-    let nearer = dot(of_cage, normal);
-    let across = difference(of_cage, scaled(normal, nearer));
-    let pushed = sum(scaled(normal, nearer * contact.damping), scaled(across, Dual::lift(contact.secant)));
-    let force = pushed.map(|f| -f);
-    [force, cross(lever, force)]
+/// Adds forces over a pocket's displacement to those over the modes, which displace it like this.
+fn add_to_modes(on_modes: &mut [f64], displacements: &[[f64; 2]], [outwards, ahead]: [f64; 2]) {
+    for (sum, [x, t]) in on_modes.iter_mut().zip(displacements) {
+        *sum += x * outwards + t * ahead;
+    }
 }
 
 /// The outer ring at this speed, rad/s.

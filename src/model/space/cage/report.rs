@@ -39,6 +39,13 @@ pub(crate) enum OfCage {
     /// Across the axis of the bearing, along that line or across it.
     PocketSum(usize),
     TouchingElements,
+    /// Of a bent ring: the wave whose first coordinate has this place, and its energy, J.
+    ModeAmplitude(usize),
+    ModePhase(usize),
+    ElasticEnergy,
+    GuideHeat,
+    WetArcs,
+    WetAngle,
     /// Of a ball: place in its pocket along the axis, outwards or ahead.
     InPocket(usize, usize),
     PocketForce(usize),
@@ -148,12 +155,32 @@ impl Space {
                     add(&format!("guide.{name}_phi"), "N", text, OfCage::GuidePart(part, 1));
                 }
             }
-            for k in (0..cage.lands.len()).filter(|_| cage.lands.len() > 1) {
+            let beside = cage.lands.len() > 1 || cage.lands.iter().any(Land::off_middle);
+            for k in (0..cage.lands.len()).filter(|_| beside) {
                 let text = "smallest gap over the width of this land";
                 add(&format!("land[{k}].minimum_gap"), "m", text, OfCage::LandGap(k));
                 let text =
                     "distance of the cage centre from the ring centre in this land over its radial clearance";
                 add(&format!("land[{k}].eccentricity"), "1", text, OfCage::LandEccentricity(k));
+            }
+        }
+        for (k, (order, _)) in cage.body.waves().into_iter().enumerate() {
+            let text = "amplitude of this wave of the bent ring";
+            add(&format!("cage.mode[{order}].amplitude"), "m", text, OfCage::ModeAmplitude(2 * k));
+            let text = "angle in the cage at which this wave is highest, as an angle of the wave";
+            add(&format!("cage.mode[{order}].phase"), "rad", text, OfCage::ModePhase(2 * k));
+        }
+        if cage.body.bending() > 0 {
+            add("cage.elastic_energy", "J", "energy of the bent ring", OfCage::ElasticEnergy);
+            if !cage.lands.is_empty() {
+                let text =
+                    "power that all lands take: what films and friction lose, and what solid contacts store";
+                add("guide.heat", "W", text, OfCage::GuideHeat);
+            }
+            if cage.lands.iter().any(|land| land.laws()[0].is_some()) {
+                let text = "number of arcs that carry a film, of all lands";
+                add("guide.wet_arcs", "1", text, OfCage::WetArcs);
+                add("guide.wet_angle", "rad", "angle of all these arcs together", OfCage::WetAngle);
             }
         }
         if cage.pockets.is_some() {
@@ -205,11 +232,17 @@ impl Space {
         let memory = &ws.cage;
         let moving = &memory.moving;
         let ring = cage.lands.first().map_or(0, |land| land.ring);
+        let bending = memory.bending();
         let [at, speed] = Land::offset(moving, &ws.rings[ring]);
         let clearance = || cage.lands.iter().map(Land::clearance).fold(f64::INFINITY, f64::min);
-        let gap = |k: usize| cage.lands[k].smallest_gap(moving, &ws.rings[cage.lands[k].ring]);
+        let gap = |k: usize| cage.lands[k].smallest_gap(moving, &ws.rings[cage.lands[k].ring], bending);
         let [tilt_y, tilt_z] = [memory.state.position[4], memory.state.position[5]];
         let direction = if self.kinematic_speeds(&ws.inputs)[0] < 0.0 { -1.0 } else { 1.0 };
+        let amplitude = |k: usize| memory.of_modes[0][k];
+        let wet_arcs = || {
+            let lands = cage.lands.iter().filter(|land| land.laws()[0].is_some());
+            lands.map(|land| land.wet_arcs(moving, &ws.rings[land.ring], bending))
+        };
         let of_all = |parts: &dyn Fn(usize) -> f64| (0..cage.lands.len()).map(parts).sum::<f64>();
         match source {
             OfCage::Position(k) => memory.state.position[k],
@@ -239,7 +272,7 @@ impl Space {
                 math::hypot(y, z) / land.clearance()
             }
             OfCage::TiltOverGap => {
-                let of = |land: &Land| land.tilt_over_gap(moving, &ws.rings[land.ring]);
+                let of = |land: &Land| land.tilt_over_gap(moving, &ws.rings[land.ring], bending);
                 cage.lands.iter().map(of).fold(0.0, f64::max)
             }
             OfCage::Pocket(k) => by_pockets(ws)[k / 3][k % 3],
@@ -255,6 +288,12 @@ impl Space {
                 }
                 count
             }
+            OfCage::ModeAmplitude(k) => math::hypot(amplitude(k), amplitude(k + 1)),
+            OfCage::ModePhase(k) => math::atan2(amplitude(k + 1), amplitude(k)),
+            OfCage::ElasticEnergy => self.energy_of_bending(ws),
+            OfCage::GuideHeat => -self.guide_powers(ws).iter().sum::<f64>(),
+            OfCage::WetArcs => wet_arcs().map(|(count, _)| f64::from(count)).sum(),
+            OfCage::WetAngle => wet_arcs().map(|(_, angle)| angle).sum(),
             OfCage::InPocket(k, j) => {
                 let Some(pockets) = &cage.pockets else { return f64::NAN };
                 let place = pockets.place(&self.in_pocket(ws, j), moving);

@@ -4,7 +4,7 @@ use super::super::Space;
 use super::super::evaluate::{moving, to_global};
 use super::super::linearize::RingSlopes;
 use super::super::workspace::{Workspace, at_lane};
-use super::turning_outer;
+use super::{CageOfScene, turning_outer};
 use crate::bodies::{
     CAGE, CageState, INNER_RING, Input, InputValues, MovingRing, OF_BALL, OF_CAGE, OF_RING, RingState,
 };
@@ -13,11 +13,14 @@ use crate::pairs::ball_pocket::BallAt;
 use crate::pairs::guide::land::Land;
 use crate::scalar::{Dual, Numeric, place_of};
 use crate::space::solid::Vector;
+use nalgebra::DMatrix;
 
-/// What a pocket sees: x, rho and azimuth of a ball, its six speeds, coordinates of the cage, their rates, time.
-const IN_POCKET: usize = 3 + OF_BALL + 2 * OF_CAGE + 1;
+/// What a pocket sees: x, rho and azimuth of a ball, its six speeds, coordinates of the cage, their rates, displacement of the pocket by
+/// bending outwards and ahead, its rates, time.
+const IN_POCKET: usize = 3 + OF_BALL + 2 * OF_CAGE + 4 + 1;
 const BALL_SPEEDS: usize = 3;
 const CAGE_IN_POCKET: usize = 3 + OF_BALL;
+const BENT_IN_POCKET: usize = CAGE_IN_POCKET + 2 * OF_CAGE;
 const POCKET_TIME: usize = IN_POCKET - 1;
 type InPocket = Dual<IN_POCKET>;
 
@@ -31,18 +34,15 @@ type AtLand = Dual<AT_LAND>;
 const OF_OWN: usize = 6 + 2 * OF_CAGE;
 
 /// Step of the logarithm of the viscosity for differences.
-const WARMING: f64 = 1e-4;
-
-/// Derivatives of accelerations of the cage over force and moment.
-type ByWrench = [[f64; 6]; OF_CAGE];
+pub(super) const WARMING: f64 = 1e-4;
 
 /// What also changes with time, the last of what it is differentiated over, at this rate.
-fn timed<const N: usize>(mut x: Dual<N>, rate: f64) -> Dual<N> {
+pub(super) fn timed<const N: usize>(mut x: Dual<N>, rate: f64) -> Dual<N> {
     x.eps[N - 1] += rate;
     x
 }
 
-fn numbers<T>([[a, b, c], [d, e, f]]: [Vector<T>; 2]) -> [T; 6] {
+pub(super) fn numbers<T>([[a, b, c], [d, e, f]]: [Vector<T>; 2]) -> [T; 6] {
     [a, b, c, d, e, f]
 }
 
@@ -51,14 +51,44 @@ impl Space {
     /// accelerations of the ring over what its motion follows.
     pub(in super::super) fn add_cage_slopes(
         &self,
-        ws: &Workspace,
+        ws: &mut Workspace,
         (rates, ln_rate): (&InputValues, f64),
         ring: &RingSlopes,
         out: &mut Linearization<OF_BALL>,
     ) {
         let Some(cage) = &self.cage else { return };
-        let first = self.layout.range(CAGE).start;
-        let state = &ws.cage.state;
+        let mut by_forces = std::mem::take(&mut ws.cage.by_forces);
+        if cage.body.bending() == 0 {
+            self.add_own_slopes(cage, ws, &mut by_forces, out);
+        } else {
+            self.add_bent_slopes(cage, ws, &mut by_forces, out);
+        }
+        let (first, load_rates) = (self.layout.range(CAGE).start, numbers(cage.body.load(rates)));
+        for (i, row) in by_forces.row_iter().enumerate() {
+            out.over_time[first + i] += row.iter().zip(load_rates).map(|(by, rate)| by * rate).sum::<f64>();
+        }
+        for place in 0..ws.cage.touching.len() {
+            self.add_pocket_slopes(ws, place, rates, &by_forces, out);
+        }
+        for (k, land) in cage.lands.iter().enumerate() {
+            if cage.body.bending() == 0 {
+                self.add_land_slopes(land, ws, (rates, ln_rate), (ring, &by_forces), out);
+            } else {
+                self.add_bent_land_slopes(k, ws, (rates, ln_rate), (ring, &by_forces), out);
+            }
+        }
+        ws.cage.by_forces = by_forces;
+    }
+
+    /// Adds how the accelerations of a rigid cage follow its own motion, and finds how they follow force and moment.
+    fn add_own_slopes(
+        &self,
+        cage: &CageOfScene,
+        ws: &Workspace,
+        by_forces: &mut DMatrix<f64>,
+        out: &mut Linearization<OF_BALL>,
+    ) {
+        let (first, state) = (self.layout.range(CAGE).start, &ws.cage.state);
         let variable = Dual::<OF_OWN>::variable;
         let wrench = [0, 1].map(|i| [0, 1, 2].map(|k| variable(ws.cage.on_cage[i][k], 3 * i + k)));
         let own = CageState {
@@ -66,25 +96,17 @@ impl Space {
             rate: std::array::from_fn(|k| variable(state.rate[k], 6 + OF_CAGE + k)),
         };
         let own = cage.body.accelerations(&own, wrench, self.gravity);
-        let by_wrench: ByWrench = own.map(|row| std::array::from_fn(|w| row.eps[w]));
-        let load_rates = numbers(cage.body.load(rates));
         for (i, row) in own.iter().enumerate() {
             for k in 0..OF_CAGE {
+                by_forces[(i, k)] = row.eps[k];
                 out.over_positions.hub[(first + i, first + k)] += row.eps[6 + k];
                 out.over_velocities.hub[(first + i, first + k)] += row.eps[6 + OF_CAGE + k];
             }
-            out.over_time[first + i] += (0..6).map(|w| by_wrench[i][w] * load_rates[w]).sum::<f64>();
-        }
-        for place in 0..ws.cage.touching.len() {
-            self.add_pocket_slopes(ws, place, rates, &by_wrench, out);
-        }
-        for land in &cage.lands {
-            self.add_land_slopes(land, ws, (rates, ln_rate), (ring, &by_wrench), out);
         }
     }
 
     /// Change of the logarithm of a soap's structure over that of the viscosity.
-    fn ln_structure_ratio(&self, ws: &Workspace) -> f64 {
+    pub(super) fn ln_structure_ratio(&self, ws: &Workspace) -> f64 {
         let slope = |oil: &crate::model::signals::Oil| {
             let of_viscosity = oil.law.relative_slope(ws.inputs.of(Input::Temperature));
             oil.thickener.map_or(0.0, |law| law.ln_structure_slope() / of_viscosity)
@@ -97,10 +119,11 @@ impl Space {
         ws: &Workspace,
         place: usize,
         rates: &InputValues,
-        by_wrench: &ByWrench,
+        by_forces: &DMatrix<f64>,
         out: &mut Linearization<OF_BALL>,
     ) {
-        let Some(pockets) = self.cage.as_ref().and_then(|cage| cage.pockets.as_ref()) else { return };
+        let Some(cage_of_scene) = &self.cage else { return };
+        let Some(pockets) = &cage_of_scene.pockets else { return };
         let touching = &ws.cage.touching[place];
         let (j, first, width) = (touching.ball, self.layout.range(CAGE).start, self.layout.hub());
         let (block, lane) = place_of(j);
@@ -135,46 +158,75 @@ impl Space {
             lead: timed(lead, orbit),
             moving: moving(of_ball, rho + self.balls.set.pitch_radius),
             excess: block.excess[lane],
+            bent: self.displaced_pocket(ws, j).map(|bent| {
+                let at = |i: usize, k: usize| variable(bent[i][k], BENT_IN_POCKET + 2 * i + k);
+                [[at(0, 0), at(0, 1)], [at(1, 0), at(1, 1)]]
+            }),
         };
         let in_pocket = pockets.place(&ball, &cage);
         let Some(contact) = pockets.contact(touching.wall, &ball, &in_pocket, &cage) else { return };
         let [on_ball, on_cage] = contact.wrenches();
+        let on_bending = contact.on_bending(on_cage[0]);
         let (on_ball, on_cage) = (numbers(on_ball), numbers(on_cage.map(|v| to_global(v, direction))));
-        let rows_of_cage: [[f64; IN_POCKET]; OF_CAGE] = by_wrench
-            .map(|by| std::array::from_fn(|d| (0..6).map(|w| by[w] * on_cage[w].eps[d]).sum::<f64>()));
-        let columns = [(0, CAGE_IN_POCKET), (BALL_SPEEDS, CAGE_IN_POCKET + OF_CAGE)];
+        let displacements = cage_of_scene.body.displacements(j);
+        // Over what the modes do to the pocket.
+        let over_modes =
+            |slopes: &[f64; IN_POCKET], at: usize, [x, t]: [f64; 2]| slopes[at] * x + slopes[at + 1] * t;
+        let columns = [
+            (0, CAGE_IN_POCKET, BENT_IN_POCKET),
+            (BALL_SPEEDS, CAGE_IN_POCKET + OF_CAGE, BENT_IN_POCKET + 2),
+        ];
         let positions = [3, OF_BALL];
-        let parts = [&mut out.over_positions, &mut out.over_velocities];
         let [mass, inertia] = at_lane(&block.inertia, lane);
         let r = self.balls.set.pitch_radius + rho.re;
         let inverse = [mass, mass, mass * r, inertia, inertia, inertia].map(|x| 1.0 / x);
-        for ((part, (of_ball, of_cage)), positions) in parts.into_iter().zip(columns).zip(positions) {
-            for (i, row) in rows_of_cage.iter().enumerate() {
+        for (i, by) in by_forces.row_iter().enumerate() {
+            let mut row = [0.0; IN_POCKET];
+            let mut add = |by: f64, force: &InPocket| {
+                row.iter_mut().zip(force.eps).for_each(|(sum, slope)| *sum += by * slope);
+            };
+            on_cage.iter().enumerate().for_each(|(w, force)| add(by[w], force));
+            for (k, force) in on_bending.iter().enumerate().filter(|_| !displacements.is_empty()) {
+                let by_modes = displacements.iter().enumerate().map(|(m, at)| by[6 + m] * at[k]);
+                add(by_modes.sum::<f64>(), force);
+            }
+            out.over_time[first + i] += row[POCKET_TIME];
+            let parts = [&mut out.over_positions, &mut out.over_velocities];
+            for ((part, (of_ball, of_cage, of_modes)), positions) in
+                parts.into_iter().zip(columns).zip(positions)
+            {
                 for k in 0..OF_CAGE {
                     part.hub[(first + i, first + k)] += row[of_cage + k];
+                }
+                for (m, at) in displacements.iter().enumerate() {
+                    part.hub[(first + i, first + OF_CAGE + m)] += over_modes(&row, of_modes, *at);
                 }
                 for k in 0..if self.free { positions } else { 0 } {
                     part.to_hub[(first + i, j * OF_BALL + k)] += row[of_ball + k];
                 }
             }
-            if !self.free {
-                continue;
-            }
-            let own = part.own.as_mut_slice().as_chunks_mut::<OF_BALL>().0;
-            for k in 0..positions {
-                for row in 0..OF_BALL {
-                    own[j * OF_BALL + k][row] += on_ball[row].eps[of_ball + k] * inverse[row];
-                }
-            }
-            let from_hub = part.from_hub.as_mut_slice().as_chunks_mut::<OF_BALL>().0;
-            for k in 0..OF_CAGE {
-                for row in 0..OF_BALL {
-                    from_hub[j * width + first + k][row] += on_ball[row].eps[of_cage + k] * inverse[row];
-                }
-            }
         }
-        for (i, row) in rows_of_cage.iter().enumerate() {
-            out.over_time[first + i] += row[POCKET_TIME];
+        if !self.free {
+            return;
+        }
+        let parts = [&mut out.over_positions, &mut out.over_velocities];
+        for ((part, (of_ball, of_cage, of_modes)), positions) in parts.into_iter().zip(columns).zip(positions)
+        {
+            let own = part.own.as_mut_slice().as_chunks_mut::<OF_BALL>().0;
+            let from_hub = part.from_hub.as_mut_slice().as_chunks_mut::<OF_BALL>().0;
+            for row in 0..OF_BALL {
+                let slopes = on_ball[row].eps;
+                for k in 0..positions {
+                    own[j * OF_BALL + k][row] += slopes[of_ball + k] * inverse[row];
+                }
+                let hub = &mut from_hub[j * width + first..];
+                for k in 0..OF_CAGE {
+                    hub[k][row] += slopes[of_cage + k] * inverse[row];
+                }
+                for (m, at) in displacements.iter().enumerate() {
+                    hub[OF_CAGE + m][row] += over_modes(&slopes, of_modes, *at) * inverse[row];
+                }
+            }
         }
     }
 
@@ -183,7 +235,7 @@ impl Space {
         land: &Land,
         ws: &Workspace,
         (rates, ln_rate): (&InputValues, f64),
-        (ring, by_wrench): (&RingSlopes, &ByWrench),
+        (ring, by_forces): (&RingSlopes, &DMatrix<f64>),
         out: &mut Linearization<OF_BALL>,
     ) {
         let first = self.layout.range(CAGE).start;
@@ -221,7 +273,7 @@ impl Space {
             }
         }
         let free: Vec<usize> = self.ring.free().collect();
-        let of_cage = (0..OF_CAGE).map(|i| (first + i, by_wrench[i], 0));
+        let of_cage = (0..OF_CAGE).map(|i| (first + i, std::array::from_fn(|w| by_forces[(i, w)]), 0));
         let start = self.layout.range(INNER_RING).start;
         let of_ring = free
             .iter()
@@ -229,6 +281,7 @@ impl Space {
             .filter(|_| land.ring == 1)
             .map(|(i, k)| (start + i, std::array::from_fn(|w| ring[*k].eps[w]), 1));
         for (place, by, body) in of_cage.chain(of_ring) {
+            let by: [f64; 6] = by;
             let slope = |d: usize| (0..6).map(|w| by[w] * on[body][w].eps[d]).sum::<f64>();
             let parts = [&mut out.over_positions, &mut out.over_velocities];
             let columns = [(0, CAGE_AT_LAND), (OF_RING, CAGE_AT_LAND + OF_CAGE)];

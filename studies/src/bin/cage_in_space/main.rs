@@ -42,11 +42,12 @@ type Changes = Vec<(&'static str, Value)>;
 
 fn main() -> Result<()> {
     let arguments = Arguments::parse();
-    let tables: [(&str, Make); 9] = [
+    let tables: [(&str, Make); 10] = [
         ("load", load),
         ("speed", speed),
         ("pocket", pockets),
         ("land", lands),
+        ("bending", bending),
         ("starts", share_of_starts),
         ("starts over speed", starts_over_speed),
         ("guided by balls", guided_by_balls),
@@ -255,6 +256,64 @@ fn lands(name: &str) -> Result<Table> {
             ("one of 8 mm on the inner ring", vec![("cage.guide", inner)]),
         ],
     )
+}
+
+/// A ring that bends as that of the elastic scene in the plane, with waves up to an order, beside the rigid one and the plane.
+fn bending(name: &str) -> Result<Table> {
+    let head = [
+        "cage",
+        "axial load, N",
+        "rev/min",
+        "whirl, rad/s",
+        "radius, um",
+        "tilt, mrad",
+        "wobble",
+        "in the plane: whirl",
+        "radius",
+    ];
+    let mut table = Table::new(name, &head);
+    let elastic = scene("grease_guide_elastic", &vec![])?.cage.and_then(|cage| cage.elastic_ring);
+    let elastic =
+        serde_json::to_value(elastic).map_err(|e| Error::new(cagedyn::Status::BadJson, e.to_string()))?;
+    let rows = [
+        ("rigid", 0, 1.0, 687.0, 3000.0),
+        ("EI x 1000, N = 4", 4, 1e3, 687.0, 3000.0),
+        ("N = 2", 2, 1.0, 687.0, 3000.0),
+        ("N = 4", 4, 1.0, 687.0, 3000.0),
+        ("N = 6", 6, 1.0, 687.0, 3000.0),
+        ("N = 4", 4, 1.0, 50.0, 3000.0),
+        ("N = 4", 4, 1.0, 200.0, 3000.0),
+        ("N = 4", 4, 1.0, 2000.0, 3000.0),
+        ("N = 4", 4, 1.0, 687.0, 1500.0),
+        ("N = 4", 4, 1.0, 687.0, 5000.0),
+    ];
+    let of = |(_, modes, stiffer, load, turns): &(&str, u32, f64, f64, f64)| {
+        let mut ring = elastic.clone();
+        ring["modes"] = json!(modes);
+        ring["stiffness"]["bending"] =
+            json!(stiffer * ring["stiffness"]["bending"].as_f64().unwrap_or(f64::NAN));
+        let ring = if *modes == 0 { Value::Null } else { ring };
+        let bends: Changes = vec![("cage.elastic_ring", ring), (SPEED, json!(rad_per_s(*turns)))];
+        [
+            caged(&[bends.clone(), vec![(LOAD, json!(load))]].concat()),
+            scene("grease_guide", &[push(), bends].concat()),
+        ]
+    };
+    for (row, two) in rows.iter().zip(results(rows.iter().flat_map(of))?.chunks(2)) {
+        let ([found, plane], (what, _, _, load, turns)) = (two, row) else { continue };
+        table.add([
+            (*what).to_owned(),
+            format!("{load:.0}"),
+            format!("{turns:.0}"),
+            whirl(found),
+            radius(found),
+            tilt(found),
+            wobble(found),
+            whirl(plane),
+            radius(plane),
+        ]);
+    }
+    Ok(table)
 }
 
 /// Share of starts from which a cage comes to whirl, backward and forward, in words.

@@ -10,13 +10,18 @@
 //! the film is that of the middle. Valid while the tilt over half of the width is much less than the gap: the film of a tilted land has no
 //! moment about its own middle, and errors of the order of the square of the tilt are left out of directions.
 
-use super::longest_step::{CagePlace, longest_step};
+mod bent;
+
+pub(crate) use bent::{BentLandForces, OfMode};
+
+use super::longest_step::{CagePlace, longest_bent_step, longest_step};
 use super::side::{GuideSide, JournalDual};
 use super::{Built, laws_of, lift};
 use crate::bodies::{MovingCage, MovingRing};
 use crate::error::Result;
 use crate::integrate::Tuning;
 use crate::laws::fluid::Fluid;
+use crate::laws::guide::bent::Wanted;
 use crate::laws::guide::journal::{JournalMotion, NoFilm};
 use crate::laws::guide::{GuideFilm, GuideForce, GuideLaw};
 use crate::laws::traction::ellipse::legendre;
@@ -25,10 +30,13 @@ use crate::pairs::line_laws::LawBuilder;
 use crate::scalar::{Dual, Real, math};
 use crate::scene::{self, Scene};
 use crate::space::solid::{Vector, cross, difference, scaled, sum};
+use bent::BentLand;
 
 /// A land.
 #[derive(Debug)]
 pub(crate) struct Land {
+    /// How it acts on a cage that bends.
+    bent: Option<BentLand>,
     /// x_L, m.
     x: f64,
     law: GuideLaw,
@@ -93,7 +101,7 @@ impl Land {
             let path = "cage.guide.film";
             let built = laws_of(&builder.at(path), guide)?;
             let half_width = 0.5 * width_of(guide).unwrap_or(0.0);
-            Ok(Self::new(0.0, built, 1.0, vec![[0.0, 1.0]], half_width, path.to_owned()))
+            Ok(Self::new(scene, 0.0, built, 1.0, vec![[0.0, 1.0]], half_width, path.to_owned()))
         });
         let lands = cage.space.iter().flat_map(|space| space.lands.iter().enumerate()).map(|(k, land)| {
             let path = format!("cage.space.lands[{k}].guide.film");
@@ -104,12 +112,13 @@ impl Land {
             let count = if half > 0.0 { land.slices as usize } else { 1 };
             let slices =
                 legendre(count).into_iter().map(|[at, weight]| [land.x + half * at, 0.5 * weight]).collect();
-            Ok(Self::new(land.x, built, film_part, slices, half, path))
+            Ok(Self::new(scene, land.x, built, film_part, slices, half, path))
         });
         middle.chain(lands).collect()
     }
 
     fn new(
+        scene: &Scene,
         x: f64,
         built: Built,
         film_part: f64,
@@ -117,13 +126,24 @@ impl Land {
         half_width: f64,
         path: String,
     ) -> Self {
+        let bent = BentLand::of(scene, &built, slices.len());
         let ring = usize::from(built.side == GuideSide::CageOutside);
-        Self { x, law: built.law, side: built.side, ring, film_part, slices, half_width, path }
+        Self { bent, x, law: built.law, side: built.side, ring, film_part, slices, half_width, path }
+    }
+
+    /// Memory for its forces on a cage that bends.
+    pub(crate) fn memory(&self) -> Option<BentLandForces> {
+        self.bent.as_ref().map(BentLand::memory)
     }
 
     /// C, radial clearance, m.
     pub(crate) fn clearance(&self) -> f64 {
         self.law.clearance
+    }
+
+    /// Whether it is off the middle of the cage.
+    pub(crate) fn off_middle(&self) -> bool {
+        self.x != 0.0
     }
 
     /// Laws of film and solid contact, where it has them.
@@ -241,6 +261,41 @@ impl Land {
         })
     }
 
+    /// Its forces on a cage that bends, with the modes of that at these amplitudes (m) and rates (m/s); what acts on the modes, and on request
+    /// its derivatives, are left in the memory.
+    ///
+    /// # Errors
+    /// [`NoFilm`] for a film without solid contact that is gone somewhere.
+    pub(crate) fn bend(
+        &self,
+        cage: &MovingCage<f64>,
+        ring: &MovingRing<f64>,
+        of_modes: [&[f64]; 2],
+        (fluid, wanted): (Fluid, Wanted),
+        memory: &mut BentLandForces,
+    ) -> std::result::Result<LandForce<f64>, NoFilm> {
+        match &self.bent {
+            Some(bent) => bent.force(self, (cage, ring), of_modes, (fluid, wanted), memory),
+            None => self.force(cage, ring, fluid),
+        }
+    }
+
+    /// Change of what [`Land::bend`] has found last along one direction of the motion of both bodies or of one mode, as derivatives; that over
+    /// the modes goes to `on_modes`.
+    pub(crate) fn bend_slopes(
+        &self,
+        cage: &MovingCage<Dual<1>>,
+        ring: &MovingRing<Dual<1>>,
+        mode: Option<OfMode>,
+        memory: &BentLandForces,
+        on_modes: &mut [Dual<1>],
+    ) -> LandForce<Dual<1>> {
+        match &self.bent {
+            Some(bent) => bent.slopes(self, (cage, ring), mode, memory, on_modes),
+            None => LandForce::default(),
+        }
+    }
+
     fn force_by<T: Real>(
         &self,
         cage: &MovingCage<T>,
@@ -263,40 +318,79 @@ impl Land {
         Ok(out)
     }
 
+    /// The cage is the journal, or takes the opposite.
+    fn sign(&self) -> f64 {
+        if self.side == GuideSide::CageInside { 1.0 } else { -1.0 }
+    }
+
     /// Adds a part of the force of a law to what acts on both bodies.
     fn add<T: Real>(&self, force: &GuideForce<T>, part: f64, at: &Beside<T>, out: &mut LandForce<T>) {
-        let zero = T::constant(0.0);
-        let [fy, fz] = force.force().map(|f| f * part);
-        let (along, couple) = ([zero, fy, fz], [force.moment * part, zero, zero]);
-        // The cage is the journal, or takes the opposite.
-        let sign = if self.side == GuideSide::CageInside { 1.0 } else { -1.0 };
-        for ((on, lever), sign) in out.on.iter_mut().zip(at.levers).zip([sign, -sign]) {
-            let moment = sum(cross(lever, along), couple);
-            on[0] = sum(on[0], along.map(|f| f * sign));
-            on[1] = sum(on[1], moment.map(|m| m * sign));
-        }
+        let sign = self.sign();
+        self.push(force.force().map(|f| f * part), force.moment * part, at, out);
         for (sum, part_of) in out.parts.iter_mut().zip([force.pressure, force.shear, force.solid]) {
             *sum = [0, 1].map(|i| sum[i] + part_of[i] * (part * sign));
         }
     }
 
+    /// Adds a force across the axis and a couple about it on the journal to what acts on both bodies.
+    fn push<T: Real>(&self, [fy, fz]: [T; 2], couple: T, at: &Beside<T>, out: &mut LandForce<T>) {
+        let zero = T::constant(0.0);
+        let (along, couple) = ([zero, fy, fz], [couple, zero, zero]);
+        let sign = self.sign();
+        for ((on, lever), sign) in out.on.iter_mut().zip(at.levers).zip([sign, -sign]) {
+            let moment = sum(cross(lever, along), couple);
+            on[0] = sum(on[0], along.map(|f| f * sign));
+            on[1] = sum(on[1], moment.map(|m| m * sign));
+        }
+    }
+
+    /// Smallest gap at a place along the axis of a cage whose modes have these amplitudes and rates, m.
+    fn gap_at(&self, x: f64, cage: &MovingCage<f64>, ring: &MovingRing<f64>, of_modes: [&[f64]; 2]) -> f64 {
+        let motion = self.beside(x, cage, ring).motion;
+        match &self.bent {
+            Some(bent) => bent.smallest_gap(self, &motion, cage.angle, of_modes),
+            None => self.law.smallest_gap(&motion),
+        }
+    }
+
     /// Smallest gap over its width, m; negative where surfaces overlap.
-    pub(crate) fn smallest_gap(&self, cage: &MovingCage<f64>, ring: &MovingRing<f64>) -> f64 {
-        let at = |x: f64| self.law.smallest_gap(&self.beside(x, cage, ring).motion);
+    pub(crate) fn smallest_gap(
+        &self,
+        cage: &MovingCage<f64>,
+        ring: &MovingRing<f64>,
+        of_modes: [&[f64]; 2],
+    ) -> f64 {
+        let at = |x: f64| self.gap_at(x, cage, ring, of_modes);
         self.slices.iter().map(|[x, _]| at(*x)).fold(at(self.x), f64::min)
+    }
+
+    /// Number of arcs in which its film touches a cage that bends, in its middle, and the angle that they take, rad.
+    pub(crate) fn wet_arcs(
+        &self,
+        cage: &MovingCage<f64>,
+        ring: &MovingRing<f64>,
+        of_modes: [&[f64]; 2],
+    ) -> (u32, f64) {
+        let motion = self.beside(self.x, cage, ring).motion;
+        self.bent.as_ref().map_or((0, 0.0), |bent| bent.wet_arcs(self, &motion, cage.angle, of_modes))
     }
 
     /// Centre of the cage from that of the ring in the middle of the land, m, and its velocity, m/s.
     pub(crate) fn eccentricity(&self, cage: &MovingCage<f64>, ring: &MovingRing<f64>) -> [[f64; 2]; 2] {
         let JournalMotion { position, velocity, .. } = self.beside(self.x, cage, ring).motion;
-        let sign = if self.side == GuideSide::CageInside { 1.0 } else { -1.0 };
+        let sign = self.sign();
         [position.map(|x| x * sign), velocity.map(|x| x * sign)]
     }
 
     /// How far the tilt of the cage in its ring takes the edges of the land, over the gap in its middle; zero where they touch.
-    pub(crate) fn tilt_over_gap(&self, cage: &MovingCage<f64>, ring: &MovingRing<f64>) -> f64 {
+    pub(crate) fn tilt_over_gap(
+        &self,
+        cage: &MovingCage<f64>,
+        ring: &MovingRing<f64>,
+        of_modes: [&[f64]; 2],
+    ) -> f64 {
         let [_, y, z] = difference(cage.tilt.axis, ring.axis);
-        let gap = self.law.smallest_gap(&self.beside(self.x, cage, ring).motion);
+        let gap = self.gap_at(self.x, cage, ring, of_modes);
         if gap <= 0.0 { 0.0 } else { math::hypot(y, z) * self.half_width / gap }
     }
 
@@ -304,12 +398,16 @@ impl Land {
     pub(crate) fn longest_step(
         &self,
         mass: f64,
-        cage: &MovingCage<f64>,
+        (cage, of_modes): (&MovingCage<f64>, [&[f64]; 2]),
         ring: &MovingRing<f64>,
         tuning: &Tuning,
     ) -> f64 {
         let at = |x: f64| {
-            let JournalMotion { position, velocity, .. } = self.beside(x, cage, ring).motion;
+            let motion = self.beside(x, cage, ring).motion;
+            if let Some(bent) = &self.bent {
+                return bent.longest_step(self, &motion, cage.angle, of_modes, (mass, tuning));
+            }
+            let JournalMotion { position, velocity, .. } = motion;
             longest_step(&self.law, mass, &CagePlace { position, velocity }, tuning)
         };
         self.slices.iter().map(|[x, _]| at(*x)).fold(at(self.x), f64::min)
