@@ -103,6 +103,36 @@ fn the_plane_is_a_limit_of_a_cage_that_bends() {
     assert!(touched);
 }
 
+/// The stiffer its ring, the more a cage that bends moves as a rigid one, also where it is tilted in round pockets.
+#[test]
+fn a_stiff_ring_is_a_rigid_one() {
+    let spring = json!({"stiffness": 1e6, "damping": 44.4, "softening_depth": 1e-6});
+    let after = |elastic_ring: Value| {
+        let changes = [
+            ("cage.elastic_ring", elastic_ring),
+            (
+                "cage.pocket",
+                json!({"solid_cylinder": {"diametral_clearance": 2.9e-4, "law": {"spring": spring}}}),
+            ),
+            ("initial.cage", json!({"y": 0.0, "z": -150e-6})),
+            ("initial.cage_space", json!({"tilt_y": 1e-3, "tilt_speed_z": 0.3})),
+            ("solver", json!({"method": {"dormand_prince": {"tolerance": 1e-8}}})),
+        ];
+        let mut sim = Sim::new(prescribed(&changes)).unwrap();
+        sim.advance_to(2e-3).unwrap();
+        sim.state()[..6].to_vec()
+    };
+    let rigid = after(Value::Null);
+    let off = |stiffer: f64| {
+        let mut ring = elastic_ring(3);
+        (ring["stiffness"]["bending"], ring["growth"]) = (json!(0.2572 * stiffer), json!(0.0));
+        let bent = after(ring);
+        bent.iter().zip(&rigid).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    };
+    let [soft, stiff] = [1e2, 1e4].map(off);
+    assert!(stiff < 0.05 * soft && stiff < 1e-6, "{soft} {stiff}");
+}
+
 /// It moves and whirls as that does, within what error control leaves, and neither tilts nor moves along the axis.
 #[test]
 fn the_whirl_of_the_plane() {

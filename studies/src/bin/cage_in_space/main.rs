@@ -276,6 +276,8 @@ fn bending(name: &str) -> Result<Table> {
     let elastic =
         serde_json::to_value(elastic).map_err(|e| Error::new(cagedyn::Status::BadJson, e.to_string()))?;
     let rows = [
+        ("rigid", 0, 1.0, 200.0, 3000.0),
+        ("EI x 1000, N = 4", 4, 1e3, 200.0, 3000.0),
         ("rigid", 0, 1.0, 687.0, 3000.0),
         ("EI x 1000, N = 4", 4, 1e3, 687.0, 3000.0),
         ("N = 2", 2, 1.0, 687.0, 3000.0),
@@ -294,10 +296,8 @@ fn bending(name: &str) -> Result<Table> {
             json!(stiffer * ring["stiffness"]["bending"].as_f64().unwrap_or(f64::NAN));
         let ring = if *modes == 0 { Value::Null } else { ring };
         let bends: Changes = vec![("cage.elastic_ring", ring), (SPEED, json!(rad_per_s(*turns)))];
-        [
-            caged(&[bends.clone(), vec![(LOAD, json!(load))]].concat()),
-            scene("grease_guide", &[push(), bends].concat()),
-        ]
+        let start = [push(), bends].concat();
+        [caged(&[start.clone(), vec![(LOAD, json!(load))]].concat()), scene("grease_guide", &start)]
     };
     for (row, two) in rows.iter().zip(results(rows.iter().flat_map(of))?.chunks(2)) {
         let ([found, plane], (what, _, _, load, turns)) = (two, row) else { continue };
