@@ -2,7 +2,7 @@
 
 use rustfft::algorithm::Radix4;
 use rustfft::num_complex::Complex;
-use rustfft::{Fft, FftDirection};
+use rustfft::{Fft, FftDirection, Length};
 use std::f64::consts::{PI, TAU};
 
 /// Zero padding: the spectrum is computed at this many frequencies per line, so that a peak between two lines keeps
@@ -53,10 +53,11 @@ pub fn averaged_spectrum(samples: &[f64], interval: f64, resolution: f64) -> Opt
     let length = if wanted < samples.len() as f64 { wanted as usize } else { samples.len() };
     let step = (length / 2).max(1);
     let starts = (0..=samples.len() - length).step_by(step);
+    let analysis = Analysis::new(length, interval)?;
     let mut sum: Option<Spectrum> = None;
     let mut segments = 0;
     for start in starts {
-        let one = amplitude_spectrum(&samples[start..start + length], interval)?;
+        let one = analysis.of(&samples[start..start + length]);
         segments += 1;
         match &mut sum {
             None => {
@@ -71,32 +72,48 @@ pub fn averaged_spectrum(samples: &[f64], interval: f64, resolution: f64) -> Opt
     Some(mean)
 }
 
-/// Spectrum of samples taken every `interval` seconds, with a Hann window and without their mean. `None` for too few
-/// samples.
-pub fn amplitude_spectrum(samples: &[f64], interval: f64) -> Option<Spectrum> {
-    let n = samples.len();
-    if n < MIN_SAMPLES || !interval.is_finite() || interval <= 0.0 {
-        return None;
+/// Spectra of equally many samples each.
+pub struct Analysis {
+    window: Vec<f64>,
+    /// Sum of the window.
+    gain: f64,
+    interval: f64,
+    transform: Radix4<f64>,
+}
+
+impl Analysis {
+    /// Of `n` samples taken every `interval` seconds, with a Hann window and without their mean. `None` for too few.
+    pub fn new(n: usize, interval: f64) -> Option<Self> {
+        if n < MIN_SAMPLES || !interval.is_finite() || interval <= 0.0 {
+            return None;
+        }
+        let window: Vec<f64> = (0..n).map(|i| 0.5 - 0.5 * (TAU * i as f64 / n as f64).cos()).collect();
+        let gain = window.iter().sum();
+        // One algorithm that serves powers of two; the planner would bring code for every other length.
+        let transform = Radix4::new((n * PADDING).next_power_of_two(), FftDirection::Forward);
+        Some(Self { window, gain, interval, transform })
     }
-    let window: Vec<f64> = (0..n).map(|i| 0.5 - 0.5 * (TAU * i as f64 / n as f64).cos()).collect();
-    let gain: f64 = window.iter().sum();
-    // The mean under the window, so that nothing of it leaks into the lowest frequencies.
-    let mean = samples.iter().zip(&window).map(|(x, w)| x * w).sum::<f64>() / gain;
-    let length = (n * PADDING).next_power_of_two();
-    let mut values = vec![Complex::new(0.0, 0.0); length];
-    for (value, (x, w)) in values.iter_mut().zip(samples.iter().zip(&window)) {
-        value.re = (x - mean) * w;
+
+    /// The spectrum of as many samples.
+    pub fn of(&self, samples: &[f64]) -> Spectrum {
+        let Self { window, gain, interval, transform } = self;
+        // The mean under the window, so that nothing of it leaks into the lowest frequencies.
+        let mean = samples.iter().zip(window).map(|(x, w)| x * w).sum::<f64>() / gain;
+        let length = transform.len();
+        let mut values = vec![Complex::new(0.0, 0.0); length];
+        for (value, (x, w)) in values.iter_mut().zip(samples.iter().zip(window)) {
+            value.re = (x - mean) * w;
+        }
+        transform.process(&mut values);
+        values.truncate(length / 2 + 1);
+        let step = 1.0 / (length as f64 * interval);
+        Spectrum {
+            frequencies: (0..values.len()).map(|k| k as f64 * step).collect(),
+            amplitudes: values.iter().map(|x| 2.0 * x.norm() / gain).collect(),
+            resolution: 2.0 / (window.len() as f64 * interval),
+            segments: 1,
+        }
     }
-    // One algorithm that serves powers of two; the planner would bring code for every other length.
-    Radix4::new(length, FftDirection::Forward).process(&mut values);
-    values.truncate(length / 2 + 1);
-    let step = 1.0 / (length as f64 * interval);
-    Some(Spectrum {
-        frequencies: (0..values.len()).map(|k| k as f64 * step).collect(),
-        amplitudes: values.iter().map(|x| 2.0 * x.norm() / gain).collect(),
-        resolution: 2.0 / (n as f64 * interval),
-        segments: 1,
-    })
 }
 
 impl Spectrum {
@@ -185,6 +202,10 @@ impl Spectrum {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn amplitude_spectrum(samples: &[f64], interval: f64) -> Option<Spectrum> {
+        Some(Analysis::new(samples.len(), interval)?.of(samples))
+    }
 
     const N: usize = 400;
     const INTERVAL: f64 = 5e-4;

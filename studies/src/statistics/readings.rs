@@ -1,6 +1,6 @@
 //! What is read from a run: one number per quantity from outputs recorded on a fixed grid of times.
 
-use crate::spectrum::{Spectrum, amplitude_spectrum};
+use crate::spectrum::{Analysis, Spectrum};
 use cagedyn::{Recording, Sim, Spread};
 use std::f64::consts::TAU;
 
@@ -142,7 +142,8 @@ impl Results<'_> {
         let times = &self.record.outputs.times;
         let duration = times.last()? - times.first()?;
         let interval = duration / (times.len() - 1) as f64;
-        Some((amplitude_spectrum(self.column("cage.z")?, interval)?, duration))
+        let samples = self.column("cage.z")?;
+        Some((Analysis::new(samples.len(), interval)?.of(samples), duration))
     }
 
     /// Amplitude of the line at a multiple of the cage frequency, um.

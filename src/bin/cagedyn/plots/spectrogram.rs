@@ -8,7 +8,7 @@ use crate::results::finished::Run;
 use crate::results::lines;
 use crate::results::summary::{Summary, Whirl};
 use crate::results::table::number;
-use crate::spectrum::{Spectrum, amplitude_spectrum};
+use crate::spectrum::{Analysis, Spectrum};
 use cagedyn::Result;
 use plotters::style::text_anchor::HPos;
 
@@ -42,12 +42,12 @@ const APART: f64 = 14.0;
 const HEIGHT: f64 = 190.0;
 const NEXT: f64 = 206.0;
 
-/// Amplitudes by column and row, as shares of the largest.
+/// Colours by column and row.
 struct Map {
     /// Times at the edges of columns, s, and height of a row, Hz.
     edges: Vec<f64>,
     row: f64,
-    shares: Vec<Vec<f64>>,
+    colours: Vec<Vec<Option<usize>>>,
     /// Frequencies of peaks, Hz, with what they are called.
     peaks: Vec<(f64, String)>,
     /// Time that a column shows, s.
@@ -82,17 +82,18 @@ impl Map {
         let length = wanted.min(samples.len() / LARGEST_PART);
         let most = samples.len().checked_sub(length)?;
         let step = most.div_ceil(COLUMNS).max(1);
-        let spectra: Vec<Spectrum> = (0..=most)
-            .step_by(step)
-            .map(|start| amplitude_spectrum(&samples[start..start + length], run.interval()))
-            .collect::<Option<_>>()?;
+        let analysis = Analysis::new(length, run.interval())?;
+        let starts = (0..=most).step_by(step);
+        let spectra: Vec<Spectrum> =
+            starts.map(|start| analysis.of(&samples[start..start + length])).collect();
         // No row is narrower than the time of a column can tell apart.
         let resolution = spectra.first()?.resolution;
         let rows = ((highest / (0.5 * resolution)) as usize).clamp(1, ROWS);
         let row = highest / rows as f64;
-        let mut shares: Vec<Vec<f64>> = spectra.iter().map(|spectrum| in_rows(spectrum, row, rows)).collect();
-        let largest = shares.iter().flatten().fold(0.0, |a: f64, b| a.max(*b));
-        shares.iter_mut().flatten().for_each(|share| *share /= largest);
+        let amplitudes: Vec<Vec<f64>> = spectra.iter().map(|spectrum| in_rows(spectrum, row, rows)).collect();
+        let largest = amplitudes.iter().flatten().fold(0.0, |a: f64, b| a.max(*b));
+        let of_column = |column: &Vec<f64>| column.iter().map(|x| colour(x / largest)).collect();
+        let colours = amplitudes.iter().map(of_column).collect();
         let times = &run.recording.times;
         let middle = |k: usize| times[(k * step + length / 2).min(times.len() - 1)];
         let half = 0.5 * step as f64 * run.interval();
@@ -113,7 +114,7 @@ impl Map {
             peaks.push((peak.frequency, format!("highest, {} Hz; no clear peak", number(peak.frequency))));
         }
         let length = length as f64 * run.interval();
-        Some(Self { edges, row, shares, peaks, length, name })
+        Some(Self { edges, row, colours, peaks, length, name })
     }
 }
 
@@ -166,10 +167,10 @@ impl Map {
     /// Neighbours of one colour in a row are one box.
     fn cells(&self, panel: &mut Panel<'_, '_, '_>) -> Drawn {
         for (level, paint) in COLOURS.iter().enumerate() {
-            for r in 0..self.shares[0].len() {
-                let at = |k: usize| self.shares.get(k).is_some_and(|column| colour(column[r]) == Some(level));
+            for r in 0..self.colours[0].len() {
+                let at = |k: usize| self.colours.get(k).is_some_and(|column| column[r] == Some(level));
                 let mut k = 0;
-                while k < self.shares.len() {
+                while k < self.colours.len() {
                     let length = (k..).take_while(|k| at(*k)).count();
                     if length > 0 {
                         let (low, high) = (self.row * r as f64, self.row * (r + 1) as f64);
