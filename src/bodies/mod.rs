@@ -29,7 +29,7 @@ pub(crate) use fault::{FaultKind, SOUND};
 pub use inputs::{HostInputs, INPUTS, Input, InputValues};
 pub use layout::Layout;
 
-pub(crate) use cage::{OF_MOTION as CAGE_MOTION, ROOM as MOST_MODES, along_factor};
+pub(crate) use cage::{MOST_MODES, OF_MOTION as CAGE_MOTION, along_factor};
 pub(crate) use elements::{Damping, ElementSlopes, Elements, UPPER};
 pub(crate) use heat::HeatBudget;
 pub(crate) use layout::{OF_ELEMENT, Owner};

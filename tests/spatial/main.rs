@@ -82,13 +82,18 @@ fn caged((pocket, elastic_ring): (Value, Value)) -> Arc<Model> {
     // Films of those that bend share with their solid contact.
     let (roughness, place) =
         if elastic_ring.is_null() { (1e-6, [4e-5, 3e-5]) } else { (8e-6, [2.7e-5, 1.5e-5]) };
+    let lobes = if elastic_ring.is_null() {
+        json!([])
+    } else {
+        json!([{"order": 5, "amplitude": 3e-6, "phase": 0.4}])
+    };
     let solid = json!({"contact": {
         "stiffness": 1e6, "damping": 44.4, "softening_depth": 1e-6, "friction": {"coefficient": 0.1, "transition_speed": 0.01},
     }});
     let land = |ring: &str, x: f64, radius: f64, film: Value| {
         json!({"x": x, "width": 3e-3, "guide": {
             "ring": ring, "guide_radius": radius, "diametral_clearance": 1e-4, "film": film, "solid": solid,
-            "film_share": {"roughness": roughness},
+            "film_share": {"roughness": roughness}, "roundness": lobes,
         }})
     };
     let layer =

@@ -12,7 +12,7 @@ mod ring_modes;
 
 pub(super) use names::of_mode;
 pub(super) use ring_modes::RingModes;
-pub(crate) use ring_modes::{ROOM, along_factor};
+pub(crate) use ring_modes::{MOST_MODES, along_factor};
 
 use super::{
     BodyEnergy, BodyForces, BodyState, CENTRE, Coordinate, ElementSet, Fault, ForceSource, Input,
@@ -236,7 +236,7 @@ impl SharedBody for Cage {
             let turned = [moment, self.inertia, state.v[2]];
             let at = Self::of_modes(state);
             let [uy, uz] = offset.unwrap_or_default();
-            let mut per_moment = [0.0; ROOM];
+            let mut per_moment = [0.0; MOST_MODES];
             modes.slopes(turned, on_body.coordinates, at, |over, turned, of_modes| {
                 let (rate, column) = match over {
                     Over::Moment => {
@@ -262,7 +262,7 @@ impl SharedBody for Cage {
                 per_moment[..n].iter().enumerate().for_each(|(k, a)| {
                     over_position[(OF_MOTION + k, 2)] += a * rate;
                 });
-                let mut a = [0.0; ROOM];
+                let mut a = [0.0; MOST_MODES];
                 turning = modes.accelerate(turned, on_body.coordinates, at, &mut a[..n]);
             }
         }

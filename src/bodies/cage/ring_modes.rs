@@ -23,7 +23,7 @@ use pulp::Arch;
 use std::f64::consts::PI;
 
 /// Room for the coordinates of all modes.
-pub(crate) const ROOM: usize = 2 * (MOST_RING_ORDERS as usize - 1);
+pub(crate) const MOST_MODES: usize = 2 * (MOST_RING_ORDERS as usize - 1);
 
 /// One pair of modes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -196,11 +196,11 @@ impl RingModes {
     ) {
         let n = q.len();
         let constant = Dual::<1>::constant;
-        let (mut positions, mut rates) = ([constant(0.0); ROOM], [constant(0.0); ROOM]);
+        let (mut positions, mut rates) = ([constant(0.0); MOST_MODES], [constant(0.0); MOST_MODES]);
         for k in 0..n {
             (positions[k], rates[k]) = (constant(q[k]), constant(v[k]));
         }
-        let (mut out, mut slopes) = ([constant(0.0); ROOM], [0.0; ROOM]);
+        let (mut out, mut slopes) = ([constant(0.0); MOST_MODES], [0.0; MOST_MODES]);
         let all = [Over::Moment, Over::Speed].into_iter();
         let all = all.chain((0..n).map(Over::Coordinate)).chain((0..n).map(Over::Rate));
         for over in all {
@@ -275,6 +275,11 @@ impl RingModes {
     /// Damping of every coordinate, N s/m.
     pub(in crate::bodies) fn damping(&self) -> impl Iterator<Item = f64> {
         self.modes.iter().flat_map(|mode| [mode.damping; 2])
+    }
+
+    /// Acceleration of the place of a radial force by all modes, per force, 1/kg.
+    pub(in crate::bodies) fn mobility(&self) -> f64 {
+        self.modes.iter().map(|mode| 1.0 / mode.mass).sum()
     }
 
     /// Order and frequency (rad/s) of each mode.

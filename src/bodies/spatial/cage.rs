@@ -270,11 +270,12 @@ impl CageInSpace {
         [force, moment]
     }
 
-    /// Largest frequency that a stiffness (N/m) at the distance `lever` (m) from its centre gives it, rad/s.
+    /// Largest frequency that a stiffness (N/m) at the distance `lever` (m) from its centre gives it, which also bends its ring, rad/s.
     pub(crate) fn frequency_on(&self, stiffness: f64, lever: f64) -> f64 {
+        let yields: f64 = self.modes.as_ref().map_or(0.0, RingModes::mobility);
         let [polar, transverse] = self.inertia;
         let least = polar.min(transverse);
-        (stiffness * (1.0 / self.mass + lever * lever / least)).sqrt()
+        (stiffness * (1.0 / self.mass + lever * lever / least + yields)).sqrt()
     }
 
     /// m, kg.

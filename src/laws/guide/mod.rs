@@ -28,7 +28,7 @@ use crate::laws::contact_pair::ContactMotion;
 use crate::laws::elastic::solid::SolidContact;
 use crate::laws::fluid::Fluid;
 use crate::laws::guide::circumference::Film;
-use crate::laws::guide::journal::{FilmForce, Harmonic, JournalMotion, NoFilm};
+use crate::laws::guide::journal::{FilmForce, JournalMotion, NoFilm};
 use crate::laws::guide::lubricant_layer::{LubricantLayer, PressureShear};
 use crate::laws::guide::short_bearing::ShortBearing;
 use crate::scalar::{Real, math, smoothstep};
@@ -141,7 +141,8 @@ impl GuideFilm {
     }
 
     /// Fixed lobes.
-    fn roundness(&self) -> &[Harmonic] {
+    #[cfg(test)]
+    fn roundness(&self) -> &[journal::Harmonic] {
         match self {
             GuideFilm::ShortBearing(film) => &film.roundness,
             GuideFilm::LubricantLayer(film) => &film.roundness,

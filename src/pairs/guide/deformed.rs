@@ -23,7 +23,6 @@ pub(super) struct DeformedGuide {
     surface: BentSurface,
     side: GuideSide,
     ring: usize,
-    profile: Vec<Harmonic>,
 }
 
 /// Forces over the coordinates of a bent cage, and memory for them.
@@ -54,11 +53,12 @@ impl OnDeformed {
 }
 
 impl BentSurface {
-    /// That of a guided surface of this radius (m) on a cage with this elastic ring.
-    pub(super) fn of(bends: &ElasticRing, radius: f64, side: GuideSide) -> Self {
+    /// That of a guided surface of this radius (m) and profile on a cage with this elastic ring.
+    pub(super) fn of(bends: &ElasticRing, radius: f64, side: GuideSide, profile: &[Harmonic]) -> Self {
         let height = (radius - bends.neutral_radius) / bends.neutral_radius;
         Self {
             waves: (2..=bends.modes).map(|order| (order, along_factor(order, height))).collect(),
+            profile: profile.to_vec(),
             on_journal: side == GuideSide::CageInside,
             growth: bends.growth,
             contact_depth: bends.contact_depth,
@@ -113,8 +113,8 @@ impl DeformedGuide {
         profile: &[Harmonic],
     ) -> Option<Self> {
         let bends = scene.cage.as_ref()?.elastic_ring.as_ref()?;
-        let surface = BentSurface::of(bends, radius, side);
-        Some(Self { surface, side, ring, profile: profile.to_vec() })
+        let surface = BentSurface::of(bends, radius, side, profile);
+        Some(Self { surface, side, ring })
     }
 
     /// Memory for forces.
@@ -123,7 +123,7 @@ impl DeformedGuide {
         let square = DMatrix::zeros(width, width);
         let modes = vec![0.0; width - CAGE_MOTION];
         Box::new(OnDeformed {
-            forces: BentForces::new(&self.surface, &self.profile),
+            forces: BentForces::new(&self.surface),
             on_modes: [modes.clone(), modes],
             damping: square.clone(),
             damped: false,

@@ -31,7 +31,7 @@ use crate::laws::guide::circumference::panels::Panels;
 use crate::laws::guide::circumference::samples::{Memory, Row, Table, with_memory};
 use crate::laws::guide::journal::{Harmonic, NoFilm};
 use crate::laws::guide::{GuideFilm, GuideForce, GuideLaw, GuideSolid};
-use crate::scalar::{Dual, Real};
+use crate::scalar::{Dual, Real, math};
 use moments::Shape;
 use nalgebra::{DMatrix, DVector};
 use pulp::Arch;
@@ -47,6 +47,8 @@ pub const OF_MOTION: usize = 3;
 pub struct BentSurface {
     /// Order and tau of each wave, in ascending order.
     pub waves: Vec<(u32, f64)>,
+    /// Fixed lobes, as the film sees them.
+    pub profile: Vec<Harmonic>,
     /// Whether it is that of the journal.
     pub on_journal: bool,
     /// g_c: growth of the radius with the square of the speed, m s^2.
@@ -137,8 +139,9 @@ impl BentSurface {
 }
 
 impl BentForces {
-    /// Memory for a surface with this profile beside its waves.
-    pub fn new(surface: &BentSurface, profile: &[Harmonic]) -> Self {
+    /// Memory for a surface.
+    pub fn new(surface: &BentSurface) -> Self {
+        let profile = &surface.profile;
         let width = OF_MOTION + 2 * surface.waves.len();
         let order = surface.waves.iter().map(|(order, _)| *order).max().unwrap_or(1);
         let order = profile.iter().map(|lobe| lobe.order).fold(order, u32::max);
@@ -209,6 +212,15 @@ impl GuideLaw {
         found
     }
 
+    /// Whether no place of a bent cage is so near that film and solid contact share, or the latter touches, by the heights of all waves.
+    pub fn is_far(&self, surface: &BentSurface, motion: &BentMotion<'_>) -> bool {
+        let [y, z] = motion.position;
+        let waves: f64 = motion.amplitudes.as_chunks::<2>().0.iter().map(|[a, b]| math::hypot(*a, *b)).sum();
+        let lobes: f64 = surface.profile.iter().map(|lobe| lobe.amplitude.abs()).sum();
+        let grown = surface.growth * motion.speeds[0] * motion.speeds[0];
+        self.clearance - math::hypot(y, z) - waves - lobes - grown > self.onset()
+    }
+
     /// The smallest gap of a bent cage, m, and where it is in axes of the cage, rad.
     pub fn smallest_bent_gap(&self, surface: &BentSurface, motion: &BentMotion<'_>) -> [f64; 2] {
         let mut lobes = Vec::with_capacity(surface.waves.len() + 8);
@@ -242,8 +254,7 @@ impl GuideLaw {
             let at = |x: &[f64]| [s * x[2 * k], s * x[2 * k + 1]];
             out.push(Lobe { order: *order, height: at(motion.amplitudes), rate: at(motion.rates) });
         }
-        let profile = self.film.as_ref().map_or(&[][..], GuideFilm::roundness);
-        out.extend(profile.iter().map(|harmonic| Lobe::of(harmonic, 0.0)));
+        out.extend(surface.profile.iter().map(|harmonic| Lobe::of(harmonic, 0.0)));
     }
 
     fn gap<'a>(&self, surface: &BentSurface, motion: &BentMotion<'_>, lobes: &'a [Lobe]) -> Gap<'a> {

@@ -1,6 +1,6 @@
 //! The cage among balls and rings: its pockets and lands at a state, in a semi-implicit step, and how they oppose velocities.
 
-mod bent_slopes;
+mod along;
 mod report;
 mod slopes;
 mod step;

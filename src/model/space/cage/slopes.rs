@@ -4,7 +4,7 @@ use super::super::Space;
 use super::super::evaluate::{moving, to_global};
 use super::super::linearize::RingSlopes;
 use super::super::workspace::{Workspace, at_lane};
-use super::{CageOfScene, turning_outer};
+use super::turning_outer;
 use crate::bodies::{
     CAGE, CageState, INNER_RING, Input, InputValues, MovingRing, OF_BALL, OF_CAGE, OF_RING, RingState,
 };
@@ -29,9 +29,6 @@ const AT_LAND: usize = 2 * OF_RING + 2 * OF_CAGE + 1;
 const CAGE_AT_LAND: usize = 2 * OF_RING;
 const LAND_TIME: usize = AT_LAND - 1;
 type AtLand = Dual<AT_LAND>;
-
-/// What the cage's own motion follows: force and moment, its coordinates, their rates.
-const OF_OWN: usize = 6 + 2 * OF_CAGE;
 
 /// Step of the logarithm of the viscosity for differences.
 pub(super) const WARMING: f64 = 1e-4;
@@ -58,11 +55,7 @@ impl Space {
     ) {
         let Some(cage) = &self.cage else { return };
         let mut by_forces = std::mem::take(&mut ws.cage.by_forces);
-        if cage.body.bending() == 0 {
-            self.add_own_slopes(cage, ws, &mut by_forces, out);
-        } else {
-            self.add_bent_slopes(cage, ws, &mut by_forces, out);
-        }
+        self.add_own_slopes(cage, ws, &mut by_forces, out);
         let (first, load_rates) = (self.layout.range(CAGE).start, numbers(cage.body.load(rates)));
         for (i, row) in by_forces.row_iter().enumerate() {
             out.over_time[first + i] += row.iter().zip(load_rates).map(|(by, rate)| by * rate).sum::<f64>();
@@ -78,31 +71,6 @@ impl Space {
             }
         }
         ws.cage.by_forces = by_forces;
-    }
-
-    /// Adds how the accelerations of a rigid cage follow its own motion, and finds how they follow force and moment.
-    fn add_own_slopes(
-        &self,
-        cage: &CageOfScene,
-        ws: &Workspace,
-        by_forces: &mut DMatrix<f64>,
-        out: &mut Linearization<OF_BALL>,
-    ) {
-        let (first, state) = (self.layout.range(CAGE).start, &ws.cage.state);
-        let variable = Dual::<OF_OWN>::variable;
-        let wrench = [0, 1].map(|i| [0, 1, 2].map(|k| variable(ws.cage.on_cage[i][k], 3 * i + k)));
-        let own = CageState {
-            position: std::array::from_fn(|k| variable(state.position[k], 6 + k)),
-            rate: std::array::from_fn(|k| variable(state.rate[k], 6 + OF_CAGE + k)),
-        };
-        let own = cage.body.accelerations(&own, wrench, self.gravity);
-        for (i, row) in own.iter().enumerate() {
-            for k in 0..OF_CAGE {
-                by_forces[(i, k)] = row.eps[k];
-                out.over_positions.hub[(first + i, first + k)] += row.eps[6 + k];
-                out.over_velocities.hub[(first + i, first + k)] += row.eps[6 + OF_CAGE + k];
-            }
-        }
     }
 
     /// Change of the logarithm of a soap's structure over that of the viscosity.

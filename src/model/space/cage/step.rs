@@ -143,9 +143,8 @@ impl Space {
 
     fn damp_rigid_cage(&self, cage: &CageOfScene, ws: &Workspace, out: &mut DampingBlock) {
         type Rate = Dual<OF_CAGE>;
-        let constant = ws.cage.state.position.map(Rate::lift);
         let state = CageState {
-            position: constant,
+            position: ws.cage.state.position.map(Rate::lift),
             rate: std::array::from_fn(|k| Rate::variable(ws.cage.state.rate[k], k)),
         };
         let moving = state.motion();
@@ -159,12 +158,14 @@ impl Space {
         for Touching { ball, contact, .. } in ws.cage.touching.iter().filter(|_| !self.free) {
             on_cage = added(on_cage, secant_of(ws, *ball, contact, &moving, [0.0; 2]));
         }
-        let still = CageState { position: constant, rate: ws.cage.state.rate.map(Rate::lift) };
         // The accelerations are linear in the forces.
-        let all = cage.body.accelerations(&still, on_cage, self.gravity);
-        for (row, a) in all.into_iter().enumerate() {
-            for column in 0..OF_CAGE {
-                out.full[(row, column)] = -a.eps[column];
+        let CageState { position, rate } = ws.cage.state;
+        let still = CageState { position: position.map(Dual::lift), rate: rate.map(Dual::lift) };
+        for column in 0..OF_CAGE {
+            let along = on_cage.map(|v| v.map(|x| Dual::<1> { re: x.re, eps: [x.eps[column]] }));
+            let all = cage.body.accelerations(&still, along, self.gravity);
+            for (row, a) in all.into_iter().enumerate() {
+                out.full[(row, column)] = -a.eps[0];
             }
         }
     }

@@ -13,7 +13,7 @@ use crate::bodies::{CAGE_MOTION, MovingCage, MovingRing};
 use crate::integrate::Tuning;
 use crate::laws::fluid::Fluid;
 use crate::laws::guide::bent::{BentForces, BentMotion, BentSurface, Wanted};
-use crate::laws::guide::journal::{Harmonic, JournalMotion, NoFilm};
+use crate::laws::guide::journal::{JournalMotion, NoFilm};
 use crate::laws::guide::{GuideForce, GuideLaw};
 use crate::pairs::guide::Built;
 use crate::pairs::guide::side::GuideSide;
@@ -25,7 +25,6 @@ use crate::space::rotate;
 #[derive(Debug)]
 pub(super) struct BentLand {
     surface: BentSurface,
-    profile: Vec<Harmonic>,
     /// Film and solid contact, each by itself.
     film: Option<GuideLaw>,
     solid: Option<GuideLaw>,
@@ -151,14 +150,15 @@ impl BentLand {
     pub(super) fn of(scene: &Scene, built: &Built, slices: usize) -> Option<Self> {
         let bends = scene.cage.as_ref()?.elastic_ring.as_ref()?;
         let law = &built.law;
-        let surface = BentSurface::of(bends, law.radius, built.side);
+        let surface = BentSurface::of(bends, law.radius, built.side, &built.profile);
         let film = law.film.as_ref().map(|_| GuideLaw { solid: None, ..law.clone() });
         let solid = law.solid.as_ref().map(|_| GuideLaw { film: None, ..law.clone() });
-        Some(Self { surface, profile: built.profile.clone(), film, solid, slices })
+
+        Some(Self { surface, film, solid, slices })
     }
 
     pub(super) fn memory(&self) -> BentLandForces {
-        let forces = || BentForces::new(&self.surface, &self.profile);
+        let forces = || BentForces::new(&self.surface);
         let on_modes = vec![0.0; 2 * self.surface.waves.len()];
         BentLandForces {
             film: forces(),
@@ -210,6 +210,9 @@ impl BentLand {
             (Some(_), None) => Ok(Share { value: 1.0, ..Share::default() }),
             (None, _) => Ok(Share::default()),
             (Some(_), Some(_)) => {
+                if land.law.is_far(&self.surface, motion) {
+                    return Ok(Share { value: 1.0, ..Share::default() });
+                }
                 let [gap, angle] = land.law.smallest_bent_gap(&self.surface, motion);
                 if gap.is_nan() {
                     return Err(NoFilm { minimum_film: gap });

@@ -1,4 +1,5 @@
-//! Derivatives of what a cage that bends does, along one direction after the other: their number depends on the modes.
+//! Derivatives along one direction after the other: of the cage's own motion, and of lands on one that bends, whose number of directions
+//! depends on its modes.
 
 use super::super::Space;
 use super::super::linearize::RingSlopes;
@@ -58,8 +59,8 @@ struct Changes {
 }
 
 impl Space {
-    /// Adds how the accelerations of a cage that bends follow its own motion, and finds how they follow forces.
-    pub(super) fn add_bent_slopes(
+    /// Adds how the accelerations of the cage follow its own motion, and finds how they follow forces.
+    pub(super) fn add_own_slopes(
         &self,
         cage: &CageOfScene,
         ws: &mut Workspace,
