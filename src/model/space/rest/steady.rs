@@ -13,13 +13,12 @@ use super::ball::{Ball, OF_RING, OnRing};
 use crate::bodies::MovingRing;
 use crate::laws::point_contact::PointContact;
 use crate::pairs::groove::{Contact, InGroove};
-use crate::scalar::{Dual, Of};
+use crate::scalar::{Dual, Of, Real};
 use crate::space::solid::{Moving, Tilt, Vector, scaled, sum};
 use nalgebra::{SMatrix, SVector};
 
 /// Unknowns of a ball: x, rho, psi', w_x, w_r, w_psi.
 const OF_BALL: usize = 6;
-const ALL: usize = OF_BALL + OF_RING;
 /// Newton steps, and halvings of one.
 const MOST_STEPS: usize = 80;
 const MOST_HALVINGS: usize = 24;
@@ -87,10 +86,16 @@ impl SteadyBall<'_> {
         }
     }
 
-    fn slopes(&self, y: &SVector<f64, OF_BALL>, ring: [f64; OF_RING]) -> Forces<Dual<ALL>> {
-        let variable =
-            |k: usize| Dual::<ALL>::variable(if k < OF_BALL { y[k] } else { ring[k - OF_BALL] }, k);
-        self.forces(std::array::from_fn(variable), std::array::from_fn(|k| variable(OF_BALL + k)))
+    /// With their slopes over the unknowns of the ball.
+    fn over_ball(&self, y: [f64; OF_BALL], ring: [f64; OF_RING]) -> Forces<Dual<OF_BALL>> {
+        let variable = |k: usize| Dual::variable(y[k], k);
+        self.forces(std::array::from_fn(variable), ring.map(Dual::constant))
+    }
+
+    /// With their slopes over the coordinates of the ring: as many directions as those of the ball, so that the code is the same.
+    fn over_ring(&self, y: [f64; OF_BALL], ring: [f64; OF_RING]) -> Forces<Dual<OF_BALL>> {
+        let variable = |k: usize| Dual::variable(ring[k], k);
+        self.forces(y.map(Dual::constant), std::array::from_fn(variable))
     }
 
     /// The steady motion beside a ring at these coordinates; `None` where none is found.
@@ -105,7 +110,7 @@ impl SteadyBall<'_> {
             if rest <= ROUND_OFF * size(&here) {
                 return Some(y.into());
             }
-            let slopes = self.slopes(&y, ring);
+            let slopes = self.over_ball(y.into(), ring);
             let matrix = SMatrix::<f64, OF_BALL, OF_BALL>::from_fn(|i, k| -slopes.rest[i].eps[k]);
             let step = matrix.lu().solve(&SVector::from(here.rest))?;
             let mut share = 1.0;
@@ -129,11 +134,11 @@ impl SteadyBall<'_> {
 
     /// What it does to the ring in its steady motion.
     pub(super) fn on_ring(&self, y: [f64; OF_BALL], ring: [f64; OF_RING]) -> OnRing {
-        let forces = self.slopes(&SVector::from(y), ring);
-        let own = SMatrix::<f64, OF_BALL, OF_BALL>::from_fn(|i, k| -forces.rest[i].eps[k]);
-        let by_ring = SMatrix::<f64, OF_BALL, OF_RING>::from_fn(|i, k| forces.rest[i].eps[OF_BALL + k]);
-        let on_ring = SMatrix::<f64, OF_RING, OF_BALL>::from_fn(|i, k| forces.on_ring[i].eps[k]);
-        let direct = SMatrix::<f64, OF_RING, OF_RING>::from_fn(|i, k| -forces.on_ring[i].eps[OF_BALL + k]);
+        let (ball, forces) = (self.over_ball(y, ring), self.over_ring(y, ring));
+        let own = SMatrix::<f64, OF_BALL, OF_BALL>::from_fn(|i, k| -ball.rest[i].eps[k]);
+        let by_ring = SMatrix::<f64, OF_BALL, OF_RING>::from_fn(|i, k| forces.rest[i].eps[k]);
+        let on_ring = SMatrix::<f64, OF_RING, OF_BALL>::from_fn(|i, k| ball.on_ring[i].eps[k]);
+        let direct = SMatrix::<f64, OF_RING, OF_RING>::from_fn(|i, k| -forces.on_ring[i].eps[k]);
         let following = own.lu().solve(&by_ring).unwrap_or_else(SMatrix::zeros);
         OnRing {
             force: SVector::from(forces.on_ring.map(|force| force.re)),
