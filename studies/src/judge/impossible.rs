@@ -359,7 +359,8 @@ impl WithoutSlip {
         let moves = 0.5 * (of_all + number("/cage/inertia") * orbit * orbit);
         let sinks = load.unwrap_or(f64::INFINITY).abs() * number("/inner_ring/radial_clearance").abs();
         Self {
-            steady: [enough(inner + outer), enough(inner - outer) && load.is_some()],
+            // Between rings that turn against each other the cage may follow either.
+            steady: [enough(inner + outer) && inner * outer >= 0.0, enough(inner - outer) && load.is_some()],
             seized: if mates { 1.0 } else { (orbit / spin).abs() },
             cage_faster: if guide.is_object() { FASTER.min(1.0 - of_guide / orbit) } else { FASTER },
             cage_beyond: CAGE_BEYOND.max(soft),

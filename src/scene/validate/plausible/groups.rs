@@ -39,6 +39,8 @@ const HEAVY: f64 = 20.0;
 const EARTH: f64 = 9.81;
 /// Young's modulus of steel, Pa, where no material is named.
 const STEEL: f64 = 2.06e11;
+/// What is said of a ring that grows too much.
+const CLEARANCE_GONE: &str = "so much that the clearance is gone at the speed of the ring";
 /// Share of the clearance by which a solid contact may give under the weight of the cage.
 const SAG: f64 = 0.3;
 /// Damping over the critical one.
@@ -398,12 +400,17 @@ pub(super) const GROUPS: &[Group] = &[
     group(
         "cage.elastic_ring.growth",
         &["cage.guide.diametral_clearance", "inner_ring.speed"],
+        |s| s.growth_in(s.guide()?.diametral_clearance),
+        ["", CLEARANCE_GONE],
+    ),
+    group(
+        "cage.elastic_ring.growth",
+        &["cage.space.lands", "inner_ring.speed"],
         |s| {
-            let speed = s.inner_ring.as_ref().map_or(0.0, |ring| ring.speed.largest());
-            let largest = s.guide()?.diametral_clearance / (speed * speed);
-            Some((s.elastic()?.growth, range(0.0, largest, "m s^2")))
+            let lands = &s.cage.as_ref()?.space.as_ref()?.lands;
+            s.growth_in(lands.iter().map(|land| land.guide.diametral_clearance).reduce(f64::min)?)
         },
-        ["", "so much that the clearance is gone at the speed of the ring"],
+        ["", CLEARANCE_GONE],
     ),
     group(
         "cage.elastic_ring.stiffness.bending",
@@ -525,6 +532,12 @@ impl Scene {
 
     fn elastic(&self) -> Option<&ElasticRing> {
         self.cage.as_ref()?.elastic_ring.as_ref()
+    }
+
+    /// Growth of the elastic ring in a diametral clearance (m).
+    fn growth_in(&self, clearance: f64) -> Option<(f64, Range)> {
+        let speed = self.inner_ring.as_ref().map_or(0.0, |ring| ring.speed.largest());
+        Some((self.elastic()?.growth, range(0.0, clearance / (speed * speed), "m s^2")))
     }
 
     fn section(&self) -> Option<&RingSection> {
