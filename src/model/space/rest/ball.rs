@@ -44,7 +44,7 @@ const FOLLOWINGS: usize = 60;
 /// Coordinates of the ring beside a ball: x, outwards, along the orbit, and the rotation vector of its axis outwards and along the orbit.
 pub(crate) const OF_RING: usize = 5;
 /// With those of the ball, which come first: x and rho.
-const ALL: usize = 2 + OF_RING;
+pub(super) const ALL: usize = 2 + OF_RING;
 
 /// A ball and what acts on it beside the ring.
 pub(crate) struct Ball<'a> {
@@ -132,6 +132,19 @@ pub(super) struct OnRing {
     /// -d(force)/d(coordinates) while the ball stays at rest.
     pub(super) stiffness: SMatrix<f64, OF_RING, OF_RING>,
     pub(super) energy: f64,
+}
+
+/// What an element does to the ring from a place of rest, by the forces on both over its two coordinates, which come first, and those of the
+/// ring.
+pub(super) fn following(on_element: &[Dual<ALL>; 2], on_ring: &[Dual<ALL>; OF_RING], energy: f64) -> OnRing {
+    let own = SMatrix::<f64, 2, 2>::from_fn(|i, k| -on_element[i].eps[k]);
+    let by_ring = SMatrix::<f64, 2, OF_RING>::from_fn(|i, k| on_element[i].eps[2 + k]);
+    let of_element = SMatrix::<f64, OF_RING, 2>::from_fn(|i, k| on_ring[i].eps[k]);
+    let direct = SMatrix::<f64, OF_RING, OF_RING>::from_fn(|i, k| -on_ring[i].eps[2 + k]);
+    // An element that nothing touches does not follow.
+    let follows = own.lu().solve(&by_ring).unwrap_or_else(SMatrix::zeros);
+    let force = SVector::from(on_ring.map(|force| force.re));
+    OnRing { force, stiffness: direct - of_element * follows, energy }
 }
 
 /// Solution of three linear equations, given by their rows.
@@ -291,16 +304,7 @@ impl Ball<'_> {
     /// What it does to the ring from a place of rest.
     pub(super) fn on_ring(&self, at: [f64; 2], ring: [f64; OF_RING]) -> OnRing {
         let forces = self.slopes(at, ring);
-        let own = SMatrix::<f64, 2, 2>::from_fn(|i, k| -forces.on_ball[i].eps[k]);
-        let by_ring = SMatrix::<f64, 2, OF_RING>::from_fn(|i, k| forces.on_ball[i].eps[2 + k]);
-        let on_ring = SMatrix::<f64, OF_RING, 2>::from_fn(|i, k| forces.on_ring[i].eps[k]);
-        let direct = SMatrix::<f64, OF_RING, OF_RING>::from_fn(|i, k| -forces.on_ring[i].eps[2 + k]);
-        // A ball that nothing touches does not follow.
-        let following = own.lu().solve(&by_ring).unwrap_or_else(SMatrix::zeros);
-        OnRing {
-            force: SVector::from(forces.on_ring.map(|force| force.re)),
-            stiffness: direct - on_ring * following,
-            energy: self.energy(at, forces.outside.map(|force| force.re), &forces),
-        }
+        let energy = self.energy(at, forces.outside.map(|force| force.re), &forces);
+        following(&forces.on_ball, &forces.on_ring, energy)
     }
 }

@@ -1,8 +1,15 @@
 //! Ring and balls in space: the ring is found by its own forces, with every ball at rest beside it.
 //!
+//! | file | what |
+//! |---|---|
+//! | `ring` | the ring under its load, whatever it rests on |
+//! | `ball`, `steady` | a ball that race control turns, and one that its friction turns |
+//! | `settle` | Newton's method |
+//!
 //! First without speed, by the least energy; then the speed grows to that of the scene, from each equilibrium to the next.
 
 mod ball;
+mod ring;
 mod settle;
 mod steady;
 
@@ -13,19 +20,17 @@ pub(crate) use settle::Balance;
 use super::Space;
 use crate::bodies::{HostInputs, Input, RING_COORDINATES};
 use crate::error::{Error, Result, Status};
-use crate::scalar::{Dual, math};
+use crate::scalar::math;
 use crate::scene::shown;
-use crate::space::solid::{LARGEST_TILT, Tilt};
 use ball::{OnRing, Rolling};
 use nalgebra::{Matrix5, Vector5};
-use settle::{Rest, settle};
+use ring::RingAtRest;
+use settle::Rest;
 use steady::SteadyBall;
 
 /// Smallest and largest part of the speed by which it grows from one equilibrium to the next.
 const SMALLEST_PART: f64 = 1.0 / 1024.0;
 const LARGEST_PART: f64 = 0.25;
-/// A direction of the ring with less than this share of the stiffness of a lightly pressed contact has none.
-const NO_STIFFNESS: f64 = 1e-9;
 /// A ball at rest or in steady motion.
 pub(crate) enum AtRest<'a> {
     Controlled(Ball<'a>, [f64; 2]),
@@ -97,14 +102,7 @@ impl<'a> Bearing<'a> {
 
     /// Coordinates of the ring beside ball `j`, by row, over those of the bearing.
     pub(crate) fn beside(&self, j: usize) -> Matrix5<f64> {
-        let (s, c) = self.direction(j);
-        Matrix5::from_row_slice(&[
-            1.0, 0.0, 0.0, 0.0, 0.0, //
-            0.0, c, s, 0.0, 0.0, //
-            0.0, -s, c, 0.0, 0.0, //
-            0.0, 0.0, 0.0, c, s, //
-            0.0, 0.0, 0.0, -s, c,
-        ])
+        ring::beside(self.direction(j))
     }
 
     /// A place (m) of a ball between both grooves, on the line that joins the centres of their arcs.
@@ -152,47 +150,6 @@ impl<'a> Bearing<'a> {
         sum
     }
 
-    /// The same with load and spring, over coordinates that are lengths: tilts times the pitch radius; those that are held have no force.
-    fn balance(&self, scaled: &Vector5<f64>) -> Option<Balance<OF_RING>> {
-        let (ring, radius) = (self.unscaled(scaled), self.space.balls.set.pitch_radius);
-        if scaled.norm() > self.reach() || math::hypot(ring[3], ring[4]) > LARGEST_TILT {
-            return None;
-        }
-        let mut sum = self.on_ring(&ring, &self.balls(&ring)?);
-        let [spring, stiffness] = self.space.ring.spring(ring[0]);
-        let [lx, ly, lz, my, mz] = self.load;
-        // A moment that keeps its direction, over the angles.
-        let tilt = Tilt::new([0, 1].map(|k| Dual::<2>::variable(ring[3 + k], k)));
-        let moments = tilt.moments_over_angles([0.0, my, mz].map(|m| Dual { re: m, eps: [0.0; 2] }));
-        sum.force += Vector5::new(lx + spring, ly, lz, moments[0].re, moments[1].re);
-        sum.stiffness[(0, 0)] += stiffness;
-        for (i, moment) in moments.iter().enumerate() {
-            for k in 0..2 {
-                sum.stiffness[(3 + i, 3 + k)] -= moment.eps[k];
-            }
-        }
-        sum.energy += 0.5 * stiffness * ring[0] * ring[0]
-            - (lx + self.space.ring.spring(0.0)[0]) * ring[0]
-            - ly * ring[1]
-            - lz * ring[2]
-            - my * ring[3]
-            - mz * ring[4];
-        sum.size += lx.abs() + spring.abs() + ly.abs() + lz.abs() + (my.abs() + mz.abs()) / radius;
-        let lengths = Vector5::new(1.0, 1.0, 1.0, 1.0 / radius, 1.0 / radius);
-        sum.force.component_mul_assign(&lengths);
-        let outer = lengths * lengths.transpose();
-        sum.stiffness.component_mul_assign(&outer);
-        for (k, held) in self.space.ring.held.iter().enumerate() {
-            if held.is_some() {
-                sum.force[k] = 0.0;
-                sum.stiffness.row_mut(k).fill(0.0);
-                sum.stiffness.column_mut(k).fill(0.0);
-                sum.stiffness[(k, k)] = self.soft();
-            }
-        }
-        Some(sum)
-    }
-
     /// Largest displacement of a ring that is still in the bearing, m.
     fn reach(&self) -> f64 {
         2.0 * self.space.races.iter().map(|race| race.groove.length()).sum::<f64>()
@@ -213,19 +170,21 @@ impl<'a> Bearing<'a> {
         forces.fold(0.0, f64::max)
     }
 
-    fn unscaled(&self, scaled: &Vector5<f64>) -> Vector5<f64> {
-        let radius = self.space.balls.set.pitch_radius;
-        Vector5::new(scaled[0], scaled[1], scaled[2], scaled[3] / radius, scaled[4] / radius)
+    /// Its ring.
+    fn ring(&self) -> RingAtRest<'a> {
+        let Space { ring, balls, .. } = self.space;
+        let (load, pitch_radius) = (self.load, balls.set.pitch_radius);
+        RingAtRest { ring, load, pitch_radius, reach: self.reach(), soft: self.soft() }
     }
 
     fn settled(&self, from: Vector5<f64>) -> std::result::Result<Rest<OF_RING>, Vector5<f64>> {
-        settle(from, 1e-3 * self.soft(), |scaled| self.balance(scaled))
+        self.ring().settled(from, |ring| Some(self.on_ring(ring, &self.balls(ring)?)))
     }
 }
 
 /// Failure to find an equilibrium with the ring at last at these coordinates, in words.
 fn none(bearing: &Bearing<'_>, at: &Vector5<f64>, share: f64) -> Error {
-    let ring = bearing.unscaled(at);
+    let ring = bearing.ring().unscaled(at);
     let far = (0..OF_RING)
         .filter(|k| bearing.space.ring.held[*k].is_none())
         .find(|k| at[*k].abs() > 0.4 * bearing.reach());
@@ -258,16 +217,6 @@ fn none(bearing: &Bearing<'_>, at: &Vector5<f64>, share: f64) -> Error {
     Error::new(Status::BadState, format!("no equilibrium{at}: {why}"))
 }
 
-/// The free direction of the ring with the least stiffness: stiffness (N/m) as that of a move at the pitch circle, and the coordinate that
-/// moves most.
-fn softest(stiffness: &Matrix5<f64>) -> (f64, &'static str) {
-    let eigen = stiffness.symmetric_part().symmetric_eigen();
-    let (place, value) = eigen.eigenvalues.argmin();
-    let (most, _) = eigen.eigenvectors.column(place).abs().argmax();
-    let [name, ..] = RING_COORDINATES[most].position.unwrap_or_default();
-    (value, name)
-}
-
 /// Ring and balls at rest, or in the motion that race control or friction gives them.
 pub(crate) struct Settled<'a> {
     pub(crate) bearing: Bearing<'a>,
@@ -289,9 +238,6 @@ pub(crate) struct Settled<'a> {
 pub(crate) fn settled(space: &Space, control: RaceControl) -> Result<Settled<'_>> {
     let inputs = space.inputs.at(0.0, &HostInputs::default());
     let speeds = [Input::OuterRingSpeed, Input::RingSpeed].map(|input| inputs.of(input));
-    let radius = space.balls.set.pitch_radius;
-    let held = space.ring.held.map(|held| held.unwrap_or(0.0));
-    let start = Vector5::new(held[0], held[1], held[2], held[3] * radius, held[4] * radius);
     let at_speed = |share: f64| Bearing {
         space,
         control,
@@ -300,7 +246,7 @@ pub(crate) fn settled(space: &Space, control: RaceControl) -> Result<Settled<'_>
         speeds: speeds.map(|speed| share * speed),
     };
     let still = at_speed(0.0);
-    let mut rest = still.settled(start).map_err(|at| none(&still, &at, 0.0))?;
+    let mut rest = still.settled(still.ring().start()).map_err(|at| none(&still, &at, 0.0))?;
     let (mut share, mut part) = (0.0, LARGEST_PART);
     while speeds != [0.0; 2] && share < 1.0 {
         let next = (share + part).min(1.0);
@@ -319,17 +265,8 @@ pub(crate) fn settled(space: &Space, control: RaceControl) -> Result<Settled<'_>
         bearing.steady = true;
         rest = bearing.settled(rest.x).map_err(|at| none(&bearing, &at, 1.0))?;
     }
-    let softest = softest(&rest.balance.stiffness);
-    let (least, name) = softest;
-    if least.abs() <= NO_STIFFNESS * bearing.soft() {
-        let text = format!(
-            "inner_ring.motion.space.{name}: free, and nothing holds it (stiffness {} N/m at the pitch circle); hold it, or load the \
-             bearing",
-            shown(least)
-        );
-        return Err(Error::new(Status::BadState, text));
-    }
-    let ring = bearing.unscaled(&rest.x);
+    let softest = bearing.ring().held_up(&rest)?;
+    let ring = bearing.ring().unscaled(&rest.x);
     let balls = bearing.balls(&ring).ok_or_else(|| none(&bearing, &rest.x, 1.0))?;
     let on_ring = bearing.on_ring(&ring, &balls);
     let residual = rest.balance.force.norm() / rest.balance.size.max(f64::MIN_POSITIVE);
