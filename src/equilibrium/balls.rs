@@ -1,6 +1,6 @@
 //! The equilibrium of balls in space, told as users read it.
 
-use super::{Equilibrium, named};
+use super::{Equilibrium, named, pushed_away};
 use crate::bodies::RING_COORDINATES;
 use crate::error::Result;
 use crate::laws::film::thickness::Entrainment;
@@ -75,12 +75,7 @@ pub(super) fn equilibrium(space: &Space, control: RaceControl) -> Result<Equilib
         tell(bearing, j, ball, ring, &mut found);
     }
     warn(bearing, &mut found);
-    let (least, softest) = settled.softest;
-    if least < 0.0 {
-        let text =
-            format!("the ring is pushed away from this equilibrium along {softest} ({} N/m)", shown(least));
-        found.warnings.push(text);
-    }
+    found.warnings.extend(pushed_away(settled.softest));
     Ok(found)
 }
 

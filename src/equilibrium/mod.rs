@@ -5,15 +5,18 @@
 //! |---|---|
 //! | `balls` | ring and balls in space, found by `model/space/rest` |
 //! | `rollers` | ring and rollers in the plane |
+//! | `tilting` | a ring that tilts, and rollers that do so with it |
 
 mod balls;
 mod rollers;
+mod tilting;
 
 pub use crate::model::RaceControl;
 
 use crate::bodies::Coordinate;
 use crate::error::{Error, Result, Status};
 use crate::model::{Model, Quantity, quantity};
+use crate::scene::shown;
 
 /// An equilibrium. Vectors are over `coordinates`, which are those of the inner ring.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,8 +68,16 @@ pub fn equilibrium(model: &Model, control: RaceControl) -> Result<Equilibrium> {
     match model.space() {
         Some(space) if !space.free => Err(Error::new(Status::BadScene, PRESCRIBED)),
         Some(space) => balls::equilibrium(space, control),
+        None if model.ring_in_space() => tilting::equilibrium(model, model.plane()?),
         None => rollers::equilibrium(model, model.plane()?),
     }
+}
+
+/// What is said of an equilibrium that the ring is pushed away from.
+fn pushed_away((least, softest): (f64, &str)) -> Option<String> {
+    let text =
+        format!("the ring is pushed away from this equilibrium along {softest} ({} N/m)", shown(least));
+    (least < 0.0).then_some(text)
 }
 
 /// Names, units and meanings of the positions of a ring.

@@ -103,7 +103,7 @@ pub enum RingMotion {
     Fixed(PlaneVector),
     /// Free in the plane under load and contact forces. Needs rollers.
     Free(FreeRing),
-    /// In space, with every coordinate by itself. Needs balls.
+    /// In space, with every coordinate by itself. Needs balls, or rollers, whose ring then has equilibria only and is held along the axis.
     Space(Box<SpatialRing>),
 }
 

@@ -7,6 +7,7 @@ mod balls;
 mod random;
 mod refused;
 mod stiffness;
+mod tilting;
 
 use cagedyn::equilibrium::{Equilibrium, RaceControl, equilibrium};
 use cagedyn::{Model, Result, Scene};

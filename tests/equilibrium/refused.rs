@@ -64,9 +64,9 @@ fn bearings_that_cannot_be() {
         &["outer_ring.groove_radius: needs 'balls'"],
     );
     bad(
-        "scenes/nu2310.json",
+        "scenes/grease_guide.json",
         &[("inner_ring.motion", json!({"space": {}}))],
-        &["inner_ring.motion.space: needs 'balls'"],
+        &["inner_ring.motion.space: needs 'balls' or 'rollers'"],
     );
     bad("scenes/grease_guide.json", &[], &["kinematic_elements"]);
     bad(

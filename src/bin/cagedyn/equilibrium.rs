@@ -52,14 +52,17 @@ pub fn command(args: &EquilibriumArgs) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Name, unit for people, and what turns SI into it.
-fn for_people(unit: &str) -> (&'static str, f64) {
-    match unit {
+/// Unit for people, and what turns SI into it.
+fn for_people(quantity: &Quantity) -> (&'static str, f64) {
+    match quantity.unit {
         "m" => ("um", 1e6),
+        // Tilts are small.
+        "rad" if quantity.name.starts_with("tilt") => ("mrad", 1e3),
         "rad" => ("deg", 180.0 / PI),
         "Pa" => ("GPa", 1e-9),
         "N" => ("N", 1.0),
         "N m" => ("N m", 1.0),
+        "N/m" => ("N/mm", 1e-3),
         "rad/s" => ("rad/s", 1.0),
         "m/s" => ("m/s", 1.0),
         _ => ("", 1.0),
@@ -72,7 +75,7 @@ fn force_unit(coordinate: &Quantity) -> &'static str {
 }
 
 fn heading(quantity: &Quantity) -> String {
-    let (unit, _) = for_people(quantity.unit);
+    let (unit, _) = for_people(quantity);
     let name = quantity.name.replace('_', " ");
     if unit.is_empty() { name } else { format!("{name} {unit}") }
 }
@@ -81,9 +84,7 @@ fn in_words(title: &str, found: &Equilibrium) -> String {
     let mut text = format!("{title}\nequilibrium\n\n");
     let head = ["inner ring", "displacement", "", "load", ""].map(str::to_owned).to_vec();
     let rows = found.coordinates.iter().enumerate().map(|(k, coordinate)| {
-        let (unit, factor) = for_people(coordinate.unit);
-        // Tilts of rings are small.
-        let (unit, factor) = if unit == "deg" { ("mrad", 1e3) } else { (unit, factor) };
+        let (unit, factor) = for_people(coordinate);
         vec![
             coordinate.name.to_owned(),
             number(if found.displacement[k].abs() < NO_DISPLACEMENT {
@@ -117,7 +118,10 @@ fn in_words(title: &str, found: &Equilibrium) -> String {
     ] {
         let head = std::iter::once(title.to_owned()).chain(quantities.iter().map(heading)).collect();
         let rows = names.into_iter().zip(values).map(|(name, values)| {
-            let shown = quantities.iter().zip(values).map(|(q, value)| number(for_people(q.unit).1 * value));
+            let shown = quantities
+                .iter()
+                .zip(values)
+                .map(|(q, value)| number(if value.abs() < NOTHING { 0.0 } else { for_people(q).1 * value }));
             std::iter::once(name).chain(shown).collect()
         });
         let rows: Vec<Vec<String>> = std::iter::once(head).chain(rows).collect();
@@ -135,6 +139,8 @@ fn in_words(title: &str, found: &Equilibrium) -> String {
 
 /// What is less is round-off, m and rad.
 const NO_DISPLACEMENT: f64 = 1e-16;
+/// The same of what is known of elements and contacts, in their SI units.
+const NOTHING: f64 = 1e-13;
 
 /// A force without the round-off of what cancels in it.
 fn rounded(force: f64) -> f64 {

@@ -5,3 +5,4 @@ pub mod normal;
 pub mod point;
 pub mod profile;
 pub mod solid;
+pub mod tilted;

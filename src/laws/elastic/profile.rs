@@ -34,9 +34,14 @@ const MOST_STEPS: usize = 60;
 
 /// A slice of a part of the length: where, as a share of the part, and how much of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Node {
-    place: f64,
-    weight: f64,
+pub(super) struct Node {
+    pub(super) place: f64,
+    pub(super) weight: f64,
+}
+
+/// The rule with this many slices, at most [`MOST_SLICES`].
+pub(super) fn nodes(slices: usize) -> &'static [Node] {
+    RULES[slices.clamp(1, MOST_SLICES) - 1].as_slice()
 }
 
 /// The rules with one slice to [`MOST_SLICES`].
@@ -159,7 +164,7 @@ impl Profile {
             return None;
         }
         let crowns = crowned.then(|| crown_radii.map(|radius| radius.map_or(0.0, |radius| 1.0 / radius)));
-        let rest = RULES[slices.clamp(1, MOST_SLICES) - 1].as_slice();
+        let rest = nodes(slices);
         let before = match logarithm {
             Some(logarithm) if logarithm.start > 0.0 => {
                 if crowned {
@@ -186,6 +191,19 @@ impl<B> Profile<B> {
         Profile { half_length, logarithm, crowns, before, rest }
     }
 
+    /// Where the logarithm begins, m from the middle; zero without one.
+    pub(super) fn start(&self) -> f64 {
+        match &self.logarithm {
+            Some(logarithm) => logarithm.start,
+            None => 0.0,
+        }
+    }
+
+    /// Its slices of one part of the length.
+    pub(super) fn nodes(&self) -> &'static [Node] {
+        self.rest
+    }
+
     /// Number of slices.
     #[inline(always)]
     pub fn count(&self) -> usize {
@@ -204,6 +222,28 @@ impl<B: Base> Profile<B> {
         match &self.logarithm {
             Some(logarithm) if !before => drop + logarithm.drop(s),
             _ => drop,
+        }
+    }
+
+    /// Drop in m of the roller alone, `s` (m) from its middle.
+    #[inline(always)]
+    pub fn of_roller<T: Of<B>>(&self, s: T) -> T {
+        let mut drop = s.like(0.0);
+        if let Some([roller, _]) = &self.crowns {
+            drop = circle(s, *roller);
+        }
+        match &self.logarithm {
+            Some(logarithm) => drop + logarithm.drop(s.abs()),
+            None => drop,
+        }
+    }
+
+    /// Drop in m of the raceway alone, `t` (m) from its middle, and its slope.
+    #[inline(always)]
+    pub fn of_raceway<T: Of<B>>(&self, t: T) -> [T; 2] {
+        match &self.crowns {
+            Some([_, raceway]) => [circle(t, *raceway), circle_slope(t, *raceway)],
+            None => [t.like(0.0); 2],
         }
     }
 
@@ -252,10 +292,7 @@ impl<B: Base> Profile<B> {
     #[inline(always)]
     pub fn loaded<T: Of<B>>(&self, delta: T) -> LoadedPart<T> {
         let edge = self.edge(delta.floored(LEAST_APPROACH));
-        let start = match &self.logarithm {
-            Some(logarithm) => logarithm.start,
-            None => 0.0,
-        };
+        let start = self.start();
         let before = T::select(edge.above(start), edge.like(start), edge);
         LoadedPart { before, rest: edge - before }
     }
@@ -290,7 +327,7 @@ fn circle<B: Base, T: Of<B>>(s: T, curvature: B) -> T {
 
 /// Its slope.
 #[inline(always)]
-fn circle_slope<B: Base>(s: B, curvature: B) -> B {
+fn circle_slope<B: Base, T: Of<B>>(s: T, curvature: B) -> T {
     let along = s * curvature;
     along / (-(along * along) + 1.0).sqrt()
 }

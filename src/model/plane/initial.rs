@@ -4,7 +4,7 @@ use super::{HostInputs, Plane, StillBearing};
 use crate::bodies::INNER_RING;
 use crate::error::Result;
 use crate::scalar::math;
-use crate::scene::{RingMotion as Held, RingStart};
+use crate::scene::{RingMotion as Held, RingStart, bad_scene};
 
 /// How often the start of a cage in the centre of its ring and that of the ring are found in turn: each time the difference
 /// shrinks by the clearance over the pitch radius.
@@ -16,8 +16,12 @@ impl Plane {
     /// State vector at the start of the run.
     ///
     /// # Errors
-    /// [`crate::Status::BadScene`] when no static equilibrium is found, or it leaves no room for the cage.
+    /// [`crate::Status::BadScene`] when no static equilibrium is found, it leaves no room for the cage, or the ring would tilt.
     pub fn initial_state(&self) -> Result<Vec<f64>> {
+        if self.has_rollers() && self.scene.has_ring_in_space() {
+            let text = "rollers move over time in the plane only; of a ring that tilts there is the equilibrium: write 'fixed' or 'free'";
+            return Err(bad_scene("inner_ring.motion.space", text.to_owned()));
+        }
         let inputs = self.inputs.at(0.0, &HostInputs::default());
         let layout = &self.layout;
         let mut state = vec![0.0; layout.states()];

@@ -48,12 +48,12 @@ use std::sync::Arc;
 /// A bearing in the plane.
 #[derive(Debug)]
 pub struct Plane {
-    scene: Arc<Scene>,
-    inputs: Arc<InputSignals>,
+    pub(in crate::model) scene: Arc<Scene>,
+    pub(in crate::model) inputs: Arc<InputSignals>,
     layout: Layout,
     gravity: [f64; 2],
     shared: SharedBodies,
-    elements: Box<dyn Elements>,
+    pub(in crate::model) elements: Box<dyn Elements>,
     nodes: Vec<Box<dyn Node>>,
     /// Place among the velocities of the temperature of the lubricant, where it is a state.
     lubricant: Option<usize>,

@@ -31,11 +31,11 @@ impl Plane {
 /// The rollers of a bearing in which nothing moves but for the centrifugal force.
 pub(crate) struct StillBearing<'a> {
     model: &'a Plane,
-    geometry: RacewayGeometry,
+    pub(in crate::model) geometry: RacewayGeometry,
     /// Of outer and inner ring.
-    laws: [&'a LineContact; 2],
+    pub(in crate::model) laws: [&'a LineContact; 2],
     /// On each roller, N.
-    centrifugal: f64,
+    pub(in crate::model) centrifugal: f64,
 }
 
 impl<'a> StillBearing<'a> {

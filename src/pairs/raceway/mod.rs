@@ -1,7 +1,9 @@
 //! The raceways: contacts of all rollers with the outer and with the inner ring.
 
+mod disc;
 mod kinematics;
 
+pub(crate) use disc::{Disc, RollerPlace};
 pub(crate) use kinematics::{RacewayGeometry, RingMotion};
 
 use crate::bodies::{

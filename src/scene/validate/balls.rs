@@ -170,10 +170,19 @@ impl Scene {
         }
     }
 
+    /// Whether its inner ring may shift along the axis and tilt.
+    pub(crate) fn has_ring_in_space(&self) -> bool {
+        self.inner_ring.as_ref().is_some_and(|ring| matches!(ring.motion, RingMotion::Space(_)))
+    }
+
     pub(super) fn validate_spatial_ring(&self, judge: Judge<'_>, ring: &SpatialRing) -> Result<()> {
         let at = |field: &str| format!("inner_ring.motion.space.{field}");
-        if self.balls.is_none() && !judge.excuses("balls") {
-            return judge.refuse("inner_ring.motion.space", "needs 'balls'; write 'fixed' or 'free'");
+        if self.balls.is_none() && self.rollers.is_none() && !judge.excuses("balls") {
+            return judge.refuse("inner_ring.motion.space", "needs 'balls' or 'rollers'; write 'fixed'");
+        }
+        if self.rollers.is_some() && ring.x == RingCoordinate::Free {
+            let text = "cylindrical rollers do not hold the ring along its axis; write '{\"held\": 0}'";
+            judge.refuse(&at("x"), text)?;
         }
         for (name, coordinate) in ring.coordinates() {
             let allowed = if name.starts_with("tilt") { TILT } else { POSITION };

@@ -4,12 +4,14 @@
 //! |---|---|
 //! | `ring` | the ring under its load, whatever it rests on |
 //! | `ball`, `steady` | a ball that race control turns, and one that its friction turns |
+//! | `rollers` | rollers that tilt |
 //! | `settle` | Newton's method |
 //!
 //! First without speed, by the least energy; then the speed grows to that of the scene, from each equilibrium to the next.
 
 mod ball;
 mod ring;
+pub(crate) mod rollers;
 mod settle;
 mod steady;
 

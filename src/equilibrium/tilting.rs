@@ -1,0 +1,118 @@
+//! The equilibrium of rollers that tilt with their ring, told as users read it.
+
+use super::{Equilibrium, named, pushed_away};
+use crate::bodies::RING_COORDINATES;
+use crate::error::Result;
+use crate::model::plane::Plane;
+use crate::model::space::rest::rollers::{SettledRollers, settled_rollers};
+use crate::model::{HostInputs, Model, Quantity, quantity};
+use crate::scene::shown;
+use std::f64::consts::PI;
+
+/// Largest pressure that bearing steel is rated for, Pa (ISO 76, roller bearings).
+const RATED_PRESSURE: f64 = 4.0e9;
+/// Places along a roller that its line load is looked at.
+const PLACES: u32 = 400;
+/// Share of an approach that is round-off.
+const ROUND_OFF: f64 = 1e-12;
+
+/// What is known of every roller.
+const ROLLER: [Quantity; 4] = [
+    quantity("azimuth", "rad", "angle about the axis of the bearing"),
+    quantity("radial_offset", "m", "distance outside the pitch circle"),
+    quantity("tilt", "rad", "rotation of its axis about that along the orbit: its +x end outwards"),
+    quantity("orbit_speed", "rad/s", "speed about the axis of the bearing"),
+];
+/// What is known of every contact.
+const CONTACT: [Quantity; 8] = [
+    quantity("normal_force", "N", "normal force Q"),
+    quantity(
+        "approach",
+        "m",
+        "elastic approach delta in the middle of the roller; negative where they are apart",
+    ),
+    quantity("moment", "N m", "moment on the roller about the axis along the orbit"),
+    quantity("largest_line_load", "N/m", "largest load per length"),
+    quantity("largest_at", "m", "where that is, along the roller from its middle"),
+    quantity("loaded_length", "m", "length of the roller that is loaded"),
+    quantity(
+        "largest_pressure",
+        "Pa",
+        "largest pressure of Hertz's line contact under that load; stresses at sharp ends come on top",
+    ),
+    quantity("half_width", "m", "half width b of Hertz's line contact there"),
+];
+
+/// The equilibrium of a ring and the rollers that go round with the speed that they roll at.
+pub(super) fn equilibrium(model: &Model, plane: &Plane) -> Result<Equilibrium> {
+    let [orbit, _] = model.kinematic_speeds(&model.inputs_at(0.0, &HostInputs::default()));
+    let settled = settled_rollers(plane, orbit)?;
+    let sum = &settled.on_ring;
+    let mut found = Equilibrium {
+        coordinates: named(&RING_COORDINATES),
+        free: settled.held.iter().map(Option::is_none).collect(),
+        displacement: settled.ring.iter().copied().collect(),
+        reaction: sum.force.iter().copied().collect(),
+        stiffness: sum.stiffness.transpose().iter().copied().collect(),
+        element_quantities: &ROLLER,
+        elements: Vec::new(),
+        contacts: Vec::new(),
+        contact_quantities: &CONTACT,
+        contact_values: Vec::new(),
+        warnings: Vec::new(),
+        residual: settled.residual,
+    };
+    for j in 0..settled.places.len() {
+        let [rho, tilt] = settled.place(j);
+        found.elements.push(vec![settled.rollers.azimuths[j], rho, tilt, orbit]);
+        for (k, name) in ["outer_raceway", "inner_raceway"].into_iter().enumerate() {
+            let name = format!("{}[{j}].{name}", model.element_kind());
+            let values = contact(&settled, j, k);
+            let pressure = values[6];
+            if pressure > RATED_PRESSURE {
+                found.warnings.push(format!(
+                    "{name}: the largest pressure, {} Pa, is above {RATED_PRESSURE:e} Pa, the static limit of ISO 76",
+                    shown(pressure)
+                ));
+            }
+            found.contacts.push(name);
+            found.contact_values.push(values.to_vec());
+        }
+    }
+    found.warnings.extend(pushed_away(settled.softest));
+    Ok(found)
+}
+
+/// Values of [`CONTACT`] of raceway `k` of roller `j`.
+fn contact(settled: &SettledRollers<'_>, j: usize, k: usize) -> [f64; CONTACT.len()] {
+    let SettledRollers { rollers, ring, places, .. } = settled;
+    let (on_raceway, elastic) = (rollers.raceways(j, places[j], ring)[k], &rollers.law(k).elastic);
+    let approach = |s: f64| rollers.approach(j, k, places[j], ring, s);
+    // Of places that are as deep, the middle.
+    let (mut deepest, mut at, mut loaded) = (approach(0.0).max(0.0), 0.0, 0.0);
+    for i in 0..=PLACES {
+        let share = f64::from(i) / f64::from(PLACES);
+        let s = (share - 0.5) * elastic.length;
+        let depth = approach(s);
+        if depth > deepest * (1.0 + ROUND_OFF) {
+            (deepest, at) = (depth, s);
+        }
+        let part = if i == 0 || i == PLACES { 0.5 } else { 1.0 };
+        loaded += if depth > 0.0 { part / f64::from(PLACES) } else { 0.0 };
+    }
+    // Of a contact that is everywhere pressed like there.
+    let load = elastic.load(deepest);
+    let half_width = elastic.half_width(load);
+    let pressure = if load > 0.0 { 4.0 / PI * elastic.mean_pressure(load, half_width) } else { 0.0 };
+    let length = loaded * elastic.length;
+    [
+        on_raceway.load,
+        approach(0.0),
+        on_raceway.moment,
+        load / elastic.length,
+        at,
+        length,
+        pressure,
+        half_width,
+    ]
+}

@@ -1,0 +1,307 @@
+//! Rollers at rest beside a ring that shifts and tilts: each yields along its radius and tilts with the ring.
+//!
+//! ```text
+//! y = (rho, a tau),   a = l/2
+//! Sum Q f_r + m psi'^2 r = 0,   Sum Q m_psi = 0   over the slices of both raceways
+//! ```
+//!
+//! Rollers stay in the middle along the axis and do not skew: raceways hold them in neither direction, which ribs, pockets and friction do. They
+//! go round with the speed that they roll at; their weight is left out, as in the plane.
+
+use super::OF_RING;
+use super::ball::{ALL, OnRing, following};
+use super::ring::{RingAtRest, beside};
+use super::settle::{Balance, Rest, settle};
+use crate::bodies::RingInSpace;
+use crate::error::{Error, Result, Status};
+use crate::laws::elastic::tilted::{Along, Slice};
+use crate::laws::line_contact::LineContact;
+use crate::model::HostInputs;
+use crate::model::plane::{Plane, StillBearing};
+use crate::pairs::groove::RingPlace;
+use crate::pairs::raceway::{Disc, RacewayGeometry, RollerPlace};
+use crate::scalar::{Dual, Of, math};
+use crate::space::solid::{LARGEST_TILT, Tilt, cross, difference, scaled, sum};
+use nalgebra::{Matrix5, SMatrix, SVector, Vector5};
+
+/// What a roller yields by: rho and a tau, m.
+const OF_ROLLER: usize = 2;
+/// Load of a lightly pressed contact, N.
+const LIGHTLY: f64 = 1.0;
+
+/// A raceway along a roller.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct OnRaceway<T> {
+    /// Q, N.
+    pub(crate) load: T,
+    /// On the roller about the axis along the orbit, N m.
+    pub(crate) moment: T,
+}
+
+/// Forces at one place of roller and ring.
+struct Forces<T> {
+    /// Over rho and a tau, N.
+    on_roller: [T; OF_ROLLER],
+    /// On the ring over its coordinates, N and N m.
+    on_ring: [T; OF_RING],
+    raceways: [OnRaceway<T>; 2],
+    /// Elastic, J.
+    energy: T,
+}
+
+/// Rollers between their raceways.
+pub(crate) struct Rollers<'a> {
+    geometry: RacewayGeometry,
+    /// Of outer and inner raceway.
+    laws: [&'a LineContact; 2],
+    /// By how much each radius is larger than nominal, m.
+    excess: &'a [f64],
+    pub(crate) azimuths: Vec<f64>,
+    /// On each, N.
+    centrifugal: f64,
+}
+
+/// The equilibrium of ring and rollers.
+pub(crate) struct SettledRollers<'a> {
+    pub(crate) rollers: Rollers<'a>,
+    pub(crate) held: [Option<f64>; OF_RING],
+    /// Coordinates of the ring, m and rad.
+    pub(crate) ring: Vector5<f64>,
+    /// rho and a tau of each, m.
+    pub(crate) places: Vec<[f64; OF_ROLLER]>,
+    pub(crate) on_ring: Balance<OF_RING>,
+    /// Rest of the forces on the ring over their size.
+    pub(crate) residual: f64,
+    /// Stiffness (N/m at the pitch circle) of the softest free direction, and the coordinate that moves most.
+    pub(crate) softest: (f64, &'static str),
+}
+
+impl SettledRollers<'_> {
+    /// rho (m) and tau (rad) of roller `j`.
+    pub(crate) fn place(&self, j: usize) -> [f64; OF_ROLLER] {
+        [self.places[j][0], self.places[j][1] / self.rollers.half_length()]
+    }
+}
+
+impl Rollers<'_> {
+    fn half_length(&self) -> f64 {
+        0.5 * self.laws[0].elastic.length
+    }
+
+    /// Coordinates of the ring beside roller `j`, by row, over those of the bearing.
+    fn beside(&self, j: usize) -> Matrix5<f64> {
+        beside(math::sin_cos(self.azimuths[j]))
+    }
+
+    /// Raceway `k` at `s` (m) of roller `j`, with its profile or without.
+    fn disc<T: Of<f64>>(
+        &self,
+        j: usize,
+        k: usize,
+        at: [T; OF_ROLLER],
+        ring: [T; OF_RING],
+        s: f64,
+        bare: bool,
+    ) -> Disc<T> {
+        let zero = at[0].like(0.0);
+        let tilt = at[1] / self.half_length();
+        let roller = RollerPlace { x: zero, rho: at[0], axis: Tilt::new([zero, tilt]).axis };
+        let place = match k {
+            0 => RingPlace { centre: [zero; 3], axis: [zero.like(1.0), zero, zero] },
+            _ => RingPlace { centre: [ring[0], ring[1], ring[2]], axis: Tilt::new([ring[3], ring[4]]).axis },
+        };
+        let profile = self.laws[k].profile.as_ref().filter(|_| !bare);
+        self.geometry.disc((k, &place), &roller, profile, self.excess[j], s)
+    }
+
+    /// Slices of the loaded part of raceway `k` along roller `j`.
+    fn slices(&self, j: usize, k: usize, at: [f64; OF_ROLLER], ring: [f64; OF_RING]) -> Vec<Slice> {
+        let half_length = self.half_length();
+        let bare = [-half_length, 0.0, half_length].map(|s| self.disc(j, k, at, ring, s, true));
+        let along = Along {
+            profile: self.laws[k].profile.as_ref(),
+            half_length,
+            approach: Along::parabola(half_length, bare.map(|disc| disc.delta)),
+            in_raceway: [bare[1].in_raceway, (bare[2].in_raceway - bare[0].in_raceway) / (2.0 * half_length)],
+        };
+        let mut slices = Vec::new();
+        along.slices(&mut slices);
+        slices
+    }
+
+    /// Forces with these slices of both raceways.
+    fn forces<T: Of<f64>>(
+        &self,
+        j: usize,
+        at: [T; OF_ROLLER],
+        ring: [T; OF_RING],
+        slices: &[Vec<Slice>; 2],
+    ) -> Forces<T> {
+        let zero = at[0].like(0.0);
+        let none = OnRaceway { load: zero, moment: zero };
+        let mut out = Forces {
+            on_roller: [zero + self.centrifugal, zero],
+            on_ring: [zero; OF_RING],
+            raceways: [none; 2],
+            energy: zero,
+        };
+        let from_ring =
+            difference([zero, at[0] + self.geometry.pitch_radius, zero], [ring[0], ring[1], ring[2]]);
+        let (mut pushed, mut turned) = ([zero; 3], [zero; 3]);
+        for (k, (law, slices)) in self.laws.into_iter().zip(slices).enumerate() {
+            for slice in slices {
+                let disc = self.disc(j, k, at, ring, slice.place, false);
+                let load = law.elastic.load(disc.delta) * slice.share;
+                let moment = scaled(disc.on_roller, load);
+                let on_raceway = &mut out.raceways[k];
+                on_raceway.load += load;
+                on_raceway.moment += moment[2];
+                out.on_roller[0] -= load * disc.normal[1];
+                // Palmgren's law: the energy at the approach delta is 9/19 Q delta.
+                out.energy += load * disc.delta * (9.0 / 19.0);
+                if k == 1 {
+                    let force = scaled(disc.normal, load);
+                    let about_ring = difference(cross(from_ring, force), moment);
+                    (pushed, turned) = (sum(pushed, force), sum(turned, about_ring));
+                }
+            }
+        }
+        let moments = out.raceways[0].moment + out.raceways[1].moment;
+        out.on_roller[1] = moments / self.half_length();
+        let [over_r, over_psi] = Tilt::new([ring[3], ring[4]]).moments_over_angles(turned);
+        out.on_ring = [pushed[0], pushed[1], pushed[2], over_r, over_psi];
+        out
+    }
+
+    /// With their derivatives over the roller and the ring, at slices that stay.
+    fn slopes(&self, j: usize, at: [f64; OF_ROLLER], ring: [f64; OF_RING]) -> Forces<Dual<ALL>> {
+        let slices = [0, 1].map(|k| self.slices(j, k, at, ring));
+        let variable =
+            |k: usize| Dual::<ALL>::variable(if k < OF_ROLLER { at[k] } else { ring[k - OF_ROLLER] }, k);
+        let at = std::array::from_fn(variable);
+        self.forces(j, at, std::array::from_fn(|k| variable(OF_ROLLER + k)), &slices)
+    }
+
+    /// Energy that falls along the forces on the roller, J.
+    fn energy(&self, at: [f64; OF_ROLLER], forces: &Forces<Dual<ALL>>) -> f64 {
+        forces.energy.re - self.centrifugal * at[0]
+    }
+
+    /// Where roller `j` rests beside a ring at these coordinates in its axes; `None` where it finds none.
+    fn rest(&self, j: usize, ring: [f64; OF_RING]) -> Option<[f64; OF_ROLLER]> {
+        let gap = self.geometry.gap - self.excess[j];
+        let outside = gap + self.laws[0].approach(self.centrifugal);
+        // In the middle of what the ring leaves.
+        let start = SVector::from([outside.max(0.5 * ring[1]), 0.5 * ring[4] * self.half_length()]);
+        let soft = 1e-3 * self.laws[0].elastic.stiffness_at_load(LIGHTLY);
+        let found = settle(start, soft, |at| {
+            let tilt = at[1].abs() / self.half_length();
+            if at[0].abs() > self.geometry.roller_radius || tilt > LARGEST_TILT {
+                return None;
+            }
+            let forces = self.slopes(j, (*at).into(), ring);
+            Some(Balance {
+                force: SVector::from(forces.on_roller.map(|force| force.re)),
+                stiffness: SMatrix::from_fn(|i, k| -forces.on_roller[i].eps[k]),
+                energy: self.energy((*at).into(), &forces),
+                size: forces.raceways.iter().map(|raceway| raceway.load.re).sum::<f64>() + self.centrifugal,
+            })
+        });
+        found.ok().map(|rest| rest.x.into())
+    }
+
+    /// rho (m) and a tau (m) of all rollers at rest beside a ring at these coordinates; `None` where one finds none.
+    fn places(&self, ring: &Vector5<f64>) -> Option<Vec<[f64; OF_ROLLER]>> {
+        (0..self.azimuths.len()).map(|j| self.rest(j, (self.beside(j) * ring).into())).collect()
+    }
+
+    /// What rollers at these places do to the ring.
+    fn on_ring(&self, ring: &Vector5<f64>, places: &[[f64; OF_ROLLER]]) -> Balance<OF_RING> {
+        let mut total =
+            Balance { force: Vector5::zeros(), stiffness: Matrix5::zeros(), energy: 0.0, size: 0.0 };
+        for (j, at) in places.iter().enumerate() {
+            let turned = self.beside(j);
+            let forces = self.slopes(j, *at, (turned * ring).into());
+            let energy = self.energy(*at, &forces);
+            let OnRing { force, stiffness, energy } = following(&forces.on_roller, &forces.on_ring, energy);
+            total.force += turned.transpose() * force;
+            total.stiffness += turned.transpose() * stiffness * turned;
+            total.energy += energy;
+            total.size += force.fixed_rows::<3>(0).norm();
+        }
+        total
+    }
+
+    /// Loads and moments of both raceways of roller `j`, which is at `at` beside a ring at `ring` in its axes.
+    pub(crate) fn raceways(
+        &self,
+        j: usize,
+        at: [f64; OF_ROLLER],
+        ring: &Vector5<f64>,
+    ) -> [OnRaceway<f64>; 2] {
+        let ring = (self.beside(j) * ring).into();
+        let slices = [0, 1].map(|k| self.slices(j, k, at, ring));
+        self.forces(j, at, ring, &slices).raceways
+    }
+
+    /// Approach (m) of raceway `k` at `s` (m) along roller `j`.
+    pub(crate) fn approach(
+        &self,
+        j: usize,
+        k: usize,
+        at: [f64; OF_ROLLER],
+        ring: &Vector5<f64>,
+        s: f64,
+    ) -> f64 {
+        self.disc(j, k, at, (self.beside(j) * ring).into(), s, false).delta
+    }
+
+    /// Laws of raceway `k`.
+    pub(crate) fn law(&self, k: usize) -> &LineContact {
+        self.laws[k]
+    }
+}
+
+/// Finds ring and rollers at rest at the start of the scene; rollers go round with `orbit`, rad/s.
+///
+/// # Errors
+/// [`Status::BadState`] where there is no equilibrium, or none was found; [`Status::BadScene`] without raceways.
+pub(crate) fn settled_rollers(plane: &Plane, orbit: f64) -> Result<SettledRollers<'_>> {
+    let still = StillBearing::new(plane, orbit)
+        .ok_or_else(|| Error::new(Status::BadScene, "raceways: missing; nothing presses on the rollers"))?;
+    let set = plane.elements.set();
+    let rollers = Rollers {
+        geometry: still.geometry,
+        laws: still.laws,
+        excess: &set.radius_excess,
+        azimuths: set.reference_angles[..set.count].to_vec(),
+        centrifugal: still.centrifugal,
+    };
+    let body = RingInSpace::new(&plane.scene);
+    let inputs = plane.inputs.at(0.0, &HostInputs::default());
+    let bearing = RingAtRest {
+        ring: &body,
+        load: body.load(&inputs),
+        pitch_radius: set.pitch_radius,
+        reach: rollers.geometry.roller_radius,
+        soft: rollers.laws[0].elastic.stiffness_at_load(LIGHTLY),
+    };
+    let on_ring = |ring: &Vector5<f64>| Some(rollers.on_ring(ring, &rollers.places(ring)?));
+    let none = |at: Vector5<f64>| {
+        let ring = bearing.unscaled(&at);
+        let restless =
+            (0..set.count).find(|j| rollers.rest(*j, (rollers.beside(*j) * ring).into()).is_none());
+        let why = match restless {
+            Some(j) => format!("roller[{j}] finds no rest"),
+            None => "Newton's method found none".to_owned(),
+        };
+        Error::new(Status::BadState, format!("no equilibrium: {why}"))
+    };
+    let rest: Rest<OF_RING> = bearing.settled(bearing.start(), on_ring).map_err(none)?;
+    let softest = bearing.held_up(&rest)?;
+    let ring = bearing.unscaled(&rest.x);
+    let places = rollers.places(&ring).ok_or_else(|| none(rest.x))?;
+    let on_ring = rollers.on_ring(&ring, &places);
+    let residual = rest.balance.force.norm() / rest.balance.size.max(f64::MIN_POSITIVE);
+    Ok(SettledRollers { held: body.held, rollers, ring, places, on_ring, residual, softest })
+}
