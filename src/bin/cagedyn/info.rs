@@ -100,7 +100,12 @@ fn ring(model: &Model) -> String {
                 .collect();
             let free =
                 if free.is_empty() { "held".to_owned() } else { format!("free in {}", free.join(", ")) };
-            format!("{free}, turns at its given speed")
+            let still = if model.has_rollers() {
+                "; beside rollers it has an equilibrium, no motion over time"
+            } else {
+                ""
+            };
+            format!("{free}, turns at its given speed{still}")
         }
     }
 }

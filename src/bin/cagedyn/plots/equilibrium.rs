@@ -6,9 +6,10 @@ use cagedyn::Result;
 use cagedyn::equilibrium::Equilibrium;
 
 /// Quantities of contacts that are drawn: name, heading, and what turns SI into its unit.
-const DRAWN: [(&str, &str, f64); 3] = [
+const DRAWN: [(&str, &str, f64); 4] = [
     ("normal_force", "normal force [N]", 1.0),
     ("contact_angle", "contact angle [deg]", 180.0 / std::f64::consts::PI),
+    ("largest_line_load", "largest line load [N/mm]", 1e-3),
     ("largest_pressure", "largest pressure [GPa]", 1e-9),
 ];
 
