@@ -1,6 +1,6 @@
 //! The equilibrium of balls in space, told as users read it.
 
-use super::{Equilibrium, named, pushed_away};
+use super::{Equilibrium, LineLoads, named, pushed_away};
 use crate::bodies::RING_COORDINATES;
 use crate::error::Result;
 use crate::laws::film::thickness::Entrainment;
@@ -68,6 +68,7 @@ pub(super) fn equilibrium(space: &Space, control: RaceControl) -> Result<Equilib
         contacts: space.contact_names(),
         contact_quantities: &CONTACT,
         contact_values: Vec::new(),
+        line_loads: LineLoads::default(),
         warnings: Vec::new(),
         residual: settled.residual,
     };

@@ -42,10 +42,21 @@ pub struct Equilibrium {
     pub contact_quantities: &'static [Quantity],
     /// Values, contact by contact.
     pub contact_values: Vec<Vec<f64>>,
+    /// How the contacts of rollers that may tilt are loaded along their length; of others nothing.
+    pub line_loads: LineLoads,
     /// What is amiss without preventing the equilibrium, one line each.
     pub warnings: Vec<String>,
     /// Rest of the forces on the ring over their size.
     pub residual: f64,
+}
+
+/// Loads per length of all contacts at the same places along their rollers.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LineLoads {
+    /// From the middle of the roller along its axis, m.
+    pub places: Vec<f64>,
+    /// Contact by contact, place by place, N/m.
+    pub values: Vec<Vec<f64>>,
 }
 
 impl Equilibrium {

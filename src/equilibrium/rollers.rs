@@ -1,6 +1,6 @@
 //! Ring and rollers in the plane.
 
-use super::{Equilibrium, PRESCRIBED, named};
+use super::{Equilibrium, LineLoads, PRESCRIBED, named};
 use crate::bodies::CENTRE;
 use crate::error::{Error, Result, Status};
 use crate::model::plane::{Plane, StillBearing};
@@ -51,6 +51,7 @@ pub(super) fn equilibrium(model: &Model, plane: &Plane) -> Result<Equilibrium> {
         contacts: Vec::new(),
         contact_quantities: &CONTACT,
         contact_values: Vec::new(),
+        line_loads: LineLoads::default(),
         warnings: Vec::new(),
         residual: 0.0,
     };

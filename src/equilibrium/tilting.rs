@@ -1,6 +1,6 @@
 //! The equilibrium of rollers that tilt with their ring, told as users read it.
 
-use super::{Equilibrium, named, pushed_away};
+use super::{Equilibrium, LineLoads, named, pushed_away};
 use crate::bodies::RING_COORDINATES;
 use crate::error::Result;
 use crate::model::plane::Plane;
@@ -11,8 +11,8 @@ use std::f64::consts::PI;
 
 /// Largest pressure that bearing steel is rated for, Pa (ISO 76, roller bearings).
 const RATED_PRESSURE: f64 = 4.0e9;
-/// Places along a roller that its line load is looked at.
-const PLACES: u32 = 400;
+/// Parts of the length between the places at which the line load is told.
+const PLACES: usize = 100;
 /// Share of an approach that is round-off.
 const ROUND_OFF: f64 = 1e-12;
 
@@ -47,7 +47,7 @@ const CONTACT: [Quantity; 8] = [
 pub(super) fn equilibrium(model: &Model, plane: &Plane) -> Result<Equilibrium> {
     let [orbit, _] = model.kinematic_speeds(&model.inputs_at(0.0, &HostInputs::default()));
     let settled = settled_rollers(plane, orbit)?;
-    let sum = &settled.on_ring;
+    let (sum, length) = (&settled.on_ring, settled.rollers.law(0).elastic.length);
     let mut found = Equilibrium {
         coordinates: named(&RING_COORDINATES),
         free: settled.held.iter().map(Option::is_none).collect(),
@@ -59,6 +59,10 @@ pub(super) fn equilibrium(model: &Model, plane: &Plane) -> Result<Equilibrium> {
         contacts: Vec::new(),
         contact_quantities: &CONTACT,
         contact_values: Vec::new(),
+        line_loads: LineLoads {
+            places: (0..=PLACES).map(|i| length * (i as f64 / PLACES as f64 - 0.5)).collect(),
+            values: Vec::new(),
+        },
         warnings: Vec::new(),
         residual: settled.residual,
     };
@@ -67,7 +71,7 @@ pub(super) fn equilibrium(model: &Model, plane: &Plane) -> Result<Equilibrium> {
         found.elements.push(vec![settled.rollers.azimuths[j], rho, tilt, orbit]);
         for (k, name) in ["outer_raceway", "inner_raceway"].into_iter().enumerate() {
             let name = format!("{}[{j}].{name}", model.element_kind());
-            let values = contact(&settled, j, k);
+            let (values, line_loads) = contact(&settled, (j, k), &found.line_loads.places);
             let pressure = values[6];
             if pressure > RATED_PRESSURE {
                 found.warnings.push(format!(
@@ -77,42 +81,38 @@ pub(super) fn equilibrium(model: &Model, plane: &Plane) -> Result<Equilibrium> {
             }
             found.contacts.push(name);
             found.contact_values.push(values.to_vec());
+            found.line_loads.values.push(line_loads);
         }
     }
     found.warnings.extend(pushed_away(settled.softest));
     Ok(found)
 }
 
-/// Values of [`CONTACT`] of raceway `k` of roller `j`.
-fn contact(settled: &SettledRollers<'_>, j: usize, k: usize) -> [f64; CONTACT.len()] {
-    let SettledRollers { rollers, ring, places, .. } = settled;
-    let (on_raceway, elastic) = (rollers.raceways(j, places[j], ring)[k], &rollers.law(k).elastic);
-    let approach = |s: f64| rollers.approach(j, k, places[j], ring, s);
+/// Values of [`CONTACT`] of raceway `k` of roller `j`, and line loads at these places, N/m.
+fn contact(
+    settled: &SettledRollers<'_>,
+    (j, k): (usize, usize),
+    places: &[f64],
+) -> ([f64; CONTACT.len()], Vec<f64>) {
+    let SettledRollers { rollers, ring, places: at, .. } = settled;
+    let (on_raceway, elastic) = (rollers.raceways(j, at[j], ring)[k], &rollers.law(k).elastic);
+    let approach = |s: f64| rollers.approach(j, k, at[j], ring, s);
+    let middle = approach(0.0);
     // Of places that are as deep, the middle.
-    let (mut deepest, mut at, mut loaded) = (approach(0.0).max(0.0), 0.0, 0.0);
-    for i in 0..=PLACES {
-        let share = f64::from(i) / f64::from(PLACES);
-        let s = (share - 0.5) * elastic.length;
+    let (mut deepest, mut there) = (middle.max(0.0), 0.0);
+    let mut line_loads = Vec::with_capacity(places.len());
+    for &s in places {
         let depth = approach(s);
         if depth > deepest * (1.0 + ROUND_OFF) {
-            (deepest, at) = (depth, s);
+            (deepest, there) = (depth, s);
         }
-        let part = if i == 0 || i == PLACES { 0.5 } else { 1.0 };
-        loaded += if depth > 0.0 { part / f64::from(PLACES) } else { 0.0 };
+        line_loads.push(elastic.load(depth) / elastic.length);
     }
     // Of a contact that is everywhere pressed like there.
     let load = elastic.load(deepest);
     let half_width = elastic.half_width(load);
     let pressure = if load > 0.0 { 4.0 / PI * elastic.mean_pressure(load, half_width) } else { 0.0 };
-    let length = loaded * elastic.length;
-    [
-        on_raceway.load,
-        approach(0.0),
-        on_raceway.moment,
-        load / elastic.length,
-        at,
-        length,
-        pressure,
-        half_width,
-    ]
+    let length = elastic.length * on_raceway.loaded;
+    let (force, moment, largest) = (on_raceway.load, on_raceway.moment, load / elastic.length);
+    ([force, middle, moment, largest, there, length, pressure, half_width], line_loads)
 }

@@ -133,6 +133,32 @@ fn its_stiffness_is_the_derivative_of_the_load() {
 }
 
 #[test]
+fn line_loads_add_up_to_the_force() {
+    let found = found(&[tilted([2e-3, -1e-3]), logarithm()]);
+    let places = &found.line_loads.places;
+    let step = places[1] - places[0];
+    let (forces, moments) = (values(&found, "normal_force"), values(&found, "moment"));
+    let (largest, lengths) = (values(&found, "largest_line_load"), values(&found, "loaded_length"));
+    for (i, loads) in found.line_loads.values.iter().enumerate() {
+        let sum: f64 = loads.iter().sum::<f64>() * step - 0.5 * step * (loads[0] + loads[100]);
+        // On the roller about the axis along the orbit: pressed from outside at +x it turns that end inwards.
+        let side = if i % 2 == 0 { -1.0 } else { 1.0 };
+        let moment: f64 = side * step * places.iter().zip(loads).map(|(s, load)| s * load).sum::<f64>();
+        // Towards the end of a logarithm the load falls within a step.
+        let coarse = 0.5 * step * largest[i];
+        assert!((sum - forces[i]).abs() <= 0.005 * forces[i] + coarse, "{i}: {sum} {}", forces[i]);
+        assert!(
+            (moment - moments[i]).abs() <= 0.005 * moments[i].abs() + coarse * places[100],
+            "{i}: {moment} {}",
+            moments[i]
+        );
+        assert!(loads.iter().all(|load| *load <= largest[i] * (1.0 + 1e-9)));
+        let loaded = loads.iter().filter(|load| **load > 0.0).count() as f64 * step;
+        assert!((loaded - lengths[i]).abs() < 1.6 * step, "{i}: {loaded} {}", lengths[i]);
+    }
+}
+
+#[test]
 fn profiles_take_the_stress_from_the_ends() {
     let pressure = |changes: &[(&str, Value)]| values(&found(changes), "largest_pressure")[19];
     let [straight, profiled] =

@@ -418,6 +418,19 @@ fn equilibrium_tells_contacts_and_stiffness() {
     assert!(!output.status.success() && text(&output.stderr).contains("kinematic_elements"));
     let rollers = text(&run(&["equilibrium", "scenes/nu2310.json"]).stdout);
     assert!(rollers.contains("roller[9].inner_raceway") && rollers.contains("half width um"), "{rollers}");
+
+    // Beside a ring that tilts: loads along the rollers, too.
+    let ring = r#"inner_ring.motion={"space": {"z": "free", "tilt_y": {"held": 1e-3}, "load": {"z": {"constant": -4900}}}}"#;
+    let output = run(&["equilibrium", "scenes/nu2310.json", "--set", ring, "--out", &out]);
+    assert!(text(&output.stdout).contains("tilt mrad"), "{}", text(&output.stderr));
+    let found = json(&dir.path().join("equilibrium.json"));
+    assert_eq!(found["line_loads"]["contacts"][19]["name"], "roller[9].inner_raceway");
+    let table = std::fs::read_to_string(dir.path().join("line_loads.csv")).expect("a table");
+    assert!(table.starts_with("place_m,roller[0].outer_raceway_N_m,") && table.lines().count() == 102);
+    let svg = std::fs::read_to_string(dir.path().join("line_loads.svg")).expect("a picture");
+    assert!(
+        svg.contains("inner raceway [N/mm]") && svg.contains("roller[9], 270 deg") && !svg.contains("NaN")
+    );
 }
 
 #[test]

@@ -43,6 +43,10 @@ pub fn command(args: &EquilibriumArgs) -> Result<ExitCode> {
         write_json(&folder.join("equilibrium.json"), &whole)?;
         write_csv(&folder.join("contacts.csv"), contacts(&found))?;
         write_text(&folder.join("equilibrium.svg"), &picture::around(&title, &found)?)?;
+        if !found.line_loads.places.is_empty() {
+            write_csv(&folder.join("line_loads.csv"), line_loads(&found))?;
+            write_text(&folder.join("line_loads.svg"), &picture::along(&title, &found)?)?;
+        }
     }
     if args.json {
         terminal::print(&format!("{whole:#}\n"))?;
@@ -182,14 +186,20 @@ fn as_json(found: &Equilibrium) -> Value {
     let all = |quantities: &[Quantity], names: Vec<String>, values: &[Vec<f64>]| -> Vec<Value> {
         names.into_iter().zip(values).map(|(name, values)| named(quantities, name, values)).collect()
     };
-    json!({
+    let mut whole = json!({
         "coordinates": coordinates,
         "stiffness": found.stiffness.chunks(n.max(1)).collect::<Vec<_>>(),
         "elements": all(found.element_quantities, elements(found), &found.elements),
         "contacts": all(found.contact_quantities, found.contacts.clone(), &found.contact_values),
         "warnings": found.warnings,
         "residual": found.residual,
-    })
+    });
+    if !found.line_loads.places.is_empty() {
+        let of_contact = |(name, loads): (&String, &Vec<f64>)| json!({"name": name, "line_load": loads});
+        let contacts: Vec<_> = found.contacts.iter().zip(&found.line_loads.values).map(of_contact).collect();
+        whole["line_loads"] = json!({"places": found.line_loads.places, "contacts": contacts});
+    }
+    whole
 }
 
 /// Name of a column with its unit.
@@ -206,6 +216,17 @@ fn contacts(found: &Equilibrium) -> Vec<Vec<String>> {
         std::iter::once(name.clone()).chain(values.iter().copied().map(plain)).collect::<Vec<_>>()
     });
     std::iter::once(head).chain(rows).collect()
+}
+
+/// Line loads by place, one column for each contact.
+fn line_loads(found: &Equilibrium) -> Vec<Vec<String>> {
+    let names = found.contacts.iter().map(|name| column(name, "N/m"));
+    let head: Vec<String> = std::iter::once(column("place", "m")).chain(names).collect();
+    let row = |(i, place): (usize, &f64)| {
+        let loads = found.line_loads.values.iter().map(|values| values[i]);
+        std::iter::once(*place).chain(loads).map(plain).collect::<Vec<_>>()
+    };
+    std::iter::once(head).chain(found.line_loads.places.iter().enumerate().map(row)).collect()
 }
 
 /// Largest value of a contact quantity; zero of none.

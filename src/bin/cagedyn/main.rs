@@ -302,7 +302,7 @@ pub struct EquilibriumArgs {
     /// What balls follow at speed: outer or inner race control, none (axes parallel to that of the bearing), or friction, their steady motion.
     #[arg(long, value_name = "RACE", default_value = "outer", value_parser = equilibrium::parse_control)]
     control: cagedyn::equilibrium::RaceControl,
-    /// Folder for equilibrium.json, equilibrium.svg and contacts.csv, with --vary equilibrium.csv; made if it does not exist.
+    /// Folder for equilibrium.json, equilibrium.svg and contacts.csv, of rollers that tilt line_loads.csv and line_loads.svg, with --vary equilibrium.csv; made if it does not exist.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Print the result as JSON.

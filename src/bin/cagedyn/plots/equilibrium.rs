@@ -49,6 +49,42 @@ pub fn around(title: &str, found: &Equilibrium) -> Result<String> {
     strips::history(&texts, &degrees, &strips, &[])
 }
 
+/// Line loads along the rollers that carry most, with either raceway.
+///
+/// # Errors
+/// [`cagedyn::Status::File`] when it cannot be drawn.
+pub fn along(title: &str, found: &Equilibrium) -> Result<String> {
+    let inner = |j: &usize| found.contact_values[2 * j + 1][0];
+    let mut order: Vec<usize> = (0..found.elements.len()).collect();
+    order.sort_by(|a, b| inner(b).total_cmp(&inner(a)));
+    order.truncate(SERIES.len());
+    order.retain(|j| inner(j) > 0.0);
+    let strip = |(ring, heading): (usize, &'static str)| {
+        let curve = |(j, paint): (&usize, Paint)| {
+            let loads = &found.line_loads.values[2 * j + ring];
+            (paint, loads.iter().map(|load| 1e-3 * load).collect::<Vec<_>>())
+        };
+        Strip { curves: order.iter().zip(SERIES).map(curve).collect(), ..Strip::new(heading) }
+    };
+    let strips = [(0, "outer raceway [N/mm]"), (1, "inner raceway [N/mm]")].map(strip);
+    let entry = |(j, paint): (&usize, Paint)| {
+        let name = found.contacts[2 * j].split('.').next().unwrap_or_default();
+        (
+            Symbol::Line(paint),
+            format!("{name}, {:.0} deg", found.elements[*j][0].to_degrees().rem_euclid(360.0)),
+        )
+    };
+    let texts = Texts {
+        title,
+        subtitle: "Equilibrium: load per length along the rollers that carry most",
+        axis: "along the roller from its middle [mm]",
+        step: None,
+        entries: order.iter().zip(SERIES).map(entry).collect(),
+    };
+    let places: Vec<f64> = found.line_loads.places.iter().map(|place| 1e3 * place).collect();
+    strips::history(&texts, &places, &strips, &[])
+}
+
 /// Displacement, largest load and stiffness over the numbers that `path` takes; what has no equilibrium is a gap.
 ///
 /// # Errors

@@ -36,6 +36,8 @@ pub(crate) struct OnRaceway<T> {
     pub(crate) load: T,
     /// On the roller about the axis along the orbit, N m.
     pub(crate) moment: T,
+    /// Share of the length that is loaded.
+    pub(crate) loaded: f64,
 }
 
 /// Forces at one place of roller and ring.
@@ -138,7 +140,7 @@ impl Rollers<'_> {
         slices: &[Vec<Slice>; 2],
     ) -> Forces<T> {
         let zero = at[0].like(0.0);
-        let none = OnRaceway { load: zero, moment: zero };
+        let none = OnRaceway { load: zero, moment: zero, loaded: 0.0 };
         let mut out = Forces {
             on_roller: [zero + self.centrifugal, zero],
             on_ring: [zero; OF_RING],
@@ -154,6 +156,7 @@ impl Rollers<'_> {
                 let load = law.elastic.load(disc.delta) * slice.share;
                 let moment = scaled(disc.on_roller, load);
                 let on_raceway = &mut out.raceways[k];
+                on_raceway.loaded += slice.share;
                 on_raceway.load += load;
                 on_raceway.moment += moment[2];
                 out.on_roller[0] -= load * disc.normal[1];
