@@ -49,7 +49,7 @@ fn found(value: &Value) -> Vec<Found> {
     Scene::problems(value, &|scene, whole| {
         Model::needs(scene)?;
         if whole {
-            Sim::new(Arc::new(Model::new(scene.clone())?))?;
+            Sim::new(Arc::new(Model::new(scene.copied())?))?;
         }
         Ok(())
     })

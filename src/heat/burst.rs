@@ -64,7 +64,7 @@ impl Burst {
 
     /// The bearing at these temperatures (K), which moves on from where it was.
     fn warm(&mut self, temperatures: &[f64]) -> Result<()> {
-        let mut scene = self.sim.model().scene().clone();
+        let mut scene = self.sim.model().scene().copied();
         if let Some(heat) = &mut scene.heat {
             heat.nodes.iter_mut().zip(temperatures).for_each(|(node, t)| node.start = Some(*t));
         }

@@ -129,7 +129,7 @@ impl Sim {
 pub(super) fn fingerprint(model: &Model, solver: &Solver, tuning: &Tuning) -> [f64; 2] {
     let mut hasher = DefaultHasher::new();
     env!("CAGEDYN_BUILD").hash(&mut hasher);
-    let physics = Scene { title: None, record: Record::of(1.0, 1.0), ..model.scene().clone() };
+    let physics = Scene { title: None, record: Record::of(1.0, 1.0), ..model.scene().copied() };
     physics.to_json().hash(&mut hasher);
     solver.preset.hash(&mut hasher);
     tuning.values().iter().for_each(|value| value.to_bits().hash(&mut hasher));

@@ -99,7 +99,7 @@ impl Averaged {
     /// That of a scene, whose gravity is left out, for a search with these limits.
     pub(super) fn new(scene: &Scene, limits: &RunLimits) -> Result<Self> {
         let refused = |path: &str, text: &str| Err(Error::new(Status::BadScene, format!("{path}: {text}")));
-        let scene = Scene { gravity: None, ..scene.clone() };
+        let scene = Scene { gravity: None, ..scene.copied() };
         if scene.balls.is_some() {
             let text = "a steady whirl is that of a cage among elements of prescribed motion in the plane; \
                         runs from several starts tell whether this one whirls: 'cagedyn sweep --starts'";

@@ -115,7 +115,7 @@ fn first(slowest: f64, fastest: f64, holds: impl Fn(f64) -> Result<bool>) -> Res
 }
 
 fn with_speed(scene: &Scene, speed: f64) -> Scene {
-    let mut scene = scene.clone();
+    let mut scene = scene.copied();
     if let Some(ring) = &mut scene.inner_ring {
         ring.speed = Signal::Constant(speed);
     }
@@ -129,7 +129,7 @@ fn whirls_on(scene: &Scene, limits: &RunLimits) -> Result<bool> {
         Err(e) if e.is_stop() => return Err(e),
         Err(_) => return Ok(false),
     };
-    let model = Arc::new(Model::new(scene.clone())?);
+    let model = Arc::new(Model::new(scene.copied())?);
     let mut sim = Sim::new(model.clone())?;
     let Some(cage) = model.layout().cage() else { return Ok(false) };
     let mut state = sim.state().to_vec();
@@ -153,7 +153,7 @@ fn starts_dropped(scene: &Scene, limits: &RunLimits) -> Result<bool> {
     let clearance =
         scene.cage.as_ref().and_then(|cage| cage.guide.as_ref()).map_or(0.0, |g| g.diametral_clearance / 2.0);
     for [y, z] in DROPS {
-        let mut scene = scene.clone();
+        let mut scene = scene.copied();
         scene.initial.cage = Some(PlaneVector { y: y * clearance, z: z * clearance });
         scene.initial.cage_velocity = PlaneVector::default();
         if whirls(&mut Sim::new(Arc::new(Model::new(scene)?))?, RUN, limits)? {
@@ -165,7 +165,7 @@ fn starts_dropped(scene: &Scene, limits: &RunLimits) -> Result<bool> {
 
 /// The speed at which a cage that rests begins to whirl while the speed grows evenly.
 fn raised(scene: &Scene, sign: f64, [slowest, fastest]: [f64; 2], limits: &RunLimits) -> Result<Option<f64>> {
-    let mut scene = scene.clone();
+    let mut scene = scene.copied();
     scene.initial.cage_velocity = PlaneVector::default();
     let ramp = Signal::Ramp { from: sign * slowest, to: sign * fastest, start: REST, end: REST + RAISE };
     if let Some(ring) = &mut scene.inner_ring {

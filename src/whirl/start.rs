@@ -32,7 +32,7 @@ pub(super) fn guess(scene: &Scene, averaged: &Averaged) -> Result<Vec<f64>> {
 
 /// The scene with a cage that does not bend.
 pub(super) fn rigid(scene: &Scene) -> Scene {
-    let mut scene = scene.clone();
+    let mut scene = scene.copied();
     if let Some(cage) = &mut scene.cage {
         cage.elastic_ring = None;
     }
@@ -41,7 +41,7 @@ pub(super) fn rigid(scene: &Scene) -> Scene {
 
 /// The scene with a cage that starts as this whirl goes, among elements of this orbit speed, rad/s.
 pub(super) fn with_start(scene: &Scene, whirl: &Whirl, orbit: f64) -> Scene {
-    let mut scene = scene.clone();
+    let mut scene = scene.copied();
     scene.initial.cage = Some(PlaneVector { y: whirl.eccentricity, z: 0.0 });
     scene.initial.cage_velocity = PlaneVector { y: 0.0, z: whirl.eccentricity * whirl.speed };
     scene.initial.cage_speed = Some(orbit);
@@ -50,7 +50,7 @@ pub(super) fn with_start(scene: &Scene, whirl: &Whirl, orbit: f64) -> Scene {
 
 /// The scene with a cage of one wave less, if it has more than one.
 pub(super) fn with_fewer_waves(scene: &Scene) -> Option<Scene> {
-    let mut scene = scene.clone();
+    let mut scene = scene.copied();
     let ring = scene.cage.as_mut()?.elastic_ring.as_mut().filter(|ring| ring.modes > 2)?;
     ring.modes -= 1;
     if let RingStiffness::FiniteElements(modes) = &mut ring.stiffness {
@@ -95,7 +95,7 @@ fn estimate(scene: &Scene, averaged: &Averaged) -> Option<Unknowns> {
 
 /// The whirl that the scene comes to by itself, in axes that go round with it.
 pub(super) fn run(scene: &Scene, averaged: &Averaged) -> Result<Unknowns> {
-    let model = Arc::new(Model::new(Scene { gravity: None, ..scene.clone() })?);
+    let model = Arc::new(Model::new(Scene { gravity: None, ..scene.copied() })?);
     let cage = model.layout().cage().unwrap_or(0);
     let mut sim = Sim::new(model.clone())?;
     let count = model.layout().positions() - cage - CAGE_MOTION;

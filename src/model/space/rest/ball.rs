@@ -272,7 +272,7 @@ impl Ball<'_> {
         for _ in 0..FOLLOWINGS {
             let outside = self.forces::<f64>(at.into(), ring).outside;
             let groove = Polar::about(self.grooves[0]);
-            let found = settle(groove.of(&at), soft, |polar| {
+            let found = settle(groove.of(&at), soft, &mut |polar| {
                 Some(groove.turned(polar, balance(&groove.place(polar), Some(outside))?))
             });
             at = groove.place(&found.ok()?.x);

@@ -180,7 +180,7 @@ impl<'a> Bearing<'a> {
     }
 
     fn settled(&self, from: Vector5<f64>) -> std::result::Result<Rest<OF_RING>, Vector5<f64>> {
-        self.ring().settled(from, |ring| Some(self.on_ring(ring, &self.balls(ring)?)))
+        self.ring().settled(from, &mut |ring| Some(self.on_ring(ring, &self.balls(ring)?)))
     }
 }
 

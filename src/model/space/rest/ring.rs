@@ -12,6 +12,9 @@ use nalgebra::{Matrix5, Vector5};
 /// A direction of the ring with less than this share of the stiffness of a lightly pressed contact has none.
 const NO_STIFFNESS: f64 = 1e-9;
 
+/// What elements do to a ring at these coordinates, m and rad; `None` where there is nothing.
+pub(super) type OnRing<'a> = dyn FnMut(&Vector5<f64>) -> Option<Balance<OF_RING>> + 'a;
+
 /// The ring. Its coordinates are found as lengths: tilts times the pitch radius.
 pub(super) struct RingAtRest<'a> {
     pub(super) ring: &'a RingInSpace,
@@ -59,25 +62,20 @@ impl RingAtRest<'_> {
         Vector5::new(scaled[0], scaled[1], scaled[2], scaled[3] / radius, scaled[4] / radius)
     }
 
-    /// The rest that is found from these lengths on; `on_ring` is what the elements do to a ring at these coordinates, `None` where there
-    /// is nothing.
+    /// The rest that is found from these lengths on.
     ///
     /// # Errors
     /// The last lengths, where there is none.
     pub(super) fn settled(
         &self,
         from: Vector5<f64>,
-        mut on_ring: impl FnMut(&Vector5<f64>) -> Option<Balance<OF_RING>>,
+        on_ring: &mut OnRing<'_>,
     ) -> std::result::Result<Rest<OF_RING>, Vector5<f64>> {
-        settle(from, 1e-3 * self.soft, |scaled| self.balance(scaled, &mut on_ring))
+        settle(from, 1e-3 * self.soft, &mut |scaled| self.balance(scaled, on_ring))
     }
 
     /// Elements with load and spring, over lengths; coordinates that are held have no force.
-    fn balance(
-        &self,
-        scaled: &Vector5<f64>,
-        on_ring: impl FnOnce(&Vector5<f64>) -> Option<Balance<OF_RING>>,
-    ) -> Option<Balance<OF_RING>> {
+    fn balance(&self, scaled: &Vector5<f64>, on_ring: &mut OnRing<'_>) -> Option<Balance<OF_RING>> {
         let (ring, radius) = (self.unscaled(scaled), self.pitch_radius);
         if scaled.norm() > self.reach || math::hypot(ring[3], ring[4]) > LARGEST_TILT {
             return None;

@@ -197,7 +197,7 @@ impl Rollers<'_> {
         // In the middle of what the ring leaves.
         let start = SVector::from([outside.max(0.5 * ring[1]), 0.5 * ring[4] * self.half_length()]);
         let soft = 1e-3 * self.laws[0].elastic.stiffness_at_load(LIGHTLY);
-        let found = settle(start, soft, |at| {
+        let found = settle(start, soft, &mut |at| {
             let tilt = at[1].abs() / self.half_length();
             if at[0].abs() > self.geometry.roller_radius || tilt > LARGEST_TILT {
                 return None;
@@ -289,7 +289,7 @@ pub(crate) fn settled_rollers(plane: &Plane, orbit: f64) -> Result<SettledRoller
         reach: rollers.geometry.roller_radius,
         soft: rollers.laws[0].elastic.stiffness_at_load(LIGHTLY),
     };
-    let on_ring = |ring: &Vector5<f64>| Some(rollers.on_ring(ring, &rollers.places(ring)?));
+    let mut on_ring = |ring: &Vector5<f64>| Some(rollers.on_ring(ring, &rollers.places(ring)?));
     let none = |at: Vector5<f64>| {
         let ring = bearing.unscaled(&at);
         let restless =
@@ -300,7 +300,7 @@ pub(crate) fn settled_rollers(plane: &Plane, orbit: f64) -> Result<SettledRoller
         };
         Error::new(Status::BadState, format!("no equilibrium: {why}"))
     };
-    let rest: Rest<OF_RING> = bearing.settled(bearing.start(), on_ring).map_err(none)?;
+    let rest: Rest<OF_RING> = bearing.settled(bearing.start(), &mut on_ring).map_err(none)?;
     let softest = bearing.held_up(&rest)?;
     let ring = bearing.unscaled(&rest.x);
     let places = rollers.places(&ring).ok_or_else(|| none(rest.x))?;

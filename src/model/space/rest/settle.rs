@@ -60,7 +60,7 @@ pub(super) struct Rest<const N: usize> {
 pub(super) fn settle<const N: usize>(
     start: SVector<f64, N>,
     soft: f64,
-    mut forces: impl FnMut(&SVector<f64, N>) -> Option<Balance<N>>,
+    forces: &mut dyn FnMut(&SVector<f64, N>) -> Option<Balance<N>>,
 ) -> Result<Rest<N>, SVector<f64, N>> {
     let mut x = start;
     let mut here = forces(&x).ok_or(x)?;

@@ -19,6 +19,9 @@ use nalgebra::{SMatrix, SVector};
 
 /// Unknowns of a ball: x, rho, psi', w_x, w_r, w_psi.
 const OF_BALL: usize = 6;
+const ALL: usize = OF_BALL + OF_RING;
+/// Derivatives that are taken at once: all together would be ten times the code of the forces.
+const AT_ONCE: usize = 3;
 /// Newton steps, and halvings of one.
 const MOST_STEPS: usize = 80;
 const MOST_HALVINGS: usize = 24;
@@ -41,6 +44,12 @@ struct Forces<T> {
     on_ring: [T; OF_RING],
     /// Q of both contacts, N.
     loads: [T; 2],
+}
+
+/// Derivatives of the forces on ball and ring over those of the variables that were asked for.
+struct Slopes {
+    rest: SMatrix<f64, OF_BALL, ALL>,
+    on_ring: SMatrix<f64, OF_RING, ALL>,
 }
 
 impl SteadyBall<'_> {
@@ -86,16 +95,23 @@ impl SteadyBall<'_> {
         }
     }
 
-    /// With their slopes over the unknowns of the ball.
-    fn over_ball(&self, y: [f64; OF_BALL], ring: [f64; OF_RING]) -> Forces<Dual<OF_BALL>> {
-        let variable = |k: usize| Dual::variable(y[k], k);
-        self.forces(std::array::from_fn(variable), ring.map(Dual::constant))
-    }
-
-    /// With their slopes over the coordinates of the ring: as many directions as those of the ball, so that the code is the same.
-    fn over_ring(&self, y: [f64; OF_BALL], ring: [f64; OF_RING]) -> Forces<Dual<OF_BALL>> {
-        let variable = |k: usize| Dual::variable(ring[k], k);
-        self.forces(y.map(Dual::constant), std::array::from_fn(variable))
+    /// Slopes over `count` variables from this one on, of which those of the ball come first.
+    fn slopes(&self, y: [f64; OF_BALL], ring: [f64; OF_RING], [first, count]: [usize; 2]) -> Slopes {
+        let mut slopes = Slopes { rest: SMatrix::zeros(), on_ring: SMatrix::zeros() };
+        for from in (first..first + count).step_by(AT_ONCE) {
+            let number = |value: f64, k: usize| match k.checked_sub(from) {
+                Some(place) if place < AT_ONCE => Dual::<AT_ONCE>::variable(value, place),
+                _ => Dual::constant(value),
+            };
+            let at = std::array::from_fn(|k| number(y[k], k));
+            let forces = self.forces(at, std::array::from_fn(|k| number(ring[k], OF_BALL + k)));
+            for k in from..(from + AT_ONCE).min(first + count) {
+                let column = |force: Dual<AT_ONCE>| force.eps[k - from];
+                slopes.rest.set_column(k, &SVector::from(forces.rest.map(column)));
+                slopes.on_ring.set_column(k, &SVector::from(forces.on_ring.map(column)));
+            }
+        }
+        slopes
     }
 
     /// The steady motion beside a ring at these coordinates; `None` where none is found.
@@ -110,8 +126,8 @@ impl SteadyBall<'_> {
             if rest <= ROUND_OFF * size(&here) {
                 return Some(y.into());
             }
-            let slopes = self.over_ball(y.into(), ring);
-            let matrix = SMatrix::<f64, OF_BALL, OF_BALL>::from_fn(|i, k| -slopes.rest[i].eps[k]);
+            let slopes = self.slopes(y.into(), ring, [0, OF_BALL]);
+            let matrix = -slopes.rest.fixed_columns::<OF_BALL>(0);
             let step = matrix.lu().solve(&SVector::from(here.rest))?;
             let mut share = 1.0;
             let mut nearer = None;
@@ -134,14 +150,15 @@ impl SteadyBall<'_> {
 
     /// What it does to the ring in its steady motion.
     pub(super) fn on_ring(&self, y: [f64; OF_BALL], ring: [f64; OF_RING]) -> OnRing {
-        let (ball, forces) = (self.over_ball(y, ring), self.over_ring(y, ring));
-        let own = SMatrix::<f64, OF_BALL, OF_BALL>::from_fn(|i, k| -ball.rest[i].eps[k]);
-        let by_ring = SMatrix::<f64, OF_BALL, OF_RING>::from_fn(|i, k| forces.rest[i].eps[k]);
-        let on_ring = SMatrix::<f64, OF_RING, OF_BALL>::from_fn(|i, k| ball.on_ring[i].eps[k]);
-        let direct = SMatrix::<f64, OF_RING, OF_RING>::from_fn(|i, k| -forces.on_ring[i].eps[k]);
+        let forces = self.forces::<f64>(y, ring);
+        let Slopes { rest, on_ring } = self.slopes(y, ring, [0, ALL]);
+        let own = -rest.fixed_columns::<OF_BALL>(0);
+        let by_ring = rest.fixed_columns::<OF_RING>(OF_BALL);
+        let direct = -on_ring.fixed_columns::<OF_RING>(OF_BALL);
+        let on_ring = on_ring.fixed_columns::<OF_BALL>(0);
         let following = own.lu().solve(&by_ring).unwrap_or_else(SMatrix::zeros);
         OnRing {
-            force: SVector::from(forces.on_ring.map(|force| force.re)),
+            force: SVector::from(forces.on_ring),
             stiffness: direct - on_ring * following,
             // Friction has no potential: the force alone tells progress.
             energy: f64::NAN,
