@@ -1,27 +1,25 @@
 //! The equilibrium of balls in space, told as users read it.
 
-use super::{Equilibrium, LineLoads, named, pushed_away};
-use crate::bodies::RING_COORDINATES;
+use super::{
+    AZIMUTH, Equilibrium, NORMAL_FORCE, ORBIT_SPEED, RADIAL_OFFSET, of_ring, over_pressed, pushed_away,
+};
 use crate::error::Result;
 use crate::laws::film::thickness::Entrainment;
 use crate::laws::point_contact::PointContact;
 use crate::model::space::Space;
 use crate::model::space::rest::{AtRest, Bearing, OF_RING, RaceControl, settled};
-use crate::model::{Quantity, quantity};
+use crate::model::{Quantity, STATIC_LIMIT, quantity};
 use crate::scalar::math;
 use crate::scene::shown;
 use crate::space::solid::{Tilt, dot};
 use nalgebra::Vector5;
 
-/// Largest pressure that bearing steel is rated for, Pa (ISO 76, ball bearings).
-const RATED_PRESSURE: f64 = 4.2e9;
-
 /// What is known of every ball.
 const BALL: [Quantity; 8] = [
-    quantity("azimuth", "rad", "angle about the axis of the bearing"),
+    AZIMUTH,
     quantity("axial_offset", "m", "place along the axis of the bearing"),
-    quantity("radial_offset", "m", "distance outside the pitch circle"),
-    quantity("orbit_speed", "rad/s", "speed about the axis of the bearing"),
+    RADIAL_OFFSET,
+    ORBIT_SPEED,
     quantity("spin_x", "rad/s", "angular velocity about the axis of the bearing"),
     quantity("spin_r", "rad/s", "angular velocity about the outward axis"),
     quantity("spin_t", "rad/s", "angular velocity about the axis along the orbit"),
@@ -33,7 +31,7 @@ const BALL: [Quantity; 8] = [
 ];
 /// What is known of every contact.
 const CONTACT: [Quantity; 10] = [
-    quantity("normal_force", "N", "normal force Q"),
+    NORMAL_FORCE,
     quantity("contact_angle", "rad", "angle of the normal to the plane across the axis of the ring"),
     quantity("approach", "m", "elastic approach delta; negative where they are apart"),
     quantity("largest_pressure", "Pa", "largest pressure of Hertz's ellipse"),
@@ -56,27 +54,14 @@ const CONTACT: [Quantity; 10] = [
 /// The equilibrium of ring and balls.
 pub(super) fn equilibrium(space: &Space, control: RaceControl) -> Result<Equilibrium> {
     let settled = settled(space, control)?;
-    let (bearing, ring, sum) = (&settled.bearing, &settled.ring, &settled.on_ring);
-    let mut found = Equilibrium {
-        coordinates: named(&RING_COORDINATES),
-        free: space.ring.held.iter().map(Option::is_none).collect(),
-        displacement: ring.iter().copied().collect(),
-        reaction: sum.force.iter().copied().collect(),
-        stiffness: sum.stiffness.transpose().iter().copied().collect(),
-        element_quantities: &BALL,
-        elements: Vec::new(),
-        contacts: space.contact_names(),
-        contact_quantities: &CONTACT,
-        contact_values: Vec::new(),
-        line_loads: LineLoads::default(),
-        warnings: Vec::new(),
-        residual: settled.residual,
-    };
+    let (bearing, ring) = (&settled.bearing, &settled.ring.at);
+    let mut found = of_ring(&settled.ring, [&BALL, &CONTACT]);
+    found.contacts = space.contact_names();
     for (j, ball) in settled.balls.iter().enumerate() {
         tell(bearing, j, ball, ring, &mut found);
     }
     warn(bearing, &mut found);
-    found.warnings.extend(pushed_away(settled.softest));
+    found.warnings.extend(pushed_away(&settled.ring));
     Ok(found)
 }
 
@@ -126,12 +111,7 @@ fn warn(bearing: &Bearing<'_>, out: &mut Equilibrium) {
             let text = format!("{name}: the ellipse reaches {} rad beyond the shoulder", shown(beyond));
             out.warnings.push(text);
         }
-        if pressure > RATED_PRESSURE {
-            out.warnings.push(format!(
-                "{name}: the largest pressure, {} Pa, is above {RATED_PRESSURE:e} Pa, the static limit of ISO 76",
-                shown(pressure)
-            ));
-        }
+        out.warnings.extend(over_pressed(name, pressure, STATIC_LIMIT));
     }
     let unloaded = out.contact_values.chunks(2).filter(|both| both[1][0] == 0.0).count();
     if unloaded > 0 && unloaded < out.elements.len() {

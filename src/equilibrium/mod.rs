@@ -13,8 +13,9 @@ mod tilting;
 
 pub use crate::model::RaceControl;
 
-use crate::bodies::Coordinate;
+use crate::bodies::{Coordinate, RING_COORDINATES};
 use crate::error::{Error, Result, Status};
+use crate::model::space::rest::SettledRing;
 use crate::model::{Model, Quantity, quantity};
 use crate::scene::shown;
 
@@ -79,16 +80,53 @@ pub fn equilibrium(model: &Model, control: RaceControl) -> Result<Equilibrium> {
     match model.space() {
         Some(space) if !space.free => Err(Error::new(Status::BadScene, PRESCRIBED)),
         Some(space) => balls::equilibrium(space, control),
-        None if model.ring_in_space() => tilting::equilibrium(model, model.plane()?),
+        None if model.scene().has_tilting_rollers() => tilting::equilibrium(model, model.plane()?),
         None => rollers::equilibrium(model, model.plane()?),
     }
 }
 
+/// The quantities that every element has.
+const AZIMUTH: Quantity = quantity("azimuth", "rad", "angle about the axis of the bearing");
+const RADIAL_OFFSET: Quantity = quantity("radial_offset", "m", "distance outside the pitch circle");
+const ORBIT_SPEED: Quantity = quantity("orbit_speed", "rad/s", "speed about the axis of the bearing");
+/// That of every contact.
+const NORMAL_FORCE: Quantity = quantity("normal_force", "N", "normal force Q");
+
+/// That of a ring in space, before its elements and contacts are told.
+fn of_ring(ring: &SettledRing, quantities: [&'static [Quantity]; 2]) -> Equilibrium {
+    let [element_quantities, contact_quantities] = quantities;
+    Equilibrium {
+        coordinates: named(&RING_COORDINATES),
+        free: ring.held.iter().map(Option::is_none).collect(),
+        displacement: ring.at.iter().copied().collect(),
+        reaction: ring.forces.force.iter().copied().collect(),
+        stiffness: ring.forces.stiffness.transpose().iter().copied().collect(),
+        element_quantities,
+        elements: Vec::new(),
+        contacts: Vec::new(),
+        contact_quantities,
+        contact_values: Vec::new(),
+        line_loads: LineLoads::default(),
+        warnings: Vec::new(),
+        residual: ring.residual,
+    }
+}
+
 /// What is said of an equilibrium that the ring is pushed away from.
-fn pushed_away((least, softest): (f64, &str)) -> Option<String> {
+fn pushed_away(ring: &SettledRing) -> Option<String> {
+    let (least, softest) = ring.softest;
     let text =
         format!("the ring is pushed away from this equilibrium along {softest} ({} N/m)", shown(least));
     (least < 0.0).then_some(text)
+}
+
+/// What is said of a pressure (Pa) above the static limit of its kind of bearing.
+fn over_pressed(contact: &str, pressure: f64, limit: f64) -> Option<String> {
+    let text = format!(
+        "{contact}: the largest pressure, {} Pa, is above {limit:e} Pa, the static limit of ISO 76",
+        shown(pressure)
+    );
+    (pressure > limit).then_some(text)
 }
 
 /// Names, units and meanings of the positions of a ring.

@@ -1,6 +1,6 @@
 //! Ring and rollers in the plane.
 
-use super::{Equilibrium, LineLoads, PRESCRIBED, named};
+use super::{AZIMUTH, Equilibrium, LineLoads, NORMAL_FORCE, ORBIT_SPEED, PRESCRIBED, RADIAL_OFFSET, named};
 use crate::bodies::CENTRE;
 use crate::error::{Error, Result, Status};
 use crate::model::plane::{Plane, StillBearing};
@@ -9,14 +9,10 @@ use crate::scalar::math;
 use crate::scene::RingMotion;
 
 /// What is known of every roller.
-const ROLLER: [Quantity; 3] = [
-    quantity("azimuth", "rad", "angle about the axis of the bearing"),
-    quantity("radial_offset", "m", "distance outside the pitch circle"),
-    quantity("orbit_speed", "rad/s", "speed about the axis of the bearing"),
-];
+const ROLLER: [Quantity; 3] = [AZIMUTH, RADIAL_OFFSET, ORBIT_SPEED];
 /// What is known of every contact.
 const CONTACT: [Quantity; 4] = [
-    quantity("normal_force", "N", "normal force Q"),
+    NORMAL_FORCE,
     quantity("approach", "m", "elastic approach delta; negative where they are apart"),
     quantity(
         "largest_pressure",

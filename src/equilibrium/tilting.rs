@@ -1,16 +1,16 @@
 //! The equilibrium of rollers that tilt with their ring, told as users read it.
 
-use super::{Equilibrium, LineLoads, named, pushed_away};
-use crate::bodies::RING_COORDINATES;
+use super::{
+    AZIMUTH, Equilibrium, NORMAL_FORCE, ORBIT_SPEED, RADIAL_OFFSET, of_ring, over_pressed, pushed_away,
+};
 use crate::error::Result;
 use crate::model::plane::Plane;
 use crate::model::space::rest::rollers::{SettledRollers, settled_rollers};
 use crate::model::{HostInputs, Model, Quantity, quantity};
-use crate::scene::shown;
 use std::f64::consts::PI;
 
-/// Largest pressure that bearing steel is rated for, Pa (ISO 76, roller bearings).
-const RATED_PRESSURE: f64 = 4.0e9;
+/// Largest pressure that a static load of a roller bearing may have, Pa (ISO 76).
+const STATIC_LIMIT: f64 = 4.0e9;
 /// Parts of the length between the places at which the line load is told.
 const PLACES: usize = 100;
 /// Share of an approach that is round-off.
@@ -18,14 +18,14 @@ const ROUND_OFF: f64 = 1e-12;
 
 /// What is known of every roller.
 const ROLLER: [Quantity; 4] = [
-    quantity("azimuth", "rad", "angle about the axis of the bearing"),
-    quantity("radial_offset", "m", "distance outside the pitch circle"),
+    AZIMUTH,
+    RADIAL_OFFSET,
     quantity("tilt", "rad", "rotation of its axis about that along the orbit: its +x end outwards"),
-    quantity("orbit_speed", "rad/s", "speed about the axis of the bearing"),
+    ORBIT_SPEED,
 ];
 /// What is known of every contact.
 const CONTACT: [Quantity; 8] = [
-    quantity("normal_force", "N", "normal force Q"),
+    NORMAL_FORCE,
     quantity(
         "approach",
         "m",
@@ -43,48 +43,29 @@ const CONTACT: [Quantity; 8] = [
     quantity("half_width", "m", "half width b of Hertz's line contact there"),
 ];
 
+/// Place of the largest pressure among these.
+const PRESSURE: usize = 6;
+
 /// The equilibrium of a ring and the rollers that go round with the speed that they roll at.
 pub(super) fn equilibrium(model: &Model, plane: &Plane) -> Result<Equilibrium> {
     let [orbit, _] = model.kinematic_speeds(&model.inputs_at(0.0, &HostInputs::default()));
     let settled = settled_rollers(plane, orbit)?;
-    let (sum, length) = (&settled.on_ring, settled.rollers.law(0).elastic.length);
-    let mut found = Equilibrium {
-        coordinates: named(&RING_COORDINATES),
-        free: settled.held.iter().map(Option::is_none).collect(),
-        displacement: settled.ring.iter().copied().collect(),
-        reaction: sum.force.iter().copied().collect(),
-        stiffness: sum.stiffness.transpose().iter().copied().collect(),
-        element_quantities: &ROLLER,
-        elements: Vec::new(),
-        contacts: Vec::new(),
-        contact_quantities: &CONTACT,
-        contact_values: Vec::new(),
-        line_loads: LineLoads {
-            places: (0..=PLACES).map(|i| length * (i as f64 / PLACES as f64 - 0.5)).collect(),
-            values: Vec::new(),
-        },
-        warnings: Vec::new(),
-        residual: settled.residual,
-    };
+    let length = settled.rollers.law(0).elastic.length;
+    let mut found = of_ring(&settled.ring, [&ROLLER, &CONTACT]);
+    found.line_loads.places = (0..=PLACES).map(|i| length * (i as f64 / PLACES as f64 - 0.5)).collect();
     for j in 0..settled.places.len() {
         let [rho, tilt] = settled.place(j);
         found.elements.push(vec![settled.rollers.azimuths[j], rho, tilt, orbit]);
         for (k, name) in ["outer_raceway", "inner_raceway"].into_iter().enumerate() {
             let name = format!("{}[{j}].{name}", model.element_kind());
             let (values, line_loads) = contact(&settled, (j, k), &found.line_loads.places);
-            let pressure = values[6];
-            if pressure > RATED_PRESSURE {
-                found.warnings.push(format!(
-                    "{name}: the largest pressure, {} Pa, is above {RATED_PRESSURE:e} Pa, the static limit of ISO 76",
-                    shown(pressure)
-                ));
-            }
+            found.warnings.extend(over_pressed(&name, values[PRESSURE], STATIC_LIMIT));
             found.contacts.push(name);
             found.contact_values.push(values.to_vec());
             found.line_loads.values.push(line_loads);
         }
     }
-    found.warnings.extend(pushed_away(settled.softest));
+    found.warnings.extend(pushed_away(&settled.ring));
     Ok(found)
 }
 
@@ -94,7 +75,8 @@ fn contact(
     (j, k): (usize, usize),
     places: &[f64],
 ) -> ([f64; CONTACT.len()], Vec<f64>) {
-    let SettledRollers { rollers, ring, places: at, .. } = settled;
+    let SettledRollers { rollers, ring, places: at } = settled;
+    let ring = &ring.at;
     let (on_raceway, elastic) = (rollers.raceways(j, at[j], ring)[k], &rollers.law(k).elastic);
     let approach = |s: f64| rollers.approach(j, k, at[j], ring, s);
     let middle = approach(0.0);

@@ -140,11 +140,6 @@ impl Model {
         }
     }
 
-    /// Whether the inner ring of rollers that move in the plane may tilt: such a model has equilibria only.
-    pub(crate) fn ring_in_space(&self) -> bool {
-        self.has_rollers() && self.scene.has_ring_in_space()
-    }
-
     /// Whether elements roll under load on raceways, whose contacts keep steps short.
     pub fn rolls(&self) -> bool {
         self.has_rollers() || self.space().is_some_and(|space| space.free)

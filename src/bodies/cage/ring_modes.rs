@@ -22,7 +22,7 @@ use crate::scene::{ElasticRing, MOST_RING_ORDERS, RingStiffness};
 use pulp::Arch;
 use std::f64::consts::PI;
 
-/// Room for the coordinates of all modes.
+/// Most coordinates that the modes of a ring have.
 pub(crate) const MOST_MODES: usize = 2 * (MOST_RING_ORDERS as usize - 1);
 
 /// One pair of modes.

@@ -7,8 +7,8 @@
 //!
 //! p is the profile of the roller, p_r that of the raceway, whose middle is elsewhere where the roller lies beside it. The length is cut where
 //! a logarithm begins and where delta is largest or smallest; delta is monotone on every part. Of each the loaded share has the nodes of the
-//! same rule as a contact without tilt ([`super::profile`]), which stand close where the load vanishes. Nodes on the whole length instead
-//! would lose a tenth of the stiffness against tilting as one of them leaves the contact.
+//! same rule as a contact without tilt ([`super::profile`]), which stand close where the load vanishes. With nodes on the whole length
+//! the stiffness against tilting would fall at once whenever one of them leaves the contact.
 //!
 //! Valid for slopes that are small beside one. Slices do not feel each other: a contact that is loaded on a short part is a little too stiff.
 //! Source of the sum: ISO/TS 16281, with its spring constant of the full length in every slice.

@@ -140,15 +140,6 @@ impl GuideFilm {
         }
     }
 
-    /// Fixed lobes.
-    #[cfg(test)]
-    fn roundness(&self) -> &[journal::Harmonic] {
-        match self {
-            GuideFilm::ShortBearing(film) => &film.roundness,
-            GuideFilm::LubricantLayer(film) => &film.roundness,
-        }
-    }
-
     /// Factor of dh/dt in G.
     fn squeeze(&self) -> f64 {
         match self {

@@ -18,7 +18,7 @@ impl Plane {
     /// # Errors
     /// [`crate::Status::BadScene`] when no static equilibrium is found, it leaves no room for the cage, or the ring would tilt.
     pub fn initial_state(&self) -> Result<Vec<f64>> {
-        if self.has_rollers() && self.scene.has_ring_in_space() {
+        if self.scene.has_tilting_rollers() {
             let text = "rollers move over time in the plane only; of a ring that tilts there is the equilibrium: write 'fixed' or 'free'";
             return Err(bad_scene("inner_ring.motion.space", text.to_owned()));
         }

@@ -28,11 +28,11 @@ impl Space {
                 .or_else(|_| settled(self, RaceControl::Outer))
                 .or_else(|error| settled(self, RaceControl::None).map_err(|_| error))?;
             for (q, k) in q.iter_mut().zip(self.ring.free()) {
-                *q = found.ring[k];
+                *q = found.ring.at[k];
             }
-            guide = [found.ring[1], found.ring[2]];
+            guide = [found.ring.at[1], found.ring.at[2]];
             for (j, motion) in motions.iter_mut().enumerate() {
-                *motion = found.balls[j].motion((found.bearing.beside(j) * found.ring).into());
+                *motion = found.balls[j].motion((found.bearing.beside(j) * found.ring.at).into());
             }
         }
         for (j, [x, rho, orbit, wx, wr, wt]) in motions.into_iter().enumerate() {

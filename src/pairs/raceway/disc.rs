@@ -9,7 +9,7 @@
 //! ```
 //!
 //! P is the centre of the roller and u its axis, O the centre of the ring and b its axis, all in the axes of the azimuth; k is 1 on the outer
-//! raceway and -1 on the inner one. R (1 - c) is how much less far the rim of a tilted disc reaches: 94 nm at 5 mrad. Force and moment are the
+//! raceway and -1 on the inner one. R (1 - c) is how much less far the rim of a tilted disc reaches: 94 nm at 5 mrad of one of 7.5 mm. Force and moment are the
 //! gradient of delta, so that they turn neither body about its own axis and their work is that of the approach. d - r and 1 - c are sums of
 //! small numbers. Valid for tilts up to those of `space/solid`. Source: geometry; the gradient is exact.
 

@@ -170,9 +170,10 @@ impl Scene {
         }
     }
 
-    /// Whether its inner ring may shift along the axis and tilt.
-    pub(crate) fn has_ring_in_space(&self) -> bool {
-        self.inner_ring.as_ref().is_some_and(|ring| matches!(ring.motion, RingMotion::Space(_)))
+    /// Whether it has rollers beside a ring that may shift along the axis and tilt: equilibria, no motion over time.
+    pub(crate) fn has_tilting_rollers(&self) -> bool {
+        let ring = self.inner_ring.as_ref().filter(|_| self.rollers.is_some());
+        ring.is_some_and(|ring| matches!(ring.motion, RingMotion::Space(_)))
     }
 
     pub(super) fn validate_spatial_ring(&self, judge: Judge<'_>, ring: &SpatialRing) -> Result<()> {

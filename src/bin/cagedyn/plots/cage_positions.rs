@@ -19,7 +19,7 @@ const LABEL: f64 = 11.0;
 const WHOLE: f64 = 1.1;
 /// The part with all points is shown alone if it is at most this share of that, with this much room around the points.
 const PART: f64 = 0.75;
-const MOST_MODES: f64 = 1.25;
+const ROOM: f64 = 1.25;
 /// Radius of the circle that then shows which part it is, px.
 const OVERVIEW: f64 = 62.0;
 
@@ -61,7 +61,7 @@ impl Square {
         };
         let ((y, half_y), (z, half_z)) = (span(|p| p.0), span(|p| p.1));
         // Of one point a tenth of the clearance.
-        let half = MOST_MODES * half_y.max(half_z).max(0.04);
+        let half = ROOM * half_y.max(half_z).max(0.04);
         if (y + z).is_finite() && half <= PART * WHOLE { Self { centre: (y, z), half } } else { whole }
     }
 

@@ -23,7 +23,7 @@ const FEW_DECADES: f64 = 2.5;
 /// Frequency ranges that are told apart.
 const COLUMNS: usize = 1000;
 /// Share of the height above the highest amplitude, which labels have, and below the lowest.
-const MOST_MODES: (f64, f64) = (0.16, 0.03);
+const ROOM: (f64, f64) = (0.16, 0.03);
 /// Peaks without a name that are told by their frequency.
 const UNKNOWN: usize = 4;
 /// Size of the labels and of the markers, px.
@@ -87,8 +87,8 @@ fn draw(title: &str, subtitle: &str, spectrum: &Spectrum, peaks: &[Named]) -> Re
         .filter(|(_, a)| *a > 0.0)
         .fold((f64::INFINITY, 1e-15f64), |(low, high), (_, a)| (low.min(*a), high.max(*a)));
     let (low, high) = (low.min(high).log10().max(high.log10() - DECADES), high.log10());
-    let size = (high - low).max(0.3) / (1.0 - MOST_MODES.0 - MOST_MODES.1);
-    let ends = (high - (1.0 - MOST_MODES.0) * size, high + MOST_MODES.0 * size);
+    let size = (high - low).max(0.3) / (1.0 - ROOM.0 - ROOM.1);
+    let ends = (high - (1.0 - ROOM.0) * size, high + ROOM.0 * size);
     let peaks: Vec<&Named> = peaks.iter().filter(|named| named.peak.amplitude.log10() > low).collect();
     let axis = if size < FEW_DECADES { Axis::logarithms } else { Axis::powers_of_ten };
     let y_axis = axis("amplitude of cage.z [mm]", ends.0, ends.1);

@@ -1,4 +1,4 @@
-//! Ring and balls in space: the ring is found by its own forces, with every ball at rest beside it.
+//! The ring in space at rest: found by its own forces, with every ball or roller at rest beside it.
 //!
 //! | file | what |
 //! |---|---|
@@ -7,7 +7,7 @@
 //! | `rollers` | rollers that tilt |
 //! | `settle` | Newton's method |
 //!
-//! First without speed, by the least energy; then the speed grows to that of the scene, from each equilibrium to the next.
+//! Beside balls first without speed, by the least energy; then the speed grows to that of the scene, from each equilibrium to the next.
 
 mod ball;
 mod ring;
@@ -17,6 +17,7 @@ mod steady;
 
 pub use ball::RaceControl;
 pub(crate) use ball::{Ball, OF_RING};
+pub(crate) use ring::SettledRing;
 pub(crate) use settle::Balance;
 
 use super::Space;
@@ -222,15 +223,8 @@ fn none(bearing: &Bearing<'_>, at: &Vector5<f64>, share: f64) -> Error {
 /// Ring and balls at rest, or in the motion that race control or friction gives them.
 pub(crate) struct Settled<'a> {
     pub(crate) bearing: Bearing<'a>,
-    /// Coordinates of the ring, m and rad.
-    pub(crate) ring: Vector5<f64>,
+    pub(crate) ring: SettledRing,
     pub(crate) balls: Vec<AtRest<'a>>,
-    /// Of all balls on the ring.
-    pub(crate) on_ring: Balance<OF_RING>,
-    /// Rest of the forces on the ring over their size.
-    pub(crate) residual: f64,
-    /// Stiffness (N/m at the pitch circle) of the softest free direction, and the coordinate that moves most.
-    pub(crate) softest: (f64, &'static str),
 }
 
 /// Finds ring and balls at rest at the start of the scene.
@@ -267,12 +261,10 @@ pub(crate) fn settled(space: &Space, control: RaceControl) -> Result<Settled<'_>
         bearing.steady = true;
         rest = bearing.settled(rest.x).map_err(|at| none(&bearing, &at, 1.0))?;
     }
-    let softest = bearing.ring().held_up(&rest)?;
-    let ring = bearing.ring().unscaled(&rest.x);
-    let balls = bearing.balls(&ring).ok_or_else(|| none(&bearing, &rest.x, 1.0))?;
-    let on_ring = bearing.on_ring(&ring, &balls);
-    let residual = rest.balance.force.norm() / rest.balance.size.max(f64::MIN_POSITIVE);
-    Ok(Settled { bearing, ring, balls, on_ring, residual, softest })
+    let at = bearing.ring().unscaled(&rest.x);
+    let balls = bearing.balls(&at).ok_or_else(|| none(&bearing, &rest.x, 1.0))?;
+    let ring = bearing.ring().equilibrium(&rest, bearing.on_ring(&at, &balls))?;
+    Ok(Settled { bearing, ring, balls })
 }
 
 /// The steady motion needs what drives balls.

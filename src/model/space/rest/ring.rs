@@ -13,7 +13,7 @@ use nalgebra::{Matrix5, Vector5};
 const NO_STIFFNESS: f64 = 1e-9;
 
 /// What elements do to a ring at these coordinates, m and rad; `None` where there is nothing.
-pub(super) type OnRing<'a> = dyn FnMut(&Vector5<f64>) -> Option<Balance<OF_RING>> + 'a;
+pub(super) type Elements<'a> = dyn FnMut(&Vector5<f64>) -> Option<Balance<OF_RING>> + 'a;
 
 /// The ring. Its coordinates are found as lengths: tilts times the pitch radius.
 pub(super) struct RingAtRest<'a> {
@@ -26,6 +26,20 @@ pub(super) struct RingAtRest<'a> {
     pub(super) reach: f64,
     /// Stiffness of one lightly pressed contact, N/m.
     pub(super) soft: f64,
+}
+
+/// The ring of an equilibrium.
+pub(crate) struct SettledRing {
+    /// By coordinate: where it is held; `None` of one that is free.
+    pub(crate) held: [Option<f64>; OF_RING],
+    /// Coordinates, m and rad.
+    pub(crate) at: Vector5<f64>,
+    /// Of all elements on it.
+    pub(crate) forces: Balance<OF_RING>,
+    /// Rest of the forces on it over their size.
+    pub(crate) residual: f64,
+    /// Stiffness (N/m at the pitch circle) of the softest free direction, and the coordinate that moves most.
+    pub(crate) softest: (f64, &'static str),
 }
 
 /// Coordinates of the ring in the axes of an azimuth with this sine and cosine, by row, over those of the bearing.
@@ -69,13 +83,13 @@ impl RingAtRest<'_> {
     pub(super) fn settled(
         &self,
         from: Vector5<f64>,
-        on_ring: &mut OnRing<'_>,
+        on_ring: &mut Elements<'_>,
     ) -> std::result::Result<Rest<OF_RING>, Vector5<f64>> {
         settle(from, 1e-3 * self.soft, &mut |scaled| self.balance(scaled, on_ring))
     }
 
     /// Elements with load and spring, over lengths; coordinates that are held have no force.
-    fn balance(&self, scaled: &Vector5<f64>, on_ring: &mut OnRing<'_>) -> Option<Balance<OF_RING>> {
+    fn balance(&self, scaled: &Vector5<f64>, on_ring: &mut Elements<'_>) -> Option<Balance<OF_RING>> {
         let (ring, radius) = (self.unscaled(scaled), self.pitch_radius);
         if scaled.norm() > self.reach || math::hypot(ring[3], ring[4]) > LARGEST_TILT {
             return None;
@@ -115,21 +129,22 @@ impl RingAtRest<'_> {
         Some(sum)
     }
 
-    /// Stiffness (N/m at the pitch circle) of its softest free direction at rest, and the coordinate that moves most.
+    /// The equilibrium of this rest, in which elements do `forces` to the ring.
     ///
     /// # Errors
-    /// [`Status::BadState`] where nothing holds it that way.
-    pub(super) fn held_up(&self, rest: &Rest<OF_RING>) -> Result<(f64, &'static str)> {
+    /// [`Status::BadState`] where nothing holds it along a coordinate that is free.
+    pub(super) fn equilibrium(&self, rest: &Rest<OF_RING>, forces: Balance<OF_RING>) -> Result<SettledRing> {
         let softest = softest(&rest.balance.stiffness);
         let (least, name) = softest;
-        if least.abs() > NO_STIFFNESS * self.soft {
-            return Ok(softest);
+        if least.abs() <= NO_STIFFNESS * self.soft {
+            let text = format!(
+                "inner_ring.motion.space.{name}: free, and nothing holds it (stiffness {} N/m at the pitch circle); hold it, or load the \
+                 bearing",
+                shown(least)
+            );
+            return Err(Error::new(Status::BadState, text));
         }
-        let text = format!(
-            "inner_ring.motion.space.{name}: free, and nothing holds it (stiffness {} N/m at the pitch circle); hold it, or load the \
-             bearing",
-            shown(least)
-        );
-        Err(Error::new(Status::BadState, text))
+        let residual = rest.balance.force.norm() / rest.balance.size.max(f64::MIN_POSITIVE);
+        Ok(SettledRing { held: self.ring.held, at: self.unscaled(&rest.x), forces, residual, softest })
     }
 }

@@ -10,10 +10,11 @@
 
 use super::OF_RING;
 use super::ball::{ALL, OnRing, following};
-use super::ring::{RingAtRest, beside};
+use super::ring::{RingAtRest, SettledRing, beside};
 use super::settle::{Balance, Rest, settle};
 use crate::bodies::RingInSpace;
 use crate::error::{Error, Result, Status};
+use crate::laws::elastic::profile::Profile;
 use crate::laws::elastic::tilted::{Along, Slice};
 use crate::laws::line_contact::LineContact;
 use crate::model::HostInputs;
@@ -48,7 +49,25 @@ struct Forces<T> {
     on_ring: [T; OF_RING],
     raceways: [OnRaceway<T>; 2],
     /// Elastic, J.
-    energy: T,
+    energy: f64,
+}
+
+/// A roller beside a ring.
+struct Contact<'a, T> {
+    geometry: &'a RacewayGeometry,
+    profile: Option<&'a Profile>,
+    /// m.
+    excess: f64,
+    roller: RollerPlace<T>,
+    /// With its number.
+    ring: (usize, RingPlace<T>),
+}
+
+impl<T: Of<f64>> Contact<'_, T> {
+    /// The disc at `s`, m.
+    fn disc(&self, s: f64) -> Disc<T> {
+        self.geometry.disc((self.ring.0, &self.ring.1), &self.roller, self.profile, self.excess, s)
+    }
 }
 
 /// Rollers between their raceways.
@@ -66,16 +85,9 @@ pub(crate) struct Rollers<'a> {
 /// The equilibrium of ring and rollers.
 pub(crate) struct SettledRollers<'a> {
     pub(crate) rollers: Rollers<'a>,
-    pub(crate) held: [Option<f64>; OF_RING],
-    /// Coordinates of the ring, m and rad.
-    pub(crate) ring: Vector5<f64>,
+    pub(crate) ring: SettledRing,
     /// rho and a tau of each, m.
     pub(crate) places: Vec<[f64; OF_ROLLER]>,
-    pub(crate) on_ring: Balance<OF_RING>,
-    /// Rest of the forces on the ring over their size.
-    pub(crate) residual: f64,
-    /// Stiffness (N/m at the pitch circle) of the softest free direction, and the coordinate that moves most.
-    pub(crate) softest: (f64, &'static str),
 }
 
 impl SettledRollers<'_> {
@@ -95,16 +107,14 @@ impl Rollers<'_> {
         beside(math::sin_cos(self.azimuths[j]))
     }
 
-    /// Raceway `k` at `s` (m) of roller `j`, with its profile or without.
-    fn disc<T: Of<f64>>(
+    /// Roller `j` beside ring `k`, each with its own place.
+    fn contact<T: Of<f64>>(
         &self,
         j: usize,
         k: usize,
         at: [T; OF_ROLLER],
         ring: [T; OF_RING],
-        s: f64,
-        bare: bool,
-    ) -> Disc<T> {
+    ) -> Contact<'_, T> {
         let zero = at[0].like(0.0);
         let tilt = at[1] / self.half_length();
         let roller = RollerPlace { x: zero, rho: at[0], axis: Tilt::new([zero, tilt]).axis };
@@ -112,14 +122,15 @@ impl Rollers<'_> {
             0 => RingPlace { centre: [zero; 3], axis: [zero.like(1.0), zero, zero] },
             _ => RingPlace { centre: [ring[0], ring[1], ring[2]], axis: Tilt::new([ring[3], ring[4]]).axis },
         };
-        let profile = self.laws[k].profile.as_ref().filter(|_| !bare);
-        self.geometry.disc((k, &place), &roller, profile, self.excess[j], s)
+        let profile = self.laws[k].profile.as_ref();
+        Contact { geometry: &self.geometry, profile, excess: self.excess[j], roller, ring: (k, place) }
     }
 
     /// Slices of the loaded part of raceway `k` along roller `j`.
     fn slices(&self, j: usize, k: usize, at: [f64; OF_ROLLER], ring: [f64; OF_RING]) -> Vec<Slice> {
         let half_length = self.half_length();
-        let bare = [-half_length, 0.0, half_length].map(|s| self.disc(j, k, at, ring, s, true));
+        let straight = Contact { profile: None, ..self.contact(j, k, at, ring) };
+        let bare = [-half_length, 0.0, half_length].map(|s| straight.disc(s));
         let along = Along {
             profile: self.laws[k].profile.as_ref(),
             half_length,
@@ -145,14 +156,15 @@ impl Rollers<'_> {
             on_roller: [zero + self.centrifugal, zero],
             on_ring: [zero; OF_RING],
             raceways: [none; 2],
-            energy: zero,
+            energy: 0.0,
         };
         let from_ring =
             difference([zero, at[0] + self.geometry.pitch_radius, zero], [ring[0], ring[1], ring[2]]);
         let (mut pushed, mut turned) = ([zero; 3], [zero; 3]);
         for (k, (law, slices)) in self.laws.into_iter().zip(slices).enumerate() {
+            let contact = self.contact(j, k, at, ring);
             for slice in slices {
-                let disc = self.disc(j, k, at, ring, slice.place, false);
+                let disc = contact.disc(slice.place);
                 let load = law.elastic.load(disc.delta) * slice.share;
                 let moment = scaled(disc.on_roller, load);
                 let on_raceway = &mut out.raceways[k];
@@ -161,7 +173,7 @@ impl Rollers<'_> {
                 on_raceway.moment += moment[2];
                 out.on_roller[0] -= load * disc.normal[1];
                 // Palmgren's law: the energy at the approach delta is 9/19 Q delta.
-                out.energy += load * disc.delta * (9.0 / 19.0);
+                out.energy += load.base() * disc.delta.base() * (9.0 / 19.0);
                 if k == 1 {
                     let force = scaled(disc.normal, load);
                     let about_ring = difference(cross(from_ring, force), moment);
@@ -187,7 +199,7 @@ impl Rollers<'_> {
 
     /// Energy that falls along the forces on the roller, J.
     fn energy(&self, at: [f64; OF_ROLLER], forces: &Forces<Dual<ALL>>) -> f64 {
-        forces.energy.re - self.centrifugal * at[0]
+        forces.energy - self.centrifugal * at[0]
     }
 
     /// Where roller `j` rests beside a ring at these coordinates in its axes; `None` where it finds none.
@@ -256,7 +268,7 @@ impl Rollers<'_> {
         ring: &Vector5<f64>,
         s: f64,
     ) -> f64 {
-        self.disc(j, k, at, (self.beside(j) * ring).into(), s, false).delta
+        self.contact(j, k, at, (self.beside(j) * ring).into()).disc(s).delta
     }
 
     /// Laws of raceway `k`.
@@ -301,10 +313,8 @@ pub(crate) fn settled_rollers(plane: &Plane, orbit: f64) -> Result<SettledRoller
         Error::new(Status::BadState, format!("no equilibrium: {why}"))
     };
     let rest: Rest<OF_RING> = bearing.settled(bearing.start(), &mut on_ring).map_err(none)?;
-    let softest = bearing.held_up(&rest)?;
-    let ring = bearing.unscaled(&rest.x);
-    let places = rollers.places(&ring).ok_or_else(|| none(rest.x))?;
-    let on_ring = rollers.on_ring(&ring, &places);
-    let residual = rest.balance.force.norm() / rest.balance.size.max(f64::MIN_POSITIVE);
-    Ok(SettledRollers { held: body.held, rollers, ring, places, on_ring, residual, softest })
+    let at = bearing.unscaled(&rest.x);
+    let places = rollers.places(&at).ok_or_else(|| none(rest.x))?;
+    let ring = bearing.equilibrium(&rest, rollers.on_ring(&at, &places))?;
+    Ok(SettledRollers { rollers, ring, places })
 }

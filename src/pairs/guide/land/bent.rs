@@ -153,7 +153,6 @@ impl BentLand {
         let surface = BentSurface::of(bends, law.radius, built.side, &built.profile);
         let film = law.film.as_ref().map(|_| GuideLaw { solid: None, ..law.clone() });
         let solid = law.solid.as_ref().map(|_| GuideLaw { film: None, ..law.clone() });
-
         Some(Self { surface, film, solid, slices })
     }
 
