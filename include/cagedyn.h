@@ -240,7 +240,7 @@ cagedyn_equilibrium *cagedyn_equilibrium_find(const cagedyn_model *model,
 /* Frees an equilibrium. NULL is ignored, and the stored error stays. */
 void cagedyn_equilibrium_free(cagedyn_equilibrium *found);
 
-/* Number of coordinates of the inner ring: x, y, z, tilt_y and tilt_z with balls, y and z with rollers. Negative status code on failure. */
+/* Number of coordinates of the inner ring: x, y, z, tilt_y and tilt_z of a ring in space, y and z of one in the plane. Negative status code on failure. */
 int64_t cagedyn_equilibrium_coordinate_count(const cagedyn_equilibrium *found);
 
 /* Name of one of them; "" on failure. Lives as long as the equilibrium. */

@@ -142,7 +142,7 @@ class Equilibrium:
             rows = [filled(len(columns), lambda p, n, i=i: read(handle, i, p, n)) for i in range(count)]
             return np.array([tuple(row) for row in rows], dtype=[(name, np.float64) for name in columns])
 
-        #: Coordinates of the inner ring: x, y, z, tilt_y and tilt_z with balls, y and z with rollers.
+        #: Coordinates of the inner ring: x, y, z, tilt_y and tilt_z of a ring in space, y and z of one in the plane.
         self.coordinates: tuple[str, ...] = names("coordinate")
         n = len(self.coordinates)
         #: Over these, m and rad.

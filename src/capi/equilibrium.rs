@@ -107,7 +107,7 @@ unsafe fn length(found: *const cagedyn_equilibrium, list: fn(&cagedyn_equilibriu
     count(|| Ok(list(unsafe { shared("found", found) }?).len()))
 }
 
-/// Number of coordinates of the inner ring: x, y, z, tilt_y and tilt_z with balls, y and z with rollers. Negative status code on failure.
+/// Number of coordinates of the inner ring: x, y, z, tilt_y and tilt_z of a ring in space, y and z of one in the plane. Negative status code on failure.
 ///
 /// # Safety
 /// `found` is NULL or a live handle.

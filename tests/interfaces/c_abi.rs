@@ -79,6 +79,11 @@ fn c_equilibrium() {
 }
 
 #[test]
+fn c_tilting_rollers() {
+    run_c_test("ctests/test_tilting_rollers.c", "scenes/nu2310.json");
+}
+
+#[test]
 fn cpp_equilibrium() {
     run_cpp_test("ctests/test_cpp_equilibrium.cpp", "scenes/angular_contact_218.json", &[]);
 }
