@@ -24,6 +24,7 @@ mod neighbours;
 mod passage;
 mod pocket;
 pub(crate) mod raceway;
+pub(crate) mod roller;
 mod slope_sums;
 
 pub(crate) use contacts::{
