@@ -73,7 +73,7 @@ fn tell(bearing: &Bearing<'_>, j: usize, at_rest: &AtRest<'_>, ring: &Vector5<f6
     let forces = ball.forces::<f64>([x, rho], beside);
     let own = orbit - wx;
     let pitch = if own == 0.0 { 0.0 } else { math::atan2(wr * own.signum(), own.abs()) };
-    let azimuth = bearing.space.balls.set.reference_angles[j];
+    let azimuth = bearing.space.set.reference_angles[j];
     out.elements.push(vec![azimuth, x, rho, orbit, wx, wr, wpsi, pitch]);
     let axis = Tilt::new([beside[3], beside[4]]).axis;
     for (k, axis) in [[1.0, 0.0, 0.0], axis].into_iter().enumerate() {

@@ -24,7 +24,7 @@ pub(crate) struct ElementSet {
 
 impl ElementSet {
     /// Those of a scene.
-    pub(in crate::bodies) fn new(scene: &Scene) -> Self {
+    pub(crate) fn new(scene: &Scene) -> Self {
         let count = scene.element_count() as usize;
         let reference_angles: Vec<f64> =
             (0..count).map(|j| scene.initial.first_roller_angle + TAU * j as f64 / count as f64).collect();

@@ -16,9 +16,8 @@ use crate::space::solid::Vector;
 /// Balls with states of their own.
 #[derive(Debug)]
 pub(crate) struct Balls {
-    pub(crate) set: ElementSet,
-    /// Of one without deviation, kg.
-    mass: f64,
+    /// Mass (kg) and moment of inertia (kg m^2) of each: those of its own radius.
+    inertia: Vec<[f64; 2]>,
 }
 
 /// Speeds of a ball.
@@ -59,8 +58,14 @@ const COORDINATES: [Coordinate; OF_BALL] = [
 
 impl Balls {
     /// Those of a scene, or its elements of prescribed motion, which have no mass.
-    pub(crate) fn new(scene: &Scene) -> Self {
-        Self { set: ElementSet::new(scene), mass: scene.balls.as_ref().map_or(0.0, |balls| balls.mass) }
+    pub(crate) fn new(scene: &Scene, set: &ElementSet) -> Self {
+        let mass = scene.balls.as_ref().map_or(0.0, |balls| balls.mass);
+        let of = |excess: &f64| {
+            let scale = 1.0 + excess / set.radius;
+            let (mass, radius) = (mass * scale * scale * scale, set.radius * scale);
+            [mass, 0.4 * mass * radius * radius]
+        };
+        Self { inertia: set.radius_excess.iter().map(of).collect() }
     }
 
     /// Its coordinates.
@@ -68,11 +73,9 @@ impl Balls {
         &COORDINATES
     }
 
-    /// Mass (kg) and moment of inertia (kg m^2) of a ball: those of its own radius.
+    /// Mass (kg) and moment of inertia (kg m^2) of ball `j`.
     pub(crate) fn inertia(&self, j: usize) -> [f64; 2] {
-        let scale = 1.0 + self.set.radius_excess[j] / self.set.radius;
-        let (mass, radius) = (self.mass * scale * scale * scale, self.set.radius * scale);
-        [mass, 0.4 * mass * radius * radius]
+        self.inertia[j]
     }
 
     /// Accelerations of its six speeds (x', rho', psi', w_x, w_r, w_psi) at a distance `r` (m) from the axis, under this force (N) and moment

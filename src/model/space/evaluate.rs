@@ -97,13 +97,13 @@ impl Space {
         ws.ring = self.ring.state(&q[of_ring.clone()], &v[of_ring.clone()], &ws.inputs);
         ws.load = self.ring.load(&ws.inputs);
         let [_, y, z, a, b] = ws.ring.position;
-        let (tilted, pitch) = (math::hypot(a, b), self.balls.set.pitch_radius);
+        let (tilted, pitch) = (math::hypot(a, b), self.set.pitch_radius);
         let off = math::hypot(math::hypot(ws.ring.position[0], y), z);
         if tilted > LARGEST_TILT {
             return Err(Fault::LostRing { distance: tilted * pitch, reach: LARGEST_TILT * pitch });
         }
-        if off > self.balls.set.radius {
-            return Err(Fault::LostRing { distance: off, reach: self.balls.set.radius });
+        if off > self.set.radius {
+            return Err(Fault::LostRing { distance: off, reach: self.set.radius });
         }
         let outer = ws.inputs.of(Input::OuterRingSpeed);
         ws.rings[0].speed = outer;
@@ -115,14 +115,14 @@ impl Space {
         }
         let levers = self.levers();
         let mut fastest = (0, 0.0);
-        for j in 0..self.layout.count {
+        for j in 0..ws.balls {
             let (block, lane) = place_of(j);
             let block = &mut ws.blocks[block];
             let places: [usize; OF_BALL] = self.layout.of_element(j);
             for (k, at) in block.at.iter_mut().enumerate() {
                 at[lane] = q[places[k]];
             }
-            let (sin, cos) = math::sin_cos(self.balls.set.reference_angles[j] + q[places[2]]);
+            let (sin, cos) = math::sin_cos(self.set.reference_angles[j] + q[places[2]]);
             (block.direction[0][lane], block.direction[1][lane]) = (cos, sin);
             block.travel[lane] = q[places[2]];
             for ((speeds, place), lever) in block.speeds.iter_mut().zip(places).zip(levers) {
@@ -159,7 +159,7 @@ impl Space {
         for j in 0..ws.count {
             let (block, lane) = place_of(j);
             let block = &mut ws.blocks[block];
-            let (sin, cos) = math::sin_cos(self.balls.set.reference_angles[j] + travel);
+            let (sin, cos) = math::sin_cos(self.set.reference_angles[j] + travel);
             (block.direction[0][lane], block.direction[1][lane]) = (cos, sin);
             block.travel[lane] = travel;
             for (column, speed) in block.speeds.iter_mut().zip([0.0, 0.0, orbit, spin, 0.0, 0.0]) {
@@ -211,7 +211,7 @@ impl Space {
 
     /// Levers of the speeds of a ball, m or 1.
     fn levers(&self) -> [f64; OF_BALL] {
-        let (pitch, radius) = (self.balls.set.pitch_radius, self.balls.set.radius);
+        let (pitch, radius) = (self.set.pitch_radius, self.set.radius);
         [1.0, 1.0, pitch, radius, radius, radius]
     }
 
@@ -274,12 +274,12 @@ impl Space {
         }
         self.accelerate_ring(ws, ws.on_rings[1], a);
         self.accelerate_cage(ws, a);
-        for j in 0..self.layout.count {
+        for j in 0..ws.balls {
             let (block, lane) = place_of(j);
             let block = &ws.blocks[block];
             let [cos, sin] = at_lane(&block.direction, lane);
             let [gy, gz] = self.gravity;
-            let (r, speeds) = (self.balls.set.pitch_radius + block.at[1][lane], at_lane(&block.speeds, lane));
+            let (r, speeds) = (self.set.pitch_radius + block.at[1][lane], at_lane(&block.speeds, lane));
             let mut on_ball = halves(at_lane(&block.on_ball, lane));
             if let Some(drag) = self.drag_on(j, &moving(speeds, r), ws.fluid.ln_viscosity) {
                 on_ball = [0, 1].map(|k| sum(on_ball[k], drag[k]));
@@ -305,7 +305,7 @@ impl Space {
         moving: &Moving<T>,
         ln_viscosity: T,
     ) -> Option<[Vector<T>; 2]> {
-        let radius = self.balls.set.radius + self.balls.set.radius_excess[j];
+        let radius = self.set.radius + self.set.radius_excess[j];
         let Moving { velocity, turning } = *moving;
         self.drag.map(|drag| {
             let squares = [velocity, turning].map(|v| dot(v, v));

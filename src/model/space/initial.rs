@@ -22,7 +22,7 @@ impl Space {
             return Ok(state);
         }
         let mut guide = [0.0; 2];
-        let mut motions = vec![self.kinematic_motion(); self.balls.set.count];
+        let mut motions = vec![self.kinematic_motion(); self.set.count];
         if self.scene.initial.inner_ring == RingStart::Equilibrium {
             let found = settled(self, RaceControl::Friction)
                 .or_else(|_| settled(self, RaceControl::Outer))

@@ -95,7 +95,7 @@ impl Space {
             }
         });
         self.add_cage_slopes(ws, (rates, ln_rate), &ring, out);
-        for j in 0..self.layout.count {
+        for j in 0..ws.balls {
             let places = self.layout.of_element::<OF_BALL>(j);
             let ball = self.ball_slopes(ws, j);
             let (block, lane) = place_of(j);
@@ -103,7 +103,7 @@ impl Space {
             let [cos, sin] = at_lane(&block.direction, lane);
             let [mass, inertia] = at_lane(&block.inertia, lane);
             let speeds = at_lane(&block.speeds, lane);
-            let r = self.balls.set.pitch_radius + block.at[1][lane];
+            let r = self.set.pitch_radius + block.at[1][lane];
             let inverse =
                 [1.0 / mass, 1.0 / mass, 1.0 / (mass * r), 1.0 / inertia, 1.0 / inertia, 1.0 / inertia];
             let local = LocalRing::new(ws.ring.position, ws.ring.rate, [cos, sin]);
@@ -220,7 +220,7 @@ impl Space {
         (gravity[0].eps[1], gravity[1].eps[1]) = (ahead, -outwards);
         let speeds = at_lane(&block.speeds, lane);
         let speeds = std::array::from_fn(|k| variable(speeds[k], 2 + k));
-        let r = variable(self.balls.set.pitch_radius + block.at[1][lane], 0);
+        let r = variable(self.set.pitch_radius + block.at[1][lane], 0);
         let [fx, fr, ft, mx, my, mz] = at_lane(&block.on_ball, lane).map(constant);
         let mut on_ball = [[fx, fr, ft], [mx, my, mz]];
         let ln_viscosity = variable(ws.fluid.ln_viscosity, OF_OWN - 1);
@@ -238,7 +238,7 @@ impl Space {
         let block = &ws.blocks[place];
         let direction = at_lane(&block.direction, lane);
         let at = at_lane(&block.at, lane);
-        let r = self.balls.set.pitch_radius + at[1];
+        let r = self.set.pitch_radius + at[1];
         let variable = Relative::variable;
         let constant = |x: f64| Dual { re: x, eps: [0.0; RELATIVE] };
         let timed = |mut x: Relative, rate: f64| {

@@ -31,7 +31,7 @@ use super::faults::{Names, in_words};
 use super::signals::InputSignals;
 use super::{HostInputs, Layout, Quantity, StateInfo, quantity};
 use crate::bodies::{
-    Balls, CAGE, CageInSpace, Coordinate, Fault, Input, Owner, RING_COORDINATES, RingInSpace,
+    Balls, CAGE, CageInSpace, Coordinate, ElementSet, Fault, Input, Owner, RING_COORDINATES, RingInSpace,
 };
 use crate::error::Result;
 use crate::integrate::Tuning;
@@ -59,6 +59,8 @@ pub struct Space {
     /// Along y and z, m/s^2.
     pub(crate) gravity: [f64; 2],
     pub(crate) ring: RingInSpace,
+    /// Number, size and places of the elements.
+    pub(crate) set: ElementSet,
     pub(crate) balls: Balls,
     /// Whether balls have states; else their motion is prescribed.
     pub(crate) free: bool,
@@ -80,9 +82,10 @@ impl Space {
         if !free && !scene.has_spatial_cage() {
             return Ok(None);
         }
-        let balls = Balls::new(&scene);
+        let set = ElementSet::new(&scene);
+        let balls = Balls::new(&scene, &set);
         let viscosity = inputs.viscosity_at_start(&scene);
-        let races = races(&scene, &balls.set.radius_excess, viscosity)?.map_or_else(Vec::new, Vec::from);
+        let races = races(&scene, &set.radius_excess, viscosity)?.map_or_else(Vec::new, Vec::from);
         let of_drag = |drag: &BallDrag| {
             let viscosity = needed("lubricant", viscosity, "balls.drag")?;
             Ok(MixtureDrag { density: drag.density, coefficient: drag.coefficient, viscosity })
@@ -90,9 +93,9 @@ impl Space {
         let drag = scene.balls.as_ref().and_then(|balls| balls.drag.as_ref()).map(of_drag).transpose()?;
         let ring = RingInSpace::new(&scene);
         let spins = balls.coordinates().iter().filter(|c| c.position.is_none()).count();
-        let count = if free { balls.set.count } else { 0 };
+        let count = if free { set.count } else { 0 };
         let of_balls = [count, balls.coordinates().len() - spins, spins];
-        let cage = match CageInSpace::new(&scene, &balls.set) {
+        let cage = match CageInSpace::new(&scene, &set) {
             None => None,
             Some(body) => Some(CageOfScene {
                 body,
@@ -114,6 +117,7 @@ impl Space {
             layout,
             gravity,
             ring,
+            set,
             balls,
             free,
             races,
@@ -210,7 +214,7 @@ impl Space {
 
     /// Number of balls.
     pub(crate) fn element_count(&self) -> usize {
-        self.balls.set.count
+        self.set.count
     }
 
     /// Balls are none.
@@ -220,7 +224,7 @@ impl Space {
 
     /// Radius of the pitch circle, m.
     pub(crate) fn pitch_radius(&self) -> f64 {
-        self.balls.set.pitch_radius
+        self.set.pitch_radius
     }
 
     /// The laws that it uses, each with the largest number of contacts it can act in.
@@ -247,7 +251,7 @@ impl Space {
     /// Names of the bodies: outer ring, inner ring, cage, balls.
     pub(crate) fn body_names(&self) -> Vec<String> {
         let cage = self.cage.iter().map(|_| "cage".to_owned());
-        let balls = (0..self.balls.set.count).map(|j| format!("{}[{j}]", self.element_kind()));
+        let balls = (0..self.set.count).map(|j| format!("{}[{j}]", self.element_kind()));
         RINGS.iter().map(|name| (*name).to_owned()).chain(cage).chain(balls).collect()
     }
 
@@ -259,8 +263,8 @@ impl Space {
     /// Names of all contacts, those of a ball together.
     pub(crate) fn contact_names(&self) -> Vec<String> {
         let kind = self.element_kind();
-        let mut names = Vec::with_capacity(self.balls.set.count * self.contacts_of_ball.len());
-        for j in 0..self.balls.set.count {
+        let mut names = Vec::with_capacity(self.set.count * self.contacts_of_ball.len());
+        for j in 0..self.set.count {
             names.extend(self.contacts_of_ball.iter().map(|contact| format!("{kind}[{j}].{contact}")));
         }
         names
@@ -287,7 +291,7 @@ impl Space {
 
     /// Lengths, angles and counts of the bearing that follow from its scene.
     pub(crate) fn geometry(&self) -> Vec<(Quantity, f64)> {
-        let set = &self.balls.set;
+        let set = &self.set;
         let mut list = vec![
             (quantity("element_count", "1", "number of rolling elements"), set.count as f64),
             (quantity("element_radius", "m", "radius of a rolling element"), set.radius),

@@ -293,14 +293,14 @@ impl Space {
         let (motion, force) = (block.contacts[k].motion_of(lane), block.contacts[k].force_of(lane));
         let direction = at_lane(&block.direction, lane);
         let at = at_lane(&block.at, lane);
-        let r = self.balls.set.pitch_radius + at[1];
+        let r = self.set.pitch_radius + at[1];
         let speeds = moving(at_lane(&block.speeds, lane), r);
         let wave = block.contacts[k].wave_of(&self.races[k], lane);
         let ball = self.in_groove(ws, k, j, &speeds);
         let touch = ball.touch(&super::evaluate::beside(&ws.rings[k], direction)).on(wave);
         let side = if k == 0 { 1.0 } else { -1.0 };
         let angle = math::atan2(side * touch.in_meridian[0], side * touch.in_meridian[1]);
-        let radius = self.balls.set.radius + block.excess[lane];
+        let radius = self.set.radius + block.excess[lane];
         let [nx, ny, nz] = to_global(touch.normal, direction);
         let [px, py, pz] = to_global([at[0], r, 0.0], direction);
         let ([ft, fl], [mt, ml, mn]) = (force.friction.force, force.friction.couple);
@@ -347,7 +347,7 @@ impl Space {
         let block = &ws.blocks[place];
         let direction = at_lane(&block.direction, lane);
         let at = at_lane(&block.at, lane);
-        let speeds = moving(at_lane(&block.speeds, lane), self.balls.set.pitch_radius + at[1]);
+        let speeds = moving(at_lane(&block.speeds, lane), self.set.pitch_radius + at[1]);
         let wave = block.contacts[k].wave_of(&self.races[k], lane);
         let ball = self.in_groove(ws, k, j, &speeds);
         let touch = ball.touch(&super::evaluate::beside(&ws.rings[k], direction)).on(wave);
@@ -381,7 +381,7 @@ impl Space {
             }
             let (block, lane) = place_of(j);
             let block = &ws.blocks[block];
-            let r = self.balls.set.pitch_radius + block.at[1][lane];
+            let r = self.set.pitch_radius + block.at[1][lane];
             let direction = at_lane(&block.direction, lane);
             let of_ball = moving(at_lane(&block.speeds, lane), r);
             if let Some(drag) = self.drag_on(j, &of_ball, ws.fluid.ln_viscosity) {
@@ -422,12 +422,12 @@ impl Reading<'_> {
             }
             Source::Viscosity => space.inputs.viscosity(inputs).unwrap_or(f64::NAN),
             Source::MeanOrbitRatio => {
-                let count = space.balls.set.count;
+                let count = space.set.count;
                 ratio((0..count).map(|j| v[of_ball(j)[2]]).sum::<f64>() / count as f64)
             }
             Source::OrbitAngle(j) => {
                 let travel = if space.free { q[of_ball(j)[2]] } else { inputs.orbit_travel() };
-                space.balls.set.reference_angles[j] + travel
+                space.set.reference_angles[j] + travel
             }
             Source::OrbitRatio(j) => ratio(v[of_ball(j)[2]]),
             Source::Pitch(j) | Source::Yaw(j) => {

@@ -20,7 +20,7 @@ impl Space {
 
     /// What counts as one unit of error for every state.
     pub(crate) fn state_scales(&self) -> Vec<f64> {
-        let set = &self.balls.set;
+        let set = &self.set;
         let ring = self.ring.free().map(|k| &RING_COORDINATES[k]);
         let cage = self.cage_coordinates().iter();
         let balls = (0..self.layout.count).flat_map(|_| self.balls.coordinates());
@@ -40,7 +40,7 @@ impl Space {
         if !self.free {
             return [Input::OrbitSpeed, Input::SpinSpeed].map(|input| inputs.of(input));
         }
-        let set = &self.balls.set;
+        let set = &self.set;
         let cos = math::cos(self.free_contact_angle());
         let gamma = set.radius * cos / set.pitch_radius;
         let [outer, inner] = [Input::OuterRingSpeed, Input::RingSpeed].map(|input| inputs.of(input));

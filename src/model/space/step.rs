@@ -76,7 +76,7 @@ impl Space {
         ws.step = Some(wanted);
         self.find_cage_step(v, step, ws);
         if let Some(step) = step {
-            for j in 0..self.layout.count {
+            for j in 0..ws.balls {
                 let (block, lane) = place_of(j);
                 for (k, place) in self.layout.of_element::<OF_BALL>(j).into_iter().enumerate() {
                     let [mean, end] = &mut ws.changes[block];
@@ -132,10 +132,10 @@ impl Space {
             }
         }
         self.add_cage_powers(ws, p);
-        for j in 0..self.layout.count {
+        for j in 0..ws.balls {
             let (block, lane) = place_of(j);
             let block = &ws.blocks[block];
-            let r = self.balls.set.pitch_radius + block.at[1][lane];
+            let r = self.set.pitch_radius + block.at[1][lane];
             let moving = moving(at_lane(&block.speeds, lane), r);
             if let Some([force, moment]) = self.drag_on(j, &moving, ws.fluid.ln_viscosity) {
                 p[Power::Drag as usize] += dot(force, moving.velocity) + dot(moment, moving.turning);
@@ -200,12 +200,12 @@ impl Space {
             sum.elastic += of_cage.elastic + self.energy_in_pockets(ws);
         }
         let [gy, gz] = self.gravity;
-        for j in 0..self.layout.count {
+        for j in 0..ws.balls {
             let (block, lane) = place_of(j);
             let block = &ws.blocks[block];
             let [mass, inertia] = at_lane(&block.inertia, lane);
             let [cos, sin] = at_lane(&block.direction, lane);
-            let r = self.balls.set.pitch_radius + block.at[1][lane];
+            let r = self.set.pitch_radius + block.at[1][lane];
             let [x, rho, orbit, wx, wr, wt] = at_lane(&block.speeds, lane);
             let around = r * orbit;
             sum.kinetic += 0.5 * mass * (x * x + rho * rho + around * around)
@@ -225,7 +225,7 @@ impl Space {
     /// # Errors
     /// [`Fault::TooFast`].
     pub(crate) fn admit(&self, v: &[f64]) -> Result<(), Fault> {
-        let set = &self.balls.set;
+        let set = &self.set;
         for j in 0..self.layout.count {
             for (k, velocity) in self.layout.of_element::<OF_BALL>(j).into_iter().enumerate() {
                 let lever = [1.0, 1.0, set.pitch_radius, set.radius, set.radius, set.radius][k];

@@ -160,8 +160,8 @@ impl ContactLanes {
 #[derive(Clone, Debug)]
 pub struct Workspace {
     pub(super) count: usize,
-    /// Number of those on races: all, or none where their motion is prescribed.
-    on_races: usize,
+    /// Number of balls that have states.
+    pub(super) balls: usize,
     pub(super) blocks: Vec<BallBlock>,
     pub(super) ring: RingState<f64>,
     /// Motion of outer and inner ring.
@@ -188,7 +188,7 @@ pub struct Workspace {
 impl Workspace {
     /// Memory for evaluations of a bearing.
     pub(crate) fn new(space: &Space) -> Self {
-        let count = space.balls.set.count;
+        let count = space.set.count;
         let block = |first: usize| {
             // Lanes beyond the last ball are a ball like the first one.
             let at = |lane: usize| if first + lane < count { first + lane } else { 0 };
@@ -201,7 +201,7 @@ impl Workspace {
                 direction,
                 travel: ZEROS,
                 speeds: [ZEROS; OF_BALL],
-                excess: column(&|j| space.balls.set.radius_excess[j]),
+                excess: column(&|j| space.set.radius_excess[j]),
                 inertia: [0, 1].map(|k| column(&|j| space.balls.inertia(j)[k])),
                 contacts: [0, 1].map(|k| {
                     let elastic =
@@ -220,7 +220,7 @@ impl Workspace {
         let oil = space.inputs.oil;
         Self {
             count,
-            on_races: space.layout.count,
+            balls: space.layout.count,
             blocks: (0..blocks_for(count)).map(|b| block(b * crate::scalar::WIDEST)).collect(),
             ring: RingState {
                 position: [0.0; OF_RING],
@@ -246,7 +246,7 @@ impl Workspace {
 
     /// Contacts of every ball with one race, with their lanes, in order.
     pub(super) fn contacts(&self, race: usize) -> impl Iterator<Item = (&ContactLanes, usize)> {
-        (0..self.on_races).map(move |j| {
+        (0..self.balls).map(move |j| {
             let (block, lane) = place_of(j);
             (&self.blocks[block].contacts[race], lane)
         })

@@ -146,7 +146,7 @@ impl Space {
         }
         let [x, y, z, ..] = memory.state.position;
         let off = math::hypot(x, math::hypot(y, z));
-        if off > self.balls.set.pitch_radius || tilt_of(&memory.state.position) > LARGEST_TILT {
+        if off > self.set.pitch_radius || tilt_of(&memory.state.position) > LARGEST_TILT {
             return Err(Fault::LostCage);
         }
         memory.moving = memory.state.motion();
@@ -163,7 +163,7 @@ impl Space {
             at,
             direction: at_lane(&block.direction, lane),
             lead: block.travel[lane] - ws.cage.moving.angle,
-            moving: moving(at_lane(&block.speeds, lane), self.balls.set.pitch_radius + at[1]),
+            moving: moving(at_lane(&block.speeds, lane), self.set.pitch_radius + at[1]),
             excess: block.excess[lane],
             bent: self.displaced_pocket(ws, j),
         }
@@ -218,7 +218,7 @@ impl Space {
     }
 
     fn touch_pockets(&self, pockets: &BallPockets, ws: &mut Workspace) -> Result<(), Fault> {
-        let furthest = self.balls.set.radius / self.balls.set.pitch_radius;
+        let furthest = self.set.radius / self.set.pitch_radius;
         for j in 0..ws.count {
             let ball = self.in_pocket(ws, j);
             if ball.lead.abs() > furthest {
@@ -331,7 +331,7 @@ impl Space {
     /// Highest frequency of the cage between its pockets and in its lands, rad/s; zero without a cage.
     pub(super) fn cage_frequency(&self) -> f64 {
         let Some(cage) = &self.cage else { return 0.0 };
-        let pitch = self.balls.set.pitch_radius;
+        let pitch = self.set.pitch_radius;
         let pocket = cage.pockets.as_ref().map_or(0.0, BallPockets::stiffness);
         let of_lands = cage.lands.iter().map(|land| {
             let stiffness = land.stiffness();

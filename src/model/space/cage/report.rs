@@ -314,7 +314,7 @@ impl Space {
         let block = &ws.blocks[place];
         let direction = at_lane(&block.direction, lane);
         let [x, rho] = at_lane(&block.at, lane);
-        let r = self.balls.set.pitch_radius + rho;
+        let r = self.set.pitch_radius + rho;
         let normal = contact.normal;
         // t is the direction outwards in the wall, l = n x t.
         let outwards = difference([0.0, 1.0, 0.0], scaled(normal, normal[1]));

@@ -124,7 +124,7 @@ impl Space {
             at: [variable(x, 0), rho],
             direction,
             lead: timed(lead, orbit),
-            moving: moving(of_ball, rho + self.balls.set.pitch_radius),
+            moving: moving(of_ball, rho + self.set.pitch_radius),
             excess: block.excess[lane],
             bent: self.displaced_pocket(ws, j).map(|bent| {
                 let at = |i: usize, k: usize| variable(bent[i][k], BENT_IN_POCKET + 2 * i + k);
@@ -146,7 +146,7 @@ impl Space {
         ];
         let positions = [3, OF_BALL];
         let [mass, inertia] = at_lane(&block.inertia, lane);
-        let r = self.balls.set.pitch_radius + rho.re;
+        let r = self.set.pitch_radius + rho.re;
         let inverse = [mass, mass, mass * r, inertia, inertia, inertia].map(|x| 1.0 / x);
         for (i, by) in by_forces.row_iter().enumerate() {
             let mut row = [0.0; IN_POCKET];

@@ -33,7 +33,7 @@ impl Space {
         }
         let (block, lane) = place_of(touching.ball);
         let [mass, inertia] = at_lane(&ws.blocks[block].inertia, lane);
-        let radius = self.balls.set.radius;
+        let radius = self.set.radius;
         let PocketContact { damping, secant, .. } = touching.contact;
         let rubbing = secant * (1.0 / mass + radius * radius / inertia);
         [damping / mass, rubbing].map(|rate| implicit_share(rate * h))
@@ -45,7 +45,7 @@ impl Space {
             let (block, lane) = place_of(touching.ball);
             let of_ball = &ws.blocks[block];
             let [mass, inertia] = at_lane(&of_ball.inertia, lane);
-            let r = self.balls.set.pitch_radius + of_ball.at[1][lane];
+            let r = self.set.pitch_radius + of_ball.at[1][lane];
             let [of_normal, of_friction] = self.pocket_shares(ws, touching, h);
             let PocketContact { normal, damping, secant, levers: [to_wall, _], .. } = touching.contact;
             let inverse = [mass, mass, mass * r, inertia, inertia, inertia];
@@ -84,7 +84,7 @@ impl Space {
             let direction = at_lane(&block.direction, lane);
             let contact = &touching.contact;
             let [to_wall, _] = contact.levers;
-            let r = self.balls.set.pitch_radius + block.at[1][lane];
+            let r = self.set.pitch_radius + block.at[1][lane];
             let speeds = at_lane(&block.speeds, lane);
             let (mut force, mut friction) = (contact.force, scaled(contact.slip, -contact.secant));
             let mut rates = (contact.depth_rate, contact.slip);

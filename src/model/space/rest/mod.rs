@@ -81,13 +81,13 @@ pub(crate) struct Bearing<'a> {
 
 impl<'a> Bearing<'a> {
     fn ball(&self, j: usize) -> Ball<'a> {
-        let Space { balls, gravity: [gy, gz], .. } = self.space;
+        let Space { set, balls, gravity: [gy, gz], .. } = self.space;
         let races = self.space.both_races();
         let (sin, cos) = self.direction(j);
         Ball {
             grooves: races.map(|race| &race.groove),
             elastic: races.map(|race| &race.elastic[j]),
-            excess: balls.set.radius_excess[j],
+            excess: set.radius_excess[j],
             inertia: balls.inertia(j),
             speeds: self.speeds,
             gravity: gy * cos + gz * sin,
@@ -100,7 +100,7 @@ impl<'a> Bearing<'a> {
     }
 
     fn direction(&self, j: usize) -> (f64, f64) {
-        math::sin_cos(self.space.balls.set.reference_angles[j])
+        math::sin_cos(self.space.set.reference_angles[j])
     }
 
     /// Coordinates of the ring beside ball `j`, by row, over those of the bearing.
@@ -122,7 +122,7 @@ impl<'a> Bearing<'a> {
 
     /// All balls at rest beside a ring at these coordinates; `None` where one finds none.
     fn balls(&self, ring: &Vector5<f64>) -> Option<Vec<AtRest<'a>>> {
-        (0..self.space.balls.set.count).map(|j| self.at_rest(j, ring)).collect()
+        (0..self.space.set.count).map(|j| self.at_rest(j, ring)).collect()
     }
 
     /// Ball `j`.
@@ -161,22 +161,22 @@ impl<'a> Bearing<'a> {
     /// Stiffness of one lightly pressed contact, N/m.
     fn soft(&self) -> f64 {
         let elastic = &self.space.races[0].elastic[0];
-        elastic.rigidity * (1e-5 * self.space.balls.set.radius).sqrt()
+        elastic.rigidity * (1e-5 * self.space.set.radius).sqrt()
     }
 
     /// Largest centrifugal force of a ball beside a ring at these coordinates, N.
     fn largest_centrifugal(&self, ring: &Vector5<f64>) -> f64 {
         let forces = self.balls(ring).unwrap_or_default().into_iter().enumerate().map(|(j, ball)| {
             let [_, rho, orbit, ..] = ball.motion((self.beside(j) * ring).into());
-            ball.ball().inertia[0] * orbit * orbit * (self.space.balls.set.pitch_radius + rho)
+            ball.ball().inertia[0] * orbit * orbit * (self.space.set.pitch_radius + rho)
         });
         forces.fold(0.0, f64::max)
     }
 
     /// Its ring.
     fn ring(&self) -> RingAtRest<'a> {
-        let Space { ring, balls, .. } = self.space;
-        let (load, pitch_radius) = (self.load, balls.set.pitch_radius);
+        let Space { ring, set, .. } = self.space;
+        let (load, pitch_radius) = (self.load, set.pitch_radius);
         RingAtRest { ring, load, pitch_radius, reach: self.reach(), soft: self.soft() }
     }
 
@@ -191,7 +191,7 @@ fn none(bearing: &Bearing<'_>, at: &Vector5<f64>, share: f64) -> Error {
     let far = (0..OF_RING)
         .filter(|k| bearing.space.ring.held[*k].is_none())
         .find(|k| at[*k].abs() > 0.4 * bearing.reach());
-    let restless = (0..bearing.space.balls.set.count).find(|j| bearing.at_rest(*j, &ring).is_none());
+    let restless = (0..bearing.space.set.count).find(|j| bearing.at_rest(*j, &ring).is_none());
     let why = match (far, restless) {
         (None, _) if bearing.control == RaceControl::Inner && share > 0.0 => {
             "the inner race controls no balls that it hardly presses; 'outer' or 'none' instead of 'inner'"
