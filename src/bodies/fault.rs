@@ -25,6 +25,13 @@ pub enum Fault {
         /// Offset from the pitch circle, m.
         radial_offset: f64,
     },
+    /// The axis of a roller is turned further than that of a roller in a bearing can be.
+    AskewRoller {
+        /// Number of the roller.
+        roller: usize,
+        /// Angle of its axis to that of the bearing, rad.
+        angle: f64,
+    },
     /// A ball has left the groove of a raceway, or its contact is wider than the groove.
     LostBall {
         /// Number of the ball.
@@ -112,6 +119,7 @@ registry! {
         EnergyCreated = "energy_created",
         LostBall = "lost_ball",
         AbovePocket = "above_pocket",
+        AskewRoller = "askew_roller",
     }
 }
 
@@ -135,6 +143,7 @@ impl Fault {
             Self::EnergyCreated { .. } => FaultKind::EnergyCreated,
             Self::LostBall { .. } => FaultKind::LostBall,
             Self::AbovePocket { .. } => FaultKind::AbovePocket,
+            Self::AskewRoller { .. } => FaultKind::AskewRoller,
         };
         kind as usize
     }

@@ -150,9 +150,8 @@ impl Layout {
     /// Velocities of element `j`.
     #[inline]
     pub(crate) fn of_element<const N: usize>(&self, j: usize) -> [usize; N] {
-        // An element has as many positions as speeds without one, or one more.
-        let (first, spin, positions) = (self.element(j), self.spin(j), const { N.div_ceil(2) });
-        debug_assert_eq!(self.of_element, [positions, N - positions]);
+        let (first, spin, [positions, spins]) = (self.element(j), self.spin(j), self.of_element);
+        debug_assert_eq!(positions + spins, N);
         std::array::from_fn(|k| if k < positions { first + k } else { spin + k - positions })
     }
 

@@ -37,7 +37,7 @@ pub(crate) use motions::{Element, ElementBlock, ElementMotion, ElementSet, Motio
 pub(crate) use nodes::{Node, NodeState, nodes};
 pub(crate) use spatial::{
     Balls, CageInSpace, CageState, MovingCage, MovingRing, OF_BALL, OF_CAGE, OF_RING, RING_COORDINATES,
-    RingInSpace, RingState, tilt_of,
+    MovingRoller, OF_ROLLER, ORBIT, RingInSpace, RingState, RollerPlace, RollerState, RollersInSpace, SPIN, tilt_of,
 };
 pub(crate) use states::{State, layout_of, states_of};
 

@@ -77,6 +77,9 @@ const PRESCRIBED: &str = "kinematic_elements: nothing presses on elements of pre
 /// [`crate::Status::BadState`] where there is none, or none was found, as the message says; [`crate::Status::BadScene`] of elements of
 /// prescribed motion.
 pub fn equilibrium(model: &Model, control: RaceControl) -> Result<Equilibrium> {
+    if let Some(settled) = model.space().and_then(|space| space.settled_rollers()) {
+        return Ok(tilting::told(model, &settled?));
+    }
     match model.space() {
         Some(space) if !space.free => Err(Error::new(Status::BadScene, PRESCRIBED)),
         Some(space) => balls::equilibrium(space, control),

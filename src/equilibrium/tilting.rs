@@ -49,7 +49,12 @@ const PRESSURE: usize = 6;
 /// The equilibrium of a ring and the rollers that go round with the speed that they roll at.
 pub(super) fn equilibrium(model: &Model, plane: &Plane) -> Result<Equilibrium> {
     let [orbit, _] = model.kinematic_speeds(&model.inputs_at(0.0, &HostInputs::default()));
-    let settled = settled_rollers(plane, orbit)?;
+    Ok(told(model, &settled_rollers(plane, orbit)?))
+}
+
+/// The same of one that was found.
+pub(super) fn told(model: &Model, settled: &SettledRollers<'_>) -> Equilibrium {
+    let [orbit, _] = model.kinematic_speeds(&model.inputs_at(0.0, &HostInputs::default()));
     let length = settled.rollers.law(0).elastic.length;
     let mut found = of_ring(&settled.ring, [&ROLLER, &CONTACT]);
     found.line_loads.places = (0..=PLACES).map(|i| length * (i as f64 / PLACES as f64 - 0.5)).collect();
@@ -58,7 +63,7 @@ pub(super) fn equilibrium(model: &Model, plane: &Plane) -> Result<Equilibrium> {
         found.elements.push(vec![settled.rollers.azimuths[j], rho, tilt, orbit]);
         for (k, name) in ["outer_raceway", "inner_raceway"].into_iter().enumerate() {
             let name = format!("{}[{j}].{name}", model.element_kind());
-            let (values, line_loads) = contact(&settled, (j, k), &found.line_loads.places);
+            let (values, line_loads) = contact(settled, (j, k), &found.line_loads.places);
             found.warnings.extend(over_pressed(&name, values[PRESSURE], STATIC_LIMIT));
             found.contacts.push(name);
             found.contact_values.push(values.to_vec());
@@ -66,7 +71,7 @@ pub(super) fn equilibrium(model: &Model, plane: &Plane) -> Result<Equilibrium> {
         }
     }
     found.warnings.extend(pushed_away(&settled.ring));
-    Ok(found)
+    found
 }
 
 /// Values of [`CONTACT`] of raceway `k` of roller `j`, and line loads at these places, N/m.

@@ -205,7 +205,23 @@ impl<B: Base> LineContact<B> {
         ln_viscosity: T,
         edge_share: T,
     ) -> ContactForce<T> {
-        let rolling = Entrainment::new(motion.u1, motion.u2, ln_viscosity);
+        self.force_sliding(motion, ln_viscosity.like(0.0), ln_viscosity, edge_share)
+    }
+
+    /// The same where the surfaces also slide across the direction of rolling at this speed, m/s: friction is against the resultant, and
+    /// `friction` the part of it along that direction; across it is minus `friction_secant` times the speed.
+    #[inline(always)]
+    pub fn force_sliding<T: Of<B>>(
+        &self,
+        motion: &ContactMotion<T>,
+        across: T,
+        ln_viscosity: T,
+        edge_share: T,
+    ) -> ContactForce<T> {
+        let mut rolling = Entrainment::new(motion.u1, motion.u2, ln_viscosity);
+        if B::any(across.base().abs().above(0.0)) {
+            rolling = rolling.sliding(across);
+        }
         let mut loaded = None;
         if let Some(profile) = &self.profile {
             loaded = Some(profile.loaded(motion.delta));

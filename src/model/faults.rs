@@ -2,6 +2,7 @@
 
 use super::StateInfo;
 use crate::bodies::{Fault, SOUND};
+use crate::space::solid::LARGEST_TILT;
 
 /// What a bearing calls its parts.
 pub(super) struct Names<'a> {
@@ -32,6 +33,9 @@ pub(super) fn in_words(fault: Fault, names: &Names<'_>) -> String {
         }
         Fault::LostRoller { roller, radial_offset } => {
             format!("roller[{roller}] has left the bearing (radial offset {radial_offset:e} m)")
+        }
+        Fault::AskewRoller { roller, angle } => {
+            format!("roller[{roller}] is askew in its bearing (its axis is turned by {angle:e} rad, at most {LARGEST_TILT:?} rad)")
         }
         Fault::OutOfPocket { element, lead } => {
             format!("{kind}[{element}] is out of its pocket (ahead of it by {lead:e} rad)")

@@ -1,6 +1,6 @@
 //! Rolling elements of a scene: rollers that move freely, or elements whose motion is prescribed.
 
-use super::{ContactLaws, Signal};
+use super::{ContactLaws, RollerSpace, Signal};
 use serde::{Deserialize, Serialize};
 
 /// A set of equally spaced cylindrical rollers that move in the plane under the forces of their contacts.
@@ -34,6 +34,9 @@ pub struct Rollers {
     /// Contact of each roller with those beside it. Absent: rollers must not touch each other.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub neighbours: Option<Neighbours>,
+    /// Freedom to shift along the axis, to skew and to tilt. Absent: rollers stay in the plane.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub space: Option<RollerSpace>,
 }
 
 /// Contact of neighbouring rollers.

@@ -17,6 +17,7 @@ mod json;
 mod lubricant;
 pub(crate) mod problems;
 mod rings;
+mod roller_space;
 mod run;
 mod signal;
 mod spatial_cage;
@@ -49,6 +50,7 @@ pub(crate) use json::{line_of, nearest, parse_located};
 pub use json::{parse_override, set_path};
 pub use lubricant::{Lubricant, Temperature, Viscosity, ViscosityPoint, WaltherViscosity};
 pub use rings::{FreeRing, InnerRing, Load, OuterRing, RingMotion, WavinessHarmonic};
+pub use roller_space::{Rib, RibRing, RibSide, Ribs, RollerEnds, RollerSpace, SlicesOn};
 pub use run::{Auto, ErrorControl, Initial, Leapfrog, Method, Preset, Record, RingStart, Solver};
 pub use signal::{Signal, SignalIntegral, interpolate, slope};
 pub use spatial_cage::{
@@ -103,6 +105,9 @@ pub struct Scene {
     /// Contacts between rollers or balls and raceways. Needed by both.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub raceways: Option<Raceways>,
+    /// Ribs of the rings at the ends of rollers that move in space. Absent: nothing holds these along the axis but friction and pockets.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ribs: Option<Ribs>,
     /// The cage. Absent: rollers without a cage; they do not touch each other. Needed by kinematic elements.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cage: Option<Cage>,

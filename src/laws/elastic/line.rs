@@ -78,6 +78,12 @@ impl<B: Base> ElasticLine<B> {
         T::select(delta.at_most(0.0), delta.like(0.0), loaded)
     }
 
+    /// Elastic energy at the approach `delta` (m), J: 9/19 of Q delta.
+    #[inline(always)]
+    pub fn energy<T: Of<B>>(&self, delta: T) -> T {
+        self.load(delta) * delta * (9.0 / 19.0)
+    }
+
     /// Normal force at the approach `delta` (m) and approach speed `delta_dot` (m/s).
     #[inline(always)]
     pub fn normal_force<T: Of<B>>(

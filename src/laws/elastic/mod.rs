@@ -1,6 +1,7 @@
 //! Normal force of two surfaces that are pressed together.
 
 pub mod line;
+pub mod loaded;
 pub mod normal;
 pub mod point;
 pub mod profile;

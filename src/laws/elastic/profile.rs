@@ -238,6 +238,22 @@ impl<B: Base> Profile<B> {
         }
     }
 
+    /// Slope of the drop of the roller alone, `s` (m) from its middle.
+    #[inline(always)]
+    pub(super) fn slope_of_roller<T: Of<B>>(&self, s: T) -> T {
+        let mut slope = s.like(0.0);
+        if let Some([roller, _]) = &self.crowns {
+            slope = circle_slope(s, *roller);
+        }
+        match &self.logarithm {
+            Some(logarithm) => {
+                let of_logarithm = logarithm.slope(s.abs());
+                slope + T::select(s.below(0.0), -of_logarithm, of_logarithm)
+            }
+            None => slope,
+        }
+    }
+
     /// Drop in m of the raceway alone, `t` (m) from its middle, and its slope.
     #[inline(always)]
     pub fn of_raceway<T: Of<B>>(&self, t: T) -> [T; 2] {

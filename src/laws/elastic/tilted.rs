@@ -48,7 +48,7 @@ impl Along<'_> {
     }
 
     /// delta at `s`, m.
-    fn depth(&self, s: f64) -> f64 {
+    pub(super) fn depth(&self, s: f64) -> f64 {
         let ([c0, c1, c2], [t0, t1]) = (self.approach, self.in_raceway);
         let parabola = c0 + s * (c1 + s * c2);
         match self.profile {

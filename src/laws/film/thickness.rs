@@ -86,6 +86,16 @@ impl<T: Numeric> Entrainment<T> {
         Self { speed, direction: u / speed, slip, ln_speed: speed.ln(), ln_slip: slip.ln(), ln_viscosity }
     }
 
+    /// The same with surfaces that also slide across the direction of rolling, m/s, where that is not zero.
+    #[inline(always)]
+    pub fn sliding(self, across: T) -> Self {
+        let along = self.slip - SLIP_FLOOR;
+        let slip = (along * along + across * across + SLIP_FLOOR * SLIP_FLOOR).sqrt();
+        let none = across.abs().at_most(0.0);
+        let slip = T::select(none, self.slip, slip);
+        Self { slip, ln_slip: T::select(none, self.ln_slip, slip.ln()), ..self }
+    }
+
     /// `s^p` of the slide-to-roll ratio s.
     #[inline(always)]
     fn power_of_slide_roll(&self, p: f64) -> T {

@@ -66,6 +66,7 @@ impl Space {
         if ws.counting && self.free {
             self.count(ws);
         }
+        self.apply_rollers(ws)?;
         self.apply_cage(ws)?;
         self.assemble(ws, a);
         self.in_grooves(ws)?;
@@ -113,6 +114,7 @@ impl Space {
         if !self.free {
             self.locate_prescribed(ws);
         }
+        self.locate_rollers(q, v, ws)?;
         let levers = self.levers();
         let mut fastest = (0, 0.0);
         for j in 0..ws.balls {
@@ -210,7 +212,7 @@ impl Space {
     }
 
     /// Levers of the speeds of a ball, m or 1.
-    fn levers(&self) -> [f64; OF_BALL] {
+    pub(super) fn levers(&self) -> [f64; OF_BALL] {
         let (pitch, radius) = (self.set.pitch_radius, self.set.radius);
         [1.0, 1.0, pitch, radius, radius, radius]
     }
@@ -264,7 +266,8 @@ impl Space {
                     *total += column[lane];
                 }
             }
-            ws.on_rings[race] = halves(total);
+            let (by_rollers, by_balls) = (ws.rollers.on_mates[race], halves(total));
+            ws.on_rings[race] = if self.rollers.is_some() { by_rollers } else { by_balls };
         }
         if let Some(cage) = &self.cage {
             for (land, force) in cage.lands.iter().zip(&ws.cage.lands) {
@@ -274,6 +277,7 @@ impl Space {
         }
         self.accelerate_ring(ws, ws.on_rings[1], a);
         self.accelerate_cage(ws, a);
+        self.accelerate_rollers(ws, a);
         for j in 0..ws.balls {
             let (block, lane) = place_of(j);
             let block = &ws.blocks[block];
@@ -351,7 +355,8 @@ impl Space {
             let lost = ws.cage.touching.iter().find(|touching| !touching.contact.force.is_finite())?;
             Some((lost.ball, races + lost.wall))
         };
-        on_race.or_else(in_pocket).map(|(j, k)| of_ball * j + k)
+        let of_rollers = || self.roller_contact_not_finite(ws);
+        on_race.or_else(in_pocket).map(|(j, k)| of_ball * j + k).or_else(of_rollers)
     }
 }
 

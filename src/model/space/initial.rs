@@ -21,6 +21,11 @@ impl Space {
             self.start_cage([0.0; 2], q, v);
             return Ok(state);
         }
+        if self.rollers.is_some() {
+            let ring = self.start_rollers(q, v)?;
+            self.start_cage(ring, q, v);
+            return Ok(state);
+        }
         let mut guide = [0.0; 2];
         let mut motions = vec![self.kinematic_motion(); self.set.count];
         if self.scene.initial.inner_ring == RingStart::Equilibrium {

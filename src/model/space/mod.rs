@@ -16,6 +16,7 @@ mod evaluate;
 mod initial;
 mod linearize;
 mod report;
+mod rollers;
 pub(crate) mod rest;
 mod scales;
 mod step;
@@ -42,6 +43,7 @@ use crate::pairs::groove::{Fit, Race, angle_of_drop, fit, races};
 use crate::pairs::guide::land::Land;
 use crate::scene::{BallDrag, Scene, needed};
 use cage::CageOfScene;
+use rollers::RollersOfScene;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -67,6 +69,8 @@ pub struct Space {
     /// Of outer and inner ring, where balls are free; else none.
     pub(crate) races: Vec<Race>,
     cage: Option<CageOfScene>,
+    /// Rollers that move in space; `None` with balls and prescribed elements.
+    rollers: Option<RollersOfScene>,
     /// What a ball touches, in the order of its contacts.
     contacts_of_ball: Vec<&'static str>,
     /// Of the mixture around the balls.
@@ -78,7 +82,8 @@ pub struct Space {
 impl Space {
     /// Builds that of a checked scene with these inputs, if it has balls or a cage in space.
     pub(in crate::model) fn new(scene: Arc<Scene>, inputs: Arc<InputSignals>) -> Result<Option<Self>> {
-        let free = scene.balls.is_some();
+        let skewing = scene.has_skewing_rollers();
+        let free = scene.balls.is_some() || skewing;
         if !free && !scene.has_spatial_cage() {
             return Ok(None);
         }
@@ -92,23 +97,28 @@ impl Space {
         };
         let drag = scene.balls.as_ref().and_then(|balls| balls.drag.as_ref()).map(of_drag).transpose()?;
         let ring = RingInSpace::new(&scene);
-        let spins = balls.coordinates().iter().filter(|c| c.position.is_none()).count();
+        let rollers = RollersOfScene::new(&scene, &set, viscosity)?;
+        let coordinates = rollers.as_ref().map_or(balls.coordinates(), |rollers| rollers.body.coordinates());
+        let spins = coordinates.iter().filter(|c| c.position.is_none()).count();
         let count = if free { set.count } else { 0 };
-        let of_balls = [count, balls.coordinates().len() - spins, spins];
+        let of_elements = [count, coordinates.len() - spins, spins];
         let cage = match CageInSpace::new(&scene, &set) {
             None => None,
             Some(body) => Some(CageOfScene {
                 body,
-                pockets: BallPockets::new(&scene, viscosity)?,
+                pockets: if skewing { None } else { BallPockets::new(&scene, viscosity)? },
                 lands: Land::all(&scene, viscosity)?,
             }),
         };
         let mut contacts_of_ball: Vec<&'static str> = RACES[..races.len()].to_vec();
+        if rollers.is_some() {
+            contacts_of_ball = RACES.to_vec();
+        }
         if let Some(pockets) = cage.as_ref().and_then(|cage| cage.pockets.as_ref()) {
             contacts_of_ball.extend(pockets.wall_names());
         }
         let of_cage = cage.as_ref().map_or(0, |cage| cage.body.coordinates().len());
-        let layout = Layout::new([0, ring.free().count(), of_cage], of_balls, false, Vec::new());
+        let layout = Layout::new([0, ring.free().count(), of_cage], of_elements, false, Vec::new());
         let gravity = scene.gravity.map_or([0.0; 2], |g| [g.y, g.z]);
         let watched = Vec::new();
         Ok(Some(Self {
@@ -122,6 +132,7 @@ impl Space {
             free,
             races,
             cage,
+            rollers,
             contacts_of_ball,
             drag,
             watched,
@@ -131,6 +142,14 @@ impl Space {
     /// Outer and inner race of balls that are free.
     pub(crate) fn both_races(&self) -> [&Race; 2] {
         [&self.races[0], &self.races[1]]
+    }
+
+    /// Coordinates of an element.
+    fn element_coordinates(&self) -> &'static [Coordinate] {
+        match &self.rollers {
+            Some(rollers) => rollers.body.coordinates(),
+            None => self.balls.coordinates(),
+        }
     }
 
     /// Coordinates of the cage; none without one.
@@ -194,7 +213,11 @@ impl Space {
 
     /// What the elements are called in names.
     pub(crate) fn element_kind(&self) -> &'static str {
-        if self.free { "ball" } else { "element" }
+        match (&self.rollers, self.free) {
+            (Some(_), _) => "roller",
+            (None, true) => "ball",
+            (None, false) => "element",
+        }
     }
 
     /// The field of the scene by which the film of a land can give energy, if it can.
@@ -274,8 +297,9 @@ impl Space {
     pub(crate) fn state_infos(&self) -> Vec<StateInfo> {
         let ring = self.ring.free().map(|k| ("inner_ring".to_owned(), &RING_COORDINATES[k]));
         let cage = self.cage_coordinates().iter().map(|c| ("cage".to_owned(), c));
+        let kind = self.element_kind();
         let balls = (0..self.layout.count)
-            .flat_map(|j| self.balls.coordinates().iter().map(move |c| (format!("ball[{j}]"), c)));
+            .flat_map(|j| self.element_coordinates().iter().map(move |c| (format!("{kind}[{j}]"), c)));
         let all: Vec<(String, &Coordinate)> = ring.chain(cage).chain(balls).collect();
         let placed = || all.iter().filter(|(_, c)| c.position.is_some());
         let positions = placed().filter_map(|(body, c)| Some((body, c.position?)));

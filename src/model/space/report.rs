@@ -1,6 +1,7 @@
 //! What a bearing in space tells of a state: forces of every contact and on every body, output channels, what is followed in every step.
 
 use super::cage::OfCage;
+use super::rollers::OfRollers;
 use super::evaluate::{moving, to_global};
 use super::workspace::{Workspace, at_lane};
 use super::{RACES, Space};
@@ -106,6 +107,7 @@ pub(crate) enum Source {
     /// Angle left to the edge of the shoulder, of race and ball.
     Shoulder(usize, usize),
     Cage(OfCage),
+    Rollers(OfRollers),
 }
 
 impl Source {
@@ -113,6 +115,7 @@ impl Source {
     fn can_be_watched(self) -> bool {
         match self {
             Self::Cage(source) => source.can_be_watched(),
+            Self::Rollers(source) => source.can_be_watched(),
             Self::Contact(NORMAL_FORCE, ..)
             | Self::DragTorque
             | Self::OuterRingTorque
@@ -170,10 +173,11 @@ impl Space {
             let text = "dynamic viscosity of the lubricant at its temperature";
             push("lubricant.viscosity".to_owned(), "Pa s", text, Source::Viscosity, false);
         }
-        if self.free {
+        if self.rollers.is_none() && self.free {
             let text = "mean orbit speed of the balls over that of rolling at the free contact angle";
             push("balls.orbit_ratio".to_owned(), "1", text, Source::MeanOrbitRatio, false);
         }
+        self.add_rollers_channels(&mut list);
         for j in 0..self.element_count() {
             self.add_ball_channels(j, &mut list);
         }
@@ -190,7 +194,8 @@ impl Space {
         };
         let text = "angle of the element about the bearing";
         push(name("orbit_angle"), "rad", text, Source::OrbitAngle(j), false);
-        if !self.free {
+        if !self.free || self.rollers.is_some() {
+            self.add_roller_channels(j, list);
             self.add_pocket_channels(j, list);
             return;
         }
@@ -263,6 +268,7 @@ impl Space {
                     contact.normal[lane]
                 }
                 Source::Cage(source) => self.cage_value(source, ws),
+                Source::Rollers(source) => self.rollers_value(source, ws),
                 source => self.torque(source, ws),
             };
         }
@@ -272,6 +278,9 @@ impl Space {
     fn torque(&self, source: Source, ws: &Workspace) -> f64 {
         let race = usize::from(source == Source::DragTorque);
         let mut moment = ws.on_rings[race][1];
+        if self.rollers.is_some() && ws.step.is_some_and(|h| h > 0.0) {
+            moment = sum(moment, self.reaction_of_rollers(ws, race)[1]);
+        }
         if ws.step.is_some_and(|h| h > 0.0) {
             for (contact, lane) in ws.contacts(race) {
                 let by_step = [3, 4, 5].map(|k| contact.reaction[k][lane]);
@@ -361,7 +370,7 @@ impl Space {
     pub(crate) fn report(&self, ws: &Workspace, out: &mut SpatialForces) {
         out.contacts.clear();
         out.bodies.clear();
-        out.bodies.resize(self.body_of_ball(ws.count), SpatialBodyForces::default());
+        out.bodies.resize(self.body_of_ball(self.set.count), SpatialBodyForces::default());
         let [gy, gz] = self.gravity;
         let walls = self.contacts_of_ball.len() - self.races.len();
         for j in 0..ws.count {
@@ -391,6 +400,7 @@ impl Space {
             let [mass, _] = self.balls.inertia(j);
             out.bodies[body][ForceSource::Gravity as usize] = [0.0, mass * gy, mass * gz, 0.0, 0.0, 0.0];
         }
+        self.report_rollers(ws, &mut out.contacts, &mut out.bodies);
         self.report_cage(ws, &mut out.bodies);
         let inner = &mut out.bodies[1];
         let [wy, wz] = self.ring.weight(self.gravity);
@@ -416,6 +426,7 @@ impl Reading<'_> {
         let ratio = |speed: f64| if kinematic() == 0.0 { 0.0 } else { speed / kinematic() };
         match source {
             Source::Cage(source) => self.cage(source),
+            Source::Rollers(source) => space.rollers_value(source, ws),
             Source::Ring(k) => space.ring.state(q, v, inputs).position[k],
             Source::DragTorque | Source::OuterRingTorque | Source::OuterDragTorque => {
                 space.torque(source, ws)

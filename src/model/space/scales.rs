@@ -23,7 +23,7 @@ impl Space {
         let set = &self.set;
         let ring = self.ring.free().map(|k| &RING_COORDINATES[k]);
         let cage = self.cage_coordinates().iter();
-        let balls = (0..self.layout.count).flat_map(|_| self.balls.coordinates());
+        let balls = (0..self.layout.count).flat_map(|_| self.element_coordinates());
         let all: Vec<_> = ring.chain(cage).chain(balls).collect();
         let unit = |moves: Moves| match moves {
             Moves::Itself => REFERENCE_LENGTH,
@@ -40,6 +40,9 @@ impl Space {
         if !self.free {
             return [Input::OrbitSpeed, Input::SpinSpeed].map(|input| inputs.of(input));
         }
+        if let Some(rollers) = &self.rollers {
+            return rollers.kinematic_speeds(inputs);
+        }
         let set = &self.set;
         let cos = math::cos(self.free_contact_angle());
         let gamma = set.radius * cos / set.pitch_radius;
@@ -53,6 +56,9 @@ impl Space {
     pub(crate) fn contact_frequency(&self) -> f64 {
         if !self.free {
             return self.cage_frequency();
+        }
+        if let Some(rollers) = &self.rollers {
+            return self.roller_frequency(rollers);
         }
         let largest = |input| self.inputs.largest(input);
         let sin = math::sin(self.free_contact_angle()).max(0.05);

@@ -38,6 +38,7 @@ impl Space {
             let (race, ring) = ((&self.races[race], race), &rings[race]);
             dispatch(*instructions, Damp { race, ring, blocks, count: *count, h, spokes: &mut out.spokes });
         }
+        self.damp_rollers(h, ws, out);
         self.damp_in_pockets(h, ws, out);
         for (body, block) in self.layout.free().zip(&mut out.bodies) {
             if body == CAGE {
@@ -55,7 +56,8 @@ impl Space {
     /// Makes the accelerations `a` of ring and cage those by what the forces on them have become in the step of the balls.
     pub(crate) fn react(&self, v: &[f64], step: &SemiImplicit<'_>, ws: &mut Workspace, a: &mut [f64]) {
         self.find_step(v, Some(step), ws);
-        let [mut force, mut moment] = ws.on_rings[1];
+        let by_rollers = self.reaction_of_rollers(ws, 1);
+        let [mut force, mut moment] = [0, 1].map(|k| sum(ws.on_rings[1][k], by_rollers[k]));
         for (contact, lane) in ws.contacts(1) {
             for k in 0..3 {
                 force[k] += contact.reaction[k][lane];
@@ -75,6 +77,7 @@ impl Space {
         }
         ws.step = Some(wanted);
         self.find_cage_step(v, step, ws);
+        self.find_rollers_step(v, step, ws);
         if let Some(step) = step {
             for j in 0..ws.balls {
                 let (block, lane) = place_of(j);
@@ -119,8 +122,10 @@ impl Space {
         p[..RATES].fill(0.0);
         self.find_step(v, step, ws);
         let parts = [Power::RacewayDamping, Power::RacewayFriction, Power::RollingResistance];
-        let mut on_inner = ws.on_rings[1][1];
-        let mut on_outer = ws.on_rings[0][1][0];
+        let by_rollers = [0, 1].map(|ring| self.reaction_of_rollers(ws, ring));
+        let mut on_inner = sum(ws.on_rings[1][1], by_rollers[1][1]);
+        let mut on_outer = ws.on_rings[0][1][0] + by_rollers[0][1][0];
+        self.add_roller_powers(ws, p);
         for (race, (contact, lane)) in (0..2).flat_map(|race| ws.contacts(race).map(move |c| (race, c))) {
             for (power, part) in contact.powers.iter().zip(parts) {
                 p[part as usize] += power[lane];
@@ -148,7 +153,7 @@ impl Space {
         let [loads, supports] = self.ring.powers(&ws.ring, ws.load);
         p[Power::Loads as usize] += loads;
         p[Power::RingSupport as usize] += supports;
-        let mut force_on_inner = ws.on_rings[1][0];
+        let mut force_on_inner = sum(ws.on_rings[1][0], by_rollers[1][0]);
         for (contact, lane) in ws.contacts(1) {
             force_on_inner = sum(force_on_inner, [0, 1, 2].map(|k| contact.reaction[k][lane]));
         }
@@ -199,6 +204,9 @@ impl Space {
             sum.potential += of_cage.potential;
             sum.elastic += of_cage.elastic + self.energy_in_pockets(ws);
         }
+        let [kinetic, elastic, potential] = self.energy_of_rollers(ws);
+        (sum.kinetic, sum.elastic, sum.potential) =
+            (sum.kinetic + kinetic, sum.elastic + elastic, sum.potential + potential);
         let [gy, gz] = self.gravity;
         for j in 0..ws.balls {
             let (block, lane) = place_of(j);
@@ -225,10 +233,10 @@ impl Space {
     /// # Errors
     /// [`Fault::TooFast`].
     pub(crate) fn admit(&self, v: &[f64]) -> Result<(), Fault> {
-        let set = &self.set;
+        let levers = if self.rollers.is_some() { self.levers_of_rollers() } else { self.levers() };
         for j in 0..self.layout.count {
             for (k, velocity) in self.layout.of_element::<OF_BALL>(j).into_iter().enumerate() {
-                let lever = [1.0, 1.0, set.pitch_radius, set.radius, set.radius, set.radius][k];
+                let lever = levers[k];
                 let speed = v[velocity].abs() * lever;
                 if speed > SOUND {
                     return Err(Fault::TooFast { velocity, speed });

@@ -2,6 +2,7 @@
 
 use super::Space;
 use super::cage::CageMemory;
+use super::rollers::RollerMemory;
 use crate::bodies::{InputValues, MovingRing, OF_BALL, OF_RING, RingState};
 use crate::integrate::Vibration;
 use crate::laws::elastic::point::ElasticPoint;
@@ -170,6 +171,7 @@ pub struct Workspace {
     pub(super) on_rings: [[Vector<f64>; 2]; 2],
     pub(super) load: [f64; OF_RING],
     pub(super) cage: CageMemory,
+    pub(super) rollers: RollerMemory,
     pub(super) inputs: InputValues,
     pub(super) instructions: Arch,
     /// Step whose forces the contacts have, s; zero where they have those of the state itself.
@@ -188,7 +190,7 @@ pub struct Workspace {
 impl Workspace {
     /// Memory for evaluations of a bearing.
     pub(crate) fn new(space: &Space) -> Self {
-        let count = space.set.count;
+        let count = if space.rollers.is_some() { 0 } else { space.set.count };
         let block = |first: usize| {
             // Lanes beyond the last ball are a ball like the first one.
             let at = |lane: usize| if first + lane < count { first + lane } else { 0 };
@@ -220,7 +222,7 @@ impl Workspace {
         let oil = space.inputs.oil;
         Self {
             count,
-            balls: space.layout.count,
+            balls: if space.rollers.is_some() { 0 } else { space.layout.count },
             blocks: (0..blocks_for(count)).map(|b| block(b * crate::scalar::WIDEST)).collect(),
             ring: RingState {
                 position: [0.0; OF_RING],
@@ -231,7 +233,8 @@ impl Workspace {
             rings: [at_rest; 2],
             on_rings: [[[0.0; 3]; 2]; 2],
             load: [0.0; OF_RING],
-            cage: CageMemory::new(count, space.cage.as_ref()),
+            cage: CageMemory::new(space.set.count, space.cage.as_ref()),
+            rollers: space.rollers.as_ref().map_or_else(RollerMemory::none, |rollers| rollers.memory(space.set.count)),
             inputs: InputValues::default(),
             instructions: Arch::new(),
             step: None,
@@ -267,6 +270,10 @@ impl Workspace {
                 sum.count += 1.0;
                 sum.squares += speed * speed;
             }
+        }
+        for speed in self.rollers.normal_speeds() {
+            sum.count += 1.0;
+            sum.squares += speed * speed;
         }
         sum
     }

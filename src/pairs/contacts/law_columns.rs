@@ -69,7 +69,33 @@ impl LawColumns {
         ln_viscosity: f64,
         instructions: Arch,
     ) {
-        dispatch(instructions, Apply { laws: self, rows, contacts, ln_viscosity });
+        self.apply_sliding(rows, contacts, None, ln_viscosity, instructions);
+    }
+
+    /// The same where surfaces also slide across the direction of rolling at these speeds, m/s.
+    pub(in crate::pairs) fn apply_sliding(
+        &self,
+        rows: usize,
+        contacts: &mut [ContactBlock],
+        across: Option<&[Lanes]>,
+        ln_viscosity: f64,
+        instructions: Arch,
+    ) {
+        dispatch(instructions, Apply { laws: self, rows, contacts, across, ln_viscosity });
+    }
+}
+
+/// Speeds across from contact `first` on, or none.
+#[inline(always)]
+pub(super) fn across_at<S: Simd, const K: usize>(
+    simd: S,
+    across: Option<&[Lanes]>,
+    first: usize,
+) -> Pack<S, K> {
+    let (block, lane) = place_of(first);
+    match across {
+        Some(across) => Pack::load(simd, &across[block][lane..]),
+        None => Pack::all(simd, 0.0),
     }
 }
 
@@ -77,6 +103,7 @@ struct Apply<'a> {
     laws: &'a LawColumns,
     rows: usize,
     contacts: &'a mut [ContactBlock],
+    across: Option<&'a [Lanes]>,
     ln_viscosity: f64,
 }
 
@@ -92,7 +119,9 @@ impl Columns for Apply<'_> {
         let ContactBlock { motion, edge_share, force, .. } = &mut self.contacts[block];
         let ln_viscosity = Pack::all(simd, self.ln_viscosity);
         let edge_share = Pack::load(simd, &edge_share[lane..]);
-        force.store(lane, &law.force(&motion.load(simd, lane), ln_viscosity, edge_share));
+        let across = across_at(simd, self.across, first);
+        let motion = motion.load(simd, lane);
+        force.store(lane, &law.force_sliding(&motion, across, ln_viscosity, edge_share));
     }
 }
 

@@ -1,7 +1,7 @@
 //! Derivatives of contact forces over what their law sees, for a whole batch at once.
 
 use super::ContactBlock;
-use super::law_columns::LawColumns;
+use super::law_columns::{LawColumns, across_at};
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
 use crate::laws::elastic::solid::SolidContact;
 use crate::scalar::{Base, Columns, Duals, Lanes, Numeric, Pack, ZEROS, blocks_for, dispatch, place_of};
@@ -35,7 +35,22 @@ impl LawSlopes {
         instructions: Arch,
     ) {
         let slopes = &mut self.0;
-        dispatch(instructions, Differentiate { laws, contacts, slopes, rows, ln_viscosity });
+        dispatch(instructions, Differentiate { laws, contacts, across: None, slopes, rows, ln_viscosity });
+    }
+
+    /// The same where surfaces also slide across the direction of rolling at these speeds, m/s, which take the place of the edge share among
+    /// the directions, as the secant of friction takes that of friction among the forces.
+    pub(in crate::pairs) fn find_sliding(
+        &mut self,
+        laws: &LawColumns,
+        rows: usize,
+        contacts: &mut [ContactBlock],
+        across: &[Lanes],
+        ln_viscosity: f64,
+        instructions: Arch,
+    ) {
+        let (slopes, across) = (&mut self.0, Some(across));
+        dispatch(instructions, Differentiate { laws, contacts, across, slopes, rows, ln_viscosity });
     }
 
     /// The same of solid contacts, which know neither edges nor a lubricant.
@@ -74,6 +89,7 @@ pub(in crate::pairs) fn contact_force<T: Numeric>(
 struct Differentiate<'a> {
     laws: &'a LawColumns,
     contacts: &'a mut [ContactBlock],
+    across: Option<&'a [Lanes]>,
     slopes: &'a mut [[[Lanes; DIRECTIONS]; FORCES]],
     rows: usize,
     ln_viscosity: f64,
@@ -92,12 +108,20 @@ impl Columns for Differentiate<'_> {
         let (block, lane) = place_of(first);
         let ContactBlock { motion, edge_share, force: out, .. } = &mut self.contacts[block];
         let motion = variables(&motion.load::<S, K>(simd, lane));
-        let edge_share = Duals::variable(Pack::load(simd, &edge_share[lane..]), EDGE_SHARE);
+        let mut edge_share = Duals::variable(Pack::load(simd, &edge_share[lane..]), EDGE_SHARE);
+        let mut across = Duals::lift(across_at(simd, self.across, first));
+        if self.across.is_some() {
+            (edge_share, across) = (Duals::lift(edge_share.re), Duals::variable(across.re, EDGE_SHARE));
+        }
         let ln_viscosity = Duals::variable(Pack::all(simd, self.ln_viscosity), VISCOSITY);
         let law = self.laws.load::<S, K>(simd, first);
-        let force = law.force(&motion, ln_viscosity, edge_share);
+        let force = law.force_sliding(&motion, across, ln_viscosity, edge_share);
         out.store(lane, &force);
-        store(&force, &mut self.slopes[block], lane);
+        let mut told = force;
+        if self.across.is_some() {
+            told.friction = force.friction_secant;
+        }
+        store(&told, &mut self.slopes[block], lane);
     }
 }
 

@@ -11,7 +11,8 @@ mod step;
 mod wrenches;
 
 use law_slopes::contact_force;
-pub(super) use law_slopes::{DIRECTIONS, FORCES};
+pub(super) use law_columns::LawColumns;
+pub(super) use law_slopes::{DIRECTIONS, EDGE_SHARE, FORCES, LawSlopes, VISCOSITY};
 pub(crate) use relative::RelativeSlopes;
 pub(super) use relative::{Beside, Kinematics, Varied, VariedContact, add_slopes};
 pub(crate) use step::SpeedChanges;
@@ -25,8 +26,6 @@ use crate::laws::line_contact::LineContact;
 use crate::scalar::{Columns, Lanes, WIDEST, ZEROS, blocks_for, dispatch, place_of};
 use crate::space::Frame;
 use damping::Triangles;
-use law_columns::LawColumns;
-use law_slopes::LawSlopes;
 use pulp::{Arch, Simd};
 use std::ops::Range;
 
@@ -54,7 +53,7 @@ pub(crate) struct ContactBlock {
     /// Of the elements.
     frame: Frame<Lanes>,
     pub(crate) motion: ContactMotion<Lanes>,
-    edge_share: Lanes,
+    pub(in crate::pairs) edge_share: Lanes,
     pub(crate) force: ContactForce<Lanes>,
     /// Wrenches on elements in their local frames, and on mates in global axes.
     pub(crate) on_elements: WrenchLanes,
@@ -64,7 +63,7 @@ pub(crate) struct ContactBlock {
 }
 
 impl ContactBlock {
-    const APART: Self = Self {
+    pub(in crate::pairs) const APART: Self = Self {
         grip: Grip::<Lanes>::ZERO,
         frame: Frame::GLOBAL_LANES,
         motion: NO_MOTION,
@@ -77,7 +76,7 @@ impl ContactBlock {
     };
 }
 
-const NO_MOTION: ContactMotion<Lanes> =
+pub(in crate::pairs) const NO_MOTION: ContactMotion<Lanes> =
     ContactMotion { delta: [APART.delta; WIDEST], delta_dot: ZEROS, u1: ZEROS, u2: ZEROS };
 
 /// Touching contacts whose laws are evaluated together. Room is taken at creation, so filling it does not allocate.

@@ -14,21 +14,11 @@
 //! small numbers. Valid for tilts up to those of `space/solid`. Source: geometry; the gradient is exact.
 
 use super::RacewayGeometry;
+use crate::bodies::RollerPlace;
 use crate::laws::elastic::profile::Profile;
 use crate::pairs::groove::RingPlace;
 use crate::scalar::Of;
 use crate::space::solid::{Vector, cross, difference, dot, scaled, sum};
-
-/// Place of a roller in the axes of its azimuth.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct RollerPlace<T> {
-    /// x, m along the axis of the bearing.
-    pub(crate) x: T,
-    /// rho, m outside the pitch circle.
-    pub(crate) rho: T,
-    /// u.
-    pub(crate) axis: Vector<T>,
-}
 
 /// A disc against a raceway.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,6 +31,16 @@ pub(crate) struct Disc<T> {
     pub(crate) on_roller: Vector<T>,
     /// t, m: place along the axis of the ring.
     pub(crate) in_raceway: T,
+    /// Drop of the raceway there, m.
+    pub(crate) raceway_drop: T,
+    /// e_n and e_t.
+    pub(crate) outward: Vector<T>,
+    pub(crate) tangent: Vector<T>,
+    /// d, R, g and c.
+    pub(crate) distance: T,
+    pub(crate) radius: T,
+    pub(crate) lean: T,
+    pub(crate) cosine: T,
 }
 
 impl RacewayGeometry {
@@ -52,7 +52,7 @@ impl RacewayGeometry {
         roller: &RollerPlace<T>,
         profile: Option<&Profile>,
         excess: f64,
-        s: f64,
+        s: T,
     ) -> Disc<T> {
         let (side, RingPlace { centre, axis: b }) = (if ring.0 == 0 { 1.0 } else { -1.0 }, *ring.1);
         let (u, one) = (roller.axis, roller.rho.like(1.0));
@@ -66,21 +66,33 @@ impl RacewayGeometry {
         let pt = across - t * b[2];
         let square = px * px + r * beyond * 2.0 + beyond * beyond + pt * pt;
         let d = (r * r + square).sqrt();
-        let normal = scaled([px, r + beyond, pt], one / d);
-        let tangent = cross(b, normal);
-        let (g, h) = (dot(normal, u), dot(tangent, u));
+        let outward = scaled([px, r + beyond, pt], one / d);
+        let tangent = cross(b, outward);
+        let (g, h) = (dot(outward, u), dot(tangent, u));
         let c = (one - g * g).sqrt();
-        let drop = profile.map_or_else(|| one.like(0.0), |profile| profile.of_roller(one.like(s)));
+        let drop = profile.map_or_else(|| one.like(0.0), |profile| profile.of_roller(s));
         let [raceway, slope] = profile.map_or([one.like(0.0); 2], |profile| profile.of_raceway(t));
         let larger = one.like(excess) - drop;
         let radius = larger + self.roller_radius;
         let delta =
             (roller.rho + square / (d + r)) * side - self.gap + larger - radius * g * g / (one + c) - raceway;
         let turned = scaled(tangent, radius * g * h / (c * d));
-        let n = difference(difference(scaled(normal, one.like(side)), turned), scaled(b, slope));
-        let lever = scaled(cross(u, n), one.like(-s));
-        let on_roller = sum(lever, scaled(cross(u, normal), radius * g / c));
-        Disc { delta, normal: n, on_roller, in_raceway: t }
+        let n = difference(difference(scaled(outward, one.like(side)), turned), scaled(b, slope));
+        let lever = scaled(cross(u, n), -s);
+        let on_roller = sum(lever, scaled(cross(u, outward), radius * g / c));
+        Disc {
+            delta,
+            normal: n,
+            on_roller,
+            in_raceway: t,
+            raceway_drop: raceway,
+            outward,
+            tangent,
+            distance: d,
+            radius,
+            lean: g,
+            cosine: c,
+        }
     }
 }
 
@@ -105,7 +117,7 @@ mod tests {
     fn disc<T: Of<f64>>(ring: usize, q: [T; 9], s: f64) -> Disc<T> {
         let roller = RollerPlace { x: q[0], rho: q[1], axis: Tilt::new([q[2], q[3]]).axis };
         let place = RingPlace { centre: [q[4], q[5], q[6]], axis: Tilt::new([q[7], q[8]]).axis };
-        NU2310.disc((ring, &place), &roller, Some(&profile()), 0.3e-6, s)
+        NU2310.disc((ring, &place), &roller, Some(&profile()), 0.3e-6, q[0].like(s))
     }
 
     const STATES: [[f64; 9]; 3] = [

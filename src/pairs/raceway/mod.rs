@@ -3,7 +3,7 @@
 mod disc;
 mod kinematics;
 
-pub(crate) use disc::{Disc, RollerPlace};
+pub(crate) use disc::Disc;
 pub(crate) use kinematics::{RacewayGeometry, RingMotion};
 
 use crate::bodies::{
@@ -17,7 +17,7 @@ use crate::pairs::{
     Batch, ContactLaw, Cost, ElementPair, Found, Law, PairInfo, RelativeSlopes, Search, SlopeSums,
 };
 use crate::scalar::{Base, Columns, Numeric, Pack, dispatch, place_of};
-use crate::scene::needed;
+use crate::scene::{Scene, needed};
 use pulp::Simd;
 use std::ops::Range;
 
@@ -69,6 +69,14 @@ fn laws_of(builder: &LawBuilder<'_>) -> Result<Option<(RacewayGeometry, [LineCon
         this.raceway(laws, inner_material, 1.0 / (1.0 / radius + 1.0 / inner), crowns[1])?,
     ];
     Ok(Some((geometry, laws)))
+}
+
+/// The same of a scene, with the lubricant at `viscosity` in Pa s.
+pub(crate) fn laws_of_scene(
+    scene: &Scene,
+    viscosity: Option<f64>,
+) -> Result<Option<(RacewayGeometry, [LineContact; 2])>> {
+    laws_of(&LawBuilder::new(scene, viscosity))
 }
 
 /// The raceway of the outer ring of a scene, if its rollers have laws.

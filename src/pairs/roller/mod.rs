@@ -4,21 +4,18 @@
 //! its slip and the wrenches of unit forces on the roller about its centre P. What acts on the mate about its own centre O is the
 //! opposite, moved there: moment -(M + (P - O) x F).
 
-use crate::space::solid::{Moving, Vector};
+mod laws;
+mod slice;
 
-pub(crate) use super::raceway::RollerPlace;
+pub(crate) use laws::SliceLaws;
+pub(crate) use slice::{Middle, OnRaceway};
+
+use crate::space::solid::Vector;
+
+pub(crate) use crate::bodies::MovingRoller;
 
 /// Force and moment about the centre of the roller, per unit of a force.
 pub(crate) type UnitWrench<T> = [Vector<T>; 2];
-
-/// A roller that moves.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct MovingRoller<T> {
-    /// x, rho and the axis u.
-    pub(crate) place: RollerPlace<T>,
-    /// Velocity of its centre and angular velocity with its spin.
-    pub(crate) moving: Moving<T>,
-}
 
 /// A place where a roller touches a mate.
 #[derive(Clone, Copy, Debug, PartialEq)]

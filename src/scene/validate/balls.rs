@@ -176,13 +176,18 @@ impl Scene {
         ring.is_some_and(|ring| matches!(ring.motion, RingMotion::Space(_)))
     }
 
+    /// Whether its rollers shift along the axis, skew and tilt over time.
+    pub(crate) fn has_skewing_rollers(&self) -> bool {
+        self.rollers.as_ref().is_some_and(|rollers| rollers.space.is_some())
+    }
+
     pub(super) fn validate_spatial_ring(&self, judge: Judge<'_>, ring: &SpatialRing) -> Result<()> {
         let at = |field: &str| format!("inner_ring.motion.space.{field}");
         if self.balls.is_none() && self.rollers.is_none() && !judge.excuses("balls") {
             return judge.refuse("inner_ring.motion.space", "needs 'balls' or 'rollers'; write 'fixed'");
         }
-        if self.rollers.is_some() && ring.x == RingCoordinate::Free {
-            let text = "cylindrical rollers do not hold the ring along its axis; write '{\"held\": 0}'";
+        if self.rollers.is_some() && ring.x == RingCoordinate::Free && !self.has_ribs_on_both_rings() {
+            let text = "cylindrical rollers do not hold the ring along its axis without ribs on both rings; write '{\"held\": 0}'";
             judge.refuse(&at("x"), text)?;
         }
         for (name, coordinate) in ring.coordinates() {

@@ -14,6 +14,7 @@ mod judge;
 mod lubricant;
 mod plausible;
 mod profile;
+mod roller_space;
 mod series;
 mod sizes;
 mod spatial_cage;
@@ -187,6 +188,7 @@ impl Scene {
                 judge.refuse("rollers.neighbours", text)?;
             }
         }
+        self.validate_roller_space(judge, r)?;
         self.material_exists(judge, "rollers.material", &r.material)?;
         let missing = |path: &str| bad(path, "missing; 'rollers' need it");
         let outer = self.outer_ring.as_ref().ok_or_else(|| missing("outer_ring"))?;

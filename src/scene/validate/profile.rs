@@ -40,8 +40,8 @@ impl Scene {
             judge.refuse(path, format!("{slices} is not within 2 to 32"))?;
         }
         let crowns = [outer.raceway_crown_radius, inner.raceway_crown_radius];
-        if rollers.profile.is_none() && crowns.iter().all(Option::is_none) {
-            let text = "not used without 'rollers.profile' or 'raceway_crown_radius' of a ring; remove it";
+        if rollers.space.is_none() && rollers.profile.is_none() && crowns.iter().all(Option::is_none) {
+            let text = "not used without 'rollers.profile', 'rollers.space' or 'raceway_crown_radius' of a ring; remove it";
             judge.refuse(path, text)?;
         }
         Ok(())

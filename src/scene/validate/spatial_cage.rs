@@ -24,11 +24,17 @@ impl Scene {
     /// In the plane or in space, with what that needs.
     pub(super) fn validate_motion_of_cage(&self, judge: Judge<'_>, cage: &Cage) -> Result<()> {
         let Some(space) = &cage.space else { return self.validate_planar_cage(judge, cage) };
-        if self.rollers.is_some() {
-            let text = "not allowed beside 'rollers', which move in the plane; remove it";
+        let in_plane = self.rollers.as_ref().is_some_and(|rollers| rollers.space.is_none());
+        if in_plane && !judge.excuses("rollers.space") {
+            let text = "not allowed beside 'rollers' in the plane; remove it, or add 'rollers.space'";
             return judge.refuse("cage.space", text);
         }
-        if let Some(Pocket::LubricatedCylinder(_)) = &cage.pocket {
+        if self.rollers.is_some() {
+            if let Some(Pocket::SolidCylinder(_) | Pocket::SolidSphere(_)) = &cage.pocket {
+                let text = "a pocket of balls; of rollers 'solid_plane' or 'lubricated_cylinder'";
+                judge.refuse("cage.pocket", text)?;
+            }
+        } else if let Some(Pocket::LubricatedCylinder(_)) = &cage.pocket {
             let text = "a law of the plane; in space give 'solid_plane', 'solid_cylinder' or 'solid_sphere'";
             judge.refuse("cage.pocket.lubricated_cylinder", text)?;
         }
@@ -56,8 +62,8 @@ impl Scene {
     }
 
     fn validate_planar_cage(&self, judge: Judge<'_>, cage: &Cage) -> Result<()> {
-        if self.balls.is_some() {
-            judge.refuse("cage.space", "missing; a cage of 'balls' moves in space")?;
+        if self.balls.is_some() || self.has_skewing_rollers() {
+            judge.refuse("cage.space", "missing; a cage of elements that move in space does so, too")?;
         }
         if self.initial.cage_space.is_some() {
             judge.refuse("initial.cage_space", "needs 'cage.space'; remove it")?;

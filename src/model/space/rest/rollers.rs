@@ -12,7 +12,7 @@ use super::OF_RING;
 use super::ball::{ALL, OnRing, following};
 use super::ring::{RingAtRest, SettledRing, beside};
 use super::settle::{Balance, Rest, settle};
-use crate::bodies::RingInSpace;
+use crate::bodies::{ElementSet, RingInSpace, RollerPlace};
 use crate::error::{Error, Result, Status};
 use crate::laws::elastic::profile::Profile;
 use crate::laws::elastic::tilted::{Along, Slice};
@@ -20,7 +20,7 @@ use crate::laws::line_contact::LineContact;
 use crate::model::HostInputs;
 use crate::model::plane::{Plane, StillBearing};
 use crate::pairs::groove::RingPlace;
-use crate::pairs::raceway::{Disc, RacewayGeometry, RollerPlace};
+use crate::pairs::raceway::{Disc, RacewayGeometry};
 use crate::scalar::{Dual, Of, math};
 use crate::space::solid::{LARGEST_TILT, Tilt, cross, difference, scaled, sum};
 use nalgebra::{Matrix5, SMatrix, SVector, Vector5};
@@ -66,7 +66,7 @@ struct Contact<'a, T> {
 impl<T: Of<f64>> Contact<'_, T> {
     /// The disc at `s`, m.
     fn disc(&self, s: f64) -> Disc<T> {
-        self.geometry.disc((self.ring.0, &self.ring.1), &self.roller, self.profile, self.excess, s)
+        self.geometry.disc((self.ring.0, &self.ring.1), &self.roller, self.profile, self.excess, self.roller.rho.like(s))
     }
 }
 
@@ -277,44 +277,55 @@ impl Rollers<'_> {
     }
 }
 
-/// Finds ring and rollers at rest at the start of the scene; rollers go round with `orbit`, rad/s.
+/// Finds ring and rollers in the plane at rest at the start of the scene; rollers go round with `orbit`, rad/s.
 ///
 /// # Errors
 /// [`Status::BadState`] where there is no equilibrium, or none was found; [`Status::BadScene`] without raceways.
 pub(crate) fn settled_rollers(plane: &Plane, orbit: f64) -> Result<SettledRollers<'_>> {
     let still = StillBearing::new(plane, orbit)
         .ok_or_else(|| Error::new(Status::BadScene, "raceways: missing; nothing presses on the rollers"))?;
-    let set = plane.elements.set();
-    let rollers = Rollers {
-        geometry: still.geometry,
-        laws: still.laws,
-        excess: &set.radius_excess,
-        azimuths: set.reference_angles[..set.count].to_vec(),
-        centrifugal: still.centrifugal,
-    };
+    let rollers = Rollers::new(still.geometry, still.laws, plane.elements.set(), still.centrifugal);
     let body = RingInSpace::new(&plane.scene);
     let inputs = plane.inputs.at(0.0, &HostInputs::default());
-    let bearing = RingAtRest {
-        ring: &body,
-        load: body.load(&inputs),
-        pitch_radius: set.pitch_radius,
-        reach: rollers.geometry.roller_radius,
-        soft: rollers.laws[0].elastic.stiffness_at_load(LIGHTLY),
-    };
-    let mut on_ring = |ring: &Vector5<f64>| Some(rollers.on_ring(ring, &rollers.places(ring)?));
-    let none = |at: Vector5<f64>| {
-        let ring = bearing.unscaled(&at);
-        let restless =
-            (0..set.count).find(|j| rollers.rest(*j, (rollers.beside(*j) * ring).into()).is_none());
-        let why = match restless {
-            Some(j) => format!("roller[{j}] finds no rest"),
-            None => "Newton's method found none".to_owned(),
+    rollers.settled(&body, body.load(&inputs))
+}
+
+impl<'a> Rollers<'a> {
+    /// Rollers of this set between raceways with these laws, under this centrifugal force, N.
+    pub(in crate::model::space) fn new(
+        geometry: RacewayGeometry,
+        laws: [&'a LineContact; 2],
+        set: &'a ElementSet,
+        centrifugal: f64,
+    ) -> Self {
+        let (excess, azimuths) = (&set.radius_excess[..], set.reference_angles[..set.count].to_vec());
+        Self { geometry, laws, excess, azimuths, centrifugal }
+    }
+
+    /// These at rest beside this ring under this load, N and N m.
+    pub(in crate::model::space) fn settled(
+        self,
+        body: &RingInSpace,
+        load: [f64; OF_RING],
+    ) -> Result<SettledRollers<'a>> {
+        let (pitch_radius, count) = (self.geometry.pitch_radius, self.azimuths.len());
+        let soft = self.laws[0].elastic.stiffness_at_load(LIGHTLY);
+        let reach = self.geometry.roller_radius;
+        let bearing = RingAtRest { ring: body, load, pitch_radius, reach, soft };
+        let mut on_ring = |ring: &Vector5<f64>| Some(self.on_ring(ring, &self.places(ring)?));
+        let none = |at: Vector5<f64>| {
+            let ring = bearing.unscaled(&at);
+            let restless = (0..count).find(|j| self.rest(*j, (self.beside(*j) * ring).into()).is_none());
+            let why = match restless {
+                Some(j) => format!("roller[{j}] finds no rest"),
+                None => "Newton's method found none".to_owned(),
+            };
+            Error::new(Status::BadState, format!("no equilibrium: {why}"))
         };
-        Error::new(Status::BadState, format!("no equilibrium: {why}"))
-    };
-    let rest: Rest<OF_RING> = bearing.settled(bearing.start(), &mut on_ring).map_err(none)?;
-    let at = bearing.unscaled(&rest.x);
-    let places = rollers.places(&at).ok_or_else(|| none(rest.x))?;
-    let ring = bearing.equilibrium(&rest, rollers.on_ring(&at, &places))?;
-    Ok(SettledRollers { rollers, ring, places })
+        let rest: Rest<OF_RING> = bearing.settled(bearing.start(), &mut on_ring).map_err(none)?;
+        let at = bearing.unscaled(&rest.x);
+        let places = self.places(&at).ok_or_else(|| none(rest.x))?;
+        let ring = bearing.equilibrium(&rest, self.on_ring(&at, &places))?;
+        Ok(SettledRollers { rollers: self, ring, places })
+    }
 }

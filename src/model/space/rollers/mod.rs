@@ -1,0 +1,265 @@
+//! Rollers that skew and tilt among rings and cage: their contacts at a state.
+//!
+//! Every contact is a list of places with unit wrenches ([`Spot`]), whatever it is with: a raceway in slices, a rib, a pocket. What they do to the
+//! roller is kept over its speeds, so that damping, forces of a step, powers and derivatives follow by the same code; what they do to the mate is
+//! the opposite, moved to its centre.
+
+mod contacts;
+mod report;
+mod start;
+mod step;
+
+pub(super) use contacts::{Contact, Place, RollerMemory};
+pub(crate) use report::OfRollers;
+
+use super::Space;
+use super::evaluate::{beside, to_global};
+use super::workspace::Workspace;
+use crate::bodies::{Fault, OF_ROLLER, RollerState, RollersInSpace, SOUND};
+use crate::error::Result;
+use crate::laws::elastic::loaded::Loaded;
+use crate::laws::elastic::profile::USUAL_SLICES;
+use crate::laws::elastic::tilted::Along;
+use crate::laws::line_contact::LineContact;
+use crate::pairs::Law;
+use crate::pairs::raceway::RacewayGeometry;
+use crate::pairs::roller::OnRaceway;
+use crate::scalar::math;
+use crate::scene::{Scene, SlicesOn};
+use crate::space::solid::{LARGEST_TILT, Vector, cross, scaled, sum};
+
+/// Names of the contacts with raceways.
+const RACEWAYS: [&str; 2] = ["outer_raceway", "inner_raceway"];
+
+/// Rollers with their pairs.
+#[derive(Debug)]
+pub(super) struct RollersOfScene {
+    pub(super) body: RollersInSpace,
+    geometry: RacewayGeometry,
+    /// Of outer and inner raceway.
+    laws: [LineContact; 2],
+    /// a, m.
+    half_length: f64,
+    slices: usize,
+    slices_on: SlicesOn,
+    /// What a roller can touch, in the order of reports.
+    pub(super) contacts: Vec<String>,
+}
+
+impl RollersOfScene {
+    /// Those of a scene, if its rollers move in space, with the lubricant at `viscosity` in Pa s.
+    pub(super) fn new(
+        scene: &Scene,
+        set: &crate::bodies::ElementSet,
+        viscosity: Option<f64>,
+    ) -> Result<Option<Self>> {
+        let (Some(body), Some(rollers)) = (RollersInSpace::new(scene, set), &scene.rollers) else {
+            return Ok(None);
+        };
+        let Some((geometry, laws)) = crate::pairs::raceway::laws_of_scene(scene, viscosity)? else {
+            return Ok(None);
+        };
+        let raceways = scene.raceways.as_ref();
+        Ok(Some(Self {
+            body,
+            geometry,
+            laws,
+            half_length: 0.5 * rollers.effective_length,
+            slices: raceways.and_then(|raceways| raceways.slices).map_or(USUAL_SLICES, |n| n as usize),
+            slices_on: rollers.space.as_ref().map(|space| space.slices_on).unwrap_or_default(),
+            contacts: RACEWAYS.map(str::to_owned).to_vec(),
+        }))
+    }
+
+    /// Most slices of one contact.
+    fn most_slices(&self) -> usize {
+        self.slices + 1
+    }
+}
+
+/// Force and moment together.
+fn added(a: [Vector<f64>; 2], b: [Vector<f64>; 2]) -> [Vector<f64>; 2] {
+    [sum(a[0], b[0]), sum(a[1], b[1])]
+}
+
+impl Space {
+    /// Finds how rollers move.
+    pub(super) fn locate_rollers(&self, q: &[f64], v: &[f64], ws: &mut Workspace) -> std::result::Result<(), Fault> {
+        let Some(_) = &self.rollers else { return Ok(()) };
+        let pitch = self.set.pitch_radius;
+        let levers = self.levers_of_rollers();
+        for j in 0..self.layout.count {
+            let places = self.layout.of_element::<OF_ROLLER>(j);
+            let at = |k: usize| q[places[k]];
+            let speeds = places.map(|place| v[place]);
+            for (k, (speed, lever)) in speeds.iter().zip(levers).enumerate() {
+                if speed.abs() * lever > SOUND {
+                    return Err(Fault::TooFast { velocity: places[k], speed: speed.abs() * lever });
+                }
+            }
+            let off = at(1).abs().max(at(0).abs());
+            if off > self.set.radius {
+                return Err(Fault::LostRoller { roller: j, radial_offset: at(1) });
+            }
+            let angle = math::hypot(at(3), at(4));
+            if angle > LARGEST_TILT {
+                return Err(Fault::AskewRoller { roller: j, angle });
+            }
+            let state = RollerState::new(pitch, [at(0), at(1)], [at(3), at(4)], speeds);
+            let (sin, cos) = math::sin_cos(self.set.reference_angles[j] + at(2));
+            let roller = &mut ws.rollers.rollers[j];
+            (roller.state, roller.direction, roller.travel) = (state, [cos, sin], at(2));
+        }
+        Ok(())
+    }
+
+    /// Levers of the speeds of a roller, m or 1.
+    pub(super) fn levers_of_rollers(&self) -> [f64; OF_ROLLER] {
+        let (pitch, radius) = (self.set.pitch_radius, self.set.radius);
+        let half = self.rollers.as_ref().map_or(0.0, |rollers| rollers.half_length);
+        [1.0, 1.0, pitch, half, half, radius]
+    }
+
+    /// Finds the forces of all contacts of rollers.
+    pub(super) fn apply_rollers(&self, ws: &mut Workspace) -> std::result::Result<(), Fault> {
+        let Some(rollers) = &self.rollers else { return Ok(()) };
+        ws.rollers.clear();
+        for side in 0..2 {
+            self.touch_raceway(rollers, side, ws);
+        }
+        let Workspace { rollers: memory, fluid, instructions, .. } = ws;
+        memory.evaluate(fluid.ln_viscosity, *instructions);
+        memory.add_up();
+        if ws.counting {
+            self.count_of_rollers(ws);
+        }
+        Ok(())
+    }
+
+    /// Finds where rollers are loaded by one raceway.
+    fn touch_raceway(&self, rollers: &RollersOfScene, side: usize, ws: &mut Workspace) {
+        let Workspace { rollers: memory, rings, .. } = ws;
+        let (geometry, a) = (&rollers.geometry, rollers.half_length);
+        let profile = rollers.laws[side].profile.as_ref();
+        for j in 0..self.layout.count {
+            let of = &memory.rollers[j];
+            let on = OnRaceway {
+                geometry,
+                profile,
+                side,
+                ring: beside(&rings[side], of.direction),
+                roller: of.state.motion(),
+                excess: self.set.radius_excess[j],
+            };
+            let discs = [-a, 0.0, a].map(|s| on.straight(s));
+            let approach = Along::parabola(a, discs.map(|disc| disc.delta));
+            let [low, middle, high] = discs.map(|disc| disc.in_raceway);
+            let along =
+                Along { profile, half_length: a, approach, in_raceway: [middle, 0.5 * (high - low) / a] };
+            let loaded = match rollers.slices_on {
+                SlicesOn::Loaded => along.loaded(),
+                SlicesOn::Whole => Loaded::whole(a),
+            };
+            if loaded.parts().is_empty() {
+                continue;
+            }
+            memory.found.clear();
+            loaded.slices(a, rollers.slices, &mut memory.found);
+            let middle = on.middle(&discs[1]);
+            let [x, rho] = of.state.at;
+            let centre = on.ring.centre;
+            let from_mate = [x - centre[0], rho + geometry.pitch_radius - centre[1], -centre[2]];
+            memory.open(Contact::new(j, Place::Raceway(side), middle.passing, from_mate, loaded.length()));
+            for i in 0..memory.found.len() {
+                let slice = memory.found[i];
+                let spot = on.spot(&middle, slice.place);
+                memory.add_slice(side, slice, &spot, 0.0);
+            }
+            memory.close();
+        }
+    }
+
+    fn count_of_rollers(&self, ws: &mut Workspace) {
+        let Some(rollers) = &self.rollers else { return };
+        for contact in &ws.rollers.contacts {
+            if let Place::Raceway(side) = contact.place {
+                let law = [Law::OuterRaceway, Law::InnerRaceway][side];
+                ws.counts[law as usize] += 1;
+                for part in rollers.parts(side) {
+                    ws.counts[part as usize] += 1;
+                }
+            }
+        }
+    }
+
+    /// Writes the accelerations of rollers.
+    pub(super) fn accelerate_rollers(&self, ws: &Workspace, a: &mut [f64]) {
+        let Some(rollers) = &self.rollers else { return };
+        let [gy, gz] = self.gravity;
+        for (j, of) in ws.rollers.rollers.iter().enumerate() {
+            let [cos, sin] = of.direction;
+            let inertia = rollers.body.inertia(j);
+            let by_contacts = of.state.accelerated(inertia, of.forces);
+            let drift = of.state.drift(inertia, [gy * cos + gz * sin, gz * cos - gy * sin]);
+            for (k, place) in self.layout.of_element::<OF_ROLLER>(j).into_iter().enumerate() {
+                a[place] = by_contacts[k] + drift[k];
+            }
+        }
+    }
+
+    /// Energy of rollers and of their contacts: kinetic, elastic, of their weight, J.
+    pub(super) fn energy_of_rollers(&self, ws: &Workspace) -> [f64; 3] {
+        let Some(rollers) = &self.rollers else { return [0.0; 3] };
+        let [gy, gz] = self.gravity;
+        let mut sum = [0.0, ws.rollers.elastic_energy(&rollers.laws), 0.0];
+        for (j, of) in ws.rollers.rollers.iter().enumerate() {
+            let [cos, sin] = of.direction;
+            let [mass, ..] = rollers.body.inertia(j);
+            sum[0] += rollers.body.kinetic_energy(j, &of.state);
+            sum[2] -= mass * of.state.r * (gy * cos + gz * sin);
+        }
+        sum
+    }
+
+    /// The first contact of rollers whose force is not finite, as a place among all.
+    pub(super) fn roller_contact_not_finite(&self, ws: &Workspace) -> Option<usize> {
+        let rollers = self.rollers.as_ref()?;
+        let lost = ws.rollers.contacts.iter().find(|contact| {
+            contact.on_roller().iter().flatten().any(|x| !x.is_finite())
+        })?;
+        Some(lost.roller * rollers.contacts.len() + lost.place.in_list())
+    }
+}
+
+impl RollersOfScene {
+    /// The laws of the contacts with one raceway beside elasticity.
+    pub(super) fn parts(&self, side: usize) -> impl Iterator<Item = Law> {
+        let law = &self.laws[side];
+        [
+            (law.film.is_some(), Law::FilmThickness),
+            (law.traction.is_some(), Law::Traction),
+            (law.self_heating.is_some(), Law::SelfHeating),
+            (law.regime.is_some(), Law::LubricationRegime),
+            (law.rolling_resistance.is_some(), Law::RollingResistance),
+        ]
+        .into_iter()
+        .filter(|(present, _)| *present)
+        .map(|(_, law)| law)
+    }
+
+    /// Law of a raceway.
+    pub(super) fn law(&self, side: usize) -> &LineContact {
+        &self.laws[side]
+    }
+
+    /// Memory for these.
+    pub(super) fn memory(&self, count: usize) -> RollerMemory {
+        RollerMemory::new(count, self.most_slices(), &self.laws)
+    }
+}
+
+/// What a force and moment about the centre of a roller do to a mate whose centre is away from that by `-from_mate`, in the axes of the bearing.
+fn on_mate([force, moment]: [Vector<f64>; 2], from_mate: Vector<f64>, direction: [f64; 2]) -> [Vector<f64>; 2] {
+    let about = sum(moment, cross(from_mate, force));
+    [to_global(scaled(force, -1.0), direction), to_global(scaled(about, -1.0), direction)]
+}

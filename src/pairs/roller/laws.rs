@@ -1,0 +1,107 @@
+//! Laws of line contacts on many slices at once, each a share of what the whole contact would do at its approach.
+
+use super::Spot;
+use crate::laws::contact_pair::ContactForce;
+use crate::laws::line_contact::LineContact;
+use crate::pairs::contacts::{
+    ContactBlock, DIRECTIONS, EDGE_SHARE, FORCES, LawColumns, LawSlopes, NO_MOTION, VISCOSITY,
+};
+use crate::scalar::{Dual, Lanes, WIDEST, ZEROS, blocks_for, place_of};
+use pulp::Arch;
+
+/// Slices whose contacts have the same law, and their forces.
+#[derive(Clone, Debug)]
+pub(crate) struct SliceLaws {
+    columns: LawColumns,
+    blocks: Vec<ContactBlock>,
+    /// Slip across the direction of rolling, m/s.
+    across: Vec<Lanes>,
+    slopes: LawSlopes,
+    rows: usize,
+}
+
+impl SliceLaws {
+    /// For so many slices under this law at most.
+    pub(crate) fn new(law: &LineContact, room: usize) -> Self {
+        let law = LineContact { profile: None, ..*law };
+        Self {
+            columns: LawColumns::new(law, &[], blocks_for(room) * WIDEST),
+            blocks: vec![ContactBlock::APART; blocks_for(room)],
+            across: vec![ZEROS; blocks_for(room)],
+            slopes: LawSlopes::new(blocks_for(room) * WIDEST),
+            rows: 0,
+        }
+    }
+
+    /// Forgets all slices.
+    pub(crate) fn clear(&mut self) {
+        for i in 0..blocks_for(self.rows) {
+            let block = &mut self.blocks[i];
+            (block.motion, block.edge_share, self.across[i]) = (NO_MOTION, ZEROS, ZEROS);
+        }
+        self.rows = 0;
+    }
+
+    /// Adds a slice that moves like this, whose friction is that of an edge by this share.
+    pub(crate) fn add(&mut self, spot: &Spot<f64>, edge_share: f64) {
+        let (block, lane) = place_of(self.rows);
+        let to = &mut self.blocks[block];
+        to.motion.delta[lane] = spot.delta;
+        to.motion.delta_dot[lane] = spot.delta_dot;
+        let [u1, u2] = spot.surface_speeds;
+        (to.motion.u1[lane], to.motion.u2[lane]) = (u1, u2);
+        to.edge_share[lane] = edge_share;
+        self.across[block][lane] = spot.slip[1];
+        self.rows += 1;
+    }
+
+    /// How many there are.
+    pub(crate) fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Evaluates the law, with the logarithm of the relative viscosity.
+    pub(crate) fn apply(&mut self, ln_viscosity: f64, instructions: Arch) {
+        let Self { columns, blocks, across, rows, .. } = self;
+        columns.apply_sliding(*rows, blocks, Some(across), ln_viscosity, instructions);
+    }
+
+    /// Evaluates it with its derivatives.
+    pub(crate) fn differentiate(&mut self, ln_viscosity: f64, instructions: Arch) {
+        let Self { columns, blocks, across, slopes, rows } = self;
+        slopes.find_sliding(columns, *rows, blocks, across, ln_viscosity, instructions);
+    }
+
+    /// Forces of slice `i` as those of a whole contact.
+    pub(crate) fn force(&self, i: usize) -> ContactForce<f64> {
+        let (block, lane) = place_of(i);
+        self.blocks[block].force.of(lane)
+    }
+
+    /// Normal force, the secant of friction and rolling resistance of slice `i` as it varies like this, after
+    /// [`SliceLaws::differentiate`].
+    pub(crate) fn varied<const N: usize>(
+        &self,
+        i: usize,
+        spot: &Spot<Dual<N>>,
+        ln_viscosity: Dual<N>,
+    ) -> [Dual<N>; FORCES] {
+        let force = self.force(i);
+        let slopes = self.slopes.of(i);
+        let [u1, u2] = spot.surface_speeds;
+        let mut seen = [Dual { re: 0.0, eps: [0.0; N] }; DIRECTIONS];
+        (seen[0], seen[1], seen[2], seen[3]) = (spot.delta, spot.delta_dot, u1, u2);
+        (seen[EDGE_SHARE], seen[VISCOSITY]) = (spot.slip[1], ln_viscosity);
+        let of = |re: f64, slopes: &[f64; DIRECTIONS]| {
+            let mut out = Dual { re, eps: [0.0; N] };
+            for (slope, seen) in slopes.iter().zip(&seen) {
+                for (sum, x) in out.eps.iter_mut().zip(&seen.eps) {
+                    *sum += slope * x;
+                }
+            }
+            out
+        };
+        let values = [force.normal, force.friction_secant, force.rolling_resistance];
+        std::array::from_fn(|k| of(values[k], &slopes[k]))
+    }
+}

@@ -1,0 +1,84 @@
+//! Checks of rollers that skew and tilt, and of ribs.
+
+use super::*;
+
+/// Most slices of a contact.
+const SLICES: std::ops::RangeInclusive<u32> = 2..=32;
+const END_PLAY: Range = range(1e-7, 1e-2, "m");
+const RIB_ANGLE: Range = range(0.0, 0.2, "rad");
+const CAP: Range = range(1e-3, 50.0, "m");
+
+impl Scene {
+    pub(super) fn validate_roller_space(&self, judge: Judge<'_>, rollers: &Rollers) -> Result<()> {
+        let Some(space) = &rollers.space else {
+            if self.ribs.is_some() && !judge.excuses("rollers.space") {
+                judge.refuse("ribs", "needs 'rollers.space'; remove it")?;
+            }
+            return Ok(());
+        };
+        let at = |field: &str| format!("rollers.space.{field}");
+        let longest = range(rollers.effective_length, 2.0 * rollers.effective_length, "m");
+        judge.number(&at("length"), space.length, longest)?;
+        let thin = rollers.mass * space.length * space.length;
+        let inertia = range(0.5 * rollers.inertia, rollers.inertia + thin, "kg m^2");
+        judge.optional(&at("transverse_inertia"), space.transverse_inertia, inertia)?;
+        if let Some(ends) = &space.ends {
+            let cap = range(CAP.min.max(rollers.radius), CAP.max, "m; flat ends are caps of 10 to 50 m");
+            judge.number(&at("ends.cap_radius"), ends.cap_radius, cap)?;
+            judge.number(&at("ends.face_radius"), ends.face_radius, range(1e-5, rollers.radius, "m"))?;
+        }
+        if let Some(slices) = self.raceways.as_ref().and_then(|raceways| raceways.slices)
+            && !SLICES.contains(&slices)
+        {
+            let text = format!("{slices} is outside of {} to {}", SLICES.start(), SLICES.end());
+            judge.refuse("raceways.slices", text)?;
+        }
+        if rollers.neighbours.is_some() {
+            let text = "a law of the plane; not allowed beside 'rollers.space'; remove one of them";
+            judge.refuse("rollers.neighbours", text)?;
+        }
+        if self.heat.is_some() {
+            judge.refuse("heat", "not allowed beside 'rollers.space'; remove one of them")?;
+        }
+        if let Some(RingMotion::Free(_)) = self.inner_ring.as_ref().map(|ring| &ring.motion) {
+            let text = "'free' is a motion in the plane; beside 'rollers.space' write 'space' or 'fixed'";
+            judge.refuse("inner_ring.motion", text)?;
+        }
+        self.validate_ribs(judge, rollers, space)
+    }
+
+    fn validate_ribs(&self, judge: Judge<'_>, rollers: &Rollers, space: &RollerSpace) -> Result<()> {
+        let Some(ribs) = &self.ribs else { return Ok(()) };
+        judge.number("ribs.end_play", ribs.end_play, END_PLAY)?;
+        contact(judge, "ribs.contact", &ribs.contact)?;
+        if ribs.list.is_empty() {
+            judge.refuse("ribs.list", "has no rib; remove 'ribs'")?;
+        }
+        let Some(ends) = &space.ends else {
+            return judge.refuse("rollers.space.ends", "missing; 'ribs' need the shape of the ends");
+        };
+        for (k, rib) in ribs.list.iter().enumerate() {
+            let at = |field: &str| format!("ribs.list.{k}.{field}");
+            judge.number(&at("angle"), rib.angle, RIB_ANGLE)?;
+            judge.number(&at("height"), rib.height, range(1e-5, rollers.radius, "m"))?;
+            if rib.height <= rollers.radius - ends.face_radius {
+                let text = format!(
+                    "{:?} m reaches no face: the ends begin {} m from the raceway; more than that",
+                    rib.height,
+                    shown(rollers.radius - ends.face_radius)
+                );
+                judge.refuse(&at("height"), text)?;
+            }
+            if ribs.list[..k].iter().any(|other| other.ring == rib.ring && other.side == rib.side) {
+                judge.refuse(&format!("ribs.list.{k}"), "a second rib of this ring on this side; remove it")?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether ribs hold the inner ring along the axis by rollers that the outer ring holds.
+    pub(super) fn has_ribs_on_both_rings(&self) -> bool {
+        let on = |ring: RibRing| self.ribs.iter().flat_map(|ribs| &ribs.list).any(|rib| rib.ring == ring);
+        on(RibRing::Outer) && on(RibRing::Inner)
+    }
+}
