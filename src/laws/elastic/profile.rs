@@ -240,7 +240,7 @@ impl<B: Base> Profile<B> {
 
     /// Slope of the drop of the roller alone, `s` (m) from its middle.
     #[inline(always)]
-    pub(super) fn slope_of_roller<T: Of<B>>(&self, s: T) -> T {
+    pub fn slope_of_roller<T: Of<B>>(&self, s: T) -> T {
         let mut slope = s.like(0.0);
         if let Some([roller, _]) = &self.crowns {
             slope = circle_slope(s, *roller);

@@ -95,6 +95,7 @@ impl Space {
             }
         });
         self.add_cage_slopes(ws, (rates, ln_rate), &ring, out);
+        self.add_roller_slopes(ws, (rates, ln_rate), &ring, out);
         for j in 0..ws.balls {
             let places = self.layout.of_element::<OF_BALL>(j);
             let ball = self.ball_slopes(ws, j);

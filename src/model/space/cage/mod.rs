@@ -118,6 +118,11 @@ impl CageMemory {
 }
 
 impl CageMemory {
+    /// Accelerations over forces, after those of the cage were differentiated: force and moment, those over the modes.
+    pub(super) fn by_forces(&self) -> &DMatrix<f64> {
+        &self.by_forces
+    }
+
     /// Amplitudes and rates of the modes.
     pub(super) fn bending(&self) -> [&[f64]; 2] {
         self.of_modes.each_ref().map(Vec::as_slice)

@@ -2,6 +2,7 @@
 
 use super::{added, on_mate};
 use crate::bodies::{ForceSource, OF_ROLLER, RollerState};
+use crate::laws::elastic::loaded::Loaded;
 use crate::laws::elastic::tilted::Slice;
 use crate::laws::line_contact::LineContact;
 use crate::pairs::roller::{SliceLaws, Spot, UnitWrench};
@@ -95,8 +96,8 @@ pub(in super::super) struct Contact {
     pub(in super::super) passing: Moving<f64>,
     /// Centre of the roller from that of the mate, m.
     pub(in super::super) from_mate: Vector<f64>,
-    /// Length that is loaded, m.
-    pub(in super::super) loaded: f64,
+    /// What is loaded of its length.
+    loaded: Loaded,
     /// Force and moment on the roller about its centre, by parts.
     pub(in super::super) parts: [[Vector<f64>; 2]; PARTS],
     /// In the step from the last evaluated state: what the forces on the mate change by in the axes of the bearing, normal force, and powers
@@ -112,7 +113,7 @@ impl Contact {
         place: Place,
         passing: Moving<f64>,
         from_mate: Vector<f64>,
-        loaded: f64,
+        loaded: Loaded,
     ) -> Self {
         Self {
             roller,
@@ -127,6 +128,16 @@ impl Contact {
             normal: 0.0,
             powers: [0.0; PARTS],
         }
+    }
+
+    /// Length that is loaded, m.
+    pub(in super::super) fn loaded(&self) -> f64 {
+        self.loaded.length()
+    }
+
+    /// Its loaded parts, m.
+    pub(in super::super) fn parts_loaded(&self) -> &[[f64; 2]] {
+        self.loaded.parts()
     }
 
     /// Force and moment on the roller about its centre.
@@ -230,6 +241,13 @@ impl RollerMemory {
                 secant: force.friction_secant * share,
                 rolling: force.rolling_resistance * share,
             };
+        }
+    }
+
+    /// Finds the derivatives of all laws.
+    pub(super) fn differentiate(&mut self, ln_viscosity: f64, instructions: Arch) {
+        for laws in &mut self.laws {
+            laws.differentiate(ln_viscosity, instructions);
         }
     }
 

@@ -6,6 +6,7 @@
 
 mod contacts;
 mod report;
+mod slopes;
 mod start;
 mod step;
 
@@ -169,7 +170,7 @@ impl Space {
             let [x, rho] = of.state.at;
             let centre = on.ring.centre;
             let from_mate = [x - centre[0], rho + geometry.pitch_radius - centre[1], -centre[2]];
-            memory.open(Contact::new(j, Place::Raceway(side), middle.passing, from_mate, loaded.length()));
+            memory.open(Contact::new(j, Place::Raceway(side), middle.passing, from_mate, loaded));
             for i in 0..memory.found.len() {
                 let slice = memory.found[i];
                 let spot = on.spot(&middle, slice.place);

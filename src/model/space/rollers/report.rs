@@ -150,7 +150,7 @@ impl Space {
             OfRollers::SkewMoment(k, j) => moment(k, j, 1),
             OfRollers::LineLoad(k, j) => deepest(k, j).map_or(0.0, |node| rollers.line_load(node)),
             OfRollers::LineLoadAt(k, j) => deepest(k, j).map_or(0.0, |node| node.slice.place),
-            OfRollers::LoadedLength(k, j) => contact(k, j).map_or(0.0, |contact| contact.loaded),
+            OfRollers::LoadedLength(k, j) => contact(k, j).map_or(0.0, |contact| contact.loaded()),
             OfRollers::Pressure(k, j) => deepest(k, j).map_or(0.0, |node| rollers.hertz(k, node)[1]),
             OfRollers::Film(k, j) => deepest(k, j).map_or(0.0, |node| memory.laws[k].force(node.row).film),
             OfRollers::SlidingPower(k, j) => contact(k, j).map_or(0.0, |contact| {
@@ -198,7 +198,7 @@ impl Space {
             nodes.iter().map(|node| node.spot.delta).fold(f64::NEG_INFINITY, f64::max),
             mean(&|node| node.spot.delta_dot),
             math::asin(n[0].clamp(-1.0, 1.0)),
-            0.5 * contact.loaded,
+            0.5 * contact.loaded(),
             b,
             pressure,
             law.film,

@@ -1,0 +1,383 @@
+//! Exact derivatives of what contacts of rollers do, by dual numbers over the coordinates of a roller and its mate.
+//!
+//! The laws of all slices are differentiated in lanes over what they see, geometry and wrenches slice by slice over the coordinates themselves. Ends of
+//! loaded parts move as the roots that they are: s' = -(d(delta)/dq)/(d(delta)/ds).
+
+use super::super::Space;
+use super::super::cage::turning_outer;
+use super::super::linearize::RingSlopes;
+use super::super::workspace::Workspace;
+use super::contacts::{Contact, Node, Place};
+use super::RollersOfScene;
+use crate::bodies::{
+    CAGE, INNER_RING, Input, InputValues, MovingRing, OF_RING, OF_ROLLER, RingState, RollerState,
+};
+use crate::integrate::Linearization;
+use crate::laws::elastic::tilted::Along;
+use crate::pairs::roller::{OnRaceway, Spot};
+use crate::scalar::{Dual, Numeric};
+use crate::scene::SlicesOn;
+use crate::space::solid::{Moving, Vector, cross, dot, scaled, sum};
+use nalgebra::DMatrix;
+
+/// Positions of a roller, its speeds, coordinates of the mate (x, y, z, angle and tilts), their rates, displacement of a pocket by bending with its
+/// rates, time.
+const POSITIONS: usize = OF_ROLLER - 1;
+const OF_MATE: usize = 6;
+const SPEEDS: usize = POSITIONS;
+const MATE: usize = SPEEDS + OF_ROLLER;
+const MATE_RATES: usize = MATE + OF_MATE;
+const BENT: usize = MATE_RATES + OF_MATE;
+const TIME: usize = BENT + 4;
+const ALL: usize = TIME + 1;
+type Varied = Dual<ALL>;
+
+/// Coordinates of a ring among those of a mate.
+const OF_RING_IN_MATE: [usize; OF_RING] = [0, 1, 2, 4, 5];
+
+/// What a roller's own motion follows: rho, azimuth, skew, tilt, speeds.
+const OWN: usize = 4 + OF_ROLLER;
+
+fn timed(mut x: Varied, rate: f64) -> Varied {
+    x.eps[TIME] += rate;
+    x
+}
+
+fn local([x, y, z]: Vector<Varied>, [cos, sin]: [Varied; 2]) -> Vector<Varied> {
+    [x, cos * y + sin * z, cos * z - sin * y]
+}
+
+fn global([x, r, t]: Vector<Varied>, [cos, sin]: [Varied; 2]) -> Vector<Varied> {
+    [x, cos * r - sin * t, sin * r + cos * t]
+}
+
+/// Force and moment on a roller, of which `own` turns it about its axis.
+struct OnRoller {
+    force: Vector<Varied>,
+    moment: Vector<Varied>,
+    own: Varied,
+}
+
+impl OnRoller {
+    fn none() -> Self {
+        let zero = Varied::lift(0.0);
+        Self { force: [zero; 3], moment: [zero; 3], own: zero }
+    }
+
+    /// Adds the forces at a place: normal force, secant of friction, rolling resistance.
+    fn add(&mut self, spot: &Spot<Varied>, [normal, secant, rolling]: [Varied; 3], axis: Vector<Varied>) {
+        let [along, across] = spot.slip.map(|slip| -(secant * slip));
+        for (wrench, factor, turns) in [
+            (&spot.normal, normal, false),
+            (&spot.along, along, true),
+            (&spot.across, across, true),
+            (&spot.rolling, rolling, true),
+        ] {
+            let moment = scaled(wrench[1], factor);
+            self.force = sum(self.force, scaled(wrench[0], factor));
+            self.moment = sum(self.moment, moment);
+            if turns {
+                self.own += dot(moment, axis);
+            }
+        }
+    }
+}
+
+impl Space {
+    /// Adds what follows from rollers, while the inputs change at `rates` and the logarithm of the viscosity at `ln_rate`; `ring` are the
+    /// accelerations of the ring over what its motion follows.
+    pub(in super::super) fn add_roller_slopes(
+        &self,
+        ws: &mut Workspace,
+        (rates, ln_rate): (&InputValues, f64),
+        ring: &RingSlopes,
+        out: &mut Linearization<OF_ROLLER>,
+    ) {
+        let Some(rollers) = &self.rollers else { return };
+        ws.rollers.differentiate(ws.fluid.ln_viscosity, ws.instructions);
+        for j in 0..ws.rollers.rollers.len() {
+            self.add_own_roller_slopes(rollers, ws, j, out);
+        }
+        for place in 0..ws.rollers.contacts.len() {
+            let contact = ws.rollers.contacts[place];
+            let (state, direction) = self.varied_roller(ws, contact.roller);
+            let (on, from_mate) = self.varied_contact(rollers, ws, &contact, (rates, ln_rate), &state, direction);
+            let forces = state.over_speeds([on.force, on.moment], on.own);
+            self.add_to_roller(rollers, ws, &contact, &forces, out);
+            let about = sum(on.moment, cross(from_mate, on.force));
+            let [force, moment] = [on.force, about].map(|v| global(v.map(|x| -x), direction));
+            let [[a, b, c], [d, e, f]] = [force, moment];
+            self.add_to_mate(&contact, &[a, b, c, d, e, f], (ring, ws.cage.by_forces()), out);
+        }
+    }
+
+    /// Roller `j` over its coordinates, and the direction of its azimuth.
+    fn varied_roller(&self, ws: &Workspace, j: usize) -> (RollerState<Varied>, [Varied; 2]) {
+        let of = &ws.rollers.rollers[j];
+        let variable = Varied::variable;
+        let [cos, sin] = of.direction;
+        let mut direction = [Varied::lift(cos), Varied::lift(sin)];
+        (direction[0].eps[2], direction[1].eps[2]) = (-sin, cos);
+        let at = [variable(of.state.at[0], 0), variable(of.state.at[1], 1)];
+        let angles = [variable(of.state.angles[0], 3), variable(of.state.angles[1], 4)];
+        let speeds = std::array::from_fn(|k| variable(of.state.speeds[k], SPEEDS + k));
+        (RollerState::new(self.set.pitch_radius, at, angles, speeds), direction)
+    }
+
+    /// A ring over its coordinates, in the axes of this direction.
+    fn varied_ring(
+        &self,
+        ws: &Workspace,
+        side: usize,
+        rates: &InputValues,
+        direction: [Varied; 2],
+    ) -> MovingRing<Varied> {
+        let ring = if side == 0 {
+            turning_outer(timed(Varied::lift(ws.rings[0].speed), rates.of(Input::OuterRingSpeed)))
+        } else {
+            let [_, at, rate, second] = self.given(ws);
+            let place = |k: usize| OF_RING_IN_MATE[k];
+            let variable = Varied::variable;
+            RingState {
+                position: std::array::from_fn(|k| timed(variable(ws.ring.position[k], MATE + place(k)), at[k])),
+                rate: std::array::from_fn(|k| timed(variable(ws.ring.rate[k], MATE_RATES + place(k)), rate[k])),
+                given: second.map(Varied::lift),
+                speed: timed(Varied::lift(ws.ring.speed), rates.of(Input::RingSpeed)),
+            }
+            .motion()
+        };
+        let turned = |v: Vector<Varied>| local(v, direction);
+        MovingRing {
+            centre: turned(ring.centre),
+            axis: turned(ring.axis),
+            moving: Moving { velocity: turned(ring.moving.velocity), turning: turned(ring.moving.turning) },
+            speed: ring.speed,
+        }
+    }
+
+    /// What a contact does to the roller, and where that is from the centre of the mate.
+    fn varied_contact(
+        &self,
+        rollers: &RollersOfScene,
+        ws: &Workspace,
+        contact: &Contact,
+        (rates, ln_rate): (&InputValues, f64),
+        state: &RollerState<Varied>,
+        direction: [Varied; 2],
+    ) -> (OnRoller, Vector<Varied>) {
+        let ln_viscosity = timed(Varied::lift(ws.fluid.ln_viscosity), ln_rate);
+        let mut on_roller = OnRoller::none();
+        let Place::Raceway(side) = contact.place;
+        let on = OnRaceway {
+            geometry: &rollers.geometry,
+            profile: rollers.laws[side].profile.as_ref(),
+            side,
+            ring: self.varied_ring(ws, side, rates, direction),
+            roller: state.motion(),
+            excess: self.set.radius_excess[contact.roller],
+        };
+        let a = rollers.half_length;
+        let discs = [-a, 0.0, a].map(|s| on.straight(Varied::lift(s)));
+        let middle = on.middle(&discs[1]);
+        let slices = Edges::new(rollers, side, contact, discs.map(|disc| (disc.delta, disc.in_raceway)));
+        for node in ws.rollers.places(contact) {
+            let [s, share] = slices.slice(node);
+            let spot = on.spot(&middle, s);
+            let forces = ws.rollers.laws[side].varied(node.row, &spot, ln_viscosity);
+            on_roller.add(&spot, forces.map(|force| force * share), state.tilt.axis);
+        }
+        let [x, rho] = state.at;
+        let [cx, cr, ct] = on.ring.centre;
+        (on_roller, [x - cx, rho + rollers.geometry.pitch_radius - cr, -ct])
+    }
+
+    /// Adds how the accelerations of roller `j` follow its own coordinates at constant forces.
+    fn add_own_roller_slopes(
+        &self,
+        rollers: &RollersOfScene,
+        ws: &Workspace,
+        j: usize,
+        out: &mut Linearization<OF_ROLLER>,
+    ) {
+        type Own = Dual<OWN>;
+        let of = &ws.rollers.rollers[j];
+        let variable = Own::variable;
+        let at = [Own::lift(of.state.at[0]), variable(of.state.at[1], 0)];
+        let angles = [variable(of.state.angles[0], 2), variable(of.state.angles[1], 3)];
+        let speeds = std::array::from_fn(|k| variable(of.state.speeds[k], 4 + k));
+        let state = RollerState::new(self.set.pitch_radius, at, angles, speeds);
+        let ([cos, sin], [gy, gz]) = (of.direction, self.gravity);
+        let [outwards, ahead] = [gy * cos + gz * sin, gz * cos - gy * sin];
+        let mut gravity = [Own::lift(outwards), Own::lift(ahead)];
+        (gravity[0].eps[1], gravity[1].eps[1]) = (ahead, -outwards);
+        let inertia = rollers.body.inertia(j);
+        let by_forces = state.accelerated(inertia, of.forces.map(Own::lift));
+        let drift = state.drift(inertia, gravity);
+        let to = out.over_positions.own.as_mut_slice().as_chunks_mut::<OF_ROLLER>().0;
+        for row in 0..OF_ROLLER {
+            let slopes: [f64; OWN] = std::array::from_fn(|d| by_forces[row].eps[d] + drift[row].eps[d]);
+            for (d, column) in [1, 2, 3, 4].into_iter().enumerate() {
+                to[j * OF_ROLLER + column][row] += slopes[d];
+            }
+            let to = out.over_velocities.own.as_mut_slice().as_chunks_mut::<OF_ROLLER>().0;
+            for column in 0..OF_ROLLER {
+                to[j * OF_ROLLER + column][row] += slopes[4 + column];
+            }
+        }
+    }
+
+    /// Where the coordinates of a mate are in the hub: place among those of [`OF_MATE`], place in the hub.
+    fn mate_in_hub(&self, mate: usize) -> Vec<(usize, usize)> {
+        match mate {
+            CAGE => (0..OF_MATE).map(|k| (k, self.layout.range(CAGE).start + k)).collect(),
+            INNER_RING => {
+                let first = self.layout.range(INNER_RING).start;
+                self.ring.free().enumerate().map(|(i, k)| (OF_RING_IN_MATE[k], first + i)).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// Adds how forces of a contact over the speeds of its roller accelerate that.
+    fn add_to_roller(
+        &self,
+        rollers: &RollersOfScene,
+        ws: &Workspace,
+        contact: &Contact,
+        forces: &[Varied; OF_ROLLER],
+        out: &mut Linearization<OF_ROLLER>,
+    ) {
+        let (j, width) = (contact.roller, self.layout.hub());
+        let of = &ws.rollers.rollers[j];
+        let inertia = rollers.body.inertia(j);
+        let column = |d: usize| of.state.accelerated(inertia, forces.map(|force| force.eps[d]));
+        let add = |to: &mut [f64; OF_ROLLER], by: [f64; OF_ROLLER]| {
+            to.iter_mut().zip(by).for_each(|(to, x)| *to += x);
+        };
+        let places = self.layout.of_element::<OF_ROLLER>(j);
+        for (place, x) in places.into_iter().zip(column(TIME)) {
+            out.over_time[place] += x;
+        }
+        let mates = self.mate_in_hub(contact.place.mate());
+        for (part, first, count, of_mate) in [
+            (&mut out.over_positions, 0, POSITIONS, MATE),
+            (&mut out.over_velocities, SPEEDS, OF_ROLLER, MATE_RATES),
+        ] {
+            let own = part.own.as_mut_slice().as_chunks_mut::<OF_ROLLER>().0;
+            for k in 0..count {
+                add(&mut own[j * OF_ROLLER + k], column(first + k));
+            }
+            let from_hub = part.from_hub.as_mut_slice().as_chunks_mut::<OF_ROLLER>().0;
+            for (k, place) in &mates {
+                add(&mut from_hub[j * width + place], column(of_mate + k));
+            }
+        }
+    }
+
+    /// Adds what force and moment on a mate do to it.
+    fn add_to_mate(
+        &self,
+        contact: &Contact,
+        on: &[Varied; 6],
+        (ring, by_forces): (&RingSlopes, &DMatrix<f64>),
+        out: &mut Linearization<OF_ROLLER>,
+    ) {
+        let mate = contact.place.mate();
+        let rows: Vec<(usize, [f64; 6])> = match mate {
+            CAGE => {
+                let first = self.layout.range(CAGE).start;
+                let row = |i: usize| (first + i, std::array::from_fn(|w| by_forces[(i, w)]));
+                (0..by_forces.nrows()).map(row).collect()
+            }
+            INNER_RING => {
+                let first = self.layout.range(INNER_RING).start;
+                let row = |(i, k): (usize, usize)| (first + i, std::array::from_fn(|w| ring[k].eps[w]));
+                self.ring.free().enumerate().map(row).collect()
+            }
+            _ => return,
+        };
+        let mates = self.mate_in_hub(mate);
+        for (place, by) in rows {
+            let slope = |d: usize| (0..6).map(|w| by[w] * on[w].eps[d]).sum::<f64>();
+            out.over_time[place] += slope(TIME);
+            for (part, first, count, of_mate) in [
+                (&mut out.over_positions, 0, POSITIONS, MATE),
+                (&mut out.over_velocities, SPEEDS, OF_ROLLER, MATE_RATES),
+            ] {
+                for k in 0..count {
+                    part.to_hub[(place, contact.roller * OF_ROLLER + k)] += slope(first + k);
+                }
+                for (k, column) in &mates {
+                    part.hub[(place, *column)] += slope(of_mate + k);
+                }
+            }
+        }
+    }
+}
+
+/// Ends of the loaded parts of a contact, which move.
+struct Edges {
+    /// Value and motion of each end.
+    parts: [[Varied; 2]; 2],
+    count: usize,
+    half_length: f64,
+}
+
+impl Edges {
+    /// Of the contact of a roller whose straight discs at both ends and in the middle have this approach and place in the raceway.
+    fn new(rollers: &RollersOfScene, side: usize, contact: &Contact, discs: [(Varied, Varied); 3]) -> Self {
+        let a = rollers.half_length;
+        let [low, middle, high] = discs;
+        let of = |f: &dyn Fn([f64; 3]) -> f64, d: usize, at: [Varied; 3]| f(at.map(|x| x.eps[d]));
+        let approach = [low.0, middle.0, high.0];
+        let values = Along::parabola(a, approach.map(|x| x.re));
+        // The parabola is linear in the three approaches.
+        let coefficient = |k: usize| {
+            let mut out = Varied::lift(values[k]);
+            for d in 0..ALL {
+                out.eps[d] = of(&|x| Along::parabola(a, x)[k], d, approach);
+            }
+            out
+        };
+        let [c0, c1, c2] = [coefficient(0), coefficient(1), coefficient(2)];
+        let (t0, t1) = (middle.1, (high.1 - low.1) * (0.5 / a));
+        let profile = rollers.laws[side].profile.as_ref();
+        let moved = |s: f64| {
+            if s.abs() >= a || rollers.slices_on == SlicesOn::Whole {
+                return Varied::lift(s);
+            }
+            let at = Varied::lift(s);
+            let mut depth = c0 + (c1 + c2 * at) * at;
+            let mut slope = c1.re + 2.0 * c2.re * s;
+            if let Some(profile) = profile {
+                let [drop, steep] = profile.of_raceway(t0 + t1 * at);
+                depth = depth - drop - profile.of_roller(at);
+                slope -= profile.slope_of_roller(s) + steep.re * t1.re;
+            }
+            let mut out = at;
+            for (out, depth) in out.eps.iter_mut().zip(depth.eps) {
+                *out = -depth / slope;
+            }
+            out
+        };
+        let parts = contact.parts_loaded();
+        let mut ends = [[Varied::lift(0.0); 2]; 2];
+        for (ends, part) in ends.iter_mut().zip(parts) {
+            *ends = part.map(moved);
+        }
+        Self { parts: ends, count: parts.len(), half_length: a }
+    }
+
+    /// Place and share of a slice.
+    fn slice(&self, node: &Node) -> [Varied; 2] {
+        let s = node.slice.place;
+        let inside = |[from, to]: &&[Varied; 2]| from.re <= s && s <= to.re;
+        let Some([from, to]) = self.parts[..self.count].iter().find(inside) else {
+            return [Varied::lift(s), Varied::lift(node.slice.share)];
+        };
+        let length = *to - *from;
+        let place = (s - from.re) / length.re;
+        let weight = node.slice.share / (0.5 * length.re / self.half_length);
+        [*from + length * place, length * (0.5 * weight / self.half_length)]
+    }
+}
