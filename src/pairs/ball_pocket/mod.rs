@@ -11,8 +11,10 @@
 //! ahead; its walls keep their directions. No radii are subtracted. Friction is Coulomb's with a smooth transition through zero slip, of two
 //! components and with the whole spin of the ball. Source: geometry; the laws are those of the plane.
 
+mod place;
 mod walls;
 
+pub(crate) use place::{InPocket, ahead};
 pub(crate) use walls::{WALLS, Wall, Walls};
 
 use crate::bodies::MovingCage;
@@ -26,7 +28,7 @@ use crate::laws::traction::solid_friction::SolidFriction;
 use crate::pairs::line_laws::LawBuilder;
 use crate::scalar::Real;
 use crate::scene::{HertzPocket, Pocket, PocketLaw, Scene, bad_scene, needed};
-use crate::space::solid::{Moving, Tilt, Vector, cross, difference, dot, scaled, sum};
+use crate::space::solid::{Moving, Vector, cross, difference, dot, scaled, sum};
 
 /// Square of the slip, m^2/s^2, that is added so that its size has a slope at none.
 const SLIP_FLOOR: f64 = 1e-24;
@@ -67,16 +69,6 @@ pub(crate) struct BallAt<T> {
     pub(crate) bent: Option<[[T; 2]; 2]>,
 }
 
-/// Where the centre of a ball is in its pocket.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct InPocket<T> {
-    /// q, m.
-    pub(crate) q: Vector<T>,
-    /// Tilt of the pocket in the axes of its azimuth, and cosine and sine of beta.
-    tilt: Tilt<T>,
-    lead: [T; 2],
-}
-
 /// A ball that touches a wall, in the axes of its azimuth.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PocketContact<T> {
@@ -97,12 +89,6 @@ pub(crate) struct PocketContact<T> {
 
 /// Force, N, and moment about the centre, N m, on a body.
 pub(crate) type OnBody<T> = [Vector<T>; 2];
-
-/// A vector in the axes of an azimuth ahead by the angle with this cosine and sine.
-#[inline]
-fn ahead<T: Real>([x, r, t]: Vector<T>, [cos, sin]: [T; 2]) -> Vector<T> {
-    [x, cos * r + sin * t, cos * t - sin * r]
-}
 
 impl BallPockets {
     /// Those of a scene whose cage moves in space.
@@ -145,25 +131,8 @@ impl BallPockets {
 
     /// Where a ball is in its pocket.
     pub(crate) fn place<T: Real>(&self, ball: &BallAt<T>, cage: &MovingCage<T>) -> InPocket<T> {
-        let (half_sin, half_cos) = (ball.lead * 0.5).sin_cos();
-        let (sin, chord) = (half_sin * half_cos * 2.0, half_sin * half_sin * 2.0);
-        let lead = [-chord + 1.0, sin];
-        // The azimuth of the pocket.
-        let [cos_b, sin_b] = ball.direction;
-        let [cos_p, sin_p] = [cos_b * lead[0] + sin_b * sin, sin_b * lead[0] - cos_b * sin];
-        let across = |[_, y, z]: Vector<T>| [cos_p * y + sin_p * z, cos_p * z - sin_p * y];
-        let [out, ahead] = across(cage.centre);
-        let zero = T::constant(0.0);
-        let tilt = Tilt::new(across([zero, cage.tilt.angles[0], cage.tilt.angles[1]]));
-        let [x, rho] = ball.at;
-        let r = rho + self.pitch_radius;
-        let off = [x - cage.centre[0], rho - r * chord - out, r * sin - ahead];
-        let moved = tilt.moved_by([zero, T::constant(self.pitch_radius), zero]);
-        let mut q = tilt.turned_back(difference(off, moved));
-        if let Some([[out, ahead], _]) = ball.bent {
-            q = difference(q, [zero, out, ahead]);
-        }
-        InPocket { q, tilt, lead }
+        let bent = ball.bent.map(|[by, _]| by);
+        InPocket::new(self.pitch_radius, ball.at, ball.direction, ball.lead, cage, bent)
     }
 
     /// Contact with wall `k`, of a ball that is there; `None` where it touches none.
@@ -179,9 +148,8 @@ impl BallPockets {
         if wall.depth.value() <= 0.0 {
             return None;
         }
-        let normal = ahead(place.tilt.turned(wall.normal), place.lead);
-        let [cos, sin] = ball.direction;
-        let local = |[x, y, z]: Vector<T>| [x, cos * y + sin * z, cos * z - sin * y];
+        let normal = place.at_azimuth(wall.normal);
+        let local = |v: Vector<T>| ahead(v, ball.direction);
         let centre = local(cage.centre);
         let [x, rho] = ball.at;
         let r = rho + self.pitch_radius;
@@ -193,7 +161,7 @@ impl BallPockets {
         let outwards_ahead = ball.bent.map(|[_, rates]| {
             let [zero, one] = [0.0, 1.0].map(T::constant);
             let axes = [[zero, one, zero], [zero, zero, one]];
-            let axes = axes.map(|axis| ahead(place.tilt.turned(axis), place.lead));
+            let axes = axes.map(|axis| place.at_azimuth(axis));
             passing = difference(passing, sum(scaled(axes[0], rates[0]), scaled(axes[1], rates[1])));
             axes
         });

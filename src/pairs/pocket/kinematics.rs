@@ -137,7 +137,7 @@ impl PocketPlace {
 }
 
 /// What distinguishes pockets: the surfaces of a pillar.
-pub(super) trait PocketShape: Debug + Send + Sync {
+pub(in crate::pairs) trait PocketShape: Debug + Send + Sync {
     /// Place of the pockets.
     fn place(&self) -> PocketPlace;
 

@@ -1,8 +1,8 @@
 //! Pockets of the cage: contacts of all elements with the pillars before and behind them.
 
-mod cylinder;
-mod kinematics;
-mod plane;
+pub(super) mod cylinder;
+pub(super) mod kinematics;
+pub(super) mod plane;
 
 pub(super) use cylinder::new as cylinder;
 pub(super) use plane::new as plane;

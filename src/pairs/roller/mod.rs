@@ -4,9 +4,11 @@
 //! its slip and the wrenches of unit forces on the roller about its centre P. What acts on the mate about its own centre O is the
 //! opposite, moved there: moment -(M + (P - O) x F).
 
+mod bar;
 mod laws;
 mod slice;
 
+pub(crate) use bar::{BarShape, BarTouch, Bars, InBars};
 pub(crate) use laws::SliceLaws;
 pub(crate) use slice::{Middle, OnRaceway};
 
