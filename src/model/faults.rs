@@ -35,7 +35,9 @@ pub(super) fn in_words(fault: Fault, names: &Names<'_>) -> String {
             format!("roller[{roller}] has left the bearing (radial offset {radial_offset:e} m)")
         }
         Fault::AskewRoller { roller, angle } => {
-            format!("roller[{roller}] is askew in its bearing (its axis is turned by {angle:e} rad, at most {LARGEST_TILT:?} rad)")
+            format!(
+                "roller[{roller}] is askew in its bearing (its axis is turned by {angle:e} rad, at most {LARGEST_TILT:?} rad)"
+            )
         }
         Fault::OutOfPocket { element, lead } => {
             format!("{kind}[{element}] is out of its pocket (ahead of it by {lead:e} rad)")

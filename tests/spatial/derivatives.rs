@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 /// Largest error of a column of the Jacobian against central differences of fourth order, over the largest entry of its rows in units
 /// of the scales.
-fn error(model: &Arc<Model>, spread: f64) -> f64 {
+pub(crate) fn error(model: &Arc<Model>, spread: f64) -> f64 {
     let mut sim = Sim::new(model.clone()).unwrap();
     let scales = model.state_scales();
     let mut worst: f64 = 0.0;

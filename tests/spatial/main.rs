@@ -7,6 +7,7 @@ mod cage;
 mod conservation;
 mod derivatives;
 mod raceways;
+mod rollers;
 mod same_bits;
 mod skidding;
 mod steady;

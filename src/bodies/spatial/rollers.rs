@@ -46,12 +46,20 @@ const COORDINATES: [Coordinate; OF_ROLLER] = [
         moves: Moves::PitchCircle,
     },
     Coordinate {
-        position: Some(["skew", "rad", "rotation vector of its axis, outwards: its +x end lags where positive"]),
+        position: Some([
+            "skew",
+            "rad",
+            "rotation vector of its axis, outwards: its +x end lags where positive",
+        ]),
         rate: ["skew_speed", "rad/s", "rate of the skew"],
         moves: Moves::Surface,
     },
     Coordinate {
-        position: Some(["tilt", "rad", "rotation vector of its axis, along the orbit: its +x end is outside where positive"]),
+        position: Some([
+            "tilt",
+            "rad",
+            "rotation vector of its axis, along the orbit: its +x end is outside where positive",
+        ]),
         rate: ["tilt_speed", "rad/s", "rate of the tilt"],
         moves: Moves::Surface,
     },
@@ -198,7 +206,8 @@ impl RollersInSpace {
     pub(crate) fn new(scene: &Scene, set: &ElementSet) -> Option<Self> {
         let rollers = scene.rollers.as_ref()?;
         let space = rollers.space.as_ref()?;
-        let solid = rollers.mass * (3.0 * rollers.radius * rollers.radius + space.length * space.length) / 12.0;
+        let solid =
+            rollers.mass * (3.0 * rollers.radius * rollers.radius + space.length * space.length) / 12.0;
         let transverse = space.transverse_inertia.unwrap_or(solid);
         Some(Self { inertia: vec![[rollers.mass, rollers.inertia, transverse]; set.count] })
     }

@@ -18,11 +18,11 @@ use std::sync::LazyLock;
 /// Steps to a root; a few are usual.
 const MOST_STEPS: usize = 40;
 /// Accuracy of a root over the half length.
-const ACCURACY: f64 = 1e-9;
+const ACCURACY: f64 = 1e-13;
 /// Most places at which delta may turn, with both ends.
 const CUTS: usize = 8;
 
-/// A node of a rule on a part of the length: its place between the ends, and its weight.
+/// A node of a rule on a part of the length: its place from the middle over half of that, and its weight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Node {
     place: f64,
@@ -32,7 +32,7 @@ struct Node {
 /// Gauss and Legendre's rules with one node to [`MOST_SLICES`].
 static RULES: LazyLock<Vec<Vec<Node>>> = LazyLock::new(|| (1..=MOST_SLICES).map(rule).collect());
 
-/// That of `n` nodes on 0 to 1.
+/// That of `n` nodes on -1 to 1, whose weights make 1.
 fn rule(n: usize) -> Vec<Node> {
     let node = |i: usize| {
         let mut x = -math::cos(PI * (i as f64 + 0.75) / (n as f64 + 0.5));
@@ -46,7 +46,7 @@ fn rule(n: usize) -> Vec<Node> {
             slope = n as f64 * (x * here - before) / (x * x - 1.0);
             x -= here / slope;
         }
-        Node { place: 0.5 * (1.0 + x), weight: 1.0 / ((1.0 - x * x) * slope * slope) }
+        Node { place: x, weight: 1.0 / ((1.0 - x * x) * slope * slope) }
     };
     (0..n).map(node).collect()
 }
@@ -90,11 +90,13 @@ impl Loaded {
         let n = if self.count == 2 { n.div_ceil(2) } else { n };
         let nodes = &RULES[n.clamp(1, MOST_SLICES) - 1];
         for [from, to] in self.parts() {
-            let (length, share) = (to - from, 0.5 * (to - from) / half_length);
-            out.extend(nodes.iter().map(|node| Slice {
-                place: from + length * node.place,
-                share: share * node.weight,
-            }));
+            let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+            let share = half / half_length;
+            out.extend(
+                nodes
+                    .iter()
+                    .map(|node| Slice { place: middle + half * node.place, share: share * node.weight }),
+            );
         }
     }
 }
@@ -155,9 +157,7 @@ impl Along<'_> {
         let ([_, c1, c2], [t0, t1]) = (self.approach, self.in_raceway);
         let parabola = c1 + 2.0 * c2 * s;
         match self.profile {
-            Some(profile) => {
-                parabola - profile.slope_of_roller(s) - t1 * profile.of_raceway(t0 + t1 * s)[1]
-            }
+            Some(profile) => parabola - profile.slope_of_roller(s) - t1 * profile.of_raceway(t0 + t1 * s)[1],
             None => parabola,
         }
     }

@@ -1,8 +1,8 @@
 //! What a bearing in space tells of a state: forces of every contact and on every body, output channels, what is followed in every step.
 
 use super::cage::OfCage;
-use super::rollers::OfRollers;
 use super::evaluate::{moving, to_global};
+use super::rollers::OfRollers;
 use super::workspace::{Workspace, at_lane};
 use super::{RACES, Space};
 use crate::bodies::{FORCE_SOURCES, ForceSource, InputValues, MovingRing, OF_BALL};

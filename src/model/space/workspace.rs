@@ -234,7 +234,10 @@ impl Workspace {
             on_rings: [[[0.0; 3]; 2]; 2],
             load: [0.0; OF_RING],
             cage: CageMemory::new(space.set.count, space.cage.as_ref()),
-            rollers: space.rollers.as_ref().map_or_else(RollerMemory::none, |rollers| rollers.memory(space.set.count)),
+            rollers: space
+                .rollers
+                .as_ref()
+                .map_or_else(RollerMemory::none, |rollers| rollers.memory(space.set.count)),
             inputs: InputValues::default(),
             instructions: Arch::new(),
             step: None,

@@ -10,8 +10,8 @@ mod relative;
 mod step;
 mod wrenches;
 
-use law_slopes::contact_force;
 pub(super) use law_columns::LawColumns;
+use law_slopes::contact_force;
 pub(super) use law_slopes::{DIRECTIONS, EDGE_SHARE, FORCES, LawSlopes, VISCOSITY};
 pub(crate) use relative::RelativeSlopes;
 pub(super) use relative::{Beside, Kinematics, Varied, VariedContact, add_slopes};

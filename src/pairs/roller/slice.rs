@@ -107,8 +107,7 @@ impl<T: Of<f64>> OnRaceway<'_, T> {
         let slip = [dot(moving, t), dot(moving, b)];
         // The place of contact goes round with the centre of the disc.
         let of_disc = sum(roller.moving.velocity, cross(roller.moving.turning, to_centre));
-        let by_ring =
-            sum(ring.moving.velocity, cross(ring.moving.turning, scaled(b, disc.in_raceway)));
+        let by_ring = sum(ring.moving.velocity, cross(ring.moving.turning, scaled(b, disc.in_raceway)));
         let turning = dot(tangent, difference(of_disc, by_ring)) / distance;
         let rolled = dot(cross(roller.moving.turning, direction), t);
         let u1 = radius * (rolled - turning);
@@ -116,8 +115,7 @@ impl<T: Of<f64>> OnRaceway<'_, T> {
         let arm_2 = reach * -k;
         let back = arm_2 * 2.0 / (radius + arm_2);
         let held = -back + 1.0;
-        let rolling =
-            [scaled(t, held), difference(cross(lever, t), scaled(cross(to_centre, t), back))];
+        let rolling = [scaled(t, held), difference(cross(lever, t), scaled(cross(to_centre, t), back))];
         let _ = geometry;
         Spot {
             delta: disc.delta,
@@ -213,8 +211,8 @@ mod tests {
             let on = OnRaceway { geometry: &NU2310, profile: None, side, ring, roller, excess: 0.0 };
             let middle = on.middle(&on.straight(0.0));
             let spot = on.spot(&middle, 3e-3);
-            let power = dot(spot.rolling[0], middle.passing.velocity)
-                + dot(spot.rolling[1], middle.passing.turning);
+            let power =
+                dot(spot.rolling[0], middle.passing.velocity) + dot(spot.rolling[1], middle.passing.turning);
             let [u1, u2] = spot.surface_speeds;
             assert!((power - (u1 + u2)).abs() < 0.02 * (u1 + u2).abs(), "{side} {power} {}", u1 + u2);
         }

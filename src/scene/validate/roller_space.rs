@@ -70,7 +70,8 @@ impl Scene {
                 judge.refuse(&at("height"), text)?;
             }
             if ribs.list[..k].iter().any(|other| other.ring == rib.ring && other.side == rib.side) {
-                judge.refuse(&format!("ribs.list.{k}"), "a second rib of this ring on this side; remove it")?;
+                judge
+                    .refuse(&format!("ribs.list.{k}"), "a second rib of this ring on this side; remove it")?;
             }
         }
         Ok(())

@@ -66,7 +66,13 @@ struct Contact<'a, T> {
 impl<T: Of<f64>> Contact<'_, T> {
     /// The disc at `s`, m.
     fn disc(&self, s: f64) -> Disc<T> {
-        self.geometry.disc((self.ring.0, &self.ring.1), &self.roller, self.profile, self.excess, self.roller.rho.like(s))
+        self.geometry.disc(
+            (self.ring.0, &self.ring.1),
+            &self.roller,
+            self.profile,
+            self.excess,
+            self.roller.rho.like(s),
+        )
     }
 }
 

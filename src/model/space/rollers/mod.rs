@@ -85,7 +85,12 @@ fn added(a: [Vector<f64>; 2], b: [Vector<f64>; 2]) -> [Vector<f64>; 2] {
 
 impl Space {
     /// Finds how rollers move.
-    pub(super) fn locate_rollers(&self, q: &[f64], v: &[f64], ws: &mut Workspace) -> std::result::Result<(), Fault> {
+    pub(super) fn locate_rollers(
+        &self,
+        q: &[f64],
+        v: &[f64],
+        ws: &mut Workspace,
+    ) -> std::result::Result<(), Fault> {
         let Some(_) = &self.rollers else { return Ok(()) };
         let pitch = self.set.pitch_radius;
         let levers = self.levers_of_rollers();
@@ -225,9 +230,11 @@ impl Space {
     /// The first contact of rollers whose force is not finite, as a place among all.
     pub(super) fn roller_contact_not_finite(&self, ws: &Workspace) -> Option<usize> {
         let rollers = self.rollers.as_ref()?;
-        let lost = ws.rollers.contacts.iter().find(|contact| {
-            contact.on_roller().iter().flatten().any(|x| !x.is_finite())
-        })?;
+        let lost = ws
+            .rollers
+            .contacts
+            .iter()
+            .find(|contact| contact.on_roller().iter().flatten().any(|x| !x.is_finite()))?;
         Some(lost.roller * rollers.contacts.len() + lost.place.in_list())
     }
 }
@@ -260,7 +267,11 @@ impl RollersOfScene {
 }
 
 /// What a force and moment about the centre of a roller do to a mate whose centre is away from that by `-from_mate`, in the axes of the bearing.
-fn on_mate([force, moment]: [Vector<f64>; 2], from_mate: Vector<f64>, direction: [f64; 2]) -> [Vector<f64>; 2] {
+fn on_mate(
+    [force, moment]: [Vector<f64>; 2],
+    from_mate: Vector<f64>,
+    direction: [f64; 2],
+) -> [Vector<f64>; 2] {
     let about = sum(moment, cross(from_mate, force));
     [to_global(scaled(force, -1.0), direction), to_global(scaled(about, -1.0), direction)]
 }

@@ -46,7 +46,11 @@ impl OfRollers {
 impl RollersOfScene {
     /// Load per length at a place of a contact, N/m.
     fn line_load(&self, node: &Node) -> f64 {
-        if node.slice.share > 0.0 { node.force.normal / (node.slice.share * 2.0 * self.half_length) } else { 0.0 }
+        if node.slice.share > 0.0 {
+            node.force.normal / (node.slice.share * 2.0 * self.half_length)
+        } else {
+            0.0
+        }
     }
 
     /// The most loaded place of a contact.
@@ -141,7 +145,8 @@ impl Space {
             OfRollers::Skew(j) => memory.rollers[j].state.angles[0],
             OfRollers::Tilt(j) => memory.rollers[j].state.angles[1],
             OfRollers::Slip(j) => {
-                let (free, own) = (self.kinematic_speeds(&ws.inputs)[1], memory.rollers[j].state.speeds[SPIN]);
+                let (free, own) =
+                    (self.kinematic_speeds(&ws.inputs)[1], memory.rollers[j].state.speeds[SPIN]);
                 let larger = free.abs().max(own.abs());
                 if free == 0.0 { 0.0 } else { free.signum() * (free - own) / larger }
             }
@@ -164,7 +169,12 @@ impl Space {
     }
 
     /// What is known of contact `k` of roller `j` at the last evaluated state; zeros where they are apart.
-    pub(in super::super) fn roller_contact_values(&self, ws: &Workspace, k: usize, j: usize) -> SpatialContact {
+    pub(in super::super) fn roller_contact_values(
+        &self,
+        ws: &Workspace,
+        k: usize,
+        j: usize,
+    ) -> SpatialContact {
         let mut out = SpatialContact::default();
         let Some(rollers) = &self.rollers else { return out };
         let memory = &ws.rollers;
@@ -175,8 +185,10 @@ impl Space {
         let of = &memory.rollers[j];
         let load: f64 = nodes.iter().map(|node| node.force.normal).sum();
         // By load, or of all places alike where there is none.
-        let weight = |node: &Node| if load > 0.0 { node.force.normal / load } else { 1.0 / nodes.len() as f64 };
-        let mean = |value: &dyn Fn(&Node) -> f64| nodes.iter().map(|node| weight(node) * value(node)).sum::<f64>();
+        let weight =
+            |node: &Node| if load > 0.0 { node.force.normal / load } else { 1.0 / nodes.len() as f64 };
+        let mean =
+            |value: &dyn Fn(&Node) -> f64| nodes.iter().map(|node| weight(node) * value(node)).sum::<f64>();
         let n = scaled(node.spot.normal[0], -1.0);
         let t = node.spot.along[0];
         let l = cross(n, t);
@@ -191,7 +203,8 @@ impl Space {
         let law = memory.laws[k].force(node.row);
         let [x, _] = of.state.at;
         let point = to_global(sum([x, of.state.r, 0.0], to_contact), of.direction);
-        let friction = |k: usize| nodes.iter().map(|node| -node.force.secant * node.spot.slip[k]).sum::<f64>();
+        let friction =
+            |k: usize| nodes.iter().map(|node| -node.force.secant * node.spot.slip[k]).sum::<f64>();
         let [nx, ny, nz] = to_global(n, of.direction);
         out.copy_from_slice(&[
             load,

@@ -7,8 +7,8 @@ use super::super::Space;
 use super::super::cage::turning_outer;
 use super::super::linearize::RingSlopes;
 use super::super::workspace::Workspace;
-use super::contacts::{Contact, Node, Place};
 use super::RollersOfScene;
+use super::contacts::{Contact, Node, Place};
 use crate::bodies::{
     CAGE, INNER_RING, Input, InputValues, MovingRing, OF_RING, OF_ROLLER, RingState, RollerState,
 };
@@ -101,7 +101,8 @@ impl Space {
         for place in 0..ws.rollers.contacts.len() {
             let contact = ws.rollers.contacts[place];
             let (state, direction) = self.varied_roller(ws, contact.roller);
-            let (on, from_mate) = self.varied_contact(rollers, ws, &contact, (rates, ln_rate), &state, direction);
+            let (on, from_mate) =
+                self.varied_contact(rollers, ws, &contact, (rates, ln_rate), &state, direction);
             let forces = state.over_speeds([on.force, on.moment], on.own);
             self.add_to_roller(rollers, ws, &contact, &forces, out);
             let about = sum(on.moment, cross(from_mate, on.force));
@@ -139,8 +140,12 @@ impl Space {
             let place = |k: usize| OF_RING_IN_MATE[k];
             let variable = Varied::variable;
             RingState {
-                position: std::array::from_fn(|k| timed(variable(ws.ring.position[k], MATE + place(k)), at[k])),
-                rate: std::array::from_fn(|k| timed(variable(ws.ring.rate[k], MATE_RATES + place(k)), rate[k])),
+                position: std::array::from_fn(|k| {
+                    timed(variable(ws.ring.position[k], MATE + place(k)), at[k])
+                }),
+                rate: std::array::from_fn(|k| {
+                    timed(variable(ws.ring.rate[k], MATE_RATES + place(k)), rate[k])
+                }),
                 given: second.map(Varied::lift),
                 speed: timed(Varied::lift(ws.ring.speed), rates.of(Input::RingSpeed)),
             }

@@ -89,7 +89,10 @@ impl Space {
         let larger = self.set.radius_excess.iter().copied().fold(0.0, f64::max);
         let line = &rollers.laws[1].elastic;
         let preload = line.load((larger - rollers.geometry.gap).max(0.0));
-        let load = STRIBECK / count.max(STRIBECK) * (radial + by_moment) + rollers.centrifugal(orbit) + preload + 1.0;
+        let load = STRIBECK / count.max(STRIBECK) * (radial + by_moment)
+            + rollers.centrifugal(orbit)
+            + preload
+            + 1.0;
         let [mass, ..] = rollers.body.inertia(0);
         let stiffness: f64 = rollers.laws.iter().map(|law| law.elastic.stiffness_at_load(load)).sum();
         (stiffness / mass).sqrt()

@@ -45,12 +45,7 @@ impl RollersOfScene {
 
 impl Space {
     /// Damping of rollers for a step of size `h` (s).
-    pub(in super::super) fn damp_rollers(
-        &self,
-        h: f64,
-        ws: &Workspace,
-        out: &mut GroupDamping<OF_ROLLER>,
-    ) {
+    pub(in super::super) fn damp_rollers(&self, h: f64, ws: &Workspace, out: &mut GroupDamping<OF_ROLLER>) {
         let Some(rollers) = &self.rollers else { return };
         let memory = &ws.rollers;
         for (j, of) in memory.rollers.iter().enumerate() {
