@@ -21,8 +21,6 @@ use crate::space::solid::{Moving, Tilt, Vector, cross, difference, dot, scaled, 
 pub(crate) const OF_ROLLER: usize = 6;
 /// Places of them.
 pub(crate) const ORBIT: usize = 2;
-pub(crate) const SKEW: usize = 3;
-pub(crate) const TILT: usize = 4;
 pub(crate) const SPIN: usize = 5;
 
 const COORDINATES: [Coordinate; OF_ROLLER] = [

@@ -22,7 +22,7 @@ use crate::pairs::line_laws::LawBuilder;
 use crate::pairs::{ContactLaw, Cost, ElementPair, Law, PairInfo};
 use crate::scalar::math;
 use crate::scalar::{Base, Numeric, smoothstep};
-use crate::scene::{Pocket, needed};
+use crate::scene::{Cage, CylinderPocket as CylinderOfScene, Pocket, needed};
 
 /// Shape of the pockets.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -125,6 +125,22 @@ static INFO: PairInfo = PairInfo {
     share: 1.0,
 };
 
+/// The law of the walls and edges of these pockets of a cage.
+pub(in crate::pairs) fn law_of(
+    laws: &LawBuilder<'_>,
+    cage: &Cage,
+    pocket: &CylinderOfScene,
+) -> Result<LineContact> {
+    let element_radius = laws.scene().element_radius();
+    let pocket_radius = element_radius + pocket.radial_clearance;
+    let equivalent_radius = element_radius * pocket_radius / pocket.radial_clearance;
+    let mate = needed("cage.material", cage.material.as_deref(), "cage.pocket.lubricated_cylinder")?;
+    let laws = laws.at("cage.pocket.lubricated_cylinder.contact");
+    let wall = laws.line_contact(&pocket.contact, mate, equivalent_radius)?;
+    let edge_friction = pocket.edge_friction.as_ref().map_or(SolidFriction::NONE, SolidFriction::from);
+    Ok(LineContact { edge_friction: Some(edge_friction), ..wall })
+}
+
 /// The cylindrical pockets of a scene, if it has any.
 pub(in crate::pairs) fn new(laws: &LawBuilder<'_>) -> Result<Option<Box<dyn ElementPair>>> {
     let scene = laws.scene();
@@ -132,14 +148,8 @@ pub(in crate::pairs) fn new(laws: &LawBuilder<'_>) -> Result<Option<Box<dyn Elem
     let Some(Pocket::LubricatedCylinder(pocket)) = &cage.pocket else { return Ok(None) };
     let element_radius = scene.element_radius();
     let place = PocketPlace { pitch_radius: scene.pitch_radius(), element_radius };
+    let law = ContactLaw::Line(law_of(laws, cage, pocket)?);
     let shape = CylinderPocket::new(place, pocket.radial_clearance, pocket.half_angle, pocket.edge_blend);
-    let pocket_radius = element_radius + pocket.radial_clearance;
-    let equivalent_radius = element_radius * pocket_radius / pocket.radial_clearance;
-    let mate = needed("cage.material", cage.material.as_deref(), "cage.pocket.lubricated_cylinder")?;
-    let laws = laws.at("cage.pocket.lubricated_cylinder.contact");
-    let wall = laws.line_contact(&pocket.contact, mate, equivalent_radius)?;
-    let edge_friction = pocket.edge_friction.as_ref().map_or(SolidFriction::NONE, SolidFriction::from);
-    let law = ContactLaw::Line(LineContact { edge_friction: Some(edge_friction), ..wall });
     // A contact with them costs as much as one with a raceway, but few are touched.
     let cost = Cost { value: 0.0, slopes: 0.0, per_element: false };
     Ok(Some(Box::new(Pockets { shape, law, info: &INFO, cost, longest_step: None })))

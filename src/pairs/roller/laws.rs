@@ -1,13 +1,88 @@
-//! Laws of line contacts on many slices at once, each a share of what the whole contact would do at its approach.
+//! Laws of the places where a roller touches something: line contacts of many slices at once, each a share of what the whole contact would do at
+//! its approach, and springs with friction.
 
 use super::Spot;
-use crate::laws::contact_pair::ContactForce;
+use crate::laws::contact_pair::{ContactForce, ContactMotion};
+use crate::laws::elastic::solid::SolidContact;
 use crate::laws::line_contact::LineContact;
 use crate::pairs::contacts::{
     ContactBlock, DIRECTIONS, EDGE_SHARE, FORCES, LawColumns, LawSlopes, NO_MOTION, VISCOSITY,
 };
-use crate::scalar::{Dual, Lanes, WIDEST, ZEROS, blocks_for, place_of};
+use crate::scalar::{Dual, Lanes, Real, WIDEST, ZEROS, blocks_for, place_of};
 use pulp::Arch;
+
+/// Square of a slip, m^2/s^2, that is added so that its size has a slope at none.
+const SLIP_FLOOR: f64 = 1e-24;
+
+/// The law of one kind of contact of a roller.
+#[expect(clippy::large_enum_variant, reason = "a few per model")]
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum SpotLaw {
+    /// Lubricated line contact.
+    Line(LineContact),
+    /// Spring, damper and friction.
+    Solid(SolidContact),
+}
+
+/// Forces at a place as those of a whole contact.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SpotForces<T> {
+    /// Normal force, N, its elastic part, and its damping, N s/m.
+    pub(crate) normal: T,
+    pub(crate) elastic: T,
+    pub(crate) damping: T,
+    /// Secant of friction, N s/m, and rolling resistance, N.
+    pub(crate) secant: T,
+    pub(crate) rolling: T,
+}
+
+impl SpotLaw {
+    /// The line contact, if it is one.
+    pub(crate) fn line(&self) -> Option<&LineContact> {
+        match self {
+            Self::Line(law) => Some(law),
+            Self::Solid(_) => None,
+        }
+    }
+
+    /// Elastic energy at this approach (m), J.
+    pub(crate) fn energy(&self, delta: f64) -> f64 {
+        match self {
+            Self::Line(law) => law.elastic.energy(delta),
+            Self::Solid(law) => 0.5 * law.stiffness * delta.max(0.0) * delta.max(0.0),
+        }
+    }
+
+    /// Stiffness under this load (N), N/m.
+    pub(crate) fn stiffness_at_load(&self, load: f64) -> f64 {
+        match self {
+            Self::Line(law) => law.elastic.stiffness_at_load(load),
+            Self::Solid(law) => law.stiffness,
+        }
+    }
+
+    /// Forces of one place alone; of a line contact those of its slices come from [`SliceLaws`].
+    pub(crate) fn alone<T: Real>(&self, spot: &Spot<T>) -> Option<SpotForces<T>> {
+        let zero = T::constant(0.0);
+        match self {
+            Self::Line(_) => None,
+            Self::Solid(law) => {
+                let [along, across] = spot.slip;
+                let slip = (along * along + across * across + SLIP_FLOOR).sqrt();
+                let motion =
+                    ContactMotion { delta: spot.delta, delta_dot: spot.delta_dot, u1: slip, u2: zero };
+                let force = law.force::<f64, T>(&motion);
+                Some(SpotForces {
+                    normal: force.normal,
+                    elastic: spot.delta * law.stiffness,
+                    damping: force.damping,
+                    secant: force.friction_secant,
+                    rolling: zero,
+                })
+            }
+        }
+    }
+}
 
 /// Slices whose contacts have the same law, and their forces.
 #[derive(Clone, Debug)]
@@ -72,7 +147,20 @@ impl SliceLaws {
         slopes.find_sliding(columns, *rows, blocks, across, ln_viscosity, instructions);
     }
 
-    /// Forces of slice `i` as those of a whole contact.
+    /// Forces of slice `i`, at this approach (m), as those of a whole contact.
+    pub(crate) fn forces(&self, i: usize, delta: f64) -> SpotForces<f64> {
+        let force = self.force(i);
+        SpotForces {
+            normal: force.normal,
+            // Q_el = 9/10 k delta of Palmgren's law.
+            elastic: force.stiffness * delta * 0.9,
+            damping: force.damping,
+            secant: force.friction_secant,
+            rolling: force.rolling_resistance,
+        }
+    }
+
+    /// The same with all that is known of it.
     pub(crate) fn force(&self, i: usize) -> ContactForce<f64> {
         let (block, lane) = place_of(i);
         self.blocks[block].force.of(lane)

@@ -8,13 +8,41 @@ mod bar;
 mod laws;
 mod slice;
 
-pub(crate) use bar::{BarShape, BarTouch, Bars, InBars};
-pub(crate) use laws::SliceLaws;
-pub(crate) use slice::{Middle, OnRaceway};
+pub(crate) use bar::Bars;
+pub(crate) use laws::{SliceLaws, SpotForces, SpotLaw};
+pub(crate) use slice::OnRaceway;
 
+use super::line_laws::LawBuilder;
+use super::pocket::cylinder;
+use crate::error::Result;
+use crate::laws::elastic::solid::SolidContact;
+use crate::scene::{Pocket, Scene};
 use crate::space::solid::Vector;
+use bar::BarShape;
 
 pub(crate) use crate::bodies::MovingRoller;
+
+/// Bars of the cage of a scene with rollers, and their law, with the lubricant at `viscosity` in Pa s.
+pub(crate) fn bars(scene: &Scene, viscosity: Option<f64>) -> Result<Option<(Bars, SpotLaw)>> {
+    let Some((cage, pocket)) = scene.cage.as_ref().and_then(|cage| Some((cage, cage.pocket.as_ref()?)))
+    else {
+        return Ok(None);
+    };
+    let (pitch, radius) = (scene.pitch_radius(), scene.element_radius());
+    match pocket {
+        Pocket::LubricatedCylinder(of) => {
+            let law = cylinder::law_of(&LawBuilder::new(scene, viscosity), cage, of)?;
+            let shape = BarShape::Cylinders { half_angle: of.half_angle, edge_blend: of.edge_blend };
+            Ok(Some((Bars::new(pitch, radius, of.radial_clearance, shape), SpotLaw::Line(law))))
+        }
+        Pocket::SolidPlane(of) => {
+            let law = SolidContact::from(&of.contact);
+            let bars = Bars::new(pitch, radius, 0.5 * of.diametral_clearance, BarShape::Planes);
+            Ok(Some((bars, SpotLaw::Solid(law))))
+        }
+        Pocket::SolidCylinder(_) | Pocket::SolidSphere(_) => Ok(None),
+    }
+}
 
 /// Force and moment about the centre of the roller, per unit of a force.
 pub(crate) type UnitWrench<T> = [Vector<T>; 2];

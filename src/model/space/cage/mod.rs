@@ -118,6 +118,11 @@ impl CageMemory {
 }
 
 impl CageMemory {
+    /// Forces over the modes at the state, N.
+    pub(super) fn on_modes_mut(&mut self) -> &mut [f64] {
+        &mut self.on_modes[0]
+    }
+
     /// Accelerations over forces, after those of the cage were differentiated: force and moment, those over the modes.
     pub(super) fn by_forces(&self) -> &DMatrix<f64> {
         &self.by_forces
@@ -175,7 +180,7 @@ impl Space {
     }
 
     /// By how much a cage that bends displaces pocket `j`, outwards and ahead, m, and the rates of that.
-    fn displaced_pocket(&self, ws: &Workspace, j: usize) -> Option<[[f64; 2]; 2]> {
+    pub(super) fn displaced_pocket(&self, ws: &Workspace, j: usize) -> Option<[[f64; 2]; 2]> {
         let body = &self.cage.as_ref()?.body;
         (body.bending() > 0).then(|| ws.cage.bending().map(|x| displaced(body.displacements(j), x)))
     }
@@ -189,6 +194,7 @@ impl Space {
         if let Some(pockets) = &cage.pockets {
             self.touch_pockets(pockets, ws)?;
         }
+        self.add_rollers_to_cage(ws);
         ws.cage.on_cage = added(ws.cage.load, ws.cage.by_pockets);
         for (k, land) in cage.lands.iter().enumerate() {
             let Workspace { cage: memory, rings, fluid, .. } = ws;
@@ -373,7 +379,7 @@ impl Space {
 }
 
 /// Adds forces over a pocket's displacement to those over the modes, which displace it like this.
-fn add_to_modes(on_modes: &mut [f64], displacements: &[[f64; 2]], [outwards, ahead]: [f64; 2]) {
+pub(super) fn add_to_modes(on_modes: &mut [f64], displacements: &[[f64; 2]], [outwards, ahead]: [f64; 2]) {
     for (sum, [x, t]) in on_modes.iter_mut().zip(displacements) {
         *sum += x * outwards + t * ahead;
     }

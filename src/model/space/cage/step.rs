@@ -23,7 +23,10 @@ impl Space {
             wrench = added(wrench, touching.reaction);
             add_to_modes(in_step, cage.body.displacements(touching.ball), touching.on_bending);
         }
-        self.accelerate_cage_by(ws, wrench, &ws.cage.on_modes[1], a);
+        let mut in_step = std::mem::take(&mut ws.cage.on_modes[1]);
+        self.add_reaction_to_cage(ws, &mut wrench, &mut in_step);
+        self.accelerate_cage_by(ws, wrench, &in_step, a);
+        ws.cage.on_modes[1] = in_step;
     }
 
     /// Shares of damping and friction of a contact that act on the change of a ball in a step of size `h`, s.

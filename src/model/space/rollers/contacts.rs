@@ -1,11 +1,10 @@
 //! Touching places of rollers at a state, and their sums.
 
 use super::{added, on_mate};
-use crate::bodies::{ForceSource, OF_ROLLER, RollerState};
+use crate::bodies::{CAGE, ForceSource, OF_ROLLER, Power, RollerState};
 use crate::laws::elastic::loaded::Loaded;
 use crate::laws::elastic::tilted::Slice;
-use crate::laws::line_contact::LineContact;
-use crate::pairs::roller::{SliceLaws, Spot, UnitWrench};
+use crate::pairs::roller::{SliceLaws, Spot, SpotForces, SpotLaw, UnitWrench};
 use crate::space::solid::{Moving, Vector, dot, scaled, sum};
 use pulp::Arch;
 
@@ -20,6 +19,8 @@ pub(in super::super) const ROLLING: usize = 2;
 pub(in super::super) enum Place {
     /// The raceway of outer or inner ring.
     Raceway(usize),
+    /// The bar in front or behind.
+    Bar(usize),
 }
 
 impl Place {
@@ -27,6 +28,23 @@ impl Place {
     pub(in super::super) fn mate(self) -> usize {
         match self {
             Self::Raceway(side) => side,
+            Self::Bar(_) => CAGE,
+        }
+    }
+
+    /// Its law among those of the rollers.
+    pub(in super::super) fn law(self) -> usize {
+        match self {
+            Self::Raceway(side) => side,
+            Self::Bar(_) => 2,
+        }
+    }
+
+    /// Powers of its damping, friction and rolling resistance.
+    pub(in super::super) fn powers(self) -> [Power; PARTS] {
+        match self {
+            Self::Raceway(_) => [Power::RacewayDamping, Power::RacewayFriction, Power::RollingResistance],
+            Self::Bar(_) => [Power::PocketDamping, Power::PocketFriction, Power::PocketFriction],
         }
     }
 
@@ -35,6 +53,7 @@ impl Place {
         match self {
             Self::Raceway(0) => ForceSource::OuterRaceway,
             Self::Raceway(_) => ForceSource::InnerRaceway,
+            Self::Bar(_) => ForceSource::Pocket,
         }
     }
 
@@ -42,6 +61,7 @@ impl Place {
     pub(in super::super) fn in_list(self) -> usize {
         match self {
             Self::Raceway(side) => side,
+            Self::Bar(wall) => 2 + wall,
         }
     }
 }
@@ -58,17 +78,8 @@ pub(in super::super) struct OneRoller {
     pub(in super::super) forces: [f64; OF_ROLLER],
 }
 
-/// Forces at a place of a contact.
-#[derive(Clone, Copy, Debug, Default)]
-pub(in super::super) struct SpotForce {
-    /// Normal force, N, its elastic part, and its damping, N s/m.
-    pub(in super::super) normal: f64,
-    pub(in super::super) elastic: f64,
-    pub(in super::super) damping: f64,
-    /// Secant of friction, N s/m, and rolling resistance, N.
-    pub(in super::super) secant: f64,
-    pub(in super::super) rolling: f64,
-}
+const NO_FORCE: SpotForces<f64> =
+    SpotForces { normal: 0.0, elastic: 0.0, damping: 0.0, secant: 0.0, rolling: 0.0 };
 
 /// A place of a contact.
 #[derive(Clone, Copy, Debug)]
@@ -81,7 +92,7 @@ pub(in super::super) struct Node {
     pub(in super::super) spot: Spot<f64>,
     /// Unit wrenches over the speeds of the roller: of normal force, friction along and across, rolling resistance.
     pub(in super::super) rows: [[f64; OF_ROLLER]; 4],
-    pub(in super::super) force: SpotForce,
+    pub(in super::super) force: SpotForces<f64>,
 }
 
 /// A contact of a roller.
@@ -97,14 +108,18 @@ pub(in super::super) struct Contact {
     /// Centre of the roller from that of the mate, m.
     pub(in super::super) from_mate: Vector<f64>,
     /// What is loaded of its length.
-    loaded: Loaded,
+    pub(super) loaded: Loaded,
     /// Force and moment on the roller about its centre, by parts.
     pub(in super::super) parts: [[Vector<f64>; 2]; PARTS],
+    /// Directions outwards and ahead in which a bent cage displaces the pocket.
+    pub(in super::super) bent: Option<[Vector<f64>; 2]>,
     /// In the step from the last evaluated state: what the forces on the mate change by in the axes of the bearing, normal force, and powers
     /// of damping, friction and rolling resistance, W.
     pub(in super::super) reaction: [Vector<f64>; 2],
     pub(in super::super) normal: f64,
     pub(in super::super) powers: [f64; PARTS],
+    /// And what acts on the displacement of a pocket changes by, N.
+    pub(in super::super) on_bending: [f64; 2],
 }
 
 impl Contact {
@@ -124,9 +139,11 @@ impl Contact {
             from_mate,
             loaded,
             parts: [[[0.0; 3]; 2]; PARTS],
+            bent: None,
             reaction: [[0.0; 3]; 2],
             normal: 0.0,
             powers: [0.0; PARTS],
+            on_bending: [0.0; 2],
         }
     }
 
@@ -138,6 +155,11 @@ impl Contact {
     /// Its loaded parts, m.
     pub(in super::super) fn parts_loaded(&self) -> &[[f64; 2]] {
         self.loaded.parts()
+    }
+
+    /// Forces over the displacement of its pocket by a cage that bends, of this force on the roller, N.
+    pub(in super::super) fn over_bending(&self, force: Vector<f64>) -> [f64; 2] {
+        self.bent.map_or([0.0; 2], |axes| axes.map(|axis| -dot(axis, force)))
     }
 
     /// Force and moment on the roller about its centre.
@@ -154,8 +176,8 @@ pub(in super::super) struct RollerMemory {
     pub(in super::super) nodes: Vec<Node>,
     /// Slices of a contact that is being found.
     pub(in super::super) found: Vec<Slice>,
-    /// Slices of outer and inner raceway.
-    pub(in super::super) laws: Vec<SliceLaws>,
+    /// Slices of every law that is one of line contacts.
+    pub(in super::super) laws: Vec<Option<SliceLaws>>,
     /// Force and moment on outer ring, inner ring and cage about their centres, in the axes of the bearing.
     pub(in super::super) on_mates: [[Vector<f64>; 2]; 3],
 }
@@ -172,15 +194,15 @@ impl RollerMemory {
         Self::new(0, 0, &[])
     }
 
-    pub(super) fn new(count: usize, slices: usize, laws: &[LineContact]) -> Self {
+    pub(super) fn new(count: usize, slices: usize, laws: &[SpotLaw]) -> Self {
         let state = RollerState::new(1.0, [0.0; 2], [0.0; 2], [0.0; OF_ROLLER]);
         let still = OneRoller { state, direction: [1.0, 0.0], travel: 0.0, forces: [0.0; OF_ROLLER] };
         Self {
             rollers: vec![still; count],
-            contacts: Vec::with_capacity(laws.len() * count),
-            nodes: Vec::with_capacity(laws.len() * count * slices),
+            contacts: Vec::with_capacity(2 * laws.len() * count),
+            nodes: Vec::with_capacity(2 * laws.len() * count * slices),
             found: Vec::with_capacity(slices),
-            laws: laws.iter().map(|law| SliceLaws::new(law, count * slices)).collect(),
+            laws: laws.iter().map(|law| Some(SliceLaws::new(law.line()?, 2 * count * slices))).collect(),
             on_mates: [[[0.0; 3]; 2]; 3],
         }
     }
@@ -189,7 +211,7 @@ impl RollerMemory {
     pub(super) fn clear(&mut self) {
         self.contacts.clear();
         self.nodes.clear();
-        self.laws.iter_mut().for_each(SliceLaws::clear);
+        self.laws.iter_mut().flatten().for_each(SliceLaws::clear);
     }
 
     /// Begins a contact.
@@ -198,14 +220,14 @@ impl RollerMemory {
         self.contacts.push(Contact { first, last: first, ..contact });
     }
 
-    /// Adds a slice to it, under the law of this place in the list.
-    pub(super) fn add_slice(&mut self, law: usize, slice: Slice, spot: &Spot<f64>, edge_share: f64) {
-        self.laws[law].add(spot, edge_share);
-        self.add_node(self.laws[law].rows() - 1, slice, spot);
-    }
-
-    fn add_node(&mut self, row_of_law: usize, slice: Slice, spot: &Spot<f64>) {
+    /// Adds a place to it, with this share of edge friction.
+    pub(super) fn add(&mut self, slice: Slice, spot: &Spot<f64>, edge_share: f64) {
         let contact = self.contacts.len() - 1;
+        let mut row_of_law = 0;
+        if let Some(slices) = &mut self.laws[self.contacts[contact].place.law()] {
+            slices.add(spot, edge_share);
+            row_of_law = slices.rows() - 1;
+        }
         let state = &self.rollers[self.contacts[contact].roller].state;
         let rows = [
             row(state, &spot.normal, false),
@@ -213,41 +235,47 @@ impl RollerMemory {
             row(state, &spot.across, true),
             row(state, &spot.rolling, true),
         ];
-        let force = SpotForce::default();
+        let force = NO_FORCE;
         self.nodes.push(Node { contact, row: row_of_law, slice, spot: *spot, rows, force });
     }
 
-    /// Ends it.
+    /// Ends it; one without places is none.
     pub(super) fn close(&mut self) {
         let last = self.nodes.len();
         if let Some(contact) = self.contacts.last_mut() {
             contact.last = last;
+            if contact.first == last {
+                self.contacts.pop();
+            }
         }
     }
 
     /// Evaluates all laws, with the logarithm of the relative viscosity.
-    pub(super) fn evaluate(&mut self, ln_viscosity: f64, instructions: Arch) {
-        for laws in &mut self.laws {
-            laws.apply(ln_viscosity, instructions);
+    pub(super) fn evaluate(&mut self, laws: &[SpotLaw], ln_viscosity: f64, instructions: Arch) {
+        for slices in self.laws.iter_mut().flatten() {
+            slices.apply(ln_viscosity, instructions);
         }
         for node in &mut self.nodes {
-            let Place::Raceway(side) = self.contacts[node.contact].place;
-            let (force, share) = (self.laws[side].force(node.row), node.slice.share);
-            // Q_el = 9/10 k delta of Palmgren's law.
-            node.force = SpotForce {
+            let law = self.contacts[node.contact].place.law();
+            let force = match &self.laws[law] {
+                Some(slices) => slices.forces(node.row, node.spot.delta),
+                None => laws[law].alone(&node.spot).unwrap_or(NO_FORCE),
+            };
+            let share = node.slice.share;
+            node.force = SpotForces {
                 normal: force.normal * share,
-                elastic: force.stiffness * node.spot.delta * (0.9 * share),
+                elastic: force.elastic * share,
                 damping: force.damping * share,
-                secant: force.friction_secant * share,
-                rolling: force.rolling_resistance * share,
+                secant: force.secant * share,
+                rolling: force.rolling * share,
             };
         }
     }
 
     /// Finds the derivatives of all laws.
     pub(super) fn differentiate(&mut self, ln_viscosity: f64, instructions: Arch) {
-        for laws in &mut self.laws {
-            laws.differentiate(ln_viscosity, instructions);
+        for slices in self.laws.iter_mut().flatten() {
+            slices.differentiate(ln_viscosity, instructions);
         }
     }
 
@@ -284,17 +312,17 @@ impl RollerMemory {
     }
 
     /// Elastic energy of all contacts, J.
-    pub(super) fn elastic_energy(&self, laws: &[LineContact; 2]) -> f64 {
+    pub(super) fn elastic_energy(&self, laws: &[SpotLaw]) -> f64 {
         let of = |node: &Node| {
-            let Place::Raceway(side) = self.contacts[node.contact].place;
-            laws[side].elastic.energy(node.spot.delta) * node.slice.share
+            laws[self.contacts[node.contact].place.law()].energy(node.spot.delta) * node.slice.share
         };
         self.nodes.iter().map(of).sum()
     }
 
     /// Mean normal speed of every loaded contact with a raceway, m/s.
     pub(in super::super) fn normal_speeds(&self) -> impl Iterator<Item = f64> {
-        self.contacts.iter().filter_map(|contact| {
+        let on_raceways = self.contacts.iter().filter(|contact| matches!(contact.place, Place::Raceway(_)));
+        on_raceways.filter_map(|contact| {
             let nodes = self.places(contact);
             let load: f64 = nodes.iter().map(|node| node.force.normal).sum();
             let speed: f64 = nodes.iter().map(|node| node.force.normal * node.spot.delta_dot).sum();

@@ -14,9 +14,10 @@ pub(super) use contacts::{Contact, Place, RollerMemory};
 pub(crate) use report::OfRollers;
 
 use super::Space;
-use super::evaluate::{beside, to_global};
+use super::cage::add_to_modes;
+use super::evaluate::{beside, to_global, to_local};
 use super::workspace::Workspace;
-use crate::bodies::{Fault, OF_ROLLER, RollerState, RollersInSpace, SOUND};
+use crate::bodies::{CAGE, Fault, OF_ROLLER, RollerState, RollersInSpace, SOUND};
 use crate::error::Result;
 use crate::laws::elastic::loaded::Loaded;
 use crate::laws::elastic::profile::USUAL_SLICES;
@@ -24,27 +25,32 @@ use crate::laws::elastic::tilted::Along;
 use crate::laws::line_contact::LineContact;
 use crate::pairs::Law;
 use crate::pairs::raceway::RacewayGeometry;
-use crate::pairs::roller::OnRaceway;
+use crate::pairs::roller::{Bars, OnRaceway, SpotLaw};
 use crate::scalar::math;
 use crate::scene::{Scene, SlicesOn};
 use crate::space::solid::{LARGEST_TILT, Vector, cross, scaled, sum};
 
 /// Names of the contacts with raceways.
 const RACEWAYS: [&str; 2] = ["outer_raceway", "inner_raceway"];
+/// With the bars of the cage.
+const BARS: [&str; 2] = ["pocket_front", "pocket_back"];
+/// Least slices of a contact with a bar.
+const SLICES_OF_BAR: usize = 4;
 
 /// Rollers with their pairs.
 #[derive(Debug)]
 pub(super) struct RollersOfScene {
     pub(super) body: RollersInSpace,
     geometry: RacewayGeometry,
-    /// Of outer and inner raceway.
-    laws: [LineContact; 2],
+    /// Of outer and inner raceway, of bars.
+    laws: Vec<SpotLaw>,
+    bars: Option<Bars>,
     /// a, m.
     half_length: f64,
     slices: usize,
     slices_on: SlicesOn,
     /// What a roller can touch, in the order of reports.
-    pub(super) contacts: Vec<String>,
+    pub(super) contacts: Vec<&'static str>,
 }
 
 impl RollersOfScene {
@@ -61,20 +67,28 @@ impl RollersOfScene {
             return Ok(None);
         };
         let raceways = scene.raceways.as_ref();
+        let mut list: Vec<SpotLaw> = laws.into_iter().map(SpotLaw::Line).collect();
+        let mut contacts: Vec<&'static str> = RACEWAYS.to_vec();
+        let bars = crate::pairs::roller::bars(scene, viscosity)?.map(|(bars, law)| {
+            list.push(law);
+            contacts.extend(BARS);
+            bars
+        });
         Ok(Some(Self {
             body,
             geometry,
-            laws,
+            laws: list,
+            bars,
             half_length: 0.5 * rollers.effective_length,
             slices: raceways.and_then(|raceways| raceways.slices).map_or(USUAL_SLICES, |n| n as usize),
             slices_on: rollers.space.as_ref().map(|space| space.slices_on).unwrap_or_default(),
-            contacts: RACEWAYS.map(str::to_owned).to_vec(),
+            contacts,
         }))
     }
 
     /// Most slices of one contact.
     fn most_slices(&self) -> usize {
-        self.slices + 1
+        self.slices.max(SLICES_OF_BAR) + 1
     }
 }
 
@@ -133,8 +147,11 @@ impl Space {
         for side in 0..2 {
             self.touch_raceway(rollers, side, ws);
         }
+        if let Some(bars) = &rollers.bars {
+            self.touch_bars(rollers, bars, ws)?;
+        }
         let Workspace { rollers: memory, fluid, instructions, .. } = ws;
-        memory.evaluate(fluid.ln_viscosity, *instructions);
+        memory.evaluate(&rollers.laws, fluid.ln_viscosity, *instructions);
         memory.add_up();
         if ws.counting {
             self.count_of_rollers(ws);
@@ -146,7 +163,7 @@ impl Space {
     fn touch_raceway(&self, rollers: &RollersOfScene, side: usize, ws: &mut Workspace) {
         let Workspace { rollers: memory, rings, .. } = ws;
         let (geometry, a) = (&rollers.geometry, rollers.half_length);
-        let profile = rollers.laws[side].profile.as_ref();
+        let profile = rollers.raceway(side).profile.as_ref();
         for j in 0..self.layout.count {
             let of = &memory.rollers[j];
             let on = OnRaceway {
@@ -179,21 +196,83 @@ impl Space {
             for i in 0..memory.found.len() {
                 let slice = memory.found[i];
                 let spot = on.spot(&middle, slice.place);
-                memory.add_slice(side, slice, &spot, 0.0);
+                memory.add(slice, &spot, 0.0);
             }
             memory.close();
+        }
+    }
+
+    /// Finds where rollers touch the bars of their pockets.
+    fn touch_bars(
+        &self,
+        rollers: &RollersOfScene,
+        bars: &Bars,
+        ws: &mut Workspace,
+    ) -> std::result::Result<(), Fault> {
+        let furthest = self.set.radius / self.set.pitch_radius;
+        let (a, profile) = (rollers.half_length, rollers.raceway(0).profile.as_ref());
+        for j in 0..self.layout.count {
+            let of = ws.rollers.rollers[j];
+            let excess = self.set.radius_excess[j];
+            let lead = of.travel - ws.cage.moving.angle;
+            if lead.abs() > furthest {
+                return Err(Fault::OutOfPocket { element: j, lead });
+            }
+            let roller = of.state.motion();
+            let bent = self.displaced_pocket(ws, j);
+            let place = bars.place(&roller, of.direction, lead, &ws.cage.moving, bent);
+            let apart = bars.apart(&place, a, excess);
+            for wall in 0..2 {
+                if apart[wall] {
+                    continue;
+                }
+                let Workspace { rollers: memory, cage, .. } = ws;
+                memory.found.clear();
+                Loaded::whole(a).slices(a, rollers.slices.max(SLICES_OF_BAR), &mut memory.found);
+                let centre = to_local(cage.moving.centre, of.direction);
+                let from_mate = [of.state.at[0] - centre[0], of.state.r - centre[1], -centre[2]];
+                let contact = Contact::new(j, Place::Bar(wall), place.passing, from_mate, Loaded::whole(a));
+                memory.open(Contact { bent: bent.map(|_| [place.axes[1], place.axes[2]]), ..contact });
+                for i in 0..memory.found.len() {
+                    let slice = memory.found[i];
+                    let drop = profile.map_or(0.0, |profile| profile.of_roller(slice.place));
+                    let touch = bars.spot(&place, wall, slice.place, excess, drop);
+                    // A depth that is no number is told by the forces.
+                    if touch.spot.delta > 0.0 || touch.spot.delta.is_nan() {
+                        memory.add(slice, &touch.spot, touch.edge_share);
+                    }
+                }
+                memory.close();
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds what rollers do to the cage, and over the modes of one that bends.
+    pub(super) fn add_rollers_to_cage(&self, ws: &mut Workspace) {
+        let Some(cage) = &self.cage else { return };
+        let Workspace { rollers, cage: memory, .. } = ws;
+        memory.by_pockets = added(memory.by_pockets, rollers.on_mates[CAGE]);
+        if cage.body.bending() > 0 {
+            for contact in rollers.contacts.iter().filter(|contact| contact.place.mate() == CAGE) {
+                let by = contact.over_bending(contact.on_roller()[0]);
+                add_to_modes(memory.on_modes_mut(), cage.body.displacements(contact.roller), by);
+            }
         }
     }
 
     fn count_of_rollers(&self, ws: &mut Workspace) {
         let Some(rollers) = &self.rollers else { return };
         for contact in &ws.rollers.contacts {
-            if let Place::Raceway(side) = contact.place {
-                let law = [Law::OuterRaceway, Law::InnerRaceway][side];
-                ws.counts[law as usize] += 1;
-                for part in rollers.parts(side) {
-                    ws.counts[part as usize] += 1;
+            match contact.place {
+                Place::Raceway(side) => {
+                    let law = [Law::OuterRaceway, Law::InnerRaceway][side];
+                    ws.counts[law as usize] += 1;
+                    for part in rollers.parts(side) {
+                        ws.counts[part as usize] += 1;
+                    }
                 }
+                Place::Bar(_) => ws.counts[Law::PocketWall as usize] += 1,
             }
         }
     }
@@ -242,7 +321,7 @@ impl Space {
 impl RollersOfScene {
     /// The laws of the contacts with one raceway beside elasticity.
     pub(super) fn parts(&self, side: usize) -> impl Iterator<Item = Law> {
-        let law = &self.laws[side];
+        let law = self.raceway(side);
         [
             (law.film.is_some(), Law::FilmThickness),
             (law.traction.is_some(), Law::Traction),
@@ -256,8 +335,11 @@ impl RollersOfScene {
     }
 
     /// Law of a raceway.
-    pub(super) fn law(&self, side: usize) -> &LineContact {
-        &self.laws[side]
+    pub(super) fn raceway(&self, side: usize) -> &LineContact {
+        match &self.laws[side] {
+            SpotLaw::Line(law) => law,
+            SpotLaw::Solid(_) => unreachable!("raceways are line contacts"),
+        }
     }
 
     /// Memory for these.

@@ -7,6 +7,7 @@ use super::super::{Source, Space};
 use super::contacts::{Contact, Node};
 use super::{RollersOfScene, on_mate};
 use crate::bodies::{ForceSource, SPIN};
+use crate::laws::contact_pair::ContactForce;
 use crate::model::Channel;
 use crate::scalar::math;
 use crate::space::solid::{cross, difference, dot, scaled, sum};
@@ -60,7 +61,8 @@ impl RollersOfScene {
 
     /// Half width (m) and largest pressure (Pa) of Hertz's line contact at the most loaded place of a contact with a raceway.
     fn hertz(&self, side: usize, node: &Node) -> [f64; 2] {
-        let elastic = &self.laws[side].elastic;
+        let Some(law) = self.laws[side].line() else { return [0.0; 2] };
+        let elastic = &law.elastic;
         let load = self.line_load(node) * elastic.length;
         if load <= 0.0 {
             return [0.0; 2];
@@ -111,7 +113,7 @@ impl Space {
             let text = "where that is, along the roller from its middle";
             of("line_load_at", "m", text, OfRollers::LineLoadAt(k, j), true);
             of("loaded_length", "m", "length that is loaded", OfRollers::LoadedLength(k, j), true);
-            if rollers.laws[k].film.is_some() {
+            if rollers.raceway(k).film.is_some() {
                 let text = "central film thickness at the largest load per length";
                 of("film", "m", text, OfRollers::Film(k, j), false);
             }
@@ -157,7 +159,8 @@ impl Space {
             OfRollers::LineLoadAt(k, j) => deepest(k, j).map_or(0.0, |node| node.slice.place),
             OfRollers::LoadedLength(k, j) => contact(k, j).map_or(0.0, |contact| contact.loaded()),
             OfRollers::Pressure(k, j) => deepest(k, j).map_or(0.0, |node| rollers.hertz(k, node)[1]),
-            OfRollers::Film(k, j) => deepest(k, j).map_or(0.0, |node| memory.laws[k].force(node.row).film),
+            OfRollers::Film(k, j) => deepest(k, j)
+                .map_or(0.0, |node| memory.laws[k].as_ref().map_or(0.0, |laws| laws.force(node.row).film)),
             OfRollers::SlidingPower(k, j) => contact(k, j).map_or(0.0, |contact| {
                 let lost = |node: &Node| {
                     let [along, across] = node.spot.slip;
@@ -199,8 +202,9 @@ impl Space {
         let couple = difference(moment, cross(to_contact, force));
         let turning = contact.passing.turning;
         let ratio = if dot(turning, l) == 0.0 { 0.0 } else { (dot(turning, n) / dot(turning, l)).abs() };
-        let [b, pressure] = rollers.hertz(k, node);
-        let law = memory.laws[k].force(node.row);
+        let slices = memory.laws[contact.place.law()].as_ref();
+        let law = slices.map_or(ContactForce::none(0.0), |slices| slices.force(node.row));
+        let [b, pressure] = rollers.hertz(contact.place.law(), node);
         let [x, _] = of.state.at;
         let point = to_global(sum([x, of.state.r, 0.0], to_contact), of.direction);
         let friction =

@@ -10,7 +10,7 @@ use super::super::workspace::Workspace;
 use super::RollersOfScene;
 use super::contacts::{Contact, Node, Place};
 use crate::bodies::{
-    CAGE, INNER_RING, Input, InputValues, MovingRing, OF_RING, OF_ROLLER, RingState, RollerState,
+    CAGE, CageState, INNER_RING, Input, InputValues, MovingRing, OF_RING, OF_ROLLER, RingState, RollerState,
 };
 use crate::integrate::Linearization;
 use crate::laws::elastic::tilted::Along;
@@ -49,6 +49,13 @@ fn local([x, y, z]: Vector<Varied>, [cos, sin]: [Varied; 2]) -> Vector<Varied> {
 
 fn global([x, r, t]: Vector<Varied>, [cos, sin]: [Varied; 2]) -> Vector<Varied> {
     [x, cos * r - sin * t, sin * r + cos * t]
+}
+
+/// What a contact does to a roller, where that is from the centre of the mate, and forces over the displacement of its pocket.
+struct OnBoth {
+    on_roller: OnRoller,
+    from_mate: Vector<Varied>,
+    over_bending: [Varied; 2],
 }
 
 /// Force and moment on a roller, of which `own` turns it about its axis.
@@ -101,14 +108,15 @@ impl Space {
         for place in 0..ws.rollers.contacts.len() {
             let contact = ws.rollers.contacts[place];
             let (state, direction) = self.varied_roller(ws, contact.roller);
-            let (on, from_mate) =
+            let OnBoth { on_roller: on, from_mate, over_bending } =
                 self.varied_contact(rollers, ws, &contact, (rates, ln_rate), &state, direction);
             let forces = state.over_speeds([on.force, on.moment], on.own);
             self.add_to_roller(rollers, ws, &contact, &forces, out);
             let about = sum(on.moment, cross(from_mate, on.force));
             let [force, moment] = [on.force, about].map(|v| global(v.map(|x| -x), direction));
             let [[a, b, c], [d, e, f]] = [force, moment];
-            self.add_to_mate(&contact, &[a, b, c, d, e, f], (ring, ws.cage.by_forces()), out);
+            let on_mate = ([a, b, c, d, e, f], over_bending);
+            self.add_to_mate(&contact, &on_mate, (ring, ws.cage.by_forces()), out);
         }
     }
 
@@ -169,13 +177,18 @@ impl Space {
         (rates, ln_rate): (&InputValues, f64),
         state: &RollerState<Varied>,
         direction: [Varied; 2],
-    ) -> (OnRoller, Vector<Varied>) {
+    ) -> OnBoth {
         let ln_viscosity = timed(Varied::lift(ws.fluid.ln_viscosity), ln_rate);
         let mut on_roller = OnRoller::none();
-        let Place::Raceway(side) = contact.place;
+        let side = match contact.place {
+            Place::Raceway(side) => side,
+            Place::Bar(wall) => {
+                return self.varied_bar(rollers, ws, (contact, wall), ln_viscosity, state, direction);
+            }
+        };
         let on = OnRaceway {
             geometry: &rollers.geometry,
-            profile: rollers.laws[side].profile.as_ref(),
+            profile: rollers.raceway(side).profile.as_ref(),
             side,
             ring: self.varied_ring(ws, side, rates, direction),
             roller: state.motion(),
@@ -188,12 +201,66 @@ impl Space {
         for node in ws.rollers.places(contact) {
             let [s, share] = slices.slice(node);
             let spot = on.spot(&middle, s);
-            let forces = ws.rollers.laws[side].varied(node.row, &spot, ln_viscosity);
-            on_roller.add(&spot, forces.map(|force| force * share), state.tilt.axis);
+            if let Some(slices) = &ws.rollers.laws[side] {
+                let forces = slices.varied(node.row, &spot, ln_viscosity);
+                on_roller.add(&spot, forces.map(|force| force * share), state.tilt.axis);
+            }
         }
         let [x, rho] = state.at;
         let [cx, cr, ct] = on.ring.centre;
-        (on_roller, [x - cx, rho + rollers.geometry.pitch_radius - cr, -ct])
+        let from_mate = [x - cx, rho + rollers.geometry.pitch_radius - cr, -ct];
+        OnBoth { on_roller, from_mate, over_bending: [Varied::lift(0.0); 2] }
+    }
+
+    /// The same of a bar.
+    fn varied_bar(
+        &self,
+        rollers: &RollersOfScene,
+        ws: &Workspace,
+        (contact, wall): (&Contact, usize),
+        ln_viscosity: Varied,
+        state: &RollerState<Varied>,
+        direction: [Varied; 2],
+    ) -> OnBoth {
+        let none = [Varied::lift(0.0); 3];
+        let mut out = OnBoth { on_roller: OnRoller::none(), from_mate: none, over_bending: [none[0]; 2] };
+        let Some(bars) = &rollers.bars else { return out };
+        let j = contact.roller;
+        let variable = Varied::variable;
+        let cage = CageState {
+            position: std::array::from_fn(|k| variable(ws.cage.state.position[k], MATE + k)),
+            rate: std::array::from_fn(|k| variable(ws.cage.state.rate[k], MATE_RATES + k)),
+        };
+        let cage = cage.motion();
+        let mut lead = Varied::lift(ws.rollers.rollers[j].travel - ws.cage.moving.angle);
+        (lead.eps[2], lead.eps[MATE + 3]) = (1.0, -1.0);
+        let bent = self.displaced_pocket(ws, j).map(|bent| {
+            let at = |i: usize, k: usize| variable(bent[i][k], BENT + 2 * i + k);
+            [[at(0, 0), at(0, 1)], [at(1, 0), at(1, 1)]]
+        });
+        let place = bars.place(&state.motion(), direction, lead, &cage, bent);
+        let profile = rollers.raceway(0).profile.as_ref();
+        let law = &rollers.laws[contact.place.law()];
+        for node in ws.rollers.places(contact) {
+            let s = node.slice.place;
+            let drop = profile.map_or(0.0, |profile| profile.of_roller(s));
+            let spot = bars.spot(&place, wall, s, self.set.radius_excess[j], drop).spot;
+            let forces = match &ws.rollers.laws[contact.place.law()] {
+                Some(slices) => slices.varied(node.row, &spot, ln_viscosity),
+                None => match law.alone(&spot) {
+                    Some(force) => [force.normal, force.secant, force.rolling],
+                    None => continue,
+                },
+            };
+            let share = node.slice.share;
+            out.on_roller.add(&spot, forces.map(|force| force * share), state.tilt.axis);
+        }
+        let centre = local(cage.centre, direction);
+        out.from_mate = [state.at[0] - centre[0], state.r - centre[1], -centre[2]];
+        if bent.is_some() {
+            out.over_bending = [1, 2].map(|k| -dot(place.axes[k], out.on_roller.force));
+        }
+        out
     }
 
     /// Adds how the accelerations of roller `j` follow its own coordinates at constant forces.
@@ -243,6 +310,20 @@ impl Space {
         }
     }
 
+    /// Places of the modes of a cage that bends in the hub.
+    fn modes_in_hub(&self) -> std::ops::Range<usize> {
+        let of_cage = self.layout.range(CAGE);
+        (of_cage.start + OF_MATE).min(of_cage.end)..of_cage.end
+    }
+
+    /// How the modes of a cage that bends displace the pocket of a contact with it.
+    fn displacements_of(&self, contact: &Contact) -> &[[f64; 2]] {
+        match &self.cage {
+            Some(cage) if contact.place.mate() == CAGE => cage.body.displacements(contact.roller),
+            _ => &[],
+        }
+    }
+
     /// Adds how forces of a contact over the speeds of its roller accelerate that.
     fn add_to_roller(
         &self,
@@ -264,9 +345,10 @@ impl Space {
             out.over_time[place] += x;
         }
         let mates = self.mate_in_hub(contact.place.mate());
-        for (part, first, count, of_mate) in [
-            (&mut out.over_positions, 0, POSITIONS, MATE),
-            (&mut out.over_velocities, SPEEDS, OF_ROLLER, MATE_RATES),
+        let displacements = self.displacements_of(contact);
+        for (part, first, count, [of_mate, bent]) in [
+            (&mut out.over_positions, 0, POSITIONS, [MATE, BENT]),
+            (&mut out.over_velocities, SPEEDS, OF_ROLLER, [MATE_RATES, BENT + 2]),
         ] {
             let own = part.own.as_mut_slice().as_chunks_mut::<OF_ROLLER>().0;
             for k in 0..count {
@@ -276,6 +358,10 @@ impl Space {
             for (k, place) in &mates {
                 add(&mut from_hub[j * width + place], column(of_mate + k));
             }
+            for (place, [x, t]) in self.modes_in_hub().zip(displacements) {
+                let [by_x, by_t] = [column(bent), column(bent + 1)];
+                add(&mut from_hub[j * width + place], std::array::from_fn(|k| by_x[k] * x + by_t[k] * t));
+            }
         }
     }
 
@@ -283,32 +369,46 @@ impl Space {
     fn add_to_mate(
         &self,
         contact: &Contact,
-        on: &[Varied; 6],
+        (on, over_bending): &([Varied; 6], [Varied; 2]),
         (ring, by_forces): (&RingSlopes, &DMatrix<f64>),
         out: &mut Linearization<OF_ROLLER>,
     ) {
         let mate = contact.place.mate();
-        let rows: Vec<(usize, [f64; 6])> = match mate {
+        let displacements = self.displacements_of(contact);
+        let rows: Vec<(usize, [f64; 6], [f64; 2])> = match mate {
             CAGE => {
                 let first = self.layout.range(CAGE).start;
-                let row = |i: usize| (first + i, std::array::from_fn(|w| by_forces[(i, w)]));
+                let over = |i: usize, k: usize| {
+                    let by = displacements.iter().enumerate().map(|(m, at)| by_forces[(i, 6 + m)] * at[k]);
+                    by.sum::<f64>()
+                };
+                let row = |i: usize| {
+                    (first + i, std::array::from_fn(|w| by_forces[(i, w)]), [over(i, 0), over(i, 1)])
+                };
                 (0..by_forces.nrows()).map(row).collect()
             }
             INNER_RING => {
                 let first = self.layout.range(INNER_RING).start;
-                let row = |(i, k): (usize, usize)| (first + i, std::array::from_fn(|w| ring[k].eps[w]));
+                let row =
+                    |(i, k): (usize, usize)| (first + i, std::array::from_fn(|w| ring[k].eps[w]), [0.0; 2]);
                 self.ring.free().enumerate().map(row).collect()
             }
             _ => return,
         };
         let mates = self.mate_in_hub(mate);
-        for (place, by) in rows {
-            let slope = |d: usize| (0..6).map(|w| by[w] * on[w].eps[d]).sum::<f64>();
+        for (place, by, by_bending) in rows {
+            let slope = |d: usize| {
+                let bending = by_bending[0] * over_bending[0].eps[d] + by_bending[1] * over_bending[1].eps[d];
+                (0..6).map(|w| by[w] * on[w].eps[d]).sum::<f64>() + bending
+            };
             out.over_time[place] += slope(TIME);
-            for (part, first, count, of_mate) in [
-                (&mut out.over_positions, 0, POSITIONS, MATE),
-                (&mut out.over_velocities, SPEEDS, OF_ROLLER, MATE_RATES),
+            for (part, first, count, [of_mate, bent]) in [
+                (&mut out.over_positions, 0, POSITIONS, [MATE, BENT]),
+                (&mut out.over_velocities, SPEEDS, OF_ROLLER, [MATE_RATES, BENT + 2]),
             ] {
+                for (column, [x, t]) in self.modes_in_hub().zip(displacements) {
+                    part.hub[(place, column)] += slope(bent) * x + slope(bent + 1) * t;
+                }
                 for k in 0..count {
                     part.to_hub[(place, contact.roller * OF_ROLLER + k)] += slope(first + k);
                 }
@@ -346,7 +446,7 @@ impl Edges {
         };
         let [c0, c1, c2] = [coefficient(0), coefficient(1), coefficient(2)];
         let (t0, t1) = (middle.1, (high.1 - low.1) * (0.5 / a));
-        let profile = rollers.laws[side].profile.as_ref();
+        let profile = rollers.raceway(side).profile.as_ref();
         let moved = |s: f64| {
             if s.abs() >= a || rollers.slices_on == SlicesOn::Whole {
                 return Varied::lift(s);

@@ -45,7 +45,7 @@ impl Space {
         let rollers = self.rollers.as_ref()?;
         let inputs = self.inputs.at(0.0, &HostInputs::default());
         let [orbit, _] = rollers.kinematic_speeds(&inputs);
-        let laws = [&rollers.laws[0], &rollers.laws[1]];
+        let laws = [rollers.raceway(0), rollers.raceway(1)];
         let resting = Rollers::new(rollers.geometry, laws, &self.set, rollers.centrifugal(orbit));
         let mut body = RingInSpace::new(&self.scene);
         body.held[0].get_or_insert(0.0);
@@ -87,14 +87,14 @@ impl Space {
         let moment = math::hypot(largest(Input::MomentY), largest(Input::MomentZ));
         let by_moment = 3.0 * moment / rollers.half_length;
         let larger = self.set.radius_excess.iter().copied().fold(0.0, f64::max);
-        let line = &rollers.laws[1].elastic;
+        let line = &rollers.raceway(1).elastic;
         let preload = line.load((larger - rollers.geometry.gap).max(0.0));
         let load = STRIBECK / count.max(STRIBECK) * (radial + by_moment)
             + rollers.centrifugal(orbit)
             + preload
             + 1.0;
         let [mass, ..] = rollers.body.inertia(0);
-        let stiffness: f64 = rollers.laws.iter().map(|law| law.elastic.stiffness_at_load(load)).sum();
+        let stiffness: f64 = rollers.laws[..2].iter().map(|law| law.stiffness_at_load(load)).sum();
         (stiffness / mass).sqrt()
     }
 }

@@ -7,10 +7,11 @@
 //! Every place of a contact has the implicit share of the whole contact, which is that of the plane.
 
 use super::super::Space;
+use super::super::cage::add_to_modes;
 use super::super::workspace::Workspace;
 use super::contacts::{Contact, FRICTION, NORMAL, Node, ROLLING};
 use super::{RollersOfScene, added, on_mate};
-use crate::bodies::{OF_ROLLER, Power};
+use crate::bodies::{CAGE, OF_ROLLER};
 use crate::integrate::{GroupDamping, SemiImplicit, implicit_share};
 use crate::scalar::place_of;
 use crate::space::solid::{Moving, Vector, dot, scaled, sum};
@@ -129,6 +130,7 @@ impl Space {
             contact.powers[FRICTION] = power(added(contact.parts[FRICTION], change[1]));
             contact.powers[ROLLING] = power(contact.parts[ROLLING]);
             let changed = added(change[0], change[1]);
+            contact.on_bending = contact.over_bending(changed[0]);
             contact.reaction = on_mate(changed, contact.from_mate, of.direction);
         }
     }
@@ -139,11 +141,24 @@ impl Space {
         of_mate.fold([[0.0; 3]; 2], |sum, contact| added(sum, contact.reaction))
     }
 
+    /// Adds what the forces of rollers on the cage have changed by in that step.
+    pub(in super::super) fn add_reaction_to_cage(
+        &self,
+        ws: &Workspace,
+        on_cage: &mut [Vector<f64>; 2],
+        on_modes: &mut [f64],
+    ) {
+        let Some(cage) = &self.cage else { return };
+        for contact in ws.rollers.contacts.iter().filter(|contact| contact.place.mate() == CAGE) {
+            *on_cage = added(*on_cage, contact.reaction);
+            add_to_modes(on_modes, cage.body.displacements(contact.roller), contact.on_bending);
+        }
+    }
+
     /// Adds the powers of the contacts of rollers, W.
     pub(in super::super) fn add_roller_powers(&self, ws: &Workspace, p: &mut [f64]) {
         for contact in &ws.rollers.contacts {
-            let list = [Power::RacewayDamping, Power::RacewayFriction, Power::RollingResistance];
-            for (power, part) in contact.powers.iter().zip(list) {
+            for (power, part) in contact.powers.iter().zip(contact.place.powers()) {
                 p[part as usize] += power;
             }
         }

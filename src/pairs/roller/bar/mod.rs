@@ -71,7 +71,7 @@ pub(crate) struct InBars<T> {
     axis: Vector<T>,
     slopes: [T; 2],
     /// Motion of the roller against the material of the cage at its centre.
-    passing: Moving<T>,
+    pub(crate) passing: Moving<T>,
 }
 
 /// A disc against a bar.
