@@ -128,6 +128,7 @@ registry! {
         Support = "support",
         Neighbour = "neighbour",
         Drag = "drag",
+        Rib = "rib",
     }
 }
 
@@ -156,6 +157,8 @@ registry! {
         NeighbourDamping = "neighbour_damping",
         NeighbourFriction = "neighbour_friction",
         Drag = "drag",
+        RibDamping = "rib_damping",
+        RibFriction = "rib_friction",
     }
 }
 

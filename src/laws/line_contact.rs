@@ -16,6 +16,7 @@ use crate::laws::elastic::profile::Profile;
 use crate::laws::film::regime::LubricationRegime;
 use crate::laws::film::thickness::{Entrainment, FilmThickness};
 use crate::laws::rolling::RollingResistance;
+use crate::laws::traction::film_friction::FilmFriction;
 use crate::laws::traction::muraki_kimura::Traction;
 use crate::laws::traction::self_heating::SelfHeating;
 use crate::laws::traction::solid_friction::SolidFriction;
@@ -327,34 +328,15 @@ impl<B: Base> LineContact<B> {
     ) -> T {
         let ln_film = film.ln_central(pressed.ln_load, pressed.mean_pressure, rolling);
         out.film = ln_film.exp();
-        let mut mu = ln_film.like(0.0);
-        if let Some(traction) = &self.traction
-            && B::any(traction.acts.above(0.5))
-        {
-            let (p, b) = (pressed.mean_pressure, pressed.half_width);
-            let shear = traction.shear_state(p, out.film, ln_film, b, rolling);
-            let heating = self.self_heating.as_ref().filter(|heating| B::any(heating.acts.above(0.5)));
-            let stress = match heating {
-                None => shear.mean_shear(mu).stress,
-                Some(heating) => {
-                    let rise = heating.rise_per_stress(rolling.slip, out.film, b, motion.u1, motion.u2);
-                    let heated = heating.solve(&shear, rise);
-                    out.temperature_rise = heated.temperature_rise;
-                    heated.stress
-                }
-            };
-            let acts = T::lift(traction.acts).above(0.5);
-            mu = T::select(acts, stress * traction.eyring_stress / p, mu);
-        }
-        if let Some(regime) = &self.regime {
-            out.film_ratio = regime.film_ratio(out.film);
-            let share = regime.boundary_share(out.film_ratio);
-            // In groups of full films only.
-            if B::any(share.base().above(0.0)) {
-                mu += (regime.boundary.at(rolling.slip) - mu) * share;
-            }
-        }
-        mu
+        let friction = FilmFriction {
+            traction: self.traction.as_ref(),
+            self_heating: self.self_heating.as_ref(),
+            regime: self.regime.as_ref(),
+        };
+        let (pressed, film) = ([pressed.mean_pressure, pressed.half_width], [out.film, ln_film]);
+        let rubbing = friction.at(pressed, film, [motion.u1, motion.u2], rolling);
+        (out.film_ratio, out.temperature_rise) = (rubbing.film_ratio, rubbing.temperature_rise);
+        rubbing.coefficient
     }
 }
 

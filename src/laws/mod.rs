@@ -29,5 +29,6 @@ pub mod heat_network;
 pub mod line_contact;
 pub mod point_contact;
 mod resting_line;
+pub mod rib_contact;
 pub mod rolling;
 pub mod traction;

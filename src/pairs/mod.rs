@@ -91,6 +91,7 @@ registry! {
         GuideSolid = "guide_solid",
         ViscosityTemperature = "viscosity_temperature",
         Neighbours = "neighbours",
+        Rib = "rib",
     }
 }
 

@@ -54,7 +54,8 @@ pub use roller_space::{Rib, RibRing, RibSide, Ribs, RollerEnds, RollerSpace, Sli
 pub use run::{Auto, ErrorControl, Initial, Leapfrog, Method, Preset, Record, RingStart, Solver};
 pub use signal::{Signal, SignalIntegral, interpolate, slope};
 pub use spatial_cage::{
-    CageShape, HertzPocket, Land, PocketLaw, RoundPocket, SpatialCage, SpatialCageLoad, SpatialCageStart,
+    CageShape, HertzPocket, Land, PocketLaw, PocketSides, RoundPocket, SpatialCage, SpatialCageLoad,
+    SpatialCageStart,
 };
 pub(crate) use validate::{FORCE, MOMENT, SPEED, TEMPERATURE, TORQUE, VISCOSITY};
 

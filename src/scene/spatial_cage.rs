@@ -1,6 +1,6 @@
 //! What a cage that moves in space has beside one in the plane: inertia across its axis, pockets for balls, lands.
 
-use super::{ContactDamping, Friction, Guide, Signal, SolidContact};
+use super::{ContactDamping, ContactLaws, Friction, Guide, Signal, SolidContact};
 use serde::{Deserialize, Serialize};
 
 /// A cage with six coordinates: its centre, its rotation, and two tilts.
@@ -27,6 +27,9 @@ pub struct SpatialCage {
     /// Lands beside `cage.guide`, which is one in the middle of the cage.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub lands: Vec<Land>,
+    /// Sides of the pockets, which stop rollers along the axis of the cage. Absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pocket_sides: Option<PocketSides>,
     /// External force along the axis of the bearing and moments across it. Absent: none, and no such inputs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub load: Option<SpatialCageLoad>,
@@ -61,6 +64,19 @@ impl CageShape {
         let (along, outwards, around) = (hole * hole / 4.0, (a * a + a * b + b * b) / 3.0, hole * hole / 4.0);
         ring * ((a * a + b * b) / 4.0 + width * width / 12.0) - drilled * (along + 0.5 * (outwards + around))
     }
+}
+
+/// Sides of the pockets of rollers.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct PocketSides {
+    /// Play of a roller between them, m.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-7, max = 1e-2)))]
+    pub play: f64,
+    /// Laws besides elasticity, which is Hertz's.
+    #[serde(default)]
+    pub contact: ContactLaws,
 }
 
 /// A land: a guiding surface of the cage of its own width at its own place along the axis.

@@ -111,8 +111,8 @@ impl Space {
             }),
         };
         let mut contacts_of_ball: Vec<&'static str> = RACES[..races.len()].to_vec();
-        if rollers.is_some() {
-            contacts_of_ball = RACES.to_vec();
+        if let Some(rollers) = &rollers {
+            contacts_of_ball = rollers.contacts.clone();
         }
         if let Some(pockets) = cage.as_ref().and_then(|cage| cage.pockets.as_ref()) {
             contacts_of_ball.extend(pockets.wall_names());

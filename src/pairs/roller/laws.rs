@@ -5,6 +5,7 @@ use super::Spot;
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
 use crate::laws::elastic::solid::SolidContact;
 use crate::laws::line_contact::LineContact;
+use crate::laws::rib_contact::{EndMotion, RibContact};
 use crate::pairs::contacts::{
     ContactBlock, DIRECTIONS, EDGE_SHARE, FORCES, LawColumns, LawSlopes, NO_MOTION, VISCOSITY,
 };
@@ -22,6 +23,8 @@ pub(crate) enum SpotLaw {
     Line(LineContact),
     /// Spring, damper and friction.
     Solid(SolidContact),
+    /// End on a rib.
+    Rib(RibContact),
 }
 
 /// Forces at a place as those of a whole contact.
@@ -41,7 +44,7 @@ impl SpotLaw {
     pub(crate) fn line(&self) -> Option<&LineContact> {
         match self {
             Self::Line(law) => Some(law),
-            Self::Solid(_) => None,
+            Self::Solid(_) | Self::Rib(_) => None,
         }
     }
 
@@ -50,6 +53,7 @@ impl SpotLaw {
         match self {
             Self::Line(law) => law.elastic.energy(delta),
             Self::Solid(law) => 0.5 * law.stiffness * delta.max(0.0) * delta.max(0.0),
+            Self::Rib(law) => law.energy(delta),
         }
     }
 
@@ -58,11 +62,13 @@ impl SpotLaw {
         match self {
             Self::Line(law) => law.elastic.stiffness_at_load(load),
             Self::Solid(law) => law.stiffness,
+            Self::Rib(law) => law.stiffness_at_load(load),
         }
     }
 
-    /// Forces of one place alone; of a line contact those of its slices come from [`SliceLaws`].
-    pub(crate) fn alone<T: Real>(&self, spot: &Spot<T>) -> Option<SpotForces<T>> {
+    /// Forces of one place alone, with the logarithm of the relative viscosity; of a line contact those of its slices come from
+    /// [`SliceLaws`].
+    pub(crate) fn alone<T: Real>(&self, spot: &Spot<T>, ln_viscosity: T) -> Option<SpotForces<T>> {
         let zero = T::constant(0.0);
         match self {
             Self::Line(_) => None,
@@ -80,7 +86,29 @@ impl SpotLaw {
                     rolling: zero,
                 })
             }
+            Self::Rib(law) => {
+                let force = law.force(&end_motion(spot), ln_viscosity);
+                Some(SpotForces {
+                    normal: force.normal,
+                    elastic: law.load(spot.delta),
+                    damping: force.damping,
+                    secant: force.friction_secant,
+                    rolling: zero,
+                })
+            }
         }
+    }
+}
+
+/// How an end moves, as its law sees it.
+fn end_motion<T: Real>(spot: &Spot<T>) -> EndMotion<T> {
+    let [along, across] = spot.slip;
+    EndMotion {
+        delta: spot.delta,
+        delta_dot: spot.delta_dot,
+        entrainment: spot.entrainment,
+        slip: (along * along + across * across + SLIP_FLOOR).sqrt(),
+        surface_speeds: spot.surface_speeds,
     }
 }
 

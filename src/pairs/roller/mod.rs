@@ -5,10 +5,13 @@
 //! opposite, moved there: moment -(M + (P - O) x F).
 
 mod bar;
+mod end;
+mod end_laws;
 mod laws;
 mod slice;
 
 pub(crate) use bar::Bars;
+pub(crate) use end_laws::{EndPair, ends};
 pub(crate) use laws::{SliceLaws, SpotForces, SpotLaw};
 pub(crate) use slice::OnRaceway;
 

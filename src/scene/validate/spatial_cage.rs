@@ -30,6 +30,12 @@ impl Scene {
             return judge.refuse("cage.space", text);
         }
         if self.rollers.is_some() {
+            if let Some(Pocket::SolidPlane(pocket)) = &cage.pocket
+                && pocket.axial_clearance.is_some()
+            {
+                let text = "of balls; of rollers 'cage.space.pocket_sides'";
+                judge.refuse("cage.pocket.solid_plane.axial_clearance", text)?;
+            }
             if let Some(Pocket::SolidCylinder(_) | Pocket::SolidSphere(_)) = &cage.pocket {
                 let text = "a pocket of balls; of rollers 'solid_plane' or 'lubricated_cylinder'";
                 judge.refuse("cage.pocket", text)?;
@@ -43,6 +49,16 @@ impl Scene {
         judge.number("cage.space.mass_offset_x", space.mass_offset_x, range(-largest, largest, "m"))?;
         let height = range(1e-6, 2.0 * self.element_radius(), "m");
         judge.optional("cage.space.pocket_height", space.pocket_height, height)?;
+        if let Some(sides) = &space.pocket_sides {
+            if !self.has_skewing_rollers() {
+                judge.refuse("cage.space.pocket_sides", "stops rollers in space; remove it")?;
+            } else if self.rollers.as_ref().and_then(|rollers| rollers.space.as_ref()?.ends).is_none() {
+                let text = "missing; 'cage.space.pocket_sides' needs the shape of the ends";
+                judge.refuse("rollers.space.ends", text)?;
+            }
+            judge.number("cage.space.pocket_sides.play", sides.play, range(1e-7, 1e-2, "m"))?;
+            contact(judge, "cage.space.pocket_sides.contact", &sides.contact)?;
+        }
         if let Some(load) = &space.load {
             signal(judge, "cage.space.load.force_x", &load.force_x, FORCE)?;
             signal(judge, "cage.space.load.moment_y", &load.moment_y, TORQUE)?;

@@ -21,6 +21,8 @@ pub(in super::super) enum Place {
     Raceway(usize),
     /// The bar in front or behind.
     Bar(usize),
+    /// An end of the roller, by its place among those that may touch, at this mate.
+    End(usize, usize),
 }
 
 impl Place {
@@ -29,14 +31,7 @@ impl Place {
         match self {
             Self::Raceway(side) => side,
             Self::Bar(_) => CAGE,
-        }
-    }
-
-    /// Its law among those of the rollers.
-    pub(in super::super) fn law(self) -> usize {
-        match self {
-            Self::Raceway(side) => side,
-            Self::Bar(_) => 2,
+            Self::End(_, mate) => mate,
         }
     }
 
@@ -44,7 +39,10 @@ impl Place {
     pub(in super::super) fn powers(self) -> [Power; PARTS] {
         match self {
             Self::Raceway(_) => [Power::RacewayDamping, Power::RacewayFriction, Power::RollingResistance],
-            Self::Bar(_) => [Power::PocketDamping, Power::PocketFriction, Power::PocketFriction],
+            Self::Bar(_) | Self::End(_, CAGE) => {
+                [Power::PocketDamping, Power::PocketFriction, Power::PocketFriction]
+            }
+            Self::End(..) => [Power::RibDamping, Power::RibFriction, Power::RibFriction],
         }
     }
 
@@ -53,15 +51,8 @@ impl Place {
         match self {
             Self::Raceway(0) => ForceSource::OuterRaceway,
             Self::Raceway(_) => ForceSource::InnerRaceway,
-            Self::Bar(_) => ForceSource::Pocket,
-        }
-    }
-
-    /// Its place among the contacts of a roller.
-    pub(in super::super) fn in_list(self) -> usize {
-        match self {
-            Self::Raceway(side) => side,
-            Self::Bar(wall) => 2 + wall,
+            Self::Bar(_) | Self::End(_, CAGE) => ForceSource::Pocket,
+            Self::End(..) => ForceSource::Rib,
         }
     }
 }
@@ -100,6 +91,9 @@ pub(in super::super) struct Node {
 pub(in super::super) struct Contact {
     pub(in super::super) roller: usize,
     pub(in super::super) place: Place,
+    /// Its place among the contacts of a roller, and its law among those of the rollers.
+    pub(in super::super) in_list: usize,
+    pub(in super::super) law: usize,
     /// Its places among all.
     pub(in super::super) first: usize,
     pub(in super::super) last: usize,
@@ -125,7 +119,7 @@ pub(in super::super) struct Contact {
 impl Contact {
     pub(in super::super) fn new(
         roller: usize,
-        place: Place,
+        (place, in_list, law): (Place, usize, usize),
         passing: Moving<f64>,
         from_mate: Vector<f64>,
         loaded: Loaded,
@@ -133,6 +127,8 @@ impl Contact {
         Self {
             roller,
             place,
+            in_list,
+            law,
             first: 0,
             last: 0,
             passing,
@@ -224,7 +220,7 @@ impl RollerMemory {
     pub(super) fn add(&mut self, slice: Slice, spot: &Spot<f64>, edge_share: f64) {
         let contact = self.contacts.len() - 1;
         let mut row_of_law = 0;
-        if let Some(slices) = &mut self.laws[self.contacts[contact].place.law()] {
+        if let Some(slices) = &mut self.laws[self.contacts[contact].law] {
             slices.add(spot, edge_share);
             row_of_law = slices.rows() - 1;
         }
@@ -256,10 +252,10 @@ impl RollerMemory {
             slices.apply(ln_viscosity, instructions);
         }
         for node in &mut self.nodes {
-            let law = self.contacts[node.contact].place.law();
+            let law = self.contacts[node.contact].law;
             let force = match &self.laws[law] {
                 Some(slices) => slices.forces(node.row, node.spot.delta),
-                None => laws[law].alone(&node.spot).unwrap_or(NO_FORCE),
+                None => laws[law].alone(&node.spot, ln_viscosity).unwrap_or(NO_FORCE),
             };
             let share = node.slice.share;
             node.force = SpotForces {
@@ -313,9 +309,8 @@ impl RollerMemory {
 
     /// Elastic energy of all contacts, J.
     pub(super) fn elastic_energy(&self, laws: &[SpotLaw]) -> f64 {
-        let of = |node: &Node| {
-            laws[self.contacts[node.contact].place.law()].energy(node.spot.delta) * node.slice.share
-        };
+        let of =
+            |node: &Node| laws[self.contacts[node.contact].law].energy(node.spot.delta) * node.slice.share;
         self.nodes.iter().map(of).sum()
     }
 

@@ -17,16 +17,16 @@ use super::Space;
 use super::cage::add_to_modes;
 use super::evaluate::{beside, to_global, to_local};
 use super::workspace::Workspace;
-use crate::bodies::{CAGE, Fault, OF_ROLLER, RollerState, RollersInSpace, SOUND};
+use crate::bodies::{CAGE, Fault, MovingCage, MovingRing, OF_ROLLER, RollerState, RollersInSpace, SOUND};
 use crate::error::Result;
 use crate::laws::elastic::loaded::Loaded;
 use crate::laws::elastic::profile::USUAL_SLICES;
-use crate::laws::elastic::tilted::Along;
+use crate::laws::elastic::tilted::{Along, Slice};
 use crate::laws::line_contact::LineContact;
 use crate::pairs::Law;
 use crate::pairs::raceway::RacewayGeometry;
-use crate::pairs::roller::{Bars, OnRaceway, SpotLaw};
-use crate::scalar::math;
+use crate::pairs::roller::{Bars, EndPair, OnRaceway, SpotLaw};
+use crate::scalar::{Numeric, math};
 use crate::scene::{Scene, SlicesOn};
 use crate::space::solid::{LARGEST_TILT, Vector, cross, scaled, sum};
 
@@ -45,6 +45,9 @@ pub(super) struct RollersOfScene {
     /// Of outer and inner raceway, of bars.
     laws: Vec<SpotLaw>,
     bars: Option<Bars>,
+    /// What ends of rollers may touch, and the places of the first among laws and contacts.
+    ends: Vec<EndPair>,
+    first_end: [usize; 2],
     /// a, m.
     half_length: f64,
     slices: usize,
@@ -74,11 +77,19 @@ impl RollersOfScene {
             contacts.extend(BARS);
             bars
         });
+        let ends = crate::pairs::roller::ends(scene, &geometry, viscosity)?;
+        let first_end = [list.len(), contacts.len()];
+        for end in &ends {
+            list.push(end.law);
+            contacts.push(end.name);
+        }
         Ok(Some(Self {
             body,
             geometry,
             laws: list,
             bars,
+            ends,
+            first_end,
             half_length: 0.5 * rollers.effective_length,
             slices: raceways.and_then(|raceways| raceways.slices).map_or(USUAL_SLICES, |n| n as usize),
             slices_on: rollers.space.as_ref().map(|space| space.slices_on).unwrap_or_default(),
@@ -150,6 +161,7 @@ impl Space {
         if let Some(bars) = &rollers.bars {
             self.touch_bars(rollers, bars, ws)?;
         }
+        self.touch_ends(rollers, ws);
         let Workspace { rollers: memory, fluid, instructions, .. } = ws;
         memory.evaluate(&rollers.laws, fluid.ln_viscosity, *instructions);
         memory.add_up();
@@ -192,7 +204,13 @@ impl Space {
             let [x, rho] = of.state.at;
             let centre = on.ring.centre;
             let from_mate = [x - centre[0], rho + geometry.pitch_radius - centre[1], -centre[2]];
-            memory.open(Contact::new(j, Place::Raceway(side), middle.passing, from_mate, loaded));
+            memory.open(Contact::new(
+                j,
+                (Place::Raceway(side), side, side),
+                middle.passing,
+                from_mate,
+                loaded,
+            ));
             for i in 0..memory.found.len() {
                 let slice = memory.found[i];
                 let spot = on.spot(&middle, slice.place);
@@ -231,7 +249,13 @@ impl Space {
                 Loaded::whole(a).slices(a, rollers.slices.max(SLICES_OF_BAR), &mut memory.found);
                 let centre = to_local(cage.moving.centre, of.direction);
                 let from_mate = [of.state.at[0] - centre[0], of.state.r - centre[1], -centre[2]];
-                let contact = Contact::new(j, Place::Bar(wall), place.passing, from_mate, Loaded::whole(a));
+                let contact = Contact::new(
+                    j,
+                    (Place::Bar(wall), 2 + wall, 2),
+                    place.passing,
+                    from_mate,
+                    Loaded::whole(a),
+                );
                 memory.open(Contact { bent: bent.map(|_| [place.axes[1], place.axes[2]]), ..contact });
                 for i in 0..memory.found.len() {
                     let slice = memory.found[i];
@@ -246,6 +270,30 @@ impl Space {
             }
         }
         Ok(())
+    }
+
+    /// Finds where ends of rollers touch ribs and sides of their pockets.
+    fn touch_ends(&self, rollers: &RollersOfScene, ws: &mut Workspace) {
+        let [first_law, first_contact] = rollers.first_end;
+        for (k, end) in rollers.ends.iter().enumerate() {
+            let Workspace { rollers: memory, rings, cage, .. } = ws;
+            let of_mate = if end.mate == CAGE { as_ring(&cage.moving) } else { rings[end.mate] };
+            for j in 0..self.layout.count {
+                let of = &memory.rollers[j];
+                let ring = beside(&of_mate, of.direction);
+                let touch = end.geometry.touch(&of.state.motion(), &ring);
+                // A depth that is no number is told by the forces.
+                if touch.spot.delta <= 0.0 {
+                    continue;
+                }
+                let centre = ring.centre;
+                let from_mate = [of.state.at[0] - centre[0], of.state.r - centre[1], -centre[2]];
+                let place = (Place::End(k, end.mate), first_contact + k, first_law + k);
+                memory.open(Contact::new(j, place, touch.passing, from_mate, Loaded::default()));
+                memory.add(Slice { place: 0.0, share: 1.0 }, &touch.spot, 0.0);
+                memory.close();
+            }
+        }
     }
 
     /// Adds what rollers do to the cage, and over the modes of one that bends.
@@ -273,6 +321,7 @@ impl Space {
                     }
                 }
                 Place::Bar(_) => ws.counts[Law::PocketWall as usize] += 1,
+                Place::End(..) => ws.counts[Law::Rib as usize] += 1,
             }
         }
     }
@@ -314,7 +363,7 @@ impl Space {
             .contacts
             .iter()
             .find(|contact| contact.on_roller().iter().flatten().any(|x| !x.is_finite()))?;
-        Some(lost.roller * rollers.contacts.len() + lost.place.in_list())
+        Some(lost.roller * rollers.contacts.len() + lost.in_list)
     }
 }
 
@@ -338,7 +387,7 @@ impl RollersOfScene {
     pub(super) fn raceway(&self, side: usize) -> &LineContact {
         match &self.laws[side] {
             SpotLaw::Line(law) => law,
-            SpotLaw::Solid(_) => unreachable!("raceways are line contacts"),
+            SpotLaw::Solid(_) | SpotLaw::Rib(_) => unreachable!("raceways are line contacts"),
         }
     }
 
@@ -346,6 +395,11 @@ impl RollersOfScene {
     pub(super) fn memory(&self, count: usize) -> RollerMemory {
         RollerMemory::new(count, self.most_slices(), &self.laws)
     }
+}
+
+/// A cage as a ring.
+pub(super) fn as_ring<T: Numeric>(cage: &MovingCage<T>) -> MovingRing<T> {
+    MovingRing { centre: cage.centre, axis: cage.tilt.axis, moving: cage.moving, speed: cage.speed }
 }
 
 /// What a force and moment about the centre of a roller do to a mate whose centre is away from that by `-from_mate`, in the axes of the bearing.

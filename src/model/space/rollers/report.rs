@@ -131,7 +131,7 @@ impl Space {
         let skews = || memory.rollers.iter().map(|roller| roller.state.angles[0]);
         let mean = || skews().sum::<f64>() / count;
         let contact = |k: usize, j: usize| {
-            let touches = |contact: &&Contact| contact.roller == j && contact.place.in_list() == k;
+            let touches = |contact: &&Contact| contact.roller == j && contact.in_list == k;
             memory.contacts.iter().find(touches)
         };
         let deepest = |k: usize, j: usize| rollers.deepest(memory.places(contact(k, j)?));
@@ -181,7 +181,7 @@ impl Space {
         let mut out = SpatialContact::default();
         let Some(rollers) = &self.rollers else { return out };
         let memory = &ws.rollers;
-        let touches = |contact: &&Contact| contact.roller == j && contact.place.in_list() == k;
+        let touches = |contact: &&Contact| contact.roller == j && contact.in_list == k;
         let Some(contact) = memory.contacts.iter().find(touches) else { return out };
         let nodes = memory.places(contact);
         let Some(node) = rollers.deepest(nodes) else { return out };
@@ -202,9 +202,9 @@ impl Space {
         let couple = difference(moment, cross(to_contact, force));
         let turning = contact.passing.turning;
         let ratio = if dot(turning, l) == 0.0 { 0.0 } else { (dot(turning, n) / dot(turning, l)).abs() };
-        let slices = memory.laws[contact.place.law()].as_ref();
+        let slices = memory.laws[contact.law].as_ref();
         let law = slices.map_or(ContactForce::none(0.0), |slices| slices.force(node.row));
-        let [b, pressure] = rollers.hertz(contact.place.law(), node);
+        let [b, pressure] = rollers.hertz(contact.law, node);
         let [x, _] = of.state.at;
         let point = to_global(sum([x, of.state.r, 0.0], to_contact), of.direction);
         let friction =

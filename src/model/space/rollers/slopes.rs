@@ -7,8 +7,8 @@ use super::super::Space;
 use super::super::cage::turning_outer;
 use super::super::linearize::RingSlopes;
 use super::super::workspace::Workspace;
-use super::RollersOfScene;
 use super::contacts::{Contact, Node, Place};
+use super::{RollersOfScene, as_ring};
 use crate::bodies::{
     CAGE, CageState, INNER_RING, Input, InputValues, MovingRing, OF_RING, OF_ROLLER, RingState, RollerState,
 };
@@ -49,6 +49,26 @@ fn local([x, y, z]: Vector<Varied>, [cos, sin]: [Varied; 2]) -> Vector<Varied> {
 
 fn global([x, r, t]: Vector<Varied>, [cos, sin]: [Varied; 2]) -> Vector<Varied> {
     [x, cos * r - sin * t, sin * r + cos * t]
+}
+
+/// A ring in the axes of this direction.
+fn turned_ring(ring: &MovingRing<Varied>, direction: [Varied; 2]) -> MovingRing<Varied> {
+    let turned = |v: Vector<Varied>| local(v, direction);
+    MovingRing {
+        centre: turned(ring.centre),
+        axis: turned(ring.axis),
+        moving: Moving { velocity: turned(ring.moving.velocity), turning: turned(ring.moving.turning) },
+        speed: ring.speed,
+    }
+}
+
+/// The cage over its coordinates.
+fn varied_cage(ws: &Workspace) -> CageState<Varied> {
+    let CageState { position, rate } = &ws.cage.state;
+    CageState {
+        position: std::array::from_fn(|k| Varied::variable(position[k], MATE + k)),
+        rate: std::array::from_fn(|k| Varied::variable(rate[k], MATE_RATES + k)),
+    }
 }
 
 /// What a contact does to a roller, where that is from the centre of the mate, and forces over the displacement of its pocket.
@@ -159,13 +179,7 @@ impl Space {
             }
             .motion()
         };
-        let turned = |v: Vector<Varied>| local(v, direction);
-        MovingRing {
-            centre: turned(ring.centre),
-            axis: turned(ring.axis),
-            moving: Moving { velocity: turned(ring.moving.velocity), turning: turned(ring.moving.turning) },
-            speed: ring.speed,
-        }
+        turned_ring(&ring, direction)
     }
 
     /// What a contact does to the roller, and where that is from the centre of the mate.
@@ -184,6 +198,22 @@ impl Space {
             Place::Raceway(side) => side,
             Place::Bar(wall) => {
                 return self.varied_bar(rollers, ws, (contact, wall), ln_viscosity, state, direction);
+            }
+            Place::End(k, mate) => {
+                let ring = if mate == CAGE {
+                    turned_ring(&as_ring(&varied_cage(ws).motion()), direction)
+                } else {
+                    self.varied_ring(ws, mate, rates, direction)
+                };
+                let end = &rollers.ends[k];
+                let touch = end.geometry.touch(&state.motion(), &ring);
+                if let Some(force) = end.law.alone(&touch.spot, ln_viscosity) {
+                    let forces = [force.normal, force.secant, force.rolling];
+                    on_roller.add(&touch.spot, forces, state.tilt.axis);
+                }
+                let [cx, cr, ct] = ring.centre;
+                let from_mate = [state.at[0] - cx, state.r - cr, -ct];
+                return OnBoth { on_roller, from_mate, over_bending: [Varied::lift(0.0); 2] };
             }
         };
         let on = OnRaceway {
@@ -227,11 +257,7 @@ impl Space {
         let Some(bars) = &rollers.bars else { return out };
         let j = contact.roller;
         let variable = Varied::variable;
-        let cage = CageState {
-            position: std::array::from_fn(|k| variable(ws.cage.state.position[k], MATE + k)),
-            rate: std::array::from_fn(|k| variable(ws.cage.state.rate[k], MATE_RATES + k)),
-        };
-        let cage = cage.motion();
+        let cage = varied_cage(ws).motion();
         let mut lead = Varied::lift(ws.rollers.rollers[j].travel - ws.cage.moving.angle);
         (lead.eps[2], lead.eps[MATE + 3]) = (1.0, -1.0);
         let bent = self.displaced_pocket(ws, j).map(|bent| {
@@ -240,14 +266,14 @@ impl Space {
         });
         let place = bars.place(&state.motion(), direction, lead, &cage, bent);
         let profile = rollers.raceway(0).profile.as_ref();
-        let law = &rollers.laws[contact.place.law()];
+        let law = &rollers.laws[contact.law];
         for node in ws.rollers.places(contact) {
             let s = node.slice.place;
             let drop = profile.map_or(0.0, |profile| profile.of_roller(s));
             let spot = bars.spot(&place, wall, s, self.set.radius_excess[j], drop).spot;
-            let forces = match &ws.rollers.laws[contact.place.law()] {
+            let forces = match &ws.rollers.laws[contact.law] {
                 Some(slices) => slices.varied(node.row, &spot, ln_viscosity),
-                None => match law.alone(&spot) {
+                None => match law.alone(&spot, ln_viscosity) {
                     Some(force) => [force.normal, force.secant, force.rolling],
                     None => continue,
                 },

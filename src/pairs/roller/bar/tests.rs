@@ -1,11 +1,11 @@
 //! Tests of discs against the bars of a pocket.
 
 use super::*;
+use crate::bodies::RollerPlace;
 use crate::bodies::{CageState, ElementMotion};
 use crate::pairs::pocket::cylinder::CylinderPocket;
 use crate::pairs::pocket::kinematics::{Pillar, PillarContact, PocketPlace, PocketShape};
 use crate::pairs::pocket::plane::PlanePocket;
-use crate::pairs::roller::RollerPlace;
 use crate::scalar::{Dual, Numeric};
 use crate::space::Frame;
 use crate::space::solid::Tilt;
