@@ -127,6 +127,20 @@ impl RibGeometry {
         1.0 / (1.0 / self.end.cap_radius - self.outwards * sin / (2.0 * of_rib))
     }
 
+    /// Whether the end of a roller there is certainly apart from its rib.
+    pub(crate) fn apart(&self, roller: &MovingRoller<f64>, ring: &MovingRing<f64>) -> bool {
+        let ([sin, cos], b) = (self.angle, ring.axis);
+        let (place, [ox, or, ot]) = (roller.place, ring.centre);
+        let t = (place.x - ox) * b[0] + (place.rho + self.pitch_radius - or) * b[1] - ot * b[2];
+        let off = difference(place.axis, b);
+        let angle = 1.01 * dot(off, off).sqrt();
+        // The face turned by the angle, the middle shifted along the cone.
+        let across = place.rho.abs() + or.abs() + ot.abs() + self.pitch_radius * (b[1].abs() + b[2].abs()) * sin;
+        let turned = self.end.face_radius * angle + 0.5 * self.end.length * sin * angle;
+        // Largest y_1 N1 - |y|^2/(2 R_s) is that at y_n.
+        cos * self.side * t + sin * across + turned + angle * angle * self.end.cap_radius < self.gap
+    }
+
     /// The end of a roller there. They touch where delta is above zero.
     pub(crate) fn touch<T: Real>(&self, roller: &MovingRoller<T>, ring: &MovingRing<T>) -> EndTouch<T> {
         let [sin, cos] = self.angle;

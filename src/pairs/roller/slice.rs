@@ -18,7 +18,7 @@ use crate::bodies::MovingRing;
 use crate::laws::elastic::profile::Profile;
 use crate::pairs::groove::RingPlace;
 use crate::pairs::raceway::{Disc, RacewayGeometry};
-use crate::scalar::Of;
+use crate::scalar::{Of, Real};
 use crate::space::solid::{Moving, cross, difference, dot, scaled, sum};
 
 /// A roller beside the raceway of one ring.
@@ -59,6 +59,18 @@ impl<T: Of<f64>> OnRaceway<'_, T> {
     #[inline(always)]
     pub(crate) fn straight(&self, s: T) -> Disc<T> {
         Self { profile: None, ..*self }.disc(s)
+    }
+
+    /// Whether no disc within `half_length` (m) of the middle can touch, by the straight disc in the middle.
+    #[inline(always)]
+    pub(crate) fn apart(&self, middle: &Disc<T>, half_length: f64) -> bool
+    where
+        T: Real,
+    {
+        // The distance from the axis of the ring changes along the roller by the sine of their angle at most.
+        let off = difference(self.roller.place.axis, self.ring.axis).map(T::value);
+        let slope = 1.01 * (off[0] * off[0] + off[1] * off[1] + off[2] * off[2]).sqrt();
+        middle.delta.value() + slope * (half_length + self.geometry.roller_radius * slope) < 0.0
     }
 
     /// What its slices share, by the straight disc in the middle.

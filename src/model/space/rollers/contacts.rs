@@ -5,7 +5,7 @@ use crate::bodies::{CAGE, ForceSource, OF_ROLLER, Power, RollerState};
 use crate::laws::elastic::loaded::Loaded;
 use crate::laws::elastic::tilted::Slice;
 use crate::pairs::roller::{SliceLaws, Spot, SpotForces, SpotLaw, UnitWrench};
-use crate::space::solid::{Moving, Vector, dot, scaled, sum};
+use crate::space::solid::{Moving, Vector, dot, sum};
 use pulp::Arch;
 
 /// Parts of what a contact does: normal force, friction, rolling resistance.
@@ -81,8 +81,6 @@ pub(in super::super) struct Node {
     pub(in super::super) row: usize,
     pub(in super::super) slice: Slice,
     pub(in super::super) spot: Spot<f64>,
-    /// Unit wrenches over the speeds of the roller: of normal force, friction along and across, rolling resistance.
-    pub(in super::super) rows: [[f64; OF_ROLLER]; 4],
     pub(in super::super) force: SpotForces<f64>,
 }
 
@@ -164,6 +162,16 @@ impl Contact {
     }
 }
 
+/// Adds a unit wrench times a force.
+#[inline]
+pub(super) fn add_scaled(sum: &mut [Vector<f64>; 2], wrench: &UnitWrench<f64>, force: f64) {
+    for (sum, v) in sum.iter_mut().zip(wrench) {
+        for k in 0..3 {
+            sum[k] += v[k] * force;
+        }
+    }
+}
+
 /// What is known of rollers at the last evaluated state.
 #[derive(Clone, Debug)]
 pub(in super::super) struct RollerMemory {
@@ -176,12 +184,6 @@ pub(in super::super) struct RollerMemory {
     pub(in super::super) laws: Vec<Option<SliceLaws>>,
     /// Force and moment on outer ring, inner ring and cage about their centres, in the axes of the bearing.
     pub(in super::super) on_mates: [[Vector<f64>; 2]; 3],
-}
-
-/// A unit wrench over the speeds of a roller; what `turns` it about its own axis is not there by round-off.
-fn row(state: &RollerState<f64>, wrench: &UnitWrench<f64>, turns: bool) -> [f64; OF_ROLLER] {
-    let own = if turns { dot(wrench[1], state.tilt.axis) } else { 0.0 };
-    state.over_speeds(*wrench, own)
 }
 
 impl RollerMemory {
@@ -224,15 +226,7 @@ impl RollerMemory {
             slices.add(spot, edge_share);
             row_of_law = slices.rows() - 1;
         }
-        let state = &self.rollers[self.contacts[contact].roller].state;
-        let rows = [
-            row(state, &spot.normal, false),
-            row(state, &spot.along, true),
-            row(state, &spot.across, true),
-            row(state, &spot.rolling, true),
-        ];
-        let force = NO_FORCE;
-        self.nodes.push(Node { contact, row: row_of_law, slice, spot: *spot, rows, force });
+        self.nodes.push(Node { contact, row: row_of_law, slice, spot: *spot, force: NO_FORCE });
     }
 
     /// Ends it; one without places is none.
@@ -284,23 +278,19 @@ impl RollerMemory {
         }
         for contact in contacts.iter_mut() {
             let roller = &mut rollers[contact.roller];
-            for node in &nodes[contact.first..contact.last] {
-                let (spot, force) = (&node.spot, &node.force);
-                let [along, across] = spot.slip.map(|slip| -(force.secant * slip));
-                let factors = [force.normal, along, across, force.rolling];
-                for (row, factor) in node.rows.iter().zip(factors) {
-                    for (sum, x) in roller.forces.iter_mut().zip(row) {
-                        *sum += factor * x;
-                    }
-                }
-                let wrenches = [&spot.normal, &spot.along, &spot.across, &spot.rolling];
-                for ((wrench, factor), part) in
-                    wrenches.into_iter().zip(factors).zip([NORMAL, FRICTION, FRICTION, ROLLING])
-                {
-                    let by = wrench.map(|v| scaled(v, factor));
-                    contact.parts[part] = added(contact.parts[part], by);
-                }
+            let axis = roller.state.tilt.axis;
+            let [mut normal, mut friction, mut rolling] = [[[0.0; 3]; 2]; PARTS];
+            for Node { spot, force, .. } in &nodes[contact.first..contact.last] {
+                add_scaled(&mut normal, &spot.normal, force.normal);
+                add_scaled(&mut friction, &spot.along, -(force.secant * spot.slip[0]));
+                add_scaled(&mut friction, &spot.across, -(force.secant * spot.slip[1]));
+                add_scaled(&mut rolling, &spot.rolling, force.rolling);
             }
+            contact.parts = [normal, friction, rolling];
+            // Normal forces turn nothing about its own axis, not even by round-off.
+            let own = dot(friction[1], axis) + dot(rolling[1], axis);
+            let forces = roller.state.over_speeds(contact.on_roller(), own);
+            roller.forces.iter_mut().zip(forces).for_each(|(sum, force)| *sum += force);
             let on = on_mate(contact.on_roller(), contact.from_mate, roller.direction);
             let sum_on = &mut on_mates[contact.place.mate()];
             *sum_on = [sum(sum_on[0], on[0]), sum(sum_on[1], on[1])];

@@ -24,7 +24,7 @@ use crate::laws::elastic::profile::USUAL_SLICES;
 use crate::laws::elastic::tilted::{Along, Slice};
 use crate::laws::line_contact::LineContact;
 use crate::pairs::Law;
-use crate::pairs::raceway::RacewayGeometry;
+use crate::pairs::raceway::{Disc, RacewayGeometry};
 use crate::pairs::roller::{Bars, EndPair, OnRaceway, SpotLaw};
 use crate::scalar::{Numeric, math};
 use crate::scene::{Scene, SlicesOn};
@@ -186,9 +186,14 @@ impl Space {
                 roller: of.state.motion(),
                 excess: self.set.radius_excess[j],
             };
-            let discs = [-a, 0.0, a].map(|s| on.straight(s));
-            let approach = Along::parabola(a, discs.map(|disc| disc.delta));
-            let [low, middle, high] = discs.map(|disc| disc.in_raceway);
+            let middle_disc = on.straight(0.0);
+            if on.apart(&middle_disc, a) {
+                continue;
+            }
+            let told = |disc: Disc<f64>| [disc.delta, disc.in_raceway];
+            let [[d0, low], [d1, middle], [d2, high]] =
+                [told(on.straight(-a)), told(middle_disc), told(on.straight(a))];
+            let approach = Along::parabola(a, [d0, d1, d2]);
             let along =
                 Along { profile, half_length: a, approach, in_raceway: [middle, 0.5 * (high - low) / a] };
             let loaded = match rollers.slices_on {
@@ -200,7 +205,7 @@ impl Space {
             }
             memory.found.clear();
             loaded.slices(a, rollers.slices, &mut memory.found);
-            let middle = on.middle(&discs[1]);
+            let middle = on.middle(&middle_disc);
             let [x, rho] = of.state.at;
             let centre = on.ring.centre;
             let from_mate = [x - centre[0], rho + geometry.pitch_radius - centre[1], -centre[2]];
@@ -281,7 +286,11 @@ impl Space {
             for j in 0..self.layout.count {
                 let of = &memory.rollers[j];
                 let ring = beside(&of_mate, of.direction);
-                let touch = end.geometry.touch(&of.state.motion(), &ring);
+                let roller = of.state.motion();
+                if end.geometry.apart(&roller, &ring) {
+                    continue;
+                }
+                let touch = end.geometry.touch(&roller, &ring);
                 // A depth that is no number is told by the forces.
                 if touch.spot.delta <= 0.0 {
                     continue;

@@ -9,26 +9,56 @@
 use super::super::Space;
 use super::super::cage::add_to_modes;
 use super::super::workspace::Workspace;
-use super::contacts::{Contact, FRICTION, NORMAL, Node, ROLLING};
+use super::contacts::{Contact, FRICTION, NORMAL, Node, ROLLING, add_scaled};
 use super::{RollersOfScene, added, on_mate};
-use crate::bodies::{CAGE, OF_ROLLER};
+use crate::bodies::{CAGE, OF_ROLLER, RollerState, SPIN};
+use crate::pairs::roller::UnitWrench;
 use crate::integrate::{GroupDamping, SemiImplicit, implicit_share};
 use crate::scalar::place_of;
-use crate::space::solid::{Moving, Vector, dot, scaled, sum};
+use crate::space::solid::{Moving, Vector, dot, sum};
 
 type Matrix = [[f64; OF_ROLLER]; OF_ROLLER];
 
-fn dot_rows(a: &[f64; OF_ROLLER], b: &[f64; OF_ROLLER]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
+/// Velocity and angular velocity together.
+fn six(Moving { velocity: [a, b, c], turning: [d, e, f] }: Moving<f64>) -> [f64; 6] {
+    [a, b, c, d, e, f]
 }
 
-/// Adds c x x^T.
-fn add_square(sum: &mut Matrix, c: f64, row: &[f64; OF_ROLLER]) {
-    for (sums, x) in sum.iter_mut().zip(row) {
-        for (sum, y) in sums.iter_mut().zip(row) {
-            *sum += c * x * y;
+/// Power of a unit wrench at this velocity and angular velocity.
+#[inline]
+fn speed(wrench: &UnitWrench<f64>, moved: &[f64; 6]) -> f64 {
+    let [[a, b, c], [d, e, f]] = wrench;
+    a * moved[0] + b * moved[1] + c * moved[2] + d * moved[3] + e * moved[4] + f * moved[5]
+}
+
+/// Adds c w w^T to its lower triangle.
+#[inline]
+fn add_square(sum: &mut Matrix, c: f64, wrench: &UnitWrench<f64>) {
+    let w = wrench.as_flattened();
+    for i in 0..OF_ROLLER {
+        let scaled = c * w[i];
+        for k in 0..=i {
+            sum[i][k] += scaled * w[k];
         }
     }
+}
+
+/// A matrix over velocity and angular velocity, given by its lower triangle, over the speeds of a roller.
+fn over_speeds(state: &RollerState<f64>, over_twist: &Matrix, turns: bool) -> Matrix {
+    let full = |i: usize, k: usize| if k <= i { over_twist[i][k] } else { over_twist[k][i] };
+    let units: Matrix = std::array::from_fn(|k| {
+        six(state.moved(std::array::from_fn(|i| f64::from(u8::from(i == k)))))
+    });
+    let mut out = [[0.0; OF_ROLLER]; OF_ROLLER];
+    let count = if turns { OF_ROLLER } else { SPIN };
+    for a in 0..count {
+        let by: [f64; 6] = std::array::from_fn(|i| (0..6).map(|k| full(i, k) * units[a][k]).sum());
+        for b in 0..=a {
+            let x = (0..6).map(|i| by[i] * units[b][i]).sum();
+            (out[a][b], out[b][a]) = (x, x);
+        }
+    }
+    out
 }
 
 impl RollersOfScene {
@@ -49,21 +79,36 @@ impl Space {
     pub(in super::super) fn damp_rollers(&self, h: f64, ws: &Workspace, out: &mut GroupDamping<OF_ROLLER>) {
         let Some(rollers) = &self.rollers else { return };
         let memory = &ws.rollers;
+        // Over velocity and angular velocity: of normal forces, which turn nothing about its own axis, and of friction.
+        type Sums = [Matrix; 2];
         for (j, of) in memory.rollers.iter().enumerate() {
-            let [mut full, mut implicit]: [Matrix; 2] = [[[0.0; OF_ROLLER]; OF_ROLLER]; 2];
+            let [mut full, mut implicit]: [Sums; 2] = [[[[0.0; OF_ROLLER]; OF_ROLLER]; 2]; 2];
             for contact in memory.contacts.iter().filter(|contact| contact.roller == j) {
                 let nodes = memory.places(contact);
                 let [of_normal, of_friction] = rollers.shares(contact, nodes, self.set.radius, h);
-                for node in nodes {
-                    let (force, [n, t, b, _]) = (&node.force, &node.rows);
-                    add_square(&mut full, force.damping, n);
-                    add_square(&mut implicit, force.damping * of_normal, n);
-                    for row in [t, b] {
-                        add_square(&mut full, force.secant, row);
-                        add_square(&mut implicit, force.secant * of_friction, row);
+                let mut by = [[[0.0; OF_ROLLER]; OF_ROLLER]; 2];
+                for Node { force, spot, .. } in nodes {
+                    add_square(&mut by[0], force.damping, &spot.normal);
+                    add_square(&mut by[1], force.secant, &spot.along);
+                    add_square(&mut by[1], force.secant, &spot.across);
+                }
+                for (part, share) in [of_normal, of_friction].into_iter().enumerate() {
+                    for i in 0..OF_ROLLER {
+                        for k in 0..=i {
+                            full[part][i][k] += by[part][i][k];
+                            implicit[part][i][k] += share * by[part][i][k];
+                        }
                     }
                 }
             }
+            let [full, implicit] = [&full, &implicit].map(|sums| {
+                let [normal, friction] =
+                    [0, 1].map(|part| over_speeds(&of.state, &sums[part], part == 1));
+                let sum = |i: usize, k: usize| normal[i][k] + friction[i][k];
+                std::array::from_fn::<_, OF_ROLLER, _>(|i| {
+                    std::array::from_fn::<_, OF_ROLLER, _>(|k| sum(i, k))
+                })
+            });
             let (block, lane) = place_of(j);
             let inertia = rollers.body.inertia(j);
             let spokes = &mut out.spokes[block];
@@ -109,17 +154,14 @@ impl Space {
             };
             let mut change = [[[0.0; 3]; 2]; 2];
             (contact.normal, contact.powers) = (0.0, [0.0; 3]);
-            for node in nodes {
-                let (force, spot, [n, t, b, _]) = (&node.force, &node.spot, &node.rows);
-                let pushed = -(force.damping * dot_rows(n, &pressed));
-                let along = -(force.secant * dot_rows(t, &rubbed));
-                let across = -(force.secant * dot_rows(b, &rubbed));
-                let add = |part: &mut [Vector<f64>; 2], wrench: &[Vector<f64>; 2], factor: f64| {
-                    *part = added(*part, wrench.map(|v| scaled(v, factor)));
-                };
-                add(&mut change[0], &spot.normal, pushed);
-                add(&mut change[1], &spot.along, along);
-                add(&mut change[1], &spot.across, across);
+            let [pressed, rubbed] = [pressed, rubbed].map(|change| six(of.state.moved(change)));
+            for Node { force, spot, .. } in nodes {
+                let pushed = -(force.damping * speed(&spot.normal, &pressed));
+                let along = -(force.secant * speed(&spot.along, &rubbed));
+                let across = -(force.secant * speed(&spot.across, &rubbed));
+                add_scaled(&mut change[0], &spot.normal, pushed);
+                add_scaled(&mut change[1], &spot.along, along);
+                add_scaled(&mut change[1], &spot.across, across);
                 contact.normal += force.normal + pushed;
                 let nearer = -(dot(spot.normal[0], passing.velocity) + dot(spot.normal[1], passing.turning));
                 contact.powers[NORMAL] -= (force.normal + pushed - force.elastic) * nearer;
