@@ -135,7 +135,8 @@ impl RibGeometry {
         let off = difference(place.axis, b);
         let angle = 1.01 * dot(off, off).sqrt();
         // The face turned by the angle, the middle shifted along the cone.
-        let across = place.rho.abs() + or.abs() + ot.abs() + self.pitch_radius * (b[1].abs() + b[2].abs()) * sin;
+        let across =
+            place.rho.abs() + or.abs() + ot.abs() + self.pitch_radius * (b[1].abs() + b[2].abs()) * sin;
         let turned = self.end.face_radius * angle + 0.5 * self.end.length * sin * angle;
         // Largest y_1 N1 - |y|^2/(2 R_s) is that at y_n.
         cos * self.side * t + sin * across + turned + angle * angle * self.end.cap_radius < self.gap

@@ -49,14 +49,12 @@ impl<T: Of<f64>> OnRaceway<'_, T> {
     }
 
     /// The disc at `s`, m.
-    #[inline(always)]
     pub(crate) fn disc(&self, s: T) -> Disc<T> {
         let place = RingPlace { centre: self.ring.centre, axis: self.ring.axis };
         self.geometry.disc((self.side, &place), &self.roller.place, self.profile, self.excess, s)
     }
 
     /// The same of straight surfaces.
-    #[inline(always)]
     pub(crate) fn straight(&self, s: T) -> Disc<T> {
         Self { profile: None, ..*self }.disc(s)
     }
@@ -74,7 +72,6 @@ impl<T: Of<f64>> OnRaceway<'_, T> {
     }
 
     /// What its slices share, by the straight disc in the middle.
-    #[inline(always)]
     pub(crate) fn middle(&self, disc: &Disc<T>) -> Middle<T> {
         let k = self.sign();
         let Self { ring, roller, geometry, .. } = self;
@@ -95,11 +92,10 @@ impl<T: Of<f64>> OnRaceway<'_, T> {
     }
 
     /// The slice at `s`, m.
-    #[inline(always)]
     pub(crate) fn spot(&self, middle: &Middle<T>, s: T) -> Spot<T> {
         let disc = self.disc(s);
         let k = self.sign();
-        let Self { ring, roller, geometry, .. } = self;
+        let Self { ring, roller, .. } = self;
         let Middle { arm, passing } = middle;
         let Disc { normal, on_roller, outward, tangent, distance, radius, lean, cosine, .. } = disc;
         let (u, b) = (roller.place.axis, ring.axis);
@@ -128,7 +124,6 @@ impl<T: Of<f64>> OnRaceway<'_, T> {
         let back = arm_2 * 2.0 / (radius + arm_2);
         let held = -back + 1.0;
         let rolling = [scaled(t, held), difference(cross(lever, t), scaled(cross(to_centre, t), back))];
-        let _ = geometry;
         Spot {
             delta: disc.delta,
             delta_dot,

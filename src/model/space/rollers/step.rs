@@ -11,11 +11,11 @@ use super::super::cage::add_to_modes;
 use super::super::workspace::Workspace;
 use super::contacts::{Contact, FRICTION, NORMAL, Node, ROLLING, add_scaled};
 use super::{RollersOfScene, added, on_mate};
-use crate::bodies::{CAGE, OF_ROLLER, RollerState, SPIN};
-use crate::pairs::roller::UnitWrench;
+use crate::bodies::{CAGE, OF_ROLLER, ORBIT, RollerState, SPIN};
 use crate::integrate::{GroupDamping, SemiImplicit, implicit_share};
+use crate::pairs::roller::UnitWrench;
 use crate::scalar::place_of;
-use crate::space::solid::{Moving, Vector, dot, sum};
+use crate::space::solid::{Moving, Vector, difference, dot, scaled, sum};
 
 type Matrix = [[f64; OF_ROLLER]; OF_ROLLER];
 
@@ -43,19 +43,44 @@ fn add_square(sum: &mut Matrix, c: f64, wrench: &UnitWrench<f64>) {
     }
 }
 
-/// A matrix over velocity and angular velocity, given by its lower triangle, over the speeds of a roller.
-fn over_speeds(state: &RollerState<f64>, over_twist: &Matrix, turns: bool) -> Matrix {
-    let full = |i: usize, k: usize| if k <= i { over_twist[i][k] } else { over_twist[k][i] };
-    let units: Matrix = std::array::from_fn(|k| {
-        six(state.moved(std::array::from_fn(|i| f64::from(u8::from(i == k)))))
+/// Damping over velocity and angular velocity, given by lower triangles, over the speeds of a roller: of all forces, of which those of friction alone
+/// turn it about its own axis.
+fn over_speeds(state: &RollerState<f64>, all: &Matrix, friction: &Matrix) -> Matrix {
+    let axis = state.tilt.axis;
+    let around = difference([1.0, 0.0, 0.0], scaled(axis, axis[0]));
+    let [skew, tilt] = [[1.0, 0.0], [0.0, 1.0]].map(|rates| {
+        let turning = state.tilt.angular_velocity(rates);
+        difference(turning, scaled(axis, dot(turning, axis)))
     });
+    // Angular velocity by psi', sigma', tau' and w_1, at these places among the speeds.
+    let turned = [(ORBIT, around, all), (3, skew, all), (4, tilt, all), (SPIN, axis, friction)];
     let mut out = [[0.0; OF_ROLLER]; OF_ROLLER];
-    let count = if turns { OF_ROLLER } else { SPIN };
-    for a in 0..count {
-        let by: [f64; 6] = std::array::from_fn(|i| (0..6).map(|k| full(i, k) * units[a][k]).sum());
-        for b in 0..=a {
-            let x = (0..6).map(|i| by[i] * units[b][i]).sum();
-            (out[a][b], out[b][a]) = (x, x);
+    let mut add = |i: usize, k: usize, x: f64| {
+        out[i][k] += x;
+        if i != k {
+            out[k][i] += x;
+        }
+    };
+    let r = state.r;
+    add(0, 0, all[0][0]);
+    add(0, 1, all[1][0]);
+    add(1, 1, all[1][1]);
+    add(0, ORBIT, all[2][0] * r);
+    add(1, ORBIT, all[2][1] * r);
+    add(ORBIT, ORBIT, all[2][2] * r * r);
+    for (n, (place, w, of)) in turned.iter().enumerate() {
+        let with_force = |k: usize| of[3][k] * w[0] + of[4][k] * w[1] + of[5][k] * w[2];
+        let [x, rho, psi] = [with_force(0), with_force(1), with_force(2) * r];
+        add(0, *place, x);
+        add(1, *place, rho);
+        add(ORBIT, *place, if *place == ORBIT { 2.0 * psi } else { psi });
+        let by = [
+            of[3][3] * w[0] + of[4][3] * w[1] + of[5][3] * w[2],
+            of[4][3] * w[0] + of[4][4] * w[1] + of[5][4] * w[2],
+            of[5][3] * w[0] + of[5][4] * w[1] + of[5][5] * w[2],
+        ];
+        for (other, v, _) in &turned[..=n] {
+            add(*other, *place, dot(by, *v));
         }
     }
     out
@@ -101,13 +126,11 @@ impl Space {
                     }
                 }
             }
-            let [full, implicit] = [&full, &implicit].map(|sums| {
-                let [normal, friction] =
-                    [0, 1].map(|part| over_speeds(&of.state, &sums[part], part == 1));
-                let sum = |i: usize, k: usize| normal[i][k] + friction[i][k];
-                std::array::from_fn::<_, OF_ROLLER, _>(|i| {
-                    std::array::from_fn::<_, OF_ROLLER, _>(|k| sum(i, k))
-                })
+            let [full, implicit] = [full, implicit].map(|[mut all, friction]| {
+                for (all, friction) in all.iter_mut().zip(&friction) {
+                    all.iter_mut().zip(friction).for_each(|(sum, x)| *sum += x);
+                }
+                over_speeds(&of.state, &all, &friction)
             });
             let (block, lane) = place_of(j);
             let inertia = rollers.body.inertia(j);
