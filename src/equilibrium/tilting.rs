@@ -6,11 +6,9 @@ use super::{
 use crate::error::Result;
 use crate::model::plane::Plane;
 use crate::model::space::rest::rollers::{SettledRollers, settled_rollers};
-use crate::model::{HostInputs, Model, Quantity, quantity};
+use crate::model::{HostInputs, Model, Quantity, STATIC_LIMIT_OF_ROLLERS, quantity};
 use std::f64::consts::PI;
 
-/// Largest pressure that a static load of a roller bearing may have, Pa (ISO 76).
-const STATIC_LIMIT: f64 = 4.0e9;
 /// Parts of the length between the places at which the line load is told.
 const PLACES: usize = 100;
 /// Share of an approach that is round-off.
@@ -64,7 +62,7 @@ pub(super) fn told(model: &Model, settled: &SettledRollers<'_>) -> Equilibrium {
         for (k, name) in ["outer_raceway", "inner_raceway"].into_iter().enumerate() {
             let name = format!("{}[{j}].{name}", model.element_kind());
             let (values, line_loads) = contact(settled, (j, k), &found.line_loads.places);
-            found.warnings.extend(over_pressed(&name, values[PRESSURE], STATIC_LIMIT));
+            found.warnings.extend(over_pressed(&name, values[PRESSURE], STATIC_LIMIT_OF_ROLLERS));
             found.contacts.push(name);
             found.contact_values.push(values.to_vec());
             found.line_loads.values.push(line_loads);

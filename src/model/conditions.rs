@@ -4,6 +4,8 @@ use super::POWERS;
 
 /// Largest pressure that a static load of a ball bearing may have, Pa (ISO 76).
 pub const STATIC_LIMIT: f64 = 4.2e9;
+/// The same of a roller bearing, Pa (ISO 76).
+pub const STATIC_LIMIT_OF_ROLLERS: f64 = 4.0e9;
 
 /// Something that holds or does not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -71,9 +71,16 @@ fn bodies(model: &Model) -> Vec<Vec<String>> {
     };
     let mut rows = vec![row("outer_ring", outer), row("inner_ring", ring(model))];
     if layout.cage().is_some() {
-        rows.push(row("cage", "moves and turns in the plane"));
+        let in_space = model.scene().cage.as_ref().is_some_and(|cage| cage.space.is_some());
+        rows.push(row(
+            "cage",
+            if in_space { "moves, turns and tilts" } else { "moves and turns in the plane" },
+        ));
     }
-    let text = if model.has_rollers() {
+    let in_space = model.scene().rollers.as_ref().is_some_and(|rollers| rollers.space.is_some());
+    let text = if in_space {
+        "each: axial and radial offset, orbit travel, skew, tilt, their rates, spin speed"
+    } else if model.has_rollers() {
         "each: radial offset, orbit travel, their rates, spin speed"
     } else if model.scene().balls.is_some() {
         "each: axial and radial offset, orbit travel, their rates, three spin speeds"
@@ -100,11 +107,9 @@ fn ring(model: &Model) -> String {
                 .collect();
             let free =
                 if free.is_empty() { "held".to_owned() } else { format!("free in {}", free.join(", ")) };
-            let still = if model.has_rollers() {
-                "; beside rollers it has an equilibrium, no motion over time"
-            } else {
-                ""
-            };
+            let planar = model.scene().rollers.as_ref().is_some_and(|rollers| rollers.space.is_none());
+            let still =
+                if planar { "; beside rollers it has an equilibrium, no motion over time" } else { "" };
             format!("{free}, turns at its given speed{still}")
         }
     }
@@ -119,8 +124,13 @@ fn elements(model: &Model) -> Vec<String> {
     let count = model.element_count();
     match model.scene().kinematic_elements.as_ref().map(|e| &e.motion) {
         None if model.has_rollers() => {
-            let text =
-                format!("{} states, {} contacts: elastic line contact of Palmgren", 5 * count, 2 * count);
+            let in_space = model.scene().rollers.as_ref().is_some_and(|rollers| rollers.space.is_some());
+            let states = if in_space { 11 } else { 5 };
+            let text = format!(
+                "{} states, {} contacts: elastic line contact of Palmgren",
+                states * count,
+                2 * count
+            );
             row("rollers", text)
         }
         None => {

@@ -232,6 +232,9 @@ impl Space {
 
     /// Clearance of a centred ball in its pocket along the orbit, m, if there are pockets.
     pub(crate) fn pocket_clearance(&self) -> Option<f64> {
+        if self.rollers.is_some() {
+            return Some(self.scene.cage.as_ref()?.pocket.as_ref()?.clearance());
+        }
         self.cage.as_ref()?.pockets.as_ref()?.walls.clearances()[0]
     }
 
@@ -240,9 +243,9 @@ impl Space {
         self.set.count
     }
 
-    /// Balls are none.
+    /// Whether its elements are rollers.
     pub(crate) fn has_rollers(&self) -> bool {
-        false
+        self.rollers.is_some()
     }
 
     /// Radius of the pitch circle, m.
@@ -256,6 +259,14 @@ impl Space {
         for (race, law) in [Law::OuterRaceway, Law::InnerRaceway].into_iter().enumerate() {
             for law in std::iter::once(law).filter(|_| self.free).chain(self.parts(race)) {
                 most[law as usize] += self.element_count();
+            }
+        }
+        if let Some(rollers) = &self.rollers {
+            for part in [0, 1].into_iter().flat_map(|side| rollers.parts(side)) {
+                most[part as usize] += self.element_count();
+            }
+            for (law, contacts) in [(Law::PocketWall, rollers.bars()), (Law::Rib, rollers.ends())] {
+                most[law as usize] += contacts * self.element_count();
             }
         }
         if let Some(cage) = &self.cage {

@@ -165,6 +165,9 @@ impl Space {
 
     /// Whether a condition holds in any contact at the last evaluated state of `ws`.
     fn holds(&self, condition: Condition, ws: &Workspace) -> bool {
+        if let Some(rollers) = &self.rollers {
+            return self.holds_of_rollers(rollers, condition, ws);
+        }
         let mut all = (0..2).flat_map(|k| ws.contacts(k).map(move |(contact, lane)| (k, contact, lane)));
         match condition {
             Condition::AtFloor => all.any(|(k, contact, lane)| {

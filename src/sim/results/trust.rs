@@ -2,7 +2,7 @@
 
 use crate::bodies::Power;
 use crate::error::{Error, Result, Status};
-use crate::model::{Condition, STATIC_LIMIT};
+use crate::model::{Condition, STATIC_LIMIT, STATIC_LIMIT_OF_ROLLERS};
 use crate::scene::Method;
 use crate::sim::balance::Start;
 use crate::sim::preset::numbers;
@@ -142,12 +142,13 @@ impl Sim {
                     .to_owned(),
             ),
             Condition::OverPressed => {
-                let limit = 1e-9 * STATIC_LIMIT;
+                let limit =
+                    1e-9 * if self.model().has_rollers() { STATIC_LIMIT_OF_ROLLERS } else { STATIC_LIMIT };
                 Some(format!(
                     "a contact pressure was above {limit} GPa, where races of steel are dented for good (ISO 76)"
                 ))
             }
-            Condition::Unloaded => Some("no ball pressed the inner ring".to_owned()),
+            Condition::Unloaded => Some(format!("no {} pressed the inner ring", self.model().element_kind())),
         };
         let told = Condition::ALL.into_iter().filter_map(|condition| {
             let share = self.share_of(condition);

@@ -57,10 +57,16 @@ fn bodies(model: &Model) -> Vec<Value> {
         json!({"name": "inner_ring", "count": 1, "motion": ring(model)}),
     ];
     if model.layout().cage().is_some() {
-        bodies.push(json!({"name": "cage", "count": 1, "motion": "moves and turns in the plane"}));
+        let in_space = model.scene().cage.as_ref().is_some_and(|cage| cage.space.is_some());
+        let motion = if in_space { "moves, turns and tilts" } else { "moves and turns in the plane" };
+        bodies.push(json!({"name": "cage", "count": 1, "motion": motion}));
     }
-    let motion =
-        if model.has_rollers() { "moves and spins in the plane" } else { "prescribed orbit and spin" };
+    let in_space = model.scene().rollers.as_ref().is_some_and(|rollers| rollers.space.is_some());
+    let motion = match model.has_rollers() {
+        _ if in_space => "moves, spins, skews and tilts",
+        true => "moves and spins in the plane",
+        false => "prescribed orbit and spin",
+    };
     bodies.push(json!({"name": model.element_kind(), "count": model.element_count(), "motion": motion}));
     bodies
 }

@@ -183,7 +183,7 @@ impl Space {
                 add("guide.wet_angle", "rad", "angle of all these arcs together", OfCage::WetAngle);
             }
         }
-        if cage.pockets.is_some() {
+        if self.has_pockets() {
             let text = "all pocket forces on the cage along the axis of the bearing";
             add("pocket.force_x", "N", text, OfCage::Pocket(0));
             let text = "all pocket forces on the cage, along the line from guide to cage centre";
@@ -205,7 +205,7 @@ impl Space {
 
     /// Channels of ball `j` in its pocket.
     pub(in super::super) fn add_pocket_channels(&self, j: usize, list: &mut Vec<Channel>) {
-        if self.cage.as_ref().is_none_or(|cage| cage.pockets.is_none()) {
+        if !self.has_pockets() {
             return;
         }
         let kind = self.element_kind();
@@ -275,11 +275,12 @@ impl Space {
                 let of = |land: &Land| land.tilt_over_gap(moving, &ws.rings[land.ring], bending);
                 cage.lands.iter().map(of).fold(0.0, f64::max)
             }
-            OfCage::Pocket(k) => by_pockets(ws)[k / 3][k % 3],
+            OfCage::Pocket(k) => self.by_pockets(ws)[k / 3][k % 3],
             OfCage::PocketSum(k) => {
-                let [[_, y, z], _] = by_pockets(ws);
+                let [[_, y, z], _] = self.by_pockets(ws);
                 along(at, [y, z])[k]
             }
+            OfCage::TouchingElements if self.rollers.is_some() => self.rollers_in_touch(ws),
             OfCage::TouchingElements => {
                 let mut count = 0.0;
                 let mut last = None;
@@ -294,13 +295,17 @@ impl Space {
             OfCage::GuideHeat => -self.guide_powers(ws).iter().sum::<f64>(),
             OfCage::WetArcs => wet_arcs().map(|(count, _)| f64::from(count)).sum(),
             OfCage::WetAngle => wet_arcs().map(|(_, angle)| angle).sum(),
+            OfCage::InPocket(k, j) if self.rollers.is_some() => {
+                let place = self.roller_in_pocket(ws, j)[k];
+                if k == 2 { direction * place } else { place }
+            }
             OfCage::InPocket(k, j) => {
                 let Some(pockets) = &cage.pockets else { return f64::NAN };
                 let place = pockets.place(&self.in_pocket(ws, j), moving);
                 if k == 2 { direction * place.q[k] } else { place.q[k] }
             }
-            OfCage::PocketForce(j) => direction * on_cage_by(ws, j)[2],
-            OfCage::AxialPocketForce(j) => on_cage_by(ws, j)[0],
+            OfCage::PocketForce(j) => direction * self.on_cage_by(ws, j)[2],
+            OfCage::AxialPocketForce(j) => self.on_cage_by(ws, j)[0],
         }
     }
 
@@ -373,19 +378,33 @@ impl Space {
     }
 }
 
-/// Force and moment of all pockets on the cage, in a step where one was found.
-fn by_pockets(ws: &Workspace) -> [Vector<f64>; 2] {
-    let reactions = ws.cage.touching.iter().filter(|_| ws.step.is_some_and(|h| h > 0.0));
-    reactions.fold(ws.cage.by_pockets, |sum, touching| super::added(sum, touching.reaction))
-}
+impl Space {
+    /// Whether its cage has pockets.
+    pub(in super::super) fn has_pockets(&self) -> bool {
+        let of_balls = self.cage.as_ref().is_some_and(|cage| cage.pockets.is_some());
+        of_balls || self.rollers.as_ref().is_some_and(|rollers| rollers.bars() > 0)
+    }
 
-/// Force of ball `j` on the cage in the axes of its azimuth, N.
-fn on_cage_by(ws: &Workspace, j: usize) -> Vector<f64> {
-    let of_ball = ws.cage.touching.iter().filter(|touching| touching.ball == j);
-    of_ball.fold([0.0; 3], |total, Touching { contact, normal, friction, .. }| {
-        let [_, [force, _]] = contact.wrenches_of(*normal, *friction);
-        sum(total, force)
-    })
+    /// Force and moment of all pockets on the cage, in a step where one was found.
+    fn by_pockets(&self, ws: &Workspace) -> [Vector<f64>; 2] {
+        if ws.step.is_none_or(|h| h == 0.0) {
+            return ws.cage.by_pockets;
+        }
+        let sum = ws.cage.touching.iter().fold(ws.cage.by_pockets, |sum, of| super::added(sum, of.reaction));
+        super::added(sum, self.reaction_of_rollers(ws, CAGE))
+    }
+
+    /// Force of element `j` on the cage in the axes of its azimuth, N.
+    fn on_cage_by(&self, ws: &Workspace, j: usize) -> Vector<f64> {
+        if self.rollers.is_some() {
+            return self.roller_on_cage(ws, j);
+        }
+        let of_ball = ws.cage.touching.iter().filter(|touching| touching.ball == j);
+        of_ball.fold([0.0; 3], |total, Touching { contact, normal, friction, .. }| {
+            let [_, [force, _]] = contact.wrenches_of(*normal, *friction);
+            sum(total, force)
+        })
+    }
 }
 
 impl Reading<'_> {

@@ -400,6 +400,16 @@ impl RollersOfScene {
         }
     }
 
+    /// Bars that a roller can touch.
+    pub(super) fn bars(&self) -> usize {
+        if self.bars.is_some() { BARS.len() } else { 0 }
+    }
+
+    /// Ribs and sides of its pocket that a roller can touch.
+    pub(super) fn ends(&self) -> usize {
+        self.ends.len()
+    }
+
     /// Memory for these.
     pub(super) fn memory(&self, count: usize) -> RollerMemory {
         RollerMemory::new(count, self.most_slices(), &self.laws)

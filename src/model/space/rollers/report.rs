@@ -1,16 +1,17 @@
 //! What is told of rollers that skew and tilt: their channels, contacts, and the forces on bodies.
 
-use super::super::evaluate::to_global;
+use super::super::evaluate::{to_global, to_local};
 use super::super::report::{SpatialBodyForces, SpatialContact, channel};
 use super::super::workspace::Workspace;
 use super::super::{Source, Space};
-use super::contacts::{Contact, Node};
+use super::contacts::{Contact, Node, Place};
 use super::{RollersOfScene, on_mate};
-use crate::bodies::{ForceSource, SPIN};
-use crate::laws::contact_pair::ContactForce;
-use crate::model::Channel;
+use crate::bodies::{CAGE, ForceSource, SPIN};
+use crate::laws::contact_pair::{ContactForce, ContactMotion};
+use crate::laws::line_contact::LineContact;
+use crate::model::{Channel, Condition, STATIC_LIMIT_OF_ROLLERS};
 use crate::scalar::math;
-use crate::space::solid::{cross, difference, dot, scaled, sum};
+use crate::space::solid::{Vector, cross, difference, dot, scaled, sum};
 use std::f64::consts::PI;
 
 /// What a channel shows of a roller, or of all.
@@ -99,6 +100,11 @@ impl Space {
         add("skew", "rad", text, OfRollers::Skew(j), false);
         let text = "rotation of its axis about that along the orbit: its +x end is outside where positive";
         add("tilt", "rad", text, OfRollers::Tilt(j), false);
+        for (k, end) in rollers.ends.iter().enumerate() {
+            let [_, first] = rollers.first_end;
+            let text = "normal force of an end of the roller";
+            add(&format!("{}_force", end.name), "N", text, OfRollers::Force(first + k, j), false);
+        }
         for k in [1, 0] {
             let ring = ["outer", "inner"][k];
             let mut of = |field: &str, unit, text, source, detail| {
@@ -168,6 +174,78 @@ impl Space {
                 };
                 memory.places(contact).iter().map(lost).sum()
             }),
+        }
+    }
+
+    /// Number of rollers that touch the cage.
+    pub(in super::super) fn rollers_in_touch(&self, ws: &Workspace) -> f64 {
+        let touches = |j: usize| {
+            let mut with_cage = ws.rollers.contacts.iter();
+            with_cage
+                .any(|contact| contact.roller == j && contact.place.mate() == CAGE && contact.normal > 0.0)
+        };
+        (0..ws.rollers.rollers.len()).filter(|j| touches(*j)).count() as f64
+    }
+
+    /// Where roller `j` is in its pocket: along the axis of the cage, outwards and ahead, m.
+    pub(in super::super) fn roller_in_pocket(&self, ws: &Workspace, j: usize) -> Vector<f64> {
+        let Some(bars) = self.rollers.as_ref().and_then(|rollers| rollers.bars.as_ref()) else {
+            return [f64::NAN; 3];
+        };
+        let (of, cage) = (&ws.rollers.rollers[j], &ws.cage.moving);
+        let lead = of.travel - cage.angle;
+        let bent = self.displaced_pocket(ws, j);
+        let place = bars.place(&of.state.motion(), of.direction, lead, cage, bent);
+        let centre = to_local(cage.centre, of.direction);
+        let from_cage = [of.state.at[0] - centre[0], of.state.r - centre[1], -centre[2]];
+        let [out, ahead] = place.offset;
+        [dot(from_cage, place.axes[0]), out, ahead]
+    }
+
+    /// Force of roller `j` on the cage in the axes of its azimuth, N, with what the step that was found last has added.
+    pub(in super::super) fn roller_on_cage(&self, ws: &Workspace, j: usize) -> Vector<f64> {
+        let of = &ws.rollers.rollers[j];
+        let on = |contact: &&Contact| contact.roller == j && contact.place.mate() == CAGE;
+        ws.rollers.contacts.iter().filter(on).fold([0.0; 3], |total, contact| {
+            let by_step = if ws.step.is_some_and(|h| h > 0.0) { contact.reaction[0] } else { [0.0; 3] };
+            sum(total, difference(to_local(by_step, of.direction), contact.on_roller()[0]))
+        })
+    }
+
+    /// Whether a condition holds in any contact of rollers.
+    pub(in super::super) fn holds_of_rollers(
+        &self,
+        rollers: &RollersOfScene,
+        condition: Condition,
+        ws: &Workspace,
+    ) -> bool {
+        let memory = &ws.rollers;
+        let on_raceways = || {
+            let contacts = memory.contacts.iter();
+            contacts.filter_map(|contact| match contact.place {
+                Place::Raceway(side) => Some((side, contact, memory.places(contact))),
+                _ => None,
+            })
+        };
+        match condition {
+            Condition::AtFloor => on_raceways().any(|(side, _, nodes)| {
+                let law = LineContact { profile: None, ..*rollers.raceway(side) };
+                nodes.iter().any(|node| {
+                    let Some(slices) = &memory.laws[side] else { return false };
+                    let [u1, u2] = node.spot.surface_speeds;
+                    let motion =
+                        ContactMotion { delta: node.spot.delta, delta_dot: node.spot.delta_dot, u1, u2 };
+                    law.is_at_floor(&motion, ws.fluid.ln_viscosity, &slices.force(node.row))
+                })
+            }),
+            Condition::OverPressed => on_raceways().any(|(side, _, nodes)| {
+                rollers
+                    .deepest(nodes)
+                    .is_some_and(|node| rollers.hertz(side, node)[1] > STATIC_LIMIT_OF_ROLLERS)
+            }),
+            Condition::Unloaded => !on_raceways()
+                .any(|(side, _, nodes)| side == 1 && nodes.iter().any(|node| node.force.normal > 0.0)),
+            Condition::BeyondShoulder | Condition::OnLowShoulder => false,
         }
     }
 
