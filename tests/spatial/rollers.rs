@@ -217,3 +217,83 @@ fn a_tilted_roller_that_rolls_skews() {
     println!("{rate}");
     assert!((rate + 0.003).abs() < 0.0006, "{rate}");
 }
+
+/// The NU2310 with ribs, a cage that tilts and touches everything, and on request one that bends.
+fn caged(changes: &[(&str, Value)]) -> Arc<Model> {
+    let all = [
+        ("ribs.end_play", json!(1e-6)),
+        ("cage.space.pocket_sides.play", json!(2e-6)),
+        ("cage.pocket.lubricated_cylinder.radial_clearance", json!(2e-6)),
+        ("cage.space.mass_offset_x", json!(1e-4)),
+    ];
+    model("scenes/nu2310_space.json", &[&all[..], changes].concat())
+}
+
+fn cages() -> [Arc<Model>; 4] {
+    let bends = crate::elastic_ring(3);
+    let plane = json!({"solid_plane": {
+        "diametral_clearance": 4e-6,
+        "contact": {
+            "stiffness": 1e7, "damping": 50.0, "softening_depth": 1e-6,
+            "friction": {"coefficient": 0.1, "transition_speed": 0.02},
+        },
+    }});
+    let rib = |ring: &str, side: &str| json!({"ring": ring, "side": side, "angle": 0.01, "height": 2.5e-3});
+    let all_ribs = json!([rib("outer", "positive"), rib("outer", "negative"), rib("inner", "positive"), rib("inner", "negative")]);
+    let free_along = [
+        ("ribs.list", all_ribs),
+        ("inner_ring.motion.space.x", json!("free")),
+        ("inner_ring.motion.space.load.x", json!({"constant": 500.0})),
+    ];
+    [
+        caged(&[]),
+        caged(&free_along),
+        caged(&[("cage.pocket", plane)]),
+        caged(&[("cage.elastic_ring", bends)]),
+    ]
+}
+
+#[test]
+fn ribs_and_cages_keep_balance_and_have_exact_derivatives() {
+    for (k, model) in cages().iter().enumerate() {
+        powers(model, 2e-3);
+        let off = error(model, 0.02);
+        println!("{k}: {off:e}");
+        assert!(off < 1e-5, "{k}: {off:e}");
+    }
+}
+
+/// Reversing the shaft reverses the skew; clockwise with thrust on an inner ring with a rib at -x it is negative.
+#[test]
+fn thrust_pins_the_rollers_of_an_nj_bearing() {
+    let rib = |ring: &str, side: &str| json!({"ring": ring, "side": side, "angle": 0.01, "height": 2.5e-3});
+    let run = |speed: f64| {
+        let model = model(
+            "scenes/nu2310_space.json",
+            &[
+                ("ribs.list", json!([rib("outer", "positive"), rib("outer", "negative"), rib("inner", "negative")])),
+                ("inner_ring.motion.space.x", json!("free")),
+                ("inner_ring.motion.space.load.x", json!({"constant": 500.0})),
+                ("inner_ring.speed", json!({"constant": speed})),
+            ],
+        );
+        let mut sim = Sim::new(model.clone()).unwrap();
+        sim.advance_to(0.03).unwrap();
+        let outputs = |sim: &mut Sim, name: &str| {
+            let place = model.channels().iter().position(|channel| channel.name == name).unwrap();
+            sim.output(place).unwrap()
+        };
+        let (mut skew, mut tilt, mut n) = (0.0, 0.0, 0.0);
+        for k in 0..40 {
+            sim.advance_to(0.03 + 0.5e-3 * f64::from(k)).unwrap();
+            skew += outputs(&mut sim, "rollers.mean_skew");
+            tilt += outputs(&mut sim, "roller[9].tilt");
+            n += 1.0;
+        }
+        (skew / n, tilt / n)
+    };
+    let [(clockwise, tilt), (counter, _)] = [-314.159, 314.159].map(run);
+    println!("{clockwise:e} {counter:e} {tilt:e}");
+    assert!((-0.2e-3..-0.05e-3).contains(&clockwise), "{clockwise}");
+    assert!((clockwise + counter).abs() < 0.3 * clockwise.abs(), "{clockwise} {counter}");
+}
