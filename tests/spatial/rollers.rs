@@ -239,18 +239,18 @@ fn cages() -> [Arc<Model>; 4] {
         },
     }});
     let rib = |ring: &str, side: &str| json!({"ring": ring, "side": side, "angle": 0.01, "height": 2.5e-3});
-    let all_ribs = json!([rib("outer", "positive"), rib("outer", "negative"), rib("inner", "positive"), rib("inner", "negative")]);
+    let all_ribs = json!([
+        rib("outer", "positive"),
+        rib("outer", "negative"),
+        rib("inner", "positive"),
+        rib("inner", "negative")
+    ]);
     let free_along = [
         ("ribs.list", all_ribs),
         ("inner_ring.motion.space.x", json!("free")),
         ("inner_ring.motion.space.load.x", json!({"constant": 500.0})),
     ];
-    [
-        caged(&[]),
-        caged(&free_along),
-        caged(&[("cage.pocket", plane)]),
-        caged(&[("cage.elastic_ring", bends)]),
-    ]
+    [caged(&[]), caged(&free_along), caged(&[("cage.pocket", plane)]), caged(&[("cage.elastic_ring", bends)])]
 }
 
 #[test]
@@ -271,7 +271,10 @@ fn thrust_pins_the_rollers_of_an_nj_bearing() {
         let model = model(
             "scenes/nu2310_space.json",
             &[
-                ("ribs.list", json!([rib("outer", "positive"), rib("outer", "negative"), rib("inner", "negative")])),
+                (
+                    "ribs.list",
+                    json!([rib("outer", "positive"), rib("outer", "negative"), rib("inner", "negative")]),
+                ),
                 ("inner_ring.motion.space.x", json!("free")),
                 ("inner_ring.motion.space.load.x", json!({"constant": 500.0})),
                 ("inner_ring.speed", json!({"constant": speed})),

@@ -30,18 +30,48 @@ const MATE_RATES: usize = MATE + OF_MATE;
 const BENT: usize = MATE_RATES + OF_MATE;
 const TIME: usize = BENT + 4;
 const ALL: usize = TIME + 1;
-type Varied = Dual<ALL>;
+
+/// Directions of one pass; all at once would make the code four times as large.
+const AT_ONCE: usize = 7;
+const PASSES: usize = ALL / AT_ONCE;
+const _: () = assert!(ALL.is_multiple_of(AT_ONCE));
+type Varied = Dual<AT_ONCE>;
+
+/// The directions of a pass.
+#[derive(Clone, Copy, Debug)]
+struct Pass {
+    first: usize,
+}
+
+impl Pass {
+    /// Place of a direction in this pass, if it is one of it.
+    fn place(self, direction: usize) -> Option<usize> {
+        direction.checked_sub(self.first).filter(|place| *place < AT_ONCE)
+    }
+
+    /// Lets a number change at this rate along a direction.
+    fn along(self, mut x: Varied, direction: usize, rate: f64) -> Varied {
+        if let Some(place) = self.place(direction) {
+            x.eps[place] += rate;
+        }
+        x
+    }
+
+    /// A coordinate.
+    fn variable(self, x: f64, direction: usize) -> Varied {
+        self.along(Varied::lift(x), direction, 1.0)
+    }
+
+    fn timed(self, x: Varied, rate: f64) -> Varied {
+        self.along(x, TIME, rate)
+    }
+}
 
 /// Coordinates of a ring among those of a mate.
 const OF_RING_IN_MATE: [usize; OF_RING] = [0, 1, 2, 4, 5];
 
 /// What a roller's own motion follows: rho, azimuth, skew, tilt, speeds.
 const OWN: usize = 4 + OF_ROLLER;
-
-fn timed(mut x: Varied, rate: f64) -> Varied {
-    x.eps[TIME] += rate;
-    x
-}
 
 fn local([x, y, z]: Vector<Varied>, [cos, sin]: [Varied; 2]) -> Vector<Varied> {
     [x, cos * y + sin * z, cos * z - sin * y]
@@ -63,12 +93,21 @@ fn turned_ring(ring: &MovingRing<Varied>, direction: [Varied; 2]) -> MovingRing<
 }
 
 /// The cage over its coordinates.
-fn varied_cage(ws: &Workspace) -> CageState<Varied> {
+fn varied_cage(pass: Pass, ws: &Workspace) -> CageState<Varied> {
     let CageState { position, rate } = &ws.cage.state;
     CageState {
-        position: std::array::from_fn(|k| Varied::variable(position[k], MATE + k)),
-        rate: std::array::from_fn(|k| Varied::variable(rate[k], MATE_RATES + k)),
+        position: std::array::from_fn(|k| pass.variable(position[k], MATE + k)),
+        rate: std::array::from_fn(|k| pass.variable(rate[k], MATE_RATES + k)),
     }
+}
+
+/// Forces on a mate: force, moment, those over the displacement of a pocket.
+const ON_MATE: usize = 8;
+
+/// Derivatives of forces over the speeds of a roller, and of those on its mate, by directions.
+struct Slopes {
+    on_roller: [[f64; OF_ROLLER]; ALL],
+    on_mate: [[f64; ON_MATE]; ALL],
 }
 
 /// What a contact does to a roller, where that is from the centre of the mate, and forces over the displacement of its pocket.
@@ -127,26 +166,46 @@ impl Space {
         }
         for place in 0..ws.rollers.contacts.len() {
             let contact = ws.rollers.contacts[place];
-            let (state, direction) = self.varied_roller(ws, contact.roller);
-            let OnBoth { on_roller: on, from_mate, over_bending } =
-                self.varied_contact(rollers, ws, &contact, (rates, ln_rate), &state, direction);
-            let forces = state.over_speeds([on.force, on.moment], on.own);
-            self.add_to_roller(rollers, ws, &contact, &forces, out);
-            let about = sum(on.moment, cross(from_mate, on.force));
-            let [force, moment] = [on.force, about].map(|v| global(v.map(|x| -x), direction));
-            let [[a, b, c], [d, e, f]] = [force, moment];
-            let on_mate = ([a, b, c, d, e, f], over_bending);
-            self.add_to_mate(&contact, &on_mate, (ring, ws.cage.by_forces()), out);
+            let mut slopes = Slopes { on_roller: [[0.0; OF_ROLLER]; ALL], on_mate: [[0.0; ON_MATE]; ALL] };
+            for pass in 0..PASSES {
+                let pass = Pass { first: pass * AT_ONCE };
+                self.find_slopes(rollers, ws, &contact, pass, (rates, ln_rate), &mut slopes);
+            }
+            self.add_to_roller(rollers, ws, &contact, &slopes.on_roller, out);
+            self.add_to_mate(&contact, &slopes.on_mate, (ring, ws.cage.by_forces()), out);
+        }
+    }
+
+    /// Finds the slopes of a contact along the directions of a pass.
+    fn find_slopes(
+        &self,
+        rollers: &RollersOfScene,
+        ws: &Workspace,
+        contact: &Contact,
+        pass: Pass,
+        rates: (&InputValues, f64),
+        slopes: &mut Slopes,
+    ) {
+        let (state, direction) = self.varied_roller(pass, ws, contact.roller);
+        let OnBoth { on_roller: on, from_mate, over_bending } =
+            self.varied_contact(rollers, ws, (contact, pass), rates, &state, direction);
+        let forces = state.over_speeds([on.force, on.moment], on.own);
+        let about = sum(on.moment, cross(from_mate, on.force));
+        let [force, moment] = [on.force, about].map(|v| global(v.map(|x| -x), direction));
+        let ([a, b, c], [d, e, f], [out_of, ahead]) = (force, moment, over_bending);
+        let on_mate = [a, b, c, d, e, f, out_of, ahead];
+        for place in 0..AT_ONCE {
+            slopes.on_roller[pass.first + place] = forces.map(|force| force.eps[place]);
+            slopes.on_mate[pass.first + place] = on_mate.map(|force| force.eps[place]);
         }
     }
 
     /// Roller `j` over its coordinates, and the direction of its azimuth.
-    fn varied_roller(&self, ws: &Workspace, j: usize) -> (RollerState<Varied>, [Varied; 2]) {
+    fn varied_roller(&self, pass: Pass, ws: &Workspace, j: usize) -> (RollerState<Varied>, [Varied; 2]) {
         let of = &ws.rollers.rollers[j];
-        let variable = Varied::variable;
+        let variable = |x: f64, k: usize| pass.variable(x, k);
         let [cos, sin] = of.direction;
-        let mut direction = [Varied::lift(cos), Varied::lift(sin)];
-        (direction[0].eps[2], direction[1].eps[2]) = (-sin, cos);
+        let direction = [pass.along(Varied::lift(cos), 2, -sin), pass.along(Varied::lift(sin), 2, cos)];
         let at = [variable(of.state.at[0], 0), variable(of.state.at[1], 1)];
         let angles = [variable(of.state.angles[0], 3), variable(of.state.angles[1], 4)];
         let speeds = std::array::from_fn(|k| variable(of.state.speeds[k], SPEEDS + k));
@@ -156,26 +215,27 @@ impl Space {
     /// A ring over its coordinates, in the axes of this direction.
     fn varied_ring(
         &self,
+        pass: Pass,
         ws: &Workspace,
         side: usize,
         rates: &InputValues,
         direction: [Varied; 2],
     ) -> MovingRing<Varied> {
         let ring = if side == 0 {
-            turning_outer(timed(Varied::lift(ws.rings[0].speed), rates.of(Input::OuterRingSpeed)))
+            turning_outer(pass.timed(Varied::lift(ws.rings[0].speed), rates.of(Input::OuterRingSpeed)))
         } else {
             let [_, at, rate, second] = self.given(ws);
             let place = |k: usize| OF_RING_IN_MATE[k];
-            let variable = Varied::variable;
+            let variable = |x: f64, k: usize| pass.variable(x, k);
             RingState {
                 position: std::array::from_fn(|k| {
-                    timed(variable(ws.ring.position[k], MATE + place(k)), at[k])
+                    pass.timed(variable(ws.ring.position[k], MATE + place(k)), at[k])
                 }),
                 rate: std::array::from_fn(|k| {
-                    timed(variable(ws.ring.rate[k], MATE_RATES + place(k)), rate[k])
+                    pass.timed(variable(ws.ring.rate[k], MATE_RATES + place(k)), rate[k])
                 }),
                 given: second.map(Varied::lift),
-                speed: timed(Varied::lift(ws.ring.speed), rates.of(Input::RingSpeed)),
+                speed: pass.timed(Varied::lift(ws.ring.speed), rates.of(Input::RingSpeed)),
             }
             .motion()
         };
@@ -187,23 +247,23 @@ impl Space {
         &self,
         rollers: &RollersOfScene,
         ws: &Workspace,
-        contact: &Contact,
+        (contact, pass): (&Contact, Pass),
         (rates, ln_rate): (&InputValues, f64),
         state: &RollerState<Varied>,
         direction: [Varied; 2],
     ) -> OnBoth {
-        let ln_viscosity = timed(Varied::lift(ws.fluid.ln_viscosity), ln_rate);
+        let ln_viscosity = pass.timed(Varied::lift(ws.fluid.ln_viscosity), ln_rate);
         let mut on_roller = OnRoller::none();
         let side = match contact.place {
             Place::Raceway(side) => side,
             Place::Bar(wall) => {
-                return self.varied_bar(rollers, ws, (contact, wall), ln_viscosity, state, direction);
+                return self.varied_bar(rollers, ws, (contact, wall, pass), ln_viscosity, state, direction);
             }
             Place::End(k, mate) => {
                 let ring = if mate == CAGE {
-                    turned_ring(&as_ring(&varied_cage(ws).motion()), direction)
+                    turned_ring(&as_ring(&varied_cage(pass, ws).motion()), direction)
                 } else {
-                    self.varied_ring(ws, mate, rates, direction)
+                    self.varied_ring(pass, ws, mate, rates, direction)
                 };
                 let end = &rollers.ends[k];
                 let touch = end.geometry.touch(&state.motion(), &ring);
@@ -220,7 +280,7 @@ impl Space {
             geometry: &rollers.geometry,
             profile: rollers.raceway(side).profile.as_ref(),
             side,
-            ring: self.varied_ring(ws, side, rates, direction),
+            ring: self.varied_ring(pass, ws, side, rates, direction),
             roller: state.motion(),
             excess: self.set.radius_excess[contact.roller],
         };
@@ -247,7 +307,7 @@ impl Space {
         &self,
         rollers: &RollersOfScene,
         ws: &Workspace,
-        (contact, wall): (&Contact, usize),
+        (contact, wall, pass): (&Contact, usize, Pass),
         ln_viscosity: Varied,
         state: &RollerState<Varied>,
         direction: [Varied; 2],
@@ -256,10 +316,10 @@ impl Space {
         let mut out = OnBoth { on_roller: OnRoller::none(), from_mate: none, over_bending: [none[0]; 2] };
         let Some(bars) = &rollers.bars else { return out };
         let j = contact.roller;
-        let variable = Varied::variable;
-        let cage = varied_cage(ws).motion();
+        let variable = |x: f64, k: usize| pass.variable(x, k);
+        let cage = varied_cage(pass, ws).motion();
         let mut lead = Varied::lift(ws.rollers.rollers[j].travel - ws.cage.moving.angle);
-        (lead.eps[2], lead.eps[MATE + 3]) = (1.0, -1.0);
+        lead = pass.along(pass.along(lead, 2, 1.0), MATE + 3, -1.0);
         let bent = self.displaced_pocket(ws, j).map(|bent| {
             let at = |i: usize, k: usize| variable(bent[i][k], BENT + 2 * i + k);
             [[at(0, 0), at(0, 1)], [at(1, 0), at(1, 1)]]
@@ -356,13 +416,13 @@ impl Space {
         rollers: &RollersOfScene,
         ws: &Workspace,
         contact: &Contact,
-        forces: &[Varied; OF_ROLLER],
+        slopes: &[[f64; OF_ROLLER]; ALL],
         out: &mut Linearization<OF_ROLLER>,
     ) {
         let (j, width) = (contact.roller, self.layout.hub());
         let of = &ws.rollers.rollers[j];
         let inertia = rollers.body.inertia(j);
-        let column = |d: usize| of.state.accelerated(inertia, forces.map(|force| force.eps[d]));
+        let column = |d: usize| of.state.accelerated(inertia, slopes[d]);
         let add = |to: &mut [f64; OF_ROLLER], by: [f64; OF_ROLLER]| {
             to.iter_mut().zip(by).for_each(|(to, x)| *to += x);
         };
@@ -395,7 +455,7 @@ impl Space {
     fn add_to_mate(
         &self,
         contact: &Contact,
-        (on, over_bending): &([Varied; 6], [Varied; 2]),
+        slopes: &[[f64; ON_MATE]; ALL],
         (ring, by_forces): (&RingSlopes, &DMatrix<f64>),
         out: &mut Linearization<OF_ROLLER>,
     ) {
@@ -424,8 +484,8 @@ impl Space {
         let mates = self.mate_in_hub(mate);
         for (place, by, by_bending) in rows {
             let slope = |d: usize| {
-                let bending = by_bending[0] * over_bending[0].eps[d] + by_bending[1] * over_bending[1].eps[d];
-                (0..6).map(|w| by[w] * on[w].eps[d]).sum::<f64>() + bending
+                let bending = by_bending[0] * slopes[d][6] + by_bending[1] * slopes[d][7];
+                (0..6).map(|w| by[w] * slopes[d][w]).sum::<f64>() + bending
             };
             out.over_time[place] += slope(TIME);
             for (part, first, count, [of_mate, bent]) in [
@@ -465,7 +525,7 @@ impl Edges {
         // The parabola is linear in the three approaches.
         let coefficient = |k: usize| {
             let mut out = Varied::lift(values[k]);
-            for d in 0..ALL {
+            for d in 0..AT_ONCE {
                 out.eps[d] = of(&|x| Along::parabola(a, x)[k], d, approach);
             }
             out
