@@ -36,6 +36,8 @@ fn main() -> cagedyn::Result<()> {
         ("deep_groove_6206", sim("deep_groove_6206", &[("inner_ring.speed.constant", "300.0")], 2e-3)?),
         ("angular_contact_70", sim("angular_contact_70", &[], 2e-3)?),
         ("angular_contact_70_cage", sim("angular_contact_70_cage", &[], 2e-3)?),
+        ("nu2310_space, 4 slices", sim("nu2310_space", &[], 10e-3)?),
+        ("nu2310_space, 8 slices", sim("nu2310_space", &[("raceways.slices", "8")], 10e-3)?),
     ];
     let mut times = vec![[Vec::new(), Vec::new()]; cases.len()];
     let (names, mut sims): (Vec<&str>, Vec<Sim>) = cases.into_iter().unzip();
@@ -68,7 +70,7 @@ fn main() -> cagedyn::Result<()> {
 
 /// Wall times of `cagedyn run`, one scene after the other.
 fn whole_runs() {
-    let names = ["nu2310", "angular_contact_70", "angular_contact_70_cage"];
+    let names = ["nu2310", "angular_contact_70", "angular_contact_70_cage", "nu2310_space"];
     let folder = std::env::temp_dir().join(format!("cagedyn_bench_{}", std::process::id()));
     let mut times = vec![Vec::new(); names.len()];
     for _ in 0..RUNS {

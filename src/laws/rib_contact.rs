@@ -17,7 +17,7 @@ use crate::laws::film::thickness::Entrainment;
 use crate::laws::traction::film_friction::FilmFriction;
 use crate::laws::traction::muraki_kimura::Traction;
 use crate::laws::traction::self_heating::SelfHeating;
-use crate::scalar::Real;
+use crate::scalar::{Real, math};
 use std::f64::consts::PI;
 
 /// The law of one kind of ribs.
@@ -71,7 +71,7 @@ impl RibContact {
     /// Stiffness under a load (N), N/m.
     pub fn stiffness_at_load(&self, load: f64) -> f64 {
         let constant = 2.0 / 3.0 * self.effective_modulus * self.radius.sqrt();
-        1.5 * (load * constant * constant).cbrt()
+        1.5 * math::powf(load * constant * constant, 1.0 / 3.0)
     }
 
     /// Radius of the circle of contact (m) and largest pressure (Pa) under a load, N.

@@ -19,6 +19,7 @@ fn sources_have_the_expected_names() {
         "support",
         "neighbour",
         "drag",
+        "rib",
     ];
     assert_eq!(FORCE_SOURCES, names);
 }

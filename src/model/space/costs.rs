@@ -35,6 +35,9 @@ impl Space {
                 Ok(())
             })?;
         }
+        if self.rollers.is_some() {
+            times[1] = shortest(repeats, &mut || self.apply_rollers(black_box(&mut *ws)))?;
+        }
         if self.cage.is_some() {
             times[4] = shortest(repeats, &mut || self.apply_cage(black_box(&mut *ws)))?;
         }

@@ -245,8 +245,8 @@ impl Space {
             let bent = self.displaced_pocket(ws, j);
             let place = bars.place(&roller, of.direction, lead, &ws.cage.moving, bent);
             let apart = bars.apart(&place, a, excess);
-            for wall in 0..2 {
-                if apart[wall] {
+            for (wall, apart) in apart.into_iter().enumerate() {
+                if apart {
                     continue;
                 }
                 let Workspace { rollers: memory, cage, .. } = ws;
