@@ -30,7 +30,7 @@ pub use inputs::{HostInputs, INPUTS, Input, InputValues};
 pub use layout::Layout;
 
 pub(crate) use cage::{MOST_MODES, OF_MOTION as CAGE_MOTION, along_factor};
-pub(crate) use elements::{Damping, ElementSlopes, Elements, UPPER};
+pub(crate) use elements::{Damping, ElementSlopes, Elements, Spacing, UPPER};
 pub(crate) use heat::HeatBudget;
 pub(crate) use layout::{OF_ELEMENT, Owner};
 pub(crate) use motions::{Element, ElementBlock, ElementMotion, ElementSet, Motions, WrenchLanes};

@@ -300,3 +300,44 @@ fn thrust_pins_the_rollers_of_an_nj_bearing() {
     assert!((-0.2e-3..-0.05e-3).contains(&clockwise), "{clockwise}");
     assert!((clockwise + counter).abs() < 0.3 * clockwise.abs(), "{clockwise} {counter}");
 }
+
+#[test]
+fn what_leaves_the_bearing_is_told() {
+    let model = rollers(&[]);
+    let mut sim = Sim::new(model.clone()).unwrap();
+    let start = sim.state().to_vec();
+    for (name, x, told) in [
+        ("roller[3].skew", 0.5, "roller[3] is askew in its bearing (its axis is turned by 5e-1 rad, at most 0.3 rad)"),
+        ("roller[4].orbit_travel", -0.3, "go through each other"),
+        ("roller[5].axial_offset", 0.02, "roller[5] has left the bearing"),
+    ] {
+        let mut state = start.clone();
+        state[place(&model, name)] += x;
+        let mut rate = vec![0.0; state.len()];
+        let error = sim.derivative(0.0, &state, &mut rate).unwrap_err();
+        assert!(error.message.contains(told), "{error:?}");
+    }
+    sim.advance_to(1e-4).unwrap();
+}
+
+#[test]
+fn impossible_ends_and_ribs_are_refused() {
+    for (path, value, told) in [
+        ("rollers.space.ends.cap_radius", json!(100.0), "rollers.space.ends.cap_radius: 100.0"),
+        ("rollers.space.length", json!(0.01), "rollers.space.length: 0.01"),
+        ("rollers.space.ends", Value::Null, "rollers.space.ends: missing; 'ribs' need the shape of the ends"),
+        ("ribs.list.0.height", json!(5e-4), "ribs.list.0.height: 0.0005 m reaches no face"),
+        ("ribs.list.1.side", json!("positive"), "ribs.list.1: a second rib of this ring on this side"),
+        ("rollers.space", Value::Null, "ribs: needs 'rollers.space'; remove it"),
+        ("cage.space", Value::Null, "cage.space: missing"),
+        ("inner_ring.motion.space.x", json!("free"), "inner_ring.motion.space.x: cylindrical rollers do not hold"),
+        ("ribs.contact.film", json!("pan_hamrock"), "ribs.contact.film: a law of line contacts"),
+        ("raceways.slices", json!(1), "raceways.slices: 1"),
+    ] {
+        let text = crate::common::read("scenes/nu2310_space.json");
+        let value = value.to_string();
+        let error = cagedyn::Scene::from_json_with(&text, [(path, value.as_str())]).and_then(Model::new);
+        let message = error.map(|_| ()).unwrap_err().message;
+        assert!(message.contains(told), "{path}: {message}");
+    }
+}

@@ -2,9 +2,11 @@
 
 mod kinematic;
 mod rollers;
+mod spacing;
 
 pub(super) use kinematic::KinematicElements;
 pub(super) use rollers::Rollers;
+pub(crate) use spacing::Spacing;
 
 use crate::bodies::{
     BodyEnergy, BodyForces, Coordinate, Element, ElementSet, Fault, InputValues, Layout, Motions, OF_ELEMENT,

@@ -6,32 +6,16 @@
 //!
 //! The travel counts from the centred place of the pocket at the start; the spin angle enters no force.
 
-use super::{Damping, ElementSlopes, UPPER, scale_rows};
+use super::{Damping, ElementSlopes, Spacing, UPPER, scale_rows};
 use crate::bodies::{
     BodyEnergy, BodyForces, Coordinate, Element, ElementSet, Elements, Fault, ForceSource, Input,
     InputValues, Layout, Motions, Moves, OF_ELEMENT, SOUND, WrenchLanes, weight,
 };
 use crate::integrate::SpokeDamping;
-use crate::scalar::{Columns, Lanes, Pack, WIDEST, ZEROS, dispatch, math, place_of};
-use crate::scene::{Pocket, Scene};
+use crate::scalar::{Columns, Lanes, Pack, WIDEST, ZEROS, dispatch, place_of};
+use crate::scene::Scene;
 use crate::space::Wrench;
 use pulp::Simd;
-use std::f64::consts::TAU;
-
-/// Pockets whose play, doubled by this, is less than that between rollers keep these apart, also where they yield.
-const HELD: f64 = 1.5;
-
-/// Angle in rad by which neighbouring rollers of a scene can come closer, if that is for them to see to.
-fn play(scene: &Scene) -> Option<f64> {
-    let rollers =
-        scene.rollers.as_ref().filter(|rollers| rollers.neighbours.is_none() && rollers.count > 1)?;
-    let spacing = TAU / f64::from(rollers.count);
-    let radius = scene.pitch_radius();
-    let play = spacing - 2.0 * math::asin((rollers.radius + scene.largest_deviation()) / radius);
-    let pocket = scene.cage.as_ref().and_then(|cage| cage.pocket.as_ref()).map(Pocket::clearance);
-    let held = pocket.is_some_and(|clearance| HELD * 2.0 * clearance < play * radius);
-    (!held).then_some(play.max(0.0))
-}
 
 /// A roller this far from the pitch circle, in pitch radii, has left the bearing.
 const LOST_ROLLER: f64 = 0.25;
@@ -50,9 +34,7 @@ pub(in crate::bodies) struct Rollers {
     inertia: Inertia,
     /// Gap of a roller on the pitch circle to either raceway with the inner ring centred, m.
     gap: f64,
-    /// How far the angle between neighbours may shrink before it is looked at whether they overlap, rad; `None` where they
-    /// have a contact or are kept apart.
-    play: Option<f64>,
+    spacing: Spacing,
 }
 
 const COORDINATES: [Coordinate; OF_ELEMENT] = [
@@ -85,26 +67,7 @@ impl Rollers {
             set: ElementSet::new(scene),
             inertia: Inertia { mass: rollers.mass, moment: rollers.inertia },
             gap: scene.radial_clearance() / 4.0,
-            play: play(scene),
-        })
-    }
-
-    /// The fault of the first rollers that overlap, by radial offset and travel of each.
-    fn overlap(&self, places: &[[f64; 2]]) -> Option<Fault> {
-        let play = self.play?;
-        let ElementSet { radius, pitch_radius, radius_excess, count, .. } = &self.set;
-        (0..*count).find_map(|j| {
-            let k = (j + 1) % count;
-            let ([rho, travel], [rho_k, travel_k]) = (places[j], places[k]);
-            // Most are far apart.
-            if travel_k - travel > -0.5 * play {
-                return None;
-            }
-            let across = math::sin(0.5 * (TAU / *count as f64 + travel_k - travel));
-            let chord = 4.0 * (pitch_radius + rho) * (pitch_radius + rho_k) * across * across;
-            let distance = ((rho_k - rho) * (rho_k - rho) + chord).sqrt();
-            let depth = 2.0 * radius + radius_excess[j] + radius_excess[k] - distance;
-            (depth > 0.0).then_some(Fault::Overlap { roller: j, next: k, depth })
+            spacing: Spacing::new(scene),
         })
     }
 
@@ -209,7 +172,7 @@ impl Elements for Rollers {
         if fastest > SOUND {
             return Err(self.too_fast(layout, v));
         }
-        if let Some(overlap) = self.overlap(places) {
+        if let Some(overlap) = self.spacing.overlap(&self.set, |j| places[j]) {
             return Err(overlap);
         }
         out.find_directions();

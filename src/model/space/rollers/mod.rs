@@ -17,7 +17,9 @@ use super::Space;
 use super::cage::add_to_modes;
 use super::evaluate::{beside, to_global, to_local};
 use super::workspace::Workspace;
-use crate::bodies::{CAGE, Fault, MovingCage, MovingRing, OF_ROLLER, RollerState, RollersInSpace, SOUND};
+use crate::bodies::{
+    CAGE, Fault, MovingCage, MovingRing, OF_ROLLER, RollerState, RollersInSpace, SOUND, Spacing,
+};
 use crate::error::Result;
 use crate::laws::elastic::loaded::Loaded;
 use crate::laws::elastic::profile::USUAL_SLICES;
@@ -41,6 +43,7 @@ const SLICES_OF_BAR: usize = 4;
 #[derive(Debug)]
 pub(super) struct RollersOfScene {
     pub(super) body: RollersInSpace,
+    spacing: Spacing,
     geometry: RacewayGeometry,
     /// Of outer and inner raceway, of bars.
     laws: Vec<SpotLaw>,
@@ -85,6 +88,7 @@ impl RollersOfScene {
         }
         Ok(Some(Self {
             body,
+            spacing: Spacing::new(scene),
             geometry,
             laws: list,
             bars,
@@ -116,7 +120,7 @@ impl Space {
         v: &[f64],
         ws: &mut Workspace,
     ) -> std::result::Result<(), Fault> {
-        let Some(_) = &self.rollers else { return Ok(()) };
+        let Some(rollers) = &self.rollers else { return Ok(()) };
         let pitch = self.set.pitch_radius;
         let levers = self.levers_of_rollers();
         for j in 0..self.layout.count {
@@ -141,7 +145,12 @@ impl Space {
             let roller = &mut ws.rollers.rollers[j];
             (roller.state, roller.direction, roller.travel) = (state, [cos, sin], at(2));
         }
-        Ok(())
+        let memory = &ws.rollers.rollers;
+        let place = |j: usize| [memory[j].state.at[1], memory[j].travel];
+        match rollers.spacing.overlap(&self.set, place) {
+            None => Ok(()),
+            Some(overlap) => Err(overlap),
+        }
     }
 
     /// Levers of the speeds of a roller, m or 1.
