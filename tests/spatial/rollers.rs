@@ -307,7 +307,11 @@ fn what_leaves_the_bearing_is_told() {
     let mut sim = Sim::new(model.clone()).unwrap();
     let start = sim.state().to_vec();
     for (name, x, told) in [
-        ("roller[3].skew", 0.5, "roller[3] is askew in its bearing (its axis is turned by 5e-1 rad, at most 0.3 rad)"),
+        (
+            "roller[3].skew",
+            0.5,
+            "roller[3] is askew in its bearing (its axis is turned by 5e-1 rad, at most 0.3 rad)",
+        ),
         ("roller[4].orbit_travel", -0.3, "go through each other"),
         ("roller[5].axial_offset", 0.02, "roller[5] has left the bearing"),
     ] {
@@ -330,7 +334,11 @@ fn impossible_ends_and_ribs_are_refused() {
         ("ribs.list.1.side", json!("positive"), "ribs.list.1: a second rib of this ring on this side"),
         ("rollers.space", Value::Null, "ribs: needs 'rollers.space'; remove it"),
         ("cage.space", Value::Null, "cage.space: missing"),
-        ("inner_ring.motion.space.x", json!("free"), "inner_ring.motion.space.x: cylindrical rollers do not hold"),
+        (
+            "inner_ring.motion.space.x",
+            json!("free"),
+            "inner_ring.motion.space.x: cylindrical rollers do not hold",
+        ),
         ("ribs.contact.film", json!("pan_hamrock"), "ribs.contact.film: a law of line contacts"),
         ("raceways.slices", json!(1), "raceways.slices: 1"),
     ] {

@@ -310,7 +310,10 @@ mod tests {
     #[test]
     fn in_the_middle_it_has_half_of_the_play() {
         let found = touch(&rib(0, 1.0), [0.0; 9], None);
-        assert_eq!((found.spot.delta, found.region), (-rib(0, 1.0).gap, Region::Cap));
+        assert!(
+            (found.spot.delta + rib(0, 1.0).gap).abs() < 1e-17 && found.region == Region::Cap,
+            "{found:?}"
+        );
     }
 
     #[test]

@@ -55,6 +55,7 @@ registry! {
         FailedEnergyCreated = "failed_energy_created",
         FailedLostBall = "failed_lost_ball",
         FailedAbovePocket = "failed_above_pocket",
+        FailedAskewRoller = "failed_askew_roller",
     }
 }
 
@@ -98,6 +99,7 @@ impl RunStatistics {
             Statistic::FailedEnergyCreated => failed(FaultKind::EnergyCreated),
             Statistic::FailedLostBall => failed(FaultKind::LostBall),
             Statistic::FailedAbovePocket => failed(FaultKind::AbovePocket),
+            Statistic::FailedAskewRoller => failed(FaultKind::AskewRoller),
         }
     }
 }
