@@ -79,7 +79,7 @@ impl Scene {
 
     fn validate_planar_cage(&self, judge: Judge<'_>, cage: &Cage) -> Result<()> {
         if self.balls.is_some() || self.has_skewing_rollers() {
-            judge.refuse("cage.space", "missing; a cage of elements that move in space does so, too")?;
+            judge.refuse("cage.space", "missing; a cage beside elements in space moves in space, too")?;
         }
         if self.initial.cage_space.is_some() {
             judge.refuse("initial.cage_space", "needs 'cage.space'; remove it")?;
