@@ -8,7 +8,7 @@
 //! | `faults`, `conditions` | faults in words; what holds at an instant beside the powers |
 //! | `bearing` | what both kinds of bearings answer |
 //! | `plane/` | a bearing whose bodies move in the plane |
-//! | `space/` | one whose balls and ring move in space |
+//! | `space/` | one whose balls or rollers, ring and cage move in space |
 
 mod bearing;
 mod conditions;

@@ -173,19 +173,7 @@ impl<'a> LawBuilder<'a> {
                 return Err(bad_scene(&self.law("film"), "a law of balls; of line contacts 'pan_hamrock'"));
             }
         };
-        let traction = match laws.traction {
-            None => None,
-            Some(scene::TractionLaw::MurakiKimura) => {
-                let lubricant = self.lubricant("traction")?;
-                let path = "lubricant.shear_modulus";
-                Some(Traction::new(
-                    self.viscosity("traction")?,
-                    self.pressure_viscosity("traction")?,
-                    self.eyring_stress("traction")?,
-                    needed(path, lubricant.shear_modulus, &self.law("traction"))?,
-                ))
-            }
-        };
+        let traction = self.traction(laws)?;
         let self_heating = self.self_heating(laws, [element.material, mate])?;
         let damping = laws.damping.as_ref().map(NormalDamping::from);
         let regime = laws.boundary_friction.as_ref().map(LubricationRegime::from);
@@ -200,6 +188,19 @@ impl<'a> LawBuilder<'a> {
             rolling_resistance: None,
             edge_friction: None,
         })
+    }
+
+    /// Traction of a full film.
+    pub(in crate::pairs) fn traction(&self, laws: &ContactLaws) -> Result<Option<Traction>> {
+        let Some(scene::TractionLaw::MurakiKimura) = laws.traction else { return Ok(None) };
+        let lubricant = self.lubricant("traction")?;
+        let path = "lubricant.shear_modulus";
+        Ok(Some(Traction::new(
+            self.viscosity("traction")?,
+            self.pressure_viscosity("traction")?,
+            self.eyring_stress("traction")?,
+            needed(path, lubricant.shear_modulus, &self.law("traction"))?,
+        )))
     }
 
     /// Self-heating of a film between an element and a mate of these materials.

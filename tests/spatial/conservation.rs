@@ -1,6 +1,7 @@
 //! What no motion may change, and the balance of forces and powers at any state.
 
 use crate::{ANGULAR, DEEP, cages, driven, everything, free_ring, model, states};
+use cagedyn::model::FORCE_SOURCES;
 use cagedyn::{Model, Sim};
 use serde_json::{Value, json};
 use std::sync::Arc;
@@ -14,13 +15,14 @@ fn forces_and_moments_cancel() {
     }
 }
 
-fn cancel(model: &Arc<Model>, largest: f64) {
+pub(crate) fn cancel(model: &Arc<Model>, largest: f64) {
     let mut sim = Sim::new(model.clone()).unwrap();
-    let mut acts = [false; 4];
+    let mut acts = [false; 5];
     for state in states(&sim, 20, 1.0, 7) {
         let forces = sim.forces_at(0.0, &state).unwrap().space.clone();
         let names = model.state_infos();
-        let at = |name: &str| state[names.iter().position(|info| info.name == name).unwrap()];
+        // What is held is at zero.
+        let at = |name: &str| names.iter().position(|info| info.name == name).map_or(0.0, |k| state[k]);
         let mut sum = [0.0; 6];
         let mut size: f64 = 0.0;
         for (body, name) in forces.bodies.iter().zip(model.body_names()) {
@@ -28,14 +30,16 @@ fn cancel(model: &Arc<Model>, largest: f64) {
                 "outer_ring" => [0.0; 3],
                 ring @ ("inner_ring" | "cage") => ["x", "y", "z"].map(|c| at(&format!("{ring}.{c}"))),
                 ball => {
-                    let j: f64 = ball[5..ball.len() - 1].parse().unwrap();
+                    let number = ball.trim_start_matches(char::is_alphabetic);
+                    let j: f64 = number[1..number.len() - 1].parse().unwrap();
                     let psi = j * std::f64::consts::TAU / model.element_count() as f64
                         + at(&format!("{ball}.orbit_travel"));
                     let r = model.pitch_radius() + at(&format!("{ball}.radial_offset"));
                     [at(&format!("{ball}.axial_offset")), r * psi.cos(), r * psi.sin()]
                 }
             };
-            for (source, [fx, fy, fz, mx, my, mz]) in body[..4].iter().enumerate() {
+            let rib = FORCE_SOURCES.iter().position(|source| *source == "rib").unwrap();
+            for (source, [fx, fy, fz, mx, my, mz]) in body[..4].iter().chain([&body[rib]]).enumerate() {
                 acts[source] |= *fy != 0.0;
                 let [x, y, z] = centre;
                 let about = [mx + y * fz - z * fy, my + z * fx - x * fz, mz + x * fy - y * fx];
@@ -51,7 +55,8 @@ fn cancel(model: &Arc<Model>, largest: f64) {
         }
     }
     let caged = model.body_names().contains(&"cage".to_owned());
-    assert_eq!(acts, [true, true, caged, caged]);
+    let ribs = model.contact_names().iter().any(|name| name.contains("_rib_"));
+    assert_eq!(acts, [true, true, caged, caged, ribs]);
 }
 
 /// The powers are the rate of the energy.
@@ -63,25 +68,23 @@ fn powers_are_the_rate_of_the_energy() {
 }
 
 pub(crate) fn powers(model: &Arc<Model>, allowed: f64) {
-    {
-        let mut sim = Sim::new(model.clone()).unwrap();
-        for (k, state) in states(&sim, 5, 0.5, 9).into_iter().enumerate() {
-            let (t, n) = (1e-4 + 3e-4 * k as f64, state.len());
-            let mut rate = vec![0.0; n];
-            sim.derivative(t, &state, &mut rate).unwrap();
-            let mut energy = |s: f64| {
-                let moved: Vec<f64> = state.iter().zip(&rate).map(|(x, rate)| x + s * rate).collect();
-                let e = sim.energy_at(t + s, &moved).unwrap();
-                e.total()
-            };
-            let h = 2e-8;
-            let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|s| energy(s * h));
-            let difference = (a - d + 8.0 * (c - b)) / (12.0 * h);
-            let powers = sim.powers_at(t, &state).unwrap();
-            let given: f64 = powers.iter().sum();
-            let size: f64 = powers.iter().map(|p| p.abs()).sum();
-            assert!((given - difference).abs() < allowed * size, "{given} {difference} {powers:?}");
-        }
+    let mut sim = Sim::new(model.clone()).unwrap();
+    for (k, state) in states(&sim, 5, 0.5, 9).into_iter().enumerate() {
+        let (t, n) = (1e-4 + 3e-4 * k as f64, state.len());
+        let mut rate = vec![0.0; n];
+        sim.derivative(t, &state, &mut rate).unwrap();
+        let mut energy = |s: f64| {
+            let moved: Vec<f64> = state.iter().zip(&rate).map(|(x, rate)| x + s * rate).collect();
+            let e = sim.energy_at(t + s, &moved).unwrap();
+            e.total()
+        };
+        let h = 2e-8;
+        let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|s| energy(s * h));
+        let difference = (a - d + 8.0 * (c - b)) / (12.0 * h);
+        let powers = sim.powers_at(t, &state).unwrap();
+        let given: f64 = powers.iter().sum();
+        let size: f64 = powers.iter().map(|p| p.abs()).sum();
+        assert!((given - difference).abs() < allowed * size, "{given} {difference} {powers:?}");
     }
 }
 

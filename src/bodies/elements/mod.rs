@@ -9,13 +9,36 @@ pub(super) use rollers::Rollers;
 pub(crate) use spacing::Spacing;
 
 use crate::bodies::{
-    BodyEnergy, BodyForces, Coordinate, Element, ElementSet, Fault, InputValues, Layout, Motions, OF_ELEMENT,
-    WrenchLanes,
+    BodyEnergy, BodyForces, Coordinate, Element, ElementSet, Fault, InputValues, Layout, Motions, Moves,
+    OF_ELEMENT, WrenchLanes,
 };
 use crate::integrate::GroupDamping;
 use crate::scalar::math;
 use crate::space::{Frame, Wrench};
 use std::fmt::Debug;
+
+/// Coordinates that elements have in the plane and in space.
+pub(in crate::bodies) const RADIAL_OFFSET: Coordinate = Coordinate {
+    position: Some(["radial_offset", "m", "distance outside the pitch circle"]),
+    rate: ["radial_speed", "m/s", "rate of the radial offset"],
+    moves: Moves::Itself,
+};
+/// See [`RADIAL_OFFSET`]: of rollers.
+pub(in crate::bodies) const ORBIT_TRAVEL: Coordinate = Coordinate {
+    position: Some([
+        "orbit_travel",
+        "rad",
+        "orbit angle travelled from the centred place of its pocket at the start",
+    ]),
+    rate: ["orbit_speed", "rad/s", "rate of the orbit angle"],
+    moves: Moves::PitchCircle,
+};
+/// See [`ORBIT_TRAVEL`].
+pub(in crate::bodies) const SPIN_SPEED: Coordinate = Coordinate {
+    position: None,
+    rate: ["spin_speed", "rad/s", "rotation speed about its own axis"],
+    moves: Moves::Surface,
+};
 
 /// Derivatives of the wrench on one element, or of its accelerations, by columns: over its own coordinates, over those of the
 /// hub, and over those of its neighbours where these touch it.

@@ -6,10 +6,10 @@
 //!
 //! The travel counts from the centred place of the pocket at the start; the spin angle enters no force.
 
-use super::{Damping, ElementSlopes, Spacing, UPPER, scale_rows};
+use super::{Damping, ElementSlopes, ORBIT_TRAVEL, RADIAL_OFFSET, SPIN_SPEED, Spacing, UPPER, scale_rows};
 use crate::bodies::{
     BodyEnergy, BodyForces, Coordinate, Element, ElementSet, Elements, Fault, ForceSource, Input,
-    InputValues, Layout, Motions, Moves, OF_ELEMENT, SOUND, WrenchLanes, weight,
+    InputValues, Layout, Motions, OF_ELEMENT, SOUND, WrenchLanes, weight,
 };
 use crate::integrate::SpokeDamping;
 use crate::scalar::{Columns, Lanes, Pack, WIDEST, ZEROS, dispatch, place_of};
@@ -37,27 +37,7 @@ pub(in crate::bodies) struct Rollers {
     spacing: Spacing,
 }
 
-const COORDINATES: [Coordinate; OF_ELEMENT] = [
-    Coordinate {
-        position: Some(["radial_offset", "m", "distance outside the pitch circle"]),
-        rate: ["radial_speed", "m/s", "rate of the radial offset"],
-        moves: Moves::Itself,
-    },
-    Coordinate {
-        position: Some([
-            "orbit_travel",
-            "rad",
-            "orbit angle travelled from the centred place of its pocket at the start",
-        ]),
-        rate: ["orbit_speed", "rad/s", "rate of the orbit angle"],
-        moves: Moves::PitchCircle,
-    },
-    Coordinate {
-        position: None,
-        rate: ["spin_speed", "rad/s", "rotation speed about its own axis"],
-        moves: Moves::Surface,
-    },
-];
+const COORDINATES: [Coordinate; OF_ELEMENT] = [RADIAL_OFFSET, ORBIT_TRAVEL, SPIN_SPEED];
 
 impl Rollers {
     /// The rollers of a scene, if it has any.

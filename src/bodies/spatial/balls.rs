@@ -8,6 +8,8 @@
 //!
 //! The terms with psi' are the whole gyroscopic effect. A sphere has no orientation.
 
+use super::AXIAL_OFFSET;
+use crate::bodies::elements::RADIAL_OFFSET;
 use crate::bodies::{Coordinate, ElementSet, Moves};
 use crate::scalar::{Base, Of};
 use crate::scene::Scene;
@@ -24,16 +26,8 @@ pub(crate) struct Balls {
 pub(crate) const OF_BALL: usize = 6;
 
 const COORDINATES: [Coordinate; OF_BALL] = [
-    Coordinate {
-        position: Some(["axial_offset", "m", "place along the axis of the bearing"]),
-        rate: ["axial_speed", "m/s", "rate of the axial offset"],
-        moves: Moves::Itself,
-    },
-    Coordinate {
-        position: Some(["radial_offset", "m", "distance outside the pitch circle"]),
-        rate: ["radial_speed", "m/s", "rate of the radial offset"],
-        moves: Moves::Itself,
-    },
+    AXIAL_OFFSET,
+    RADIAL_OFFSET,
     Coordinate {
         position: Some(["orbit_travel", "rad", "orbit angle travelled since the start"]),
         rate: ["orbit_speed", "rad/s", "rate of the orbit angle"],

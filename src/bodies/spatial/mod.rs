@@ -1,4 +1,4 @@
-//! Bodies that move in space: coordinates, inertia and weight of balls, of a ring that shifts and tilts, and of a cage.
+//! Bodies that move in space: coordinates, inertia and weight of balls and rollers, of a ring that shifts and tilts, and of a cage.
 
 mod balls;
 mod cage;
@@ -11,6 +11,13 @@ pub(crate) use ring::{MovingRing, RING_COORDINATES, RingInSpace, RingState};
 pub(crate) use rollers::{MovingRoller, OF_ROLLER, ORBIT, RollerPlace, RollerState, RollersInSpace, SPIN};
 
 use crate::bodies::{Coordinate, Moves};
+
+/// A ball or roller along the axis of the bearing.
+const AXIAL_OFFSET: Coordinate = Coordinate {
+    position: Some(["axial_offset", "m", "place along the axis of the bearing"]),
+    rate: ["axial_speed", "m/s", "rate of the axial offset"],
+    moves: Moves::Itself,
+};
 
 /// The centre of a ring or cage along the axis of the bearing.
 const ALONG: Coordinate = Coordinate {

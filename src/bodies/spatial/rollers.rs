@@ -12,6 +12,8 @@
 //! **over these speeds**: f = T^T (F, M), T from speeds to velocity and angular velocity. The spin angle enters no force, and what does not turn
 //! a roller about its own axis has a force over w_1 of exactly zero. Zero angles give the plane term by term. Source: Euler's equations.
 
+use super::AXIAL_OFFSET;
+use crate::bodies::elements::{ORBIT_TRAVEL, RADIAL_OFFSET, SPIN_SPEED};
 use crate::bodies::{Coordinate, ElementSet, Moves};
 use crate::scalar::{Base, Numeric, Of};
 use crate::scene::Scene;
@@ -24,25 +26,9 @@ pub(crate) const ORBIT: usize = 2;
 pub(crate) const SPIN: usize = 5;
 
 const COORDINATES: [Coordinate; OF_ROLLER] = [
-    Coordinate {
-        position: Some(["axial_offset", "m", "place along the axis of the bearing"]),
-        rate: ["axial_speed", "m/s", "rate of the axial offset"],
-        moves: Moves::Itself,
-    },
-    Coordinate {
-        position: Some(["radial_offset", "m", "distance outside the pitch circle"]),
-        rate: ["radial_speed", "m/s", "rate of the radial offset"],
-        moves: Moves::Itself,
-    },
-    Coordinate {
-        position: Some([
-            "orbit_travel",
-            "rad",
-            "orbit angle travelled from the centred place of its pocket at the start",
-        ]),
-        rate: ["orbit_speed", "rad/s", "rate of the orbit angle"],
-        moves: Moves::PitchCircle,
-    },
+    AXIAL_OFFSET,
+    RADIAL_OFFSET,
+    ORBIT_TRAVEL,
     Coordinate {
         position: Some([
             "skew",
@@ -61,11 +47,7 @@ const COORDINATES: [Coordinate; OF_ROLLER] = [
         rate: ["tilt_speed", "rad/s", "rate of the tilt"],
         moves: Moves::Surface,
     },
-    Coordinate {
-        position: None,
-        rate: ["spin_speed", "rad/s", "angular velocity about its own axis"],
-        moves: Moves::Surface,
-    },
+    SPIN_SPEED,
 ];
 
 /// Place of a roller in the axes of its azimuth.
@@ -156,7 +138,7 @@ impl<T: Numeric> RollerState<T> {
     {
         let [_, u, w] = self.tilt.axis;
         let [[aa, ab], [_, bb]] = self.tilt.over_rates();
-        let inverse = mass_one(orbit) / (aa * bb - ab * ab);
+        let inverse = orbit.like(1.0) / (aa * bb - ab * ab);
         let solved = |a: T, b: T| [(bb * a - ab * b) * inverse, (aa * b - ab * a) * inverse];
         let [m2, m3] = solved(skew, tilt);
         let around = (orbit + m2 * u + m3 * w) / (self.r * self.r * mass);
@@ -186,17 +168,12 @@ impl<T: Numeric> RollerState<T> {
         let right_a = -(gyration * w3) - across.drift[0] + around * axis[1] + orbit * turning[1];
         let right_b = gyration * w2 - across.drift[1] + around * axis[2] + orbit * turning[2];
         let [[aa, ab], [_, bb]] = self.tilt.over_rates();
-        let inverse = mass_one(orbit) / (aa * bb - ab * ab);
+        let inverse = orbit.like(1.0) / (aa * bb - ab * ab);
         let dda = (bb * right_a - ab * right_b) * inverse;
         let ddb = (aa * right_b - ab * right_a) * inverse;
         let zero = orbit.like(0.0);
         [zero, self.r * orbit * orbit + outwards, around, dda, ddb, zero]
     }
-}
-
-#[inline(always)]
-fn mass_one<T: Numeric>(like: T) -> T {
-    like.like(1.0)
 }
 
 impl RollersInSpace {

@@ -9,10 +9,8 @@
 //! length instead the stiffness against tilting would fall by a tenth whenever one of them leaves the contact. Within 1e-4 of force and moment
 //! with 4 nodes, 1e-5 with 8; 1e-2 and 2e-3 beside a logarithm with steep ends, whose roots cost some steps (tested).
 
-use super::profile::MOST_SLICES;
+use super::profile::{MOST_SLICES, legendre};
 use super::tilted::{Along, Slice};
-use crate::scalar::math;
-use std::f64::consts::PI;
 use std::sync::LazyLock;
 
 /// Steps to a root; a few are usual.
@@ -35,18 +33,8 @@ static RULES: LazyLock<Vec<Vec<Node>>> = LazyLock::new(|| (1..=MOST_SLICES).map(
 /// That of `n` nodes on -1 to 1, whose weights make 1.
 fn rule(n: usize) -> Vec<Node> {
     let node = |i: usize| {
-        let mut x = -math::cos(PI * (i as f64 + 0.75) / (n as f64 + 0.5));
-        let mut slope = 1.0;
-        for _ in 0..20 {
-            let (mut before, mut here) = (1.0, x);
-            for k in 2..=n {
-                let k = k as f64;
-                (before, here) = (here, ((2.0 * k - 1.0) * x * here - (k - 1.0) * before) / k);
-            }
-            slope = n as f64 * (x * here - before) / (x * x - 1.0);
-            x -= here / slope;
-        }
-        Node { place: x, weight: 1.0 / ((1.0 - x * x) * slope * slope) }
+        let [x, inverse] = legendre(n, i);
+        Node { place: -x, weight: 1.0 / inverse }
     };
     (0..n).map(node).collect()
 }

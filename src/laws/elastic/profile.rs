@@ -50,23 +50,29 @@ static RULES: LazyLock<Vec<Vec<Node>>> = LazyLock::new(|| (1..=MOST_SLICES).map(
 /// A part along which nothing changes.
 static LEVEL: [Node; 1] = [Node { place: 0.5, weight: 1.0 }];
 
-/// Nodes of the Gauss-Legendre rule of `n` points in u from 0 to 1, at 1 - (1 - u)^2.
+/// Node `i` of Gauss and Legendre's rule of `n` points on -1 to 1, from above, and 2 over its weight.
+pub(super) fn legendre(n: usize, i: usize) -> [f64; 2] {
+    let mut x = math::cos(PI * (i as f64 + 0.75) / (n as f64 + 0.5));
+    let mut slope = 1.0;
+    for _ in 0..20 {
+        let (mut before, mut here) = (1.0, x);
+        for k in 2..=n {
+            let k = k as f64;
+            (before, here) = (here, ((2.0 * k - 1.0) * x * here - (k - 1.0) * before) / k);
+        }
+        slope = n as f64 * (x * here - before) / (x * x - 1.0);
+        x -= here / slope;
+    }
+    [x, (1.0 - x * x) * slope * slope]
+}
+
+/// Nodes of that rule in u from 0 to 1, at 1 - (1 - u)^2.
 fn rule(n: usize) -> Vec<Node> {
     let node = |i: usize| {
-        let mut x = math::cos(PI * (i as f64 + 0.75) / (n as f64 + 0.5));
-        let mut slope = 1.0;
-        for _ in 0..20 {
-            let (mut before, mut here) = (1.0, x);
-            for k in 2..=n {
-                let k = k as f64;
-                (before, here) = (here, ((2.0 * k - 1.0) * x * here - (k - 1.0) * before) / k);
-            }
-            slope = n as f64 * (x * here - before) / (x * x - 1.0);
-            x -= here / slope;
-        }
+        let [x, inverse] = legendre(n, i);
         // 1 - u of the node.
         let rest = 0.5 * (1.0 + x);
-        Node { place: 1.0 - rest * rest, weight: 2.0 * rest / ((1.0 - x * x) * slope * slope) }
+        Node { place: 1.0 - rest * rest, weight: 2.0 * rest / inverse }
     };
     (0..n).map(node).collect()
 }

@@ -1,9 +1,10 @@
-//! A bearing whose balls, inner ring and cage move in space.
+//! A bearing whose balls or rollers, inner ring and cage move in space.
 //!
 //! | file | what |
 //! |---|---|
 //! | `evaluate`, `workspace` | forces and accelerations, balls in columns |
 //! | `cage/` | pockets and lands at a state and in a step, their derivatives, what is told of them |
+//! | `rollers/` | rollers that skew and tilt: their contacts at a state and in a step, derivatives, start, what is told of them |
 //! | `step` | damping, forces of a semi-implicit step, energies, powers |
 //! | `linearize` | exact derivatives |
 //! | `rest/`, `initial` | ring and balls at rest or in steady motion; start of a run |

@@ -43,6 +43,35 @@ pub(crate) struct Disc<T> {
     pub(crate) cosine: T,
 }
 
+/// A point beside the axis of a ring.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct OffAxis<T> {
+    /// t, m.
+    pub(crate) along: T,
+    /// d^2 - r^2, m^2, by small numbers, and d, m.
+    pub(crate) square: T,
+    pub(crate) distance: T,
+    /// e_n and e_t.
+    pub(crate) outward: Vector<T>,
+    pub(crate) tangent: Vector<T>,
+}
+
+impl<T: Of<f64>> OffAxis<T> {
+    /// Of a point whose place from the centre of a ring with the axis `b` is (along, r + outwards, across), m.
+    #[inline(always)]
+    pub(crate) fn new(r: T, [along, outwards, across]: [T; 3], b: Vector<T>) -> Self {
+        let in_meridian = (r + outwards) * b[1] + across * b[2];
+        let t = along * b[0] + in_meridian;
+        let px = along * (b[1] * b[1] + b[2] * b[2]) - b[0] * in_meridian;
+        let beyond = outwards - t * b[1];
+        let pt = across - t * b[2];
+        let square = px * px + r * beyond * 2.0 + beyond * beyond + pt * pt;
+        let distance = (r * r + square).sqrt();
+        let outward = scaled([px, r + beyond, pt], r.like(1.0) / distance);
+        Self { along: t, square, distance, outward, tangent: cross(b, outward) }
+    }
+}
+
 impl RacewayGeometry {
     /// The disc at `s` (m) of a roller whose radius is larger than nominal by `excess` (m) against the raceway of the outer (0) or inner (1)
     /// ring.
@@ -57,17 +86,8 @@ impl RacewayGeometry {
         let (side, RingPlace { centre, axis: b }) = (if ring.0 == 0 { 1.0 } else { -1.0 }, *ring.1);
         let (u, one) = (roller.axis, roller.rho.like(1.0));
         let r = roller.rho + self.pitch_radius;
-        let along = roller.x + u[0] * s - centre[0];
-        let [outwards, across] = [u[1] * s - centre[1], u[2] * s - centre[2]];
-        let in_meridian = (r + outwards) * b[1] + across * b[2];
-        let t = along * b[0] + in_meridian;
-        let px = along * (b[1] * b[1] + b[2] * b[2]) - b[0] * in_meridian;
-        let beyond = outwards - t * b[1];
-        let pt = across - t * b[2];
-        let square = px * px + r * beyond * 2.0 + beyond * beyond + pt * pt;
-        let d = (r * r + square).sqrt();
-        let outward = scaled([px, r + beyond, pt], one / d);
-        let tangent = cross(b, outward);
+        let place = [roller.x + u[0] * s - centre[0], u[1] * s - centre[1], u[2] * s - centre[2]];
+        let OffAxis { along: t, square, distance: d, outward, tangent } = OffAxis::new(r, place, b);
         let (g, h) = (dot(outward, u), dot(tangent, u));
         let c = (one - g * g).sqrt();
         let drop = profile.map_or_else(|| one.like(0.0), |profile| profile.of_roller(s));

@@ -3,7 +3,7 @@
 mod disc;
 mod kinematics;
 
-pub(crate) use disc::Disc;
+pub(crate) use disc::{Disc, OffAxis};
 pub(crate) use kinematics::{RacewayGeometry, RingMotion};
 
 use crate::bodies::{

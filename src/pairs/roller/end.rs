@@ -16,6 +16,7 @@
 
 use super::{MovingRoller, Spot};
 use crate::bodies::MovingRing;
+use crate::pairs::raceway::OffAxis;
 use crate::scalar::{Real, math};
 use crate::space::solid::{Moving, cross, difference, dot, scaled, sum};
 
@@ -151,15 +152,8 @@ impl RibGeometry {
         let one = T::constant(1.0);
         let r = roller.place.rho + self.pitch_radius;
         let along = roller.place.x - ox;
-        let in_meridian = (r - or) * b[1] - ot * b[2];
-        let t = along * b[0] + in_meridian;
-        let px = along * (b[1] * b[1] + b[2] * b[2]) - b[0] * in_meridian;
-        let beyond = -or - t * b[1];
-        let pt = -ot - t * b[2];
-        let square = px * px + r * beyond * 2.0 + beyond * beyond + pt * pt;
-        let d = (r * r + square).sqrt();
-        let e_n = scaled([px, r + beyond, pt], one / d);
-        let e_t = cross(b, e_n);
+        let OffAxis { along: t, square, distance: d, outward: e_n, tangent: e_t } =
+            OffAxis::new(r, [along, -or, -ot], b);
         let g = dot(e_n, u);
         let c = (one - g * g).sqrt();
         let normal = sum(scaled(b, one * (e * cos)), scaled(e_n, one * (f * sin)));

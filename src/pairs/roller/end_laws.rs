@@ -9,7 +9,6 @@ use crate::laws::elastic::point::ElasticPoint;
 use crate::laws::film::ellipse::EllipseFilm;
 use crate::laws::film::regime::LubricationRegime;
 use crate::laws::rib_contact::RibContact;
-use crate::laws::traction::muraki_kimura::Traction;
 use crate::pairs::line_laws::LawBuilder;
 use crate::pairs::raceway::RacewayGeometry;
 use crate::scene::{self, ContactLaws, RibRing, RibSide, Scene, bad_scene, needed};
@@ -102,25 +101,12 @@ fn law(builder: &LawBuilder<'_>, laws: &ContactLaws, mate: Option<&str>, radius:
             return Err(bad_scene(&builder.law("film"), "a law of line contacts; of ends 'hamrock_dowson'"));
         }
     };
-    let traction = match laws.traction {
-        None => None,
-        Some(scene::TractionLaw::MurakiKimura) => Some(Traction::new(
-            builder.viscosity("traction")?,
-            builder.pressure_viscosity("traction")?,
-            builder.eyring_stress("traction")?,
-            needed(
-                "lubricant.shear_modulus",
-                builder.lubricant("traction")?.shear_modulus,
-                &builder.law("traction"),
-            )?,
-        )),
-    };
     Ok(SpotLaw::Rib(RibContact {
         effective_modulus: modulus,
         radius,
         damping: laws.damping.as_ref().map(NormalDamping::from),
         film,
-        traction,
+        traction: builder.traction(laws)?,
         self_heating: builder.self_heating(laws, [own, mate])?,
         regime: laws.boundary_friction.as_ref().map(LubricationRegime::from),
     }))

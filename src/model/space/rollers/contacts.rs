@@ -105,8 +105,8 @@ pub(in super::super) struct Contact {
     pub(in super::super) parts: [[Vector<f64>; 2]; PARTS],
     /// Directions outwards and ahead in which a bent cage displaces the pocket.
     pub(in super::super) bent: Option<[Vector<f64>; 2]>,
-    /// In the step from the last evaluated state: what the forces on the mate change by in the axes of the bearing, normal force, and powers
-    /// of damping, friction and rolling resistance, W.
+    /// Normal force, at the state or in the step from it that was found last, N; of such a step also what the forces on the mate change by in the
+    /// axes of the bearing, and powers of damping, friction and rolling resistance, W.
     pub(in super::super) reaction: [Vector<f64>; 2],
     pub(in super::super) normal: f64,
     pub(in super::super) powers: [f64; PARTS],
@@ -287,6 +287,7 @@ impl RollerMemory {
                 add_scaled(&mut rolling, &spot.rolling, force.rolling);
             }
             contact.parts = [normal, friction, rolling];
+            contact.normal = nodes[contact.first..contact.last].iter().map(|node| node.force.normal).sum();
             // Normal forces turn nothing about its own axis, not even by round-off.
             let own = dot(friction[1], axis) + dot(rolling[1], axis);
             let forces = roller.state.over_speeds(contact.on_roller(), own);

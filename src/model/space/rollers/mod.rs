@@ -9,6 +9,7 @@ mod report;
 mod slopes;
 mod start;
 mod step;
+mod varied;
 
 pub(super) use contacts::{Contact, Place, RollerMemory};
 pub(crate) use report::OfRollers;
