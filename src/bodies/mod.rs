@@ -36,7 +36,7 @@ pub(crate) use layout::{OF_ELEMENT, Owner};
 pub(crate) use motions::{Element, ElementBlock, ElementMotion, ElementSet, Motions, WrenchLanes};
 pub(crate) use nodes::{Node, NodeState, nodes};
 pub(crate) use spatial::{
-    Balls, CageInSpace, CageState, MovingCage, MovingRing, MovingRoller, OF_BALL, OF_CAGE, OF_RING,
+    Balls, CageInSpace, CageState, Inclination, MovingCage, MovingRing, MovingRoller, OF_BALL, OF_CAGE, OF_RING,
     OF_ROLLER, ORBIT, RING_COORDINATES, RingInSpace, RingState, RollerPlace, RollerState, RollersInSpace,
     SPIN, tilt_of,
 };

@@ -5,7 +5,7 @@ use super::{
 };
 use crate::error::Result;
 use crate::model::plane::Plane;
-use crate::model::space::rest::rollers::{SettledRollers, settled_rollers};
+use crate::model::space::rest::rollers::{OnRib, SettledRollers, settled_rollers};
 use crate::model::{HostInputs, Model, Quantity, STATIC_LIMIT_OF_ROLLERS, quantity};
 use std::f64::consts::PI;
 
@@ -15,9 +15,10 @@ const PLACES: usize = 100;
 const ROUND_OFF: f64 = 1e-12;
 
 /// What is known of every roller.
-const ROLLER: [Quantity; 4] = [
+const ROLLER: [Quantity; 5] = [
     AZIMUTH,
     RADIAL_OFFSET,
+    quantity("axial_offset", "m", "place along the axis of the bearing"),
     quantity("tilt", "rad", "rotation of its axis about that along the orbit: its +x end outwards"),
     ORBIT_SPEED,
 ];
@@ -30,7 +31,7 @@ const CONTACT: [Quantity; 8] = [
         "elastic approach delta in the middle of the roller; negative where they are apart",
     ),
     quantity("moment", "N m", "moment on the roller about the axis along the orbit"),
-    quantity("largest_line_load", "N/m", "largest load per length"),
+    quantity("largest_line_load", "N/m", "largest load per length; none of a rib"),
     quantity("largest_at", "m", "where that is, along the roller from its middle"),
     quantity("loaded_length", "m", "length of the roller that is loaded"),
     quantity(
@@ -38,7 +39,7 @@ const CONTACT: [Quantity; 8] = [
         "Pa",
         "largest pressure of Hertz's line contact under that load; stresses at sharp ends come on top",
     ),
-    quantity("half_width", "m", "half width b of Hertz's line contact there"),
+    quantity("half_width", "m", "half width b of Hertz's line contact there; of a rib the mean radius of the contact"),
 ];
 
 /// Place of the largest pressure among these.
@@ -57,8 +58,8 @@ pub(super) fn told(model: &Model, settled: &SettledRollers<'_>) -> Equilibrium {
     let mut found = of_ring(&settled.ring, [&ROLLER, &CONTACT]);
     found.line_loads.places = (0..=PLACES).map(|i| length * (i as f64 / PLACES as f64 - 0.5)).collect();
     for j in 0..settled.places.len() {
-        let [rho, tilt] = settled.place(j);
-        found.elements.push(vec![settled.rollers.azimuths[j], rho, tilt, orbit]);
+        let [x, rho, tilt] = settled.place(j);
+        found.elements.push(vec![settled.rollers.azimuths[j], rho, x, tilt, orbit]);
         for (k, name) in ["outer_raceway", "inner_raceway"].into_iter().enumerate() {
             let name = format!("{}[{j}].{name}", model.element_kind());
             let (values, line_loads) = contact(settled, (j, k), &found.line_loads.places);
@@ -66,6 +67,12 @@ pub(super) fn told(model: &Model, settled: &SettledRollers<'_>) -> Equilibrium {
             found.contacts.push(name);
             found.contact_values.push(values.to_vec());
             found.line_loads.values.push(line_loads);
+        }
+        for (name, on_rib, [pressure, radius]) in settled.rollers.ribs(j, settled.places[j], &settled.ring.at) {
+            let OnRib { load, approach, moment } = on_rib;
+            found.contacts.push(format!("{}[{j}].{name}", model.element_kind()));
+            found.contact_values.push(vec![load, approach, moment, 0.0, 0.0, 0.0, pressure, radius]);
+            found.line_loads.values.push(vec![0.0; found.line_loads.places.len()]);
         }
     }
     found.warnings.extend(pushed_away(&settled.ring));

@@ -50,7 +50,7 @@ pub(crate) use json::{line_of, nearest, parse_located};
 pub use json::{parse_override, set_path};
 pub use lubricant::{Lubricant, Temperature, Viscosity, ViscosityPoint, WaltherViscosity};
 pub use rings::{FreeRing, InnerRing, Load, OuterRing, RingMotion, WavinessHarmonic};
-pub use roller_space::{Rib, RibRing, RibSide, Ribs, RollerEnds, RollerSpace, SlicesOn};
+pub use roller_space::{Rib, RibRing, RibSide, Ribs, RollerEnds, RollerSpace, RollerTaper, SlicesOn};
 pub use run::{Auto, ErrorControl, Initial, Leapfrog, Method, Preset, Record, RingStart, Solver};
 pub use signal::{Signal, SignalIntegral, interpolate, slope};
 pub use spatial_cage::{

@@ -1,6 +1,7 @@
 //! What rollers that skew and tilt have beside those in the plane, and the ribs that hold them along the axis.
 
 use super::ContactLaws;
+use crate::scalar::math;
 use serde::{Deserialize, Serialize};
 
 /// Six freedoms of every roller: rollers shift along the axis, skew and tilt.
@@ -15,12 +16,43 @@ pub struct RollerSpace {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 3e7)))]
     pub transverse_inertia: Option<f64>,
+    /// Cones of tapered rollers and their raceways. Absent: cylinders.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub taper: Option<RollerTaper>,
     /// Shape of the ends. Needed by ribs, and by pockets with play along the axis.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ends: Option<RollerEnds>,
     /// Where the slices of the contacts with the raceways stand.
     #[serde(default, skip_serializing_if = "is_loaded")]
     pub slices_on: SlicesOn,
+}
+
+/// Tapered rollers: `rollers.radius` is that of their middle, radii of raceways are those beside it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct RollerTaper {
+    /// Half angle beta of the cone of a roller, rad: the +x end is the large one.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-4, max = 0.2)))]
+    pub half_angle: f64,
+    /// Angle of the outer raceway against the axis of the bearing, rad. That of the inner one is less by twice the half angle.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-4, max = 0.9)))]
+    pub outer_raceway_angle: f64,
+}
+
+impl RollerSpace {
+    /// Growth of the radius of a roller per length along its axis: zero of cylinders.
+    pub(crate) fn growth(&self) -> f64 {
+        let (sin, cos) = self.taper.map_or((0.0, 1.0), |taper| math::sin_cos(taper.half_angle));
+        sin / cos
+    }
+}
+
+impl RollerTaper {
+    /// Inclination gamma of the axes of the rollers against that of the bearing, rad.
+    pub fn inclination(&self) -> f64 {
+        self.outer_raceway_angle - self.half_angle
+    }
 }
 
 /// Ends of a roller: caps of a paraboloid.
@@ -31,7 +63,7 @@ pub struct RollerEnds {
     /// Radius R_s of the caps, m. Flat ends are caps of 10 to 50 m.
     #[cfg_attr(feature = "schema", schemars(range(min = 1e-3, max = 50.0)))]
     pub cap_radius: f64,
-    /// Radius of the face of an end, that of the roller less its chamfer, m.
+    /// Radius of the face of an end, that of the roller less its chamfer, m; of tapered rollers that of the large end.
     #[cfg_attr(feature = "schema", schemars(range(min = 1e-5, max = 5.0)))]
     pub face_radius: f64,
 }

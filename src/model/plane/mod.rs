@@ -37,7 +37,7 @@ use super::{Fault, HostInputs, Input, InputValues, Layout};
 use crate::bodies::{
     CAGE, CAGE_MOTION, Elements, ForceSource, INNER_RING, Node, OUTER_RING, SHARED, SharedBodies, SharedBody,
 };
-use crate::pairs::raceway::RacewayGeometry;
+use crate::pairs::raceway::{Cones, RacewayGeometry};
 use crate::pairs::{ContactLaw, ElementPair, Law, PairInfo, SharedInfo, SharedPair};
 use crate::scene::Scene;
 use crate::space::Motion;
@@ -106,14 +106,15 @@ impl Plane {
     /// Radius of the inner raceway in m, where there are rollers.
     pub fn inner_raceway_radius(&self) -> Option<f64> {
         let g = self.raceway_geometry()?;
-        Some(g.pitch_radius - g.roller_radius - g.gap)
+        Some(g.inner_radius(self.scene.outer_ring.as_ref()?.raceway_radius?))
     }
 
     /// Radii of rollers and raceways, where there are rollers.
     fn raceway_geometry(&self) -> Option<RacewayGeometry> {
         let rollers = self.scene.rollers.as_ref()?;
         let outer = self.scene.outer_ring.as_ref()?.raceway_radius?;
-        Some(RacewayGeometry::new(outer, rollers.radius, self.scene.radial_clearance()))
+        let taper = rollers.space.as_ref().and_then(|space| space.taper.as_ref());
+        Some(RacewayGeometry::new(outer, (rollers.radius, Cones::new(taper)), self.scene.radial_clearance()))
     }
 
     /// Orbit and spin speed of the elements without slip at these inputs, rad/s: of rollers that touch both raceways,

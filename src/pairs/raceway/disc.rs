@@ -2,18 +2,19 @@
 //!
 //! ```text
 //! C = P + s u,   q = C - O,   t = q . b,   p = q - t b,   d = |p|,   e_n = p/d,   e_t = b x e_n
-//! g = e_n . u,   h = e_t . u,   c = sqrt(1 - g^2),   R = R_b + dR - p(s)
-//! delta = k (rho + (d - r)) - g_0 + dR - p(s) - R (1 - c) - p_r(t)
-//! n     = d(delta)/dC = k e_n - R (g h/(c d)) e_t - p_r'(t) b
-//! on the roller for Q = 1:   force -n,   moment about P  -s u x n + R (g/c) (u x e_n)
+//! N = k (cos(alpha) e_n - sin(alpha) b),   G = N . u,   h = e_t . u,   c = sqrt(1 - G^2),   R = R_b + s tan(beta) + dR - p(s)
+//! delta = k cos(alpha) (rho + (d - r_0)) - k sin(alpha) (t - s cos(gamma)) - R (cos(beta) - c)'
+//!         + cos(beta) (dR - p(s)) - cos(alpha) g_0 - p_r(t),   (cos(beta) - c)' = (G^2 - sin^2(beta))/(c + cos(beta)),   r_0 = r + s sin(gamma)
+//! n     = d(delta)/dC = N - k cos(alpha) R (G h/(c d)) e_t - p_r'(t) b
+//! on the roller for Q = 1:   force -n,   moment about P  -s u x n + R (G/c) (u x N)
 //! ```
 //!
 //! P is the centre of the roller and u its axis, O the centre of the ring and b its axis, all in the axes of the azimuth; k is 1 on the outer
-//! raceway and -1 on the inner one. R (1 - c) is how much less far the rim of a tilted disc reaches: 94 nm at 5 mrad of one of 7.5 mm. Force and moment are the
-//! gradient of delta, so that they turn neither body about its own axis and their work is that of the approach. d - r and 1 - c are sums of
-//! small numbers. Valid for tilts up to those of `space/solid`. Source: geometry; the gradient is exact.
+//! raceway and -1 on the inner one; angles of cones as in `cones`, zero of cylinders. R (1 - c) is how much less far the rim of a tilted disc reaches: 94 nm
+//! at 5 mrad of one of 7.5 mm. Force and moment are the gradient of delta, so that they turn neither body about its own axis and their work is that of the
+//! approach. d - r_0 is a sum of small numbers. Valid for tilts up to those of `space/solid`. Source: geometry; the gradient is exact.
 
-use super::RacewayGeometry;
+use super::{Cones, RacewayGeometry};
 use crate::bodies::RollerPlace;
 use crate::laws::elastic::profile::Profile;
 use crate::pairs::groove::RingPlace;
@@ -29,18 +30,28 @@ pub(crate) struct Disc<T> {
     pub(crate) normal: Vector<T>,
     /// Moment on the roller about its centre for a unit force, m.
     pub(crate) on_roller: Vector<T>,
-    /// t, m: place along the axis of the ring.
+    /// t, m: place along the axis of the ring, and that along the raceway.
+    pub(crate) along: T,
     pub(crate) in_raceway: T,
     /// Drop of the raceway there, m.
     pub(crate) raceway_drop: T,
-    /// e_n and e_t.
+    /// N, e_n and e_t.
+    pub(crate) facing: Vector<T>,
     pub(crate) outward: Vector<T>,
     pub(crate) tangent: Vector<T>,
-    /// d, R, g and c.
+    /// d, R, G and c.
     pub(crate) distance: T,
     pub(crate) radius: T,
-    pub(crate) lean: T,
-    pub(crate) cosine: T,
+    lean: T,
+    cosine: T,
+}
+
+impl<T: Of<f64>> Disc<T> {
+    /// m: from the centre of the disc towards the place of its rim that touches, with the axis `u` of the roller.
+    #[inline(always)]
+    pub(crate) fn to_rim(&self, u: Vector<T>) -> Vector<T> {
+        scaled(difference(self.facing, scaled(u, self.lean)), self.lean.like(1.0) / self.cosine)
+    }
 }
 
 /// A point beside the axis of a ring.
@@ -83,29 +94,40 @@ impl RacewayGeometry {
         excess: f64,
         s: T,
     ) -> Disc<T> {
-        let (side, RingPlace { centre, axis: b }) = (if ring.0 == 0 { 1.0 } else { -1.0 }, *ring.1);
+        let (k, RingPlace { centre, axis: b }) = (if ring.0 == 0 { 1.0 } else { -1.0 }, *ring.1);
+        let Cones { inclination: gamma, roller: beta, growth, raceways, .. } = &self.cones;
+        let alpha = raceways[ring.0];
         let (u, one) = (roller.axis, roller.rho.like(1.0));
-        let r = roller.rho + self.pitch_radius;
-        let place = [roller.x + u[0] * s - centre[0], u[1] * s - centre[1], u[2] * s - centre[2]];
-        let OffAxis { along: t, square, distance: d, outward, tangent } = OffAxis::new(r, place, b);
-        let (g, h) = (dot(outward, u), dot(tangent, u));
+        let base = roller.rho + self.pitch_radius + s * gamma.sin;
+        let place =
+            [roller.x + u[0] * s - centre[0], (u[1] - gamma.sin) * s - centre[1], u[2] * s - centre[2]];
+        let OffAxis { along: t, square, distance: d, outward, tangent } = OffAxis::new(base, place, b);
+        let facing = difference(scaled(outward, one.like(k * alpha.cos)), scaled(b, one.like(k * alpha.sin)));
+        let (g, h) = (dot(facing, u), dot(tangent, u));
         let c = (one - g * g).sqrt();
         let drop = profile.map_or_else(|| one.like(0.0), |profile| profile.of_roller(s));
-        let [raceway, slope] = profile.map_or([one.like(0.0); 2], |profile| profile.of_raceway(t));
+        let in_raceway = t * self.cones.stretch();
+        let [raceway, slope] = profile.map_or([one.like(0.0); 2], |profile| profile.of_raceway(in_raceway));
         let larger = one.like(excess) - drop;
-        let radius = larger + self.roller_radius;
-        let delta =
-            (roller.rho + square / (d + r)) * side - self.gap + larger - radius * g * g / (one + c) - raceway;
-        let turned = scaled(tangent, radius * g * h / (c * d));
-        let n = difference(difference(scaled(outward, one.like(side)), turned), scaled(b, slope));
+        let radius = larger + s * *growth + self.roller_radius;
+        let delta = (roller.rho + square / (d + base)) * (k * alpha.cos)
+            - (t - s * gamma.cos) * (k * alpha.sin)
+            - self.gap * alpha.cos
+            + larger * beta.cos
+            - radius * (g - beta.sin) * (g + beta.sin) / (c + beta.cos)
+            - raceway;
+        let turned = scaled(tangent, radius * g * h * (k * alpha.cos) / (c * d));
+        let n = difference(difference(facing, turned), scaled(b, slope * self.cones.stretch()));
         let lever = scaled(cross(u, n), -s);
-        let on_roller = sum(lever, scaled(cross(u, outward), radius * g / c));
+        let on_roller = sum(lever, scaled(cross(u, facing), radius * g / c));
         Disc {
             delta,
             normal: n,
             on_roller,
-            in_raceway: t,
+            along: t,
+            in_raceway,
             raceway_drop: raceway,
+            facing,
             outward,
             tangent,
             distance: d,
@@ -119,14 +141,21 @@ impl RacewayGeometry {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bodies::ElementMotion;
+    use crate::bodies::{ElementMotion, Inclination, RollerState};
     use crate::laws::elastic::profile::Logarithm;
     use crate::pairs::raceway::RingMotion;
     use crate::scalar::Dual;
+    use crate::scene::RollerTaper;
     use crate::space::solid::Tilt;
 
     const NU2310: RacewayGeometry =
-        RacewayGeometry { pitch_radius: 39.99e-3, roller_radius: 7.5e-3, gap: 10e-6 };
+        RacewayGeometry { pitch_radius: 39.99e-3, roller_radius: 7.5e-3, gap: 10e-6, cones: Cones::NONE };
+
+    /// The same, and one with tapered rollers.
+    fn bearings() -> [RacewayGeometry; 2] {
+        let taper = RollerTaper { half_angle: 0.07, outer_raceway_angle: 0.3 };
+        [NU2310, RacewayGeometry { cones: Cones::new(Some(&taper)), ..NU2310 }]
+    }
 
     fn profile() -> Profile {
         let logarithm = Logarithm::new(1.5e-6, 0.0204, 0.6, Some(12e-6));
@@ -134,10 +163,11 @@ mod tests {
     }
 
     /// Coordinates: x, rho, skew and tilt of the roller; x, r, psi and two angles of the ring.
-    fn disc<T: Of<f64>>(ring: usize, q: [T; 9], s: f64) -> Disc<T> {
-        let roller = RollerPlace { x: q[0], rho: q[1], axis: Tilt::new([q[2], q[3]]).axis };
+    fn disc<T: Of<f64>>(bearing: &RacewayGeometry, ring: usize, q: [T; 9], s: f64) -> Disc<T> {
+        let axis = bearing.cones.inclination.turned(Tilt::new([q[2], q[3]]).axis);
+        let roller = RollerPlace { x: q[0], rho: q[1], axis };
         let place = RingPlace { centre: [q[4], q[5], q[6]], axis: Tilt::new([q[7], q[8]]).axis };
-        NU2310.disc((ring, &place), &roller, Some(&profile()), 0.3e-6, q[0].like(s))
+        bearing.disc((ring, &place), &roller, Some(&profile()), 0.3e-6, q[0].like(s))
     }
 
     const STATES: [[f64; 9]; 3] = [
@@ -146,15 +176,22 @@ mod tests {
         [0.0, 1e-6, 0.0, 1e-3, 0.0, 0.0, 0.0, 0.0, 2e-3],
     ];
 
+    fn cases() -> impl Iterator<Item = (RacewayGeometry, usize, [f64; 9])> {
+        let of = |bearing| [0, 1].into_iter().flat_map(move |ring| STATES.map(|q| (bearing, ring, q)));
+        bearings().into_iter().flat_map(of)
+    }
+
     #[test]
     fn forces_are_the_gradient_of_the_approach() {
-        for (ring, q) in [0, 1].into_iter().flat_map(|ring| STATES.map(|q| (ring, q))) {
+        for (bearing, ring, q) in cases() {
             for s in [-9.7e-3, -3e-3, 0.0, 8e-3] {
-                let sloped = disc(ring, std::array::from_fn(|k| Dual::<9>::variable(q[k], k)), s);
-                let Disc { normal, on_roller, .. } = disc(ring, q, s);
+                let sloped = disc(&bearing, ring, std::array::from_fn(|k| Dual::<9>::variable(q[k], k)), s);
+                let Disc { normal, on_roller, .. } = disc(&bearing, ring, q, s);
                 // Power of the unit wrench over the coordinates.
-                let tilt = Tilt::new([q[2], q[3]]);
-                let over_angles = tilt.moments_over_angles(on_roller);
+                let state =
+                    RollerState::new((0.0, bearing.cones.inclination), [0.0; 2], [q[2], q[3]], [0.0; 6]);
+                let [.., skew, tilt, _] = state.over_speeds([[0.0; 3], on_roller], 0.0);
+                let over_angles = [skew, tilt];
                 let of_ring = Tilt::new([q[7], q[8]]);
                 let r = NU2310.pitch_radius + q[1];
                 let from_ring = [q[0] - q[4], r - q[5], -q[6]];
@@ -177,7 +214,7 @@ mod tests {
                     assert!((slope - force).abs() < 2e-13, "{ring} {s} {k}: {slope} {force}");
                 }
                 // Nothing turns a body about its own axis.
-                assert!(dot(on_roller, tilt.axis).abs() < 1e-16 && dot(moment, of_ring.axis).abs() < 1e-15);
+                assert!(dot(on_roller, state.axis).abs() < 2e-16 && dot(moment, of_ring.axis).abs() < 1e-15);
             }
         }
     }
@@ -185,37 +222,42 @@ mod tests {
     #[test]
     fn the_approach_is_that_of_the_rim() {
         // The point of the rim that reaches furthest, by brute force around the disc.
-        for (ring, q) in [0, 1].into_iter().flat_map(|ring| STATES.map(|q| (ring, q))) {
+        for (bearing, ring, q) in cases() {
             for s in [-9.7e-3, 0.0, 8e-3] {
+                let Cones { inclination, growth, raceways, .. } = bearing.cones;
                 let (tilt, b) = (Tilt::new([q[2], q[3]]), Tilt::new([q[7], q[8]]).axis);
                 let profile = profile();
-                let radius = NU2310.roller_radius + 0.3e-6 - profile.of_roller(s);
+                let axis = inclination.turned(tilt.axis);
+                // A drop lies across the cone.
+                let radius = bearing.roller_radius + growth * s + 0.3e-6 - profile.of_roller(s);
                 let centre = [
-                    q[0] + s * tilt.axis[0] - q[4],
-                    NU2310.pitch_radius + q[1] + s * tilt.axis[1] - q[5],
-                    s * tilt.axis[2] - q[6],
+                    q[0] + s * axis[0] - q[4],
+                    bearing.pitch_radius + q[1] + s * axis[1] - q[5],
+                    s * axis[2] - q[6],
                 ];
-                let from_axis = |angle: f64| {
-                    let rim = tilt.turned([0.0, radius * angle.cos(), radius * angle.sin()]);
+                let side = if ring == 0 { 1.0 } else { -1.0 };
+                // How far a place of the rim is beyond the cone, across it.
+                let beyond = |angle: f64| {
+                    let rim =
+                        inclination.turned(tilt.turned([0.0, radius * angle.cos(), radius * angle.sin()]));
                     let at = sum(centre, rim);
                     let t = dot(at, b);
                     let across = difference(at, scaled(b, t));
-                    dot(across, across).sqrt()
+                    let Inclination { sin, cos } = raceways[ring];
+                    let middle = bearing.pitch_radius + side * bearing.roller_radius * inclination.cos;
+                    let at_middle = -side * bearing.roller_radius * inclination.sin;
+                    side * (cos * (dot(across, across).sqrt() - middle) - sin * (t - at_middle))
                 };
-                let side = if ring == 0 { 1.0 } else { -1.0 };
                 let middle = if ring == 0 { 0.0 } else { std::f64::consts::PI };
                 let (mut best, mut width) = (middle, 0.3);
                 for _ in 0..60 {
                     let candidates = (-10..=10).map(|i| best + width * f64::from(i) / 10.0);
-                    best = candidates
-                        .max_by(|x, y| (side * from_axis(*x)).total_cmp(&(side * from_axis(*y))))
-                        .unwrap();
+                    best = candidates.max_by(|x, y| beyond(*x).total_cmp(&beyond(*y))).unwrap();
                     width *= 0.5;
                 }
-                let raceway = NU2310.pitch_radius + side * (NU2310.roller_radius + NU2310.gap);
-                let found = disc(ring, q, s);
+                let found = disc(&bearing, ring, q, s);
                 let [drop, _] = profile.of_raceway(found.in_raceway);
-                let reach = side * (from_axis(best) - raceway) - drop;
+                let reach = beyond(best) - drop - bearing.gap * raceways[ring].cos;
                 // Of second order: the rim is taken where the axis of the ring is nearest.
                 let angle = q[2].hypot(q[3]).max(q[7].hypot(q[8]));
                 let allowed = 1e-14 + 0.02 * angle.powi(4);

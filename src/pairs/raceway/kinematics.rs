@@ -15,6 +15,7 @@
 //! Surface speeds are relative to the contact point, which moves with the line of centres:
 //! `u1 = arm_1 (w_b - phi_dot)`, `u2 = -arm_2 (w_r - phi_dot)`, phi_dot the turning rate of that line.
 
+use super::Cones;
 use crate::bodies::ElementMotion;
 use crate::laws::contact_pair::ContactMotion;
 use crate::pairs::Grip;
@@ -40,18 +41,25 @@ pub struct RacewayGeometry {
     pub roller_radius: f64,
     /// Gap of a roller on the pitch circle to either raceway with the inner ring centred, m.
     pub gap: f64,
+    /// Cones of rollers and raceways: `roller_radius` is that of the middle of a roller, the raceways are those beside it.
+    pub(crate) cones: Cones,
 }
 
 impl RacewayGeometry {
-    /// From the outer raceway radius, the roller radius and the diametral clearance, m.
-    pub fn new(outer_raceway_radius: f64, roller_radius: f64, diametral_clearance: f64) -> Self {
+    /// From the outer raceway radius, the roller radius with the cones, and the diametral clearance, m.
+    pub(crate) fn new(
+        outer_raceway_radius: f64,
+        (roller_radius, cones): (f64, Cones),
+        diametral_clearance: f64,
+    ) -> Self {
         let gap = diametral_clearance / 4.0;
-        Self { pitch_radius: outer_raceway_radius - roller_radius - gap, roller_radius, gap }
+        let pitch_radius = outer_raceway_radius - roller_radius * cones.inclination.cos - gap;
+        Self { pitch_radius, roller_radius, gap, cones }
     }
 
     /// Radius of the inner raceway in m, with this one of the outer.
     pub fn inner_radius(&self, outer_raceway_radius: f64) -> f64 {
-        outer_raceway_radius - 2.0 * self.roller_radius - 2.0 * self.gap
+        outer_raceway_radius - 2.0 * self.roller_radius * self.cones.inclination.cos - 2.0 * self.gap
     }
 
     /// Motion and levers of the contact with the outer raceway; the outer ring is centred and turns at this speed in rad/s.
@@ -108,11 +116,11 @@ fn shift<T: Numeric>(r: T, d: T, ring: [T; 2]) -> T {
 mod tests {
     use super::*;
 
-    const G: RacewayGeometry = RacewayGeometry { pitch_radius: 0.03999, roller_radius: 0.0075, gap: 1e-5 };
+    const G: RacewayGeometry = RacewayGeometry { pitch_radius: 0.03999, roller_radius: 0.0075, gap: 1e-5, cones: Cones::NONE };
 
     #[test]
     fn geometry_splits_the_clearance() {
-        let g = RacewayGeometry::new(0.0475, 0.0075, 40e-6);
+        let g = RacewayGeometry::new(0.0475, (0.0075, Cones::NONE), 40e-6);
         assert!((g.pitch_radius - 0.03999).abs() < 1e-15);
         assert!((g.gap - 1e-5).abs() < 1e-18);
     }

@@ -1,8 +1,10 @@
 //! The raceways: contacts of all rollers with the outer and with the inner ring.
 
+mod cones;
 mod disc;
 mod kinematics;
 
+pub(crate) use cones::Cones;
 pub(crate) use disc::{Disc, OffAxis};
 pub(crate) use kinematics::{RacewayGeometry, RingMotion};
 
@@ -59,14 +61,19 @@ fn laws_of(builder: &LawBuilder<'_>) -> Result<Option<(RacewayGeometry, [LineCon
     let outer = needed("outer_ring.raceway_radius", outer_ring.raceway_radius, "raceways")?;
     let outer_material = needed("outer_ring.material", outer_ring.material.as_deref(), "raceways")?;
     let radius = scene.element_radius();
-    let geometry = RacewayGeometry::new(outer, radius, scene.radial_clearance());
+    let taper = scene.rollers.as_ref().and_then(|rollers| rollers.space.as_ref()?.taper.as_ref());
+    let cones = Cones::new(taper);
+    let geometry = RacewayGeometry::new(outer, (radius, cones), scene.radial_clearance());
     let inner = geometry.inner_radius(outer);
     let inner_material = rings.1.and_then(|ring| ring.material.as_deref());
     let inner_material = needed("inner_ring.material", inner_material, "raceways")?;
     let crowns = [outer_ring.raceway_crown_radius, rings.1.and_then(|ring| ring.raceway_crown_radius)];
+    // Of cones across their surfaces.
+    let curvature = cones.roller.cos / radius;
+    let of_rings = [-cones.raceways[0].cos / outer, cones.raceways[1].cos / inner];
     let laws = [
-        this.raceway(laws, outer_material, 1.0 / (1.0 / radius - 1.0 / outer), crowns[0])?,
-        this.raceway(laws, inner_material, 1.0 / (1.0 / radius + 1.0 / inner), crowns[1])?,
+        this.raceway(laws, outer_material, 1.0 / (curvature + of_rings[0]), crowns[0])?,
+        this.raceway(laws, inner_material, 1.0 / (curvature + of_rings[1]), crowns[1])?,
     ];
     Ok(Some((geometry, laws)))
 }

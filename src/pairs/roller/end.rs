@@ -1,27 +1,33 @@
 //! The end of a roller on a rib, or on the side of its pocket.
 //!
 //! ```text
-//! end: a paraboloid of radius R_s over the disc |y| <= R_end;   rib: tangent plane of its cone in the meridian of the roller
-//! N  = e cos(eps) b + f sin(eps) e_n(P),   e = +-1 the end, f = 1 a rib of the outer ring, -1 of the inner one
+//! end: a paraboloid over the disc |y| <= R_end;   rib: tangent plane of its cone in the meridian of the roller
+//! N  = e cos(eps') b + f sin(eps') e_n(P),   eps' = eps + e f gamma,   e = +-1 the end, f = 1 a rib of the outer ring, -1 of the inner one
 //! N1 = N . m1,   N2 = N . w,   Nu = N . e u,   m1 = (e_n - g u)/c,   w = u x m1
-//! y  = nearest point of {|y| <= R_end, f y_1 >= y_min} to R_s (N1, N2)/Nu:   on the cap, its rim, the edge of the rib, or the corner of both
-//! delta = cos(eps) e t + f sin(eps) (rho + (d - r)) + (L/2) (-cos(eps) (1 - u . b) + e f sin(eps) g) - (|y|^2/2 R_s) Nu
-//!         + cos(eps) y_n^2/(2 R_s) + y_1 N1 + y_2 N2 - sin(eps) y_n - g_f,   y_n = R_s tan(eps)
+//! y  = point of {|y| <= R_end, f y_1 >= y_min} where y . (N1, N2) - z Nu is largest:   on the cap, its rim, the edge of the rib, or the corner of both
+//! delta = cos(eps') e t + f sin(eps') (rho + (d - r)) + (L/2) (Nu - cos(eps)) - z Nu + cos(eps) y_n^2/(2 R_s) + y_1 N1 + y_2 N2 - sin(eps) y_n - g_f
+//!         z = y_1^2/(2 R_1) + y_2^2/(2 R_2),   y_n = R_s tan(eps)
 //! on the roller for Q = 1:  force -(N + k_t e_t),   moment about P  -((X - P) x N - T u + T (g/c) m1),   T = y_1 N2 - y_2 N1
 //! ```
 //!
-//! y is where a concave function is largest over a convex region, so delta has a continuous slope from the cap to the corner. T turns the roller about
-//! its own axis by nothing: it is there on the edge of a rib only. Left out: the curvature of the cone across the meridian, f sin(eps) y_2^2/(2 rho_c), a
-//! micrometre at 3 mm. Source: geometry; the gradient is exact.
+//! eps is how far the cone of the rib opens against the plane across the axis of an upright roller, which is inclined by gamma. A delta of a concave
+//! function over a convex region has a continuous slope from the cap to the corner. T turns the roller about
+//! its own axis by nothing. R_1 is R_s; so is R_2 beside a cylinder, whose rib is nearly a plane: left out is its curvature across the meridian,
+//! f sin(eps) y_2^2/(2 rho_c), a micrometre at 3 mm. The rib of a tapered bearing is nearly as round as the end, and 1/R_2 = 1/R_s - f sin(eps')/rho_c, rho_c
+//! the distance of the contact from the axis of the bearing. Source: geometry; the gradient is exact.
 
 use super::{MovingRoller, Spot};
-use crate::bodies::MovingRing;
-use crate::pairs::raceway::OffAxis;
-use crate::scalar::{Real, math};
+use crate::bodies::{Inclination, MovingRing};
+use crate::pairs::raceway::{Cones, OffAxis, RacewayGeometry};
+use crate::scalar::Real;
 use crate::space::solid::{Moving, cross, difference, dot, scaled, sum};
 
 /// Square of a speed, m^2/s^2, that is added so that its size has a slope at none.
 const SPEED_FLOOR: f64 = 1e-24;
+/// Most steps to the rim; a few are usual.
+const MOST_STEPS: usize = 40;
+/// Least share by which an end must be rounder than its rib.
+const LEAST_DIFFERENCE: f64 = 0.01;
 
 /// What of an end touches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,13 +47,24 @@ pub(crate) struct EndShape {
     pub(crate) length: f64,
 }
 
+impl EndShape {
+    /// That of the end at +x (1.0) or -x (-1.0) of rollers with these cones, of which it is that of the large one.
+    fn at(self, side: f64, cones: &Cones) -> Self {
+        let smaller = if side > 0.0 { 0.0 } else { self.length * cones.growth };
+        Self { face_radius: self.face_radius - smaller, ..self }
+    }
+}
+
 /// An end beside its rib.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct RibGeometry {
     pitch_radius: f64,
     end: EndShape,
-    /// eps, as sine and cosine.
-    angle: [f64; 2],
+    /// eps and eps'.
+    opening: Inclination,
+    angle: Inclination,
+    /// R_2, m.
+    across_radius: f64,
     /// f and e.
     outwards: f64,
     side: f64,
@@ -67,18 +84,48 @@ pub(crate) struct EndTouch<T> {
     pub(crate) passing: Moving<T>,
 }
 
-/// Nearest point of the face above the edge of the rib.
-fn nearest<T: Real>([a, b]: [T; 2], face: f64, outwards: f64, lowest: f64) -> ([T; 2], Region) {
+/// Where the rim of the face is nearest to a point outside of it, by lengths over the roots of these radii (m): y_i = a_i/(1 + l R_i).
+fn on_rim<T: Real>([a, b]: [T; 2], [first, second]: [f64; 2], face: f64) -> [T; 2] {
+    if first == second {
+        let scale = T::constant(face) / (a * a + b * b).sqrt();
+        return [a * scale, b * scale];
+    }
+    // |y|^2 falls with l and is convex: Newton's steps from zero come from one side. The last one carries the derivative.
+    let step = |l: f64| {
+        let [shrunk, other] = [first, second].map(|radius| 1.0 / (1.0 + l * radius));
+        let (p, q) = (a * shrunk, b * other);
+        let (p, q) = (p * p, q * q);
+        (p + q - face * face) / ((p * (shrunk * first) + q * (other * second)) * 2.0)
+    };
+    let mut l = 0.0;
+    for _ in 0..MOST_STEPS {
+        let by = step(l).value();
+        l += by;
+        if by <= 1e-15 * l {
+            break;
+        }
+    }
+    let l = step(l) + l;
+    [a / (l * first + 1.0), b / (l * second + 1.0)]
+}
+
+/// The point of the face above the edge of the rib that reaches furthest, where a cap with these radii (m) without edges does so at `[a, b]`, m.
+fn nearest<T: Real>(
+    [a, b]: [T; 2],
+    radii: [f64; 2],
+    face: f64,
+    outwards: f64,
+    lowest: f64,
+) -> ([T; 2], Region) {
     let above = |y: T| outwards * y.value() >= lowest;
-    let size = (a * a + b * b).sqrt();
-    let within = size.value() <= face;
+    let within = (a * a + b * b).value() <= face * face;
     if within && above(a) {
         return ([a, b], Region::Cap);
     }
     if !within {
-        let scale = T::constant(face) / size;
-        if above(a * scale) {
-            return ([a * scale, b * scale], Region::Rim);
+        let rim = on_rim([a, b], radii, face);
+        if above(rim[0]) {
+            return (rim, Region::Rim);
         }
     }
     let edge = outwards * lowest;
@@ -90,47 +137,95 @@ fn nearest<T: Real>([a, b]: [T; 2], face: f64, outwards: f64, lowest: f64) -> ([
 }
 
 impl RibGeometry {
-    /// Of a rib of the outer (0) or inner (1) ring at +x (1.0) or -x (-1.0) whose cone opens by `angle` (rad), reaching `height` (m) above the raceway, which is
-    /// `reach` (m) from the pitch circle, with the play of a roller between two ribs, m.
+    /// Of a rib of the outer (0) or inner (1) ring at +x (1.0) or -x (-1.0) of rollers between these raceways whose cone opens by `angle` (rad), reaching
+    /// `height` (m) above the raceway, with the play of a roller between two ribs, m. `None` where the rib is rounder than the end.
+    ///
+    /// The play of a tapered roller is at its small end.
     pub(crate) fn rib(
-        (pitch_radius, reach, end): (f64, f64, EndShape),
+        geometry: &RacewayGeometry,
+        end: EndShape,
         (ring, side): (usize, f64),
         [angle, height, end_play]: [f64; 3],
-    ) -> Self {
-        let (sin, cos) = math::sin_cos(angle);
-        Self {
+    ) -> Option<Self> {
+        let RacewayGeometry { pitch_radius, roller_radius, gap, cones } = *geometry;
+        let outwards = if ring == 0 { 1.0 } else { -1.0 };
+        let end = end.at(side, &cones);
+        let large = roller_radius + gap + 0.5 * side * end.length * cones.growth;
+        let opening = Inclination::new(angle);
+        let play = match (cones == Cones::NONE, side > 0.0) {
+            (true, _) => 0.5 * end_play,
+            (false, true) => 0.0,
+            (false, false) => end_play,
+        };
+        let mut rib = Self {
             pitch_radius,
             end,
-            angle: [sin, cos],
-            outwards: if ring == 0 { 1.0 } else { -1.0 },
+            opening,
+            angle: opening.turned_by(cones.inclination, side * outwards),
+            across_radius: end.cap_radius,
+            outwards,
             side,
-            lowest: reach - height,
-            gap: cos * 0.5 * end_play,
+            lowest: large - height,
+            gap: opening.cos * play,
+        };
+        if cones != Cones::NONE {
+            let of_rib = rib.round(&cones);
+            if of_rib >= (1.0 - LEAST_DIFFERENCE) / end.cap_radius {
+                return None;
+            }
+            rib.across_radius = 1.0 / (1.0 / end.cap_radius - of_rib);
         }
+        Some(rib)
     }
 
-    /// Of the side of a pocket with this play of the roller along the axis, m.
-    pub(crate) fn pocket_side((pitch_radius, end): (f64, EndShape), side: f64, play: f64) -> Self {
-        let lowest = -end.face_radius;
-        Self { pitch_radius, end, angle: [0.0, 1.0], outwards: 1.0, side, lowest, gap: 0.5 * play }
+    /// Of the side of a pocket of rollers between these raceways, with this play of the roller along the axis, m.
+    pub(crate) fn pocket_side(geometry: &RacewayGeometry, end: EndShape, side: f64, play: f64) -> Self {
+        let end = end.at(side, &geometry.cones);
+        Self {
+            pitch_radius: geometry.pitch_radius,
+            end,
+            opening: Inclination::NONE,
+            angle: Inclination::NONE.turned_by(geometry.cones.inclination, side),
+            across_radius: end.cap_radius,
+            outwards: 1.0,
+            side,
+            lowest: -end.face_radius,
+            gap: 0.5 * play,
+        }
     }
 
     /// y_n, m: where the middle of an untilted cap touches.
     fn middle(&self) -> f64 {
-        let [sin, cos] = self.angle;
-        self.end.cap_radius * sin / cos
+        self.end.cap_radius * self.opening.sin / self.opening.cos
     }
 
-    /// R_f, m: that of the cap with half of the curvature of the rib.
-    pub(crate) fn radius(&self) -> f64 {
-        let [sin, _] = self.angle;
-        let of_rib = self.pitch_radius + self.outwards * self.middle();
-        1.0 / (1.0 / self.end.cap_radius - self.outwards * sin / (2.0 * of_rib))
+    /// Curvature of the cone of the rib across the meridian, where an upright roller touches it, 1/m: positive where it is hollow.
+    fn round(&self, cones: &Cones) -> f64 {
+        let Inclination { sin, cos } = cones.inclination;
+        let of_rib = self.pitch_radius
+            + 0.5 * self.side * self.end.length * sin
+            + self.outwards * self.middle() * cos;
+        self.outwards * self.angle.sin / of_rib
+    }
+
+    /// Curvatures of end and rib together, 1/m: the larger one first.
+    pub(crate) fn curvatures(&self, cones: &Cones) -> [f64; 2] {
+        let along = 1.0 / self.end.cap_radius;
+        let across = along - self.round(cones);
+        if *cones == Cones::NONE {
+            // A circle with half of the curvature of the rib.
+            return [0.5 * (along + across); 2];
+        }
+        [along.max(across), along.min(across)]
     }
 
     /// Whether the end of a roller there is certainly apart from its rib.
     pub(crate) fn apart(&self, roller: &MovingRoller<f64>, ring: &MovingRing<f64>) -> bool {
-        let ([sin, cos], b) = (self.angle, ring.axis);
+        if self.angle != self.opening {
+            // Of an inclined roller nothing is told early.
+            return false;
+        }
+        let (Inclination { sin, cos }, b) = (self.angle, ring.axis);
         let (place, [ox, or, ot]) = (roller.place, ring.centre);
         let t = (place.x - ox) * b[0] + (place.rho + self.pitch_radius - or) * b[1] - ot * b[2];
         let off = difference(place.axis, b);
@@ -145,9 +240,9 @@ impl RibGeometry {
 
     /// The end of a roller there. They touch where delta is above zero.
     pub(crate) fn touch<T: Real>(&self, roller: &MovingRoller<T>, ring: &MovingRing<T>) -> EndTouch<T> {
-        let [sin, cos] = self.angle;
+        let Inclination { sin, cos } = self.angle;
         let (e, f, half) = (self.side, self.outwards, 0.5 * self.end.length);
-        let cap = self.end.cap_radius;
+        let radii = [self.end.cap_radius, self.across_radius];
         let (u, b, [ox, or, ot]) = (roller.place.axis, ring.axis, ring.centre);
         let one = T::constant(1.0);
         let r = roller.place.rho + self.pitch_radius;
@@ -160,19 +255,18 @@ impl RibGeometry {
         let m1 = scaled(difference(e_n, scaled(u, g)), one / c);
         let w = cross(u, m1);
         let (n1, n2, nu) = (dot(normal, m1), dot(normal, w), dot(normal, u) * e);
-        let ([y1, y2], region) =
-            nearest([n1 / nu * cap, n2 / nu * cap], self.end.face_radius, f, self.lowest);
-        let off = difference(u, b);
-        let from_axis = dot(off, off) * 0.5;
-        let drop = (y1 * y1 + y2 * y2) * (0.5 / cap);
+        let free = [n1 / nu * radii[0], n2 / nu * radii[1]];
+        let ([y1, y2], region) = nearest(free, radii, self.end.face_radius, f, self.lowest);
+        let drop = y1 * y1 * (0.5 / radii[0]) + y2 * y2 * (0.5 / radii[1]);
         let y_n = self.middle();
+        let opening = self.opening;
         let delta = t * (cos * e)
             + (roller.place.rho + square / (d + r)) * (f * sin)
-            + (g * (e * f * sin) - from_axis * cos) * half
+            + (nu - opening.cos) * half
             - drop * nu
             + y1 * n1
             + y2 * n2
-            + (cos * y_n * y_n * 0.5 / cap - sin * y_n - self.gap);
+            + (opening.cos * y_n * y_n * 0.5 / radii[0] - opening.sin * y_n - self.gap);
         let arm = sum(scaled(u, (-drop + half) * e), sum(scaled(m1, y1), scaled(w, y2)));
         let turn = y1 * n2 - y2 * n1;
         let tangential = dot(arm, e_t) / d * (f * sin) + turn * dot(w, e_t) / (c * d);
@@ -218,20 +312,50 @@ impl RibGeometry {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bodies::RollerPlace;
+    use crate::bodies::{RollerPlace, RollerState};
     use crate::scalar::Dual;
+    use crate::scene::RollerTaper;
     use crate::space::solid::{Tilt, Vector};
 
     const PITCH: f64 = 39.99e-3;
     const END: EndShape = EndShape { cap_radius: 0.6, face_radius: 6.7e-3, length: 22e-3 };
 
-    fn rib(ring: usize, side: f64) -> RibGeometry {
-        RibGeometry::rib((PITCH, 7.5e-3, END), (ring, side), [0.01, 2.5e-3, 50e-6])
+    /// One of cylindrical and one of tapered rollers.
+    fn bearings() -> [RacewayGeometry; 2] {
+        let taper = RollerTaper { half_angle: 0.07, outer_raceway_angle: 0.3 };
+        [Cones::NONE, Cones::new(Some(&taper))].map(|cones| RacewayGeometry {
+            pitch_radius: PITCH,
+            roller_radius: 7.5e-3,
+            gap: 0.0,
+            cones,
+        })
+    }
+
+    /// Ribs of a bearing; ends are nearly as round as the ribs of a tapered one.
+    fn rib(bearing: &RacewayGeometry, ring: usize, side: f64) -> RibGeometry {
+        let (end, [angle, height]) = match bearing.cones == Cones::NONE {
+            true => (END, [0.01, 2.5e-3]),
+            false => (EndShape { cap_radius: 0.15, ..END }, [0.0325, 3.5e-3]),
+        };
+        RibGeometry::rib(bearing, end, (ring, side), [angle, height, 50e-6]).unwrap()
+    }
+
+    fn ribs() -> impl Iterator<Item = (RacewayGeometry, RibGeometry, (usize, f64))> {
+        let places = [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)];
+        let of = move |bearing: RacewayGeometry| {
+            places.map(|(ring, side)| (bearing, rib(&bearing, ring, side), (ring, side)))
+        };
+        bearings().into_iter().flat_map(of)
     }
 
     /// Coordinates: x, rho, skew and tilt of the roller; x, r, psi and two angles of the ring.
-    fn touch<T: Real>(rib: &RibGeometry, q: [T; 9], rates: Option<[Vector<T>; 4]>) -> EndTouch<T> {
-        let place = RollerPlace { x: q[0], rho: q[1], axis: Tilt::new([q[2], q[3]]).axis };
+    fn touch<T: Real>(
+        (bearing, rib): (&RacewayGeometry, &RibGeometry),
+        q: [T; 9],
+        rates: Option<[Vector<T>; 4]>,
+    ) -> EndTouch<T> {
+        let axis = bearing.cones.inclination.turned(Tilt::new([q[2], q[3]]).axis);
+        let place = RollerPlace { x: q[0], rho: q[1], axis };
         let still = [[T::constant(0.0); 3]; 4];
         let [velocity, turning, of_ring, ring_turning] = rates.unwrap_or(still);
         let roller = MovingRoller { place, moving: Moving { velocity, turning } };
@@ -255,19 +379,25 @@ mod tests {
     #[test]
     fn forces_are_the_gradient_of_the_approach() {
         let mut seen = Vec::new();
-        for (ring, side) in [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)] {
+        for (bearing, rib, (ring, side)) in ribs() {
             for q in STATES {
                 for sign in [[1.0, 1.0], [-1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]] {
                     let mut q = q;
                     (q[2], q[3]) = (q[2] * sign[0], q[3] * sign[1]);
-                    let rib = rib(ring, side);
-                    let found = touch(&rib, q, None);
-                    seen.push(found.region);
-                    let sloped = touch(&rib, std::array::from_fn(|k| Dual::<9>::variable(q[k], k)), None);
+                    let of = (&bearing, &rib);
+                    let found = touch(of, q, None);
+                    seen.push((bearing.cones == Cones::NONE, found.region));
+                    let sloped = touch(of, std::array::from_fn(|k| Dual::<9>::variable(q[k], k)), None);
                     let [force, moment] = found.spot.normal;
-                    let tilt = Tilt::new([q[2], q[3]]);
+                    let state = RollerState::new(
+                        (0.0, bearing.cones.inclination),
+                        [0.0; 2],
+                        [q[2], q[3]],
+                        [0.0; 6],
+                    );
                     let of_ring = Tilt::new([q[7], q[8]]);
-                    let over_angles = tilt.moments_over_angles(moment);
+                    let [.., skew, tilt, _] = state.over_speeds([[0.0; 3], moment], 0.0);
+                    let over_angles = [skew, tilt];
                     let from_ring = [q[0] - q[4], PITCH + q[1] - q[5], -q[6]];
                     let on_ring = scaled(sum(moment, cross(from_ring, force)), -1.0);
                     let ring_angles = of_ring.moments_over_angles(on_ring);
@@ -291,34 +421,35 @@ mod tests {
                         );
                     }
                     // Nothing turns a body about its own axis.
-                    assert!(dot(moment, tilt.axis).abs() < 1e-15, "{:?}", found.region);
+                    assert!(dot(moment, state.axis).abs() < 1e-15, "{:?}", found.region);
                     assert!(dot(on_ring, of_ring.axis).abs() < 1e-15);
                 }
             }
         }
         for region in [Region::Cap, Region::Rim, Region::Edge, Region::Corner] {
-            assert!(seen.contains(&region), "{region:?}");
+            assert!(seen.contains(&(true, region)) && seen.contains(&(false, region)), "{region:?}");
         }
     }
 
     #[test]
     fn in_the_middle_it_has_half_of_the_play() {
-        let found = touch(&rib(0, 1.0), [0.0; 9], None);
-        assert!(
-            (found.spot.delta + rib(0, 1.0).gap).abs() < 1e-17 && found.region == Region::Cap,
-            "{found:?}"
-        );
+        for (bearing, rib, _) in ribs() {
+            let found = touch((&bearing, &rib), [0.0; 9], None);
+            assert!(
+                (found.spot.delta + rib.gap).abs() < 3e-17 && found.region == Region::Cap,
+                "{found:?}"
+            );
+        }
     }
 
     #[test]
     fn the_approach_is_that_of_the_deepest_point() {
         // The face by brute force against the plane that touches the cone in the meridian of the roller.
-        for (ring, side) in [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)] {
+        for (bearing, rib, (ring, side)) in ribs() {
             for q in STATES {
-                let rib = rib(ring, side);
-                let found = touch(&rib, q, None).spot.delta;
-                let [sin, cos] = rib.angle;
-                let f = rib.outwards;
+                let found = touch((&bearing, &rib), q, None).spot.delta;
+                let Inclination { sin, cos } = rib.angle;
+                let (f, gamma) = (rib.outwards, bearing.cones.inclination);
                 let tilt = Tilt::new([q[2], q[3]]);
                 let b = Tilt::new([q[7], q[8]]).axis;
                 let centre = [q[0], PITCH + q[1], 0.0];
@@ -329,27 +460,31 @@ mod tests {
                 let d = dot(radial, radial).sqrt();
                 let e_n = scaled(radial, 1.0 / d);
                 let normal = sum(scaled(b, side * cos), scaled(e_n, f * sin));
-                let u = tilt.axis;
+                let u = gamma.turned(tilt.axis);
                 let m1 = difference(e_n, scaled(u, dot(e_n, u)));
                 let m1 = scaled(m1, 1.0 / dot(m1, m1).sqrt());
                 let w = cross(u, m1);
                 // The plane touches the undisplaced cap with the gap g_f.
                 let y_n = rib.middle();
-                let at_rest = sin * (f * PITCH + y_n) + cos * (11e-3 - y_n * y_n / (2.0 * 0.6)) + rib.gap;
+                let radii = [rib.end.cap_radius, rib.across_radius];
+                let at_rest = f * sin * PITCH
+                    + rib.opening.sin * y_n
+                    + rib.opening.cos * (11e-3 - y_n * y_n / (2.0 * radii[0]))
+                    + rib.gap;
                 let mut deepest = f64::NEG_INFINITY;
                 let n = 2000;
                 for i in 0..=n {
                     for k in 0..=40 {
                         let (angle, size) = (
                             std::f64::consts::TAU * f64::from(i) / f64::from(n),
-                            6.7e-3 * f64::from(k) / 40.0,
+                            rib.end.face_radius * f64::from(k) / 40.0,
                         );
                         let (y1, y2) = (size * angle.cos(), size * angle.sin());
                         if f * y1 < rib.lowest {
                             continue;
                         }
                         let arm = sum(
-                            scaled(u, side * (11e-3 - size * size / 1.2)),
+                            scaled(u, side * (11e-3 - 0.5 * (y1 * y1 / radii[0] + y2 * y2 / radii[1]))),
                             sum(scaled(m1, y1), scaled(w, y2)),
                         );
                         deepest = deepest.max(dot(normal, sum(from_ring, arm)) - at_rest);
@@ -365,22 +500,23 @@ mod tests {
 
     #[test]
     fn the_approach_speed_is_the_rate_of_the_approach() {
-        for q in STATES {
-            let rib = rib(0, 1.0);
+        for (bearing, rib, q) in ribs().flat_map(|(bearing, rib, _)| STATES.map(|q| (bearing, rib, q))) {
+            let of = (&bearing, &rib);
+            let gamma = bearing.cones.inclination;
             let dq = [0.3, -0.02, 4.0, -3.0, 0.1, 0.2, -0.1, 2.0, 5.0];
             let tilt = Tilt::new([q[2], q[3]]);
             let ring = Tilt::new([q[7], q[8]]);
-            let spin = scaled(tilt.axis, 800.0);
+            let spin = scaled(gamma.turned(tilt.axis), 800.0);
             let of_ring = scaled(ring.axis, -314.0);
             let rates = [
                 [dq[0], dq[1], 0.0],
-                sum(tilt.angular_velocity([dq[2], dq[3]]), spin),
+                sum(gamma.turned(tilt.angular_velocity([dq[2], dq[3]])), spin),
                 [dq[4], dq[5], dq[6]],
                 sum(ring.angular_velocity([dq[7], dq[8]]), of_ring),
             ];
-            let found = touch(&rib, q, Some(rates));
+            let found = touch(of, q, Some(rates));
             let h = 1e-7;
-            let at = |h: f64| touch(&rib, std::array::from_fn(|k| q[k] + h * dq[k]), None).spot.delta;
+            let at = |h: f64| touch(of, std::array::from_fn(|k| q[k] + h * dq[k]), None).spot.delta;
             let rate = (at(h) - at(-h)) / (2.0 * h);
             assert!((found.spot.delta_dot - rate).abs() < 1e-8, "{:?}: {found:?} {rate}", found.region);
             // Speeds differ by the slip.

@@ -51,38 +51,48 @@ pub(crate) fn ends(
         let (ribs, rib) = rib;
         let ring = usize::from(rib.ring == RibRing::Inner);
         let side = usize::from(rib.side == RibSide::Negative);
-        let reach = geometry.roller_radius + geometry.gap;
         let sign = [1.0, -1.0][side];
         let of_rib = [rib.angle, rib.height, ribs.end_play];
-        let found = RibGeometry::rib((geometry.pitch_radius, reach, end), (ring, sign), of_rib);
+        let found = RibGeometry::rib(geometry, end, (ring, sign), of_rib).ok_or_else(|| {
+            bad_scene("rollers.space.ends.cap_radius", "as flat as the rib, or flatter; less than 0.99 of the radius of the rib")
+        })?;
         let material = match rib.ring {
             RibRing::Outer => scene.outer_ring.as_ref().and_then(|ring| ring.material.as_deref()),
             RibRing::Inner => scene.inner_ring.as_ref().and_then(|ring| ring.material.as_deref()),
         };
-        let law = law(&builder.at("ribs.contact"), &ribs.contact, material, found.radius())?;
+        let law = law(&builder.at("ribs.contact"), &ribs.contact, material, found.curvatures(&geometry.cones))?;
         list.push(EndPair { name: RIBS[ring][side], mate: ring, geometry: found, law });
     }
     if let Some(sides) = sides {
         let material = scene.cage.as_ref().and_then(|cage| cage.material.as_deref());
         let builder = builder.at("cage.space.pocket_sides.contact");
         for (name, sign) in SIDES.into_iter().zip([1.0, -1.0]) {
-            let geometry = RibGeometry::pocket_side((geometry.pitch_radius, end), sign, sides.play);
-            let law = law(&builder, &sides.contact, material, geometry.radius())?;
-            list.push(EndPair { name, mate: CAGE, geometry, law });
+            let found = RibGeometry::pocket_side(geometry, end, sign, sides.play);
+            let law = law(&builder, &sides.contact, material, [1.0 / end.cap_radius; 2])?;
+            list.push(EndPair { name, mate: CAGE, geometry: found, law });
         }
     }
     Ok(list)
 }
 
-/// The law of an end on something of this material, with this effective radius (m).
-fn law(builder: &LawBuilder<'_>, laws: &ContactLaws, mate: Option<&str>, radius: f64) -> Result<SpotLaw> {
+/// The law of an end on something of this material, with these curvatures of both together (1/m), the larger one first.
+fn law(
+    builder: &LawBuilder<'_>,
+    laws: &ContactLaws,
+    mate: Option<&str>,
+    curvatures: [f64; 2],
+) -> Result<SpotLaw> {
     let scene = builder.scene();
     let own = scene.rollers.as_ref().map_or("", |rollers| rollers.material.as_str());
     let mate = needed("material", mate, &builder.law("film"))?;
     let (a, b) = (builder.material("rollers.material", own)?, builder.material("cage.material", mate)?);
     let modulus = effective_modulus(a.young_modulus, a.poisson_ratio, b.young_modulus, b.poisson_ratio);
-    let point = ElasticPoint::new(modulus, [1.0 / radius; 2])
-        .ok_or_else(|| bad_scene("rollers.space.ends.cap_radius", "makes no contact of Hertz"))?;
+    let hertz = |curvatures| {
+        ElasticPoint::new(modulus, curvatures)
+            .ok_or_else(|| bad_scene("rollers.space.ends.cap_radius", "makes no contact of Hertz"))
+    };
+    let ellipse = hertz(curvatures)?;
+    let point = hertz([0.5 * (curvatures[0] + curvatures[1]); 2])?;
     let thermal = match laws.thermal_correction {
         None => None,
         Some(scene::ThermalCorrection::Gupta) => Some(builder.thermal_load("thermal_correction")?),
@@ -102,8 +112,7 @@ fn law(builder: &LawBuilder<'_>, laws: &ContactLaws, mate: Option<&str>, radius:
         }
     };
     Ok(SpotLaw::Rib(RibContact {
-        effective_modulus: modulus,
-        radius,
+        elastic: ellipse,
         damping: laws.damping.as_ref().map(NormalDamping::from),
         film,
         traction: builder.traction(laws)?,

@@ -9,8 +9,9 @@ use crate::laws::rib_contact::{EndMotion, RibContact};
 use crate::pairs::contacts::{
     ContactBlock, DIRECTIONS, EDGE_SHARE, FORCES, LawColumns, LawSlopes, NO_MOTION, VISCOSITY,
 };
-use crate::scalar::{Dual, Lanes, Real, WIDEST, ZEROS, blocks_for, place_of};
+use crate::scalar::{Dual, Lanes, Of, Real, WIDEST, ZEROS, blocks_for, place_of};
 use pulp::Arch;
+use std::f64::consts::PI;
 
 /// Square of a slip, m^2/s^2, that is added so that its size has a slope at none.
 const SLIP_FLOOR: f64 = 1e-24;
@@ -45,6 +46,30 @@ impl SpotLaw {
         match self {
             Self::Line(law) => Some(law),
             Self::Solid(_) | Self::Rib(_) => None,
+        }
+    }
+
+    /// Elastic load at this approach (m), N.
+    pub(crate) fn elastic_load<T: Of<f64> + Real>(&self, delta: T) -> T {
+        match self {
+            Self::Line(law) => law.elastic.load(delta),
+            Self::Solid(law) => delta.floored(0.0) * law.stiffness,
+            Self::Rib(law) => law.load(delta),
+        }
+    }
+
+    /// Largest pressure (Pa) and half width or mean radius (m) of Hertz's contact under this load, N; zeros of a spring.
+    pub(crate) fn pressed(&self, load: f64) -> [f64; 2] {
+        match self {
+            Self::Line(law) => {
+                let half_width = law.elastic.half_width(load);
+                [4.0 / PI * law.elastic.mean_pressure(load, half_width), half_width]
+            }
+            Self::Solid(_) => [0.0; 2],
+            Self::Rib(law) => {
+                let [radius, pressure] = law.circle(load);
+                [pressure, radius]
+            }
         }
     }
 

@@ -17,6 +17,7 @@ pub(crate) use slice::OnRaceway;
 
 use super::line_laws::LawBuilder;
 use super::pocket::cylinder;
+use super::raceway::Cones;
 use crate::error::Result;
 use crate::laws::elastic::solid::SolidContact;
 use crate::scene::{Pocket, Scene};
@@ -31,7 +32,8 @@ pub(crate) fn bars(scene: &Scene, viscosity: Option<f64>) -> Result<Option<(Bars
     else {
         return Ok(None);
     };
-    let (pitch, radius) = (scene.pitch_radius(), scene.element_radius());
+    let taper = scene.rollers.as_ref().and_then(|rollers| rollers.space.as_ref()?.taper.as_ref());
+    let (pitch, radius) = (scene.pitch_radius(), (scene.element_radius(), Cones::new(taper)));
     match pocket {
         Pocket::LubricatedCylinder(of) => {
             let law = cylinder::law_of(&LawBuilder::new(scene, viscosity), cage, of)?;

@@ -2,11 +2,11 @@
 //!
 //! ```text
 //! disc at s as in `pairs/raceway/disc`;   k = 1 on the outer raceway, -1 on the inner one
-//! X   = C + R m,   m = k (e_n - g u)/c                            contact point on the rim, the same for both bodies
-//! t   = k e_t,   b the axis of the ring                           t along the raceway
-//! dv  = v_roller(X) - v_ring(X) - (d_mid - d_X) W x e_n,   d_X = d + k R c,   d_mid = d(0) + k (R_b + dR) c(0)
-//! u_1 = R (w x m) . t - R phi',   u_2 = u_1 - dv . t,   phi' = e_t . (V_C - V_O - W x t b)/d
-//! F_R on both at X, along t;   against it 2 F_R a_2/(a_1 + a_2) on the roller at C, the rest on the ring;   a_1 = R, a_2 = -k (d + k R c)
+//! X   = C + R m,   m = (N - G u)/c                                contact point on the rim, the same for both bodies
+//! t   = k e_t,   a = N x t                                        along the raceway, and across that on it; a is b of cylinders
+//! dv  = v_roller(X) - v_ring(X) - (d_mid - d_X) W x e_n,   d_X = d + R m . e_n,   d_mid of s = 0, changed as the cone of the raceway does
+//! u_1 = R (w x m) . t - k R (m . e_n) phi',   u_2 = u_1 - dv . t,   phi' = e_t . (V_C - V_O - W x t b)/d
+//! F_R on both at X, along t;   against it 2 F_R a_2/(a_1 + a_2) on the roller at C, the rest on the ring;   a_1 = R,   a_1 + a_2 = -d/(m . e_n)
 //! ```
 //!
 //! Surface speeds of elastic bodies of like material follow their undeformed radii, so all slices see the ring with the arm of the one in the
@@ -37,7 +37,7 @@ pub(crate) struct OnRaceway<'a, T> {
 /// What all slices of a contact share.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Middle<T> {
-    /// d_mid + the drop of the raceway in the middle with its sign, m.
+    /// d_mid + the drop of the raceway in the middle with its sign, less what the cone of the raceway grows by up to there, m.
     arm: T,
     /// Motion of the roller against the ring, both taken at the centre of the roller.
     pub(crate) passing: Moving<T>,
@@ -65,17 +65,28 @@ impl<T: Of<f64>> OnRaceway<'_, T> {
     where
         T: Real,
     {
-        // The distance from the axis of the ring changes along the roller by the sine of their angle at most.
-        let off = difference(self.roller.place.axis, self.ring.axis).map(T::value);
-        let slope = 1.01 * (off[0] * off[0] + off[1] * off[1] + off[2] * off[2]).sqrt();
+        let cones = &self.geometry.cones;
+        let [of_roller, of_ring] = [
+            difference(self.roller.place.axis.map(T::value), cones.inclination.turned([1.0, 0.0, 0.0])),
+            difference(self.ring.axis.map(T::value), [1.0, 0.0, 0.0]),
+        ];
+        let size = |v: [f64; 3]| dot(v, v).sqrt();
+        // The distance across the raceway changes along the roller by the sine of the angle between roller and ring, as far as they have left
+        // their inclination, at most.
+        let apart = size(difference(of_roller, of_ring));
+        let slope = 1.01 * (apart + cones.inclination.sin.abs() * (size(of_roller) + size(of_ring)));
         middle.delta.value() + slope * (half_length + self.geometry.roller_radius * slope) < 0.0
     }
 
     /// What its slices share, by the straight disc in the middle.
     pub(crate) fn middle(&self, disc: &Disc<T>) -> Middle<T> {
         let k = self.sign();
-        let Self { ring, roller, geometry, .. } = self;
-        let mut arm = disc.distance + disc.cosine * (k * (geometry.roller_radius + self.excess));
+        let Self { ring, roller, side, .. } = self;
+        let geometry = self.geometry;
+        let m = disc.to_rim(roller.place.axis);
+        let radius = geometry.roller_radius + self.excess;
+        let mut arm = disc.distance + dot(m, disc.outward) * radius
+            - (disc.along + dot(m, ring.axis) * radius) * geometry.cones.slopes[*side];
         if let Some(profile) = self.profile {
             let [drop, _] = profile.of_raceway(disc.in_raceway);
             arm += drop * k;
@@ -97,31 +108,34 @@ impl<T: Of<f64>> OnRaceway<'_, T> {
         let k = self.sign();
         let Self { ring, roller, .. } = self;
         let Middle { arm, passing } = middle;
-        let Disc { normal, on_roller, outward, tangent, distance, radius, lean, cosine, .. } = disc;
+        let Disc { normal, on_roller, outward, tangent, distance, radius, .. } = disc;
         let (u, b) = (roller.place.axis, ring.axis);
         let one = s.like(1.0);
-        let direction = scaled(difference(outward, scaled(u, lean)), one.like(k) / cosine);
+        let direction = disc.to_rim(u);
+        let upright = dot(direction, outward);
         let to_centre = scaled(u, s);
         let lever = sum(to_centre, scaled(direction, radius));
         let t = scaled(tangent, one.like(k));
+        let axial = cross(disc.facing, t);
         let unit: UnitWrench<T> = [scaled(normal, one.like(-1.0)), on_roller];
         let along = [t, cross(lever, t)];
-        let across = [b, cross(lever, b)];
+        let across = [axial, cross(lever, axial)];
         let delta_dot = -(dot(unit[0], passing.velocity) + dot(unit[1], passing.turning));
-        let reach = distance + radius * cosine * k;
-        let deeper = *arm - reach - disc.raceway_drop * k;
+        let reach = distance + radius * upright;
+        let grown = (disc.along + radius * dot(direction, b)) * self.geometry.cones.slopes[self.side];
+        let deeper = *arm + grown - reach - disc.raceway_drop * k;
         let mut moving = sum(passing.velocity, cross(passing.turning, lever));
         moving = difference(moving, scaled(cross(ring.moving.turning, outward), deeper));
-        let slip = [dot(moving, t), dot(moving, b)];
+        let slip = [dot(moving, t), dot(moving, axial)];
         // The place of contact goes round with the centre of the disc.
         let of_disc = sum(roller.moving.velocity, cross(roller.moving.turning, to_centre));
-        let by_ring = sum(ring.moving.velocity, cross(ring.moving.turning, scaled(b, disc.in_raceway)));
+        let by_ring = sum(ring.moving.velocity, cross(ring.moving.turning, scaled(b, disc.along)));
         let turning = dot(tangent, difference(of_disc, by_ring)) / distance;
         let rolled = dot(cross(roller.moving.turning, direction), t);
-        let u1 = radius * (rolled - turning);
+        let u1 = radius * (rolled - upright * turning * k);
         let u2 = u1 - slip[0];
-        let arm_2 = reach * -k;
-        let back = arm_2 * 2.0 / (radius + arm_2);
+        // 2 a_2/(a_1 + a_2).
+        let back = radius * upright / distance * 2.0 + 2.0;
         let held = -back + 1.0;
         let rolling = [scaled(t, held), difference(cross(lever, t), scaled(cross(to_centre, t), back))];
         Spot {
@@ -143,10 +157,17 @@ mod tests {
     use super::*;
     use crate::bodies::{ElementMotion, RingState, RollerState};
     use crate::laws::elastic::profile::Logarithm;
-    use crate::pairs::raceway::RingMotion;
+    use crate::pairs::raceway::{Cones, RingMotion};
+    use crate::scene::RollerTaper;
 
     const NU2310: RacewayGeometry =
-        RacewayGeometry { pitch_radius: 39.99e-3, roller_radius: 7.5e-3, gap: 10e-6 };
+        RacewayGeometry { pitch_radius: 39.99e-3, roller_radius: 7.5e-3, gap: 10e-6, cones: Cones::NONE };
+
+    /// The same with tapered rollers.
+    fn tapered() -> RacewayGeometry {
+        let taper = RollerTaper { half_angle: 0.07, outer_raceway_angle: 0.3 };
+        RacewayGeometry { cones: Cones::new(Some(&taper)), ..NU2310 }
+    }
 
     fn profile() -> Profile {
         let logarithm = Logarithm::new(1.5e-6, 0.0204, 0.6, Some(12e-6));
@@ -172,12 +193,12 @@ mod tests {
 
     impl Pose {
         /// After the time `h`, s, seen in the axes of the roller's azimuth.
-        fn at(&self, h: f64) -> (MovingRing<f64>, MovingRoller<f64>) {
+        fn at(&self, bearing: &RacewayGeometry, h: f64) -> (MovingRing<f64>, MovingRoller<f64>) {
             let psi = h * self.roller_rates[2];
             let (sin, cos) = psi.sin_cos();
             let place = |k: usize| self.roller[k] + h * self.roller_rates[k];
-            let state =
-                RollerState::new(39.99e-3, [place(0), place(1)], [place(3), place(4)], self.roller_rates);
+            let base = (39.99e-3, bearing.cones.inclination);
+            let state = RollerState::new(base, [place(0), place(1)], [place(3), place(4)], self.roller_rates);
             let position = std::array::from_fn(|k| self.ring[k] + h * self.ring_rates[k]);
             let ring = RingState { position, rate: self.ring_rates, given: [0.0; 5], speed: self.spin };
             let ring = ring.motion();
@@ -195,11 +216,11 @@ mod tests {
     #[test]
     fn the_approach_speed_is_the_rate_of_the_approach() {
         let profile = profile();
-        for side in [0, 1] {
+        for (geometry, side) in [NU2310, tapered()].iter().flat_map(|of| [(of, 0), (of, 1)]) {
             for s in [-9e-3, -2e-3, 0.0, 7e-3] {
                 let on = |h: f64| {
-                    let (ring, roller) = POSE.at(h);
-                    OnRaceway { geometry: &NU2310, profile: Some(&profile), side, ring, roller, excess: 2e-7 }
+                    let (ring, roller) = POSE.at(geometry, h);
+                    OnRaceway { geometry, profile: Some(&profile), side, ring, roller, excess: 2e-7 }
                 };
                 let h = 1e-7;
                 let rate = (on(h).disc(s).delta - on(-h).disc(s).delta) / (2.0 * h);
@@ -213,9 +234,9 @@ mod tests {
     #[test]
     fn rolling_resistance_has_the_power_of_both_surfaces() {
         // No force is left over: what acts on the ring is the opposite of what acts on the roller.
-        let (ring, roller) = POSE.at(0.0);
-        for side in [0, 1] {
-            let on = OnRaceway { geometry: &NU2310, profile: None, side, ring, roller, excess: 0.0 };
+        for (geometry, side) in [NU2310, tapered()].iter().flat_map(|of| [(of, 0), (of, 1)]) {
+            let (ring, roller) = POSE.at(geometry, 0.0);
+            let on = OnRaceway { geometry, profile: None, side, ring, roller, excess: 0.0 };
             let middle = on.middle(&on.straight(0.0));
             let spot = on.spot(&middle, 3e-3);
             let power =
@@ -234,7 +255,7 @@ mod tests {
             ring_rates: [0.0, 0.2, -0.1, 0.0, 0.0],
             ..POSE
         };
-        let (ring, roller) = still.at(0.0);
+        let (ring, roller) = still.at(&NU2310, 0.0);
         let plane = ElementMotion {
             radial_offset: 5e-6,
             radial_speed: -0.02,

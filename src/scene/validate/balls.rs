@@ -186,7 +186,7 @@ impl Scene {
         if self.balls.is_none() && self.rollers.is_none() && !judge.excuses("balls") {
             return judge.refuse("inner_ring.motion.space", "needs 'balls' or 'rollers'; write 'fixed'");
         }
-        if self.rollers.is_some() && ring.x == RingCoordinate::Free && !self.has_ribs_on_both_rings() {
+        if self.rollers.is_some() && ring.x == RingCoordinate::Free && !self.rollers_hold_along() {
             let text = "cylindrical rollers do not hold the ring along its axis without ribs on both rings; write '{\"held\": 0}'";
             judge.refuse(&at("x"), text)?;
         }

@@ -6,6 +6,9 @@ use super::*;
 const SLICES: std::ops::RangeInclusive<u32> = 2..=32;
 const END_PLAY: Range = range(1e-7, 1e-2, "m");
 const RIB_ANGLE: Range = range(0.0, 0.2, "rad");
+const HALF_ANGLE: Range = range(1e-4, 0.2, "rad");
+/// Largest angle of a raceway, rad.
+const RACEWAY_ANGLE: f64 = 0.9;
 const CAP: Range = range(1e-3, 50.0, "m");
 
 impl Scene {
@@ -22,10 +25,25 @@ impl Scene {
         let thin = rollers.mass * space.length * space.length;
         let inertia = range(0.5 * rollers.inertia, rollers.inertia + thin, "kg m^2");
         judge.optional(&at("transverse_inertia"), space.transverse_inertia, inertia)?;
+        if let Some(taper) = &space.taper {
+            let at = |field: &str| at(&format!("taper.{field}"));
+            judge.number(&at("half_angle"), taper.half_angle, HALF_ANGLE)?;
+            let angle = range(2.0 * taper.half_angle, RACEWAY_ANGLE, "rad");
+            judge.number(&at("outer_raceway_angle"), taper.outer_raceway_angle, angle)?;
+        }
+        // From the middle to an end.
+        let grown = 0.5 * space.length * space.growth();
+        if grown >= 0.5 * rollers.radius {
+            let text = format!(
+                "the small ends are {} m in radius; at least half of 'rollers.radius'",
+                shown(rollers.radius - grown)
+            );
+            judge.refuse("rollers.space.taper.half_angle", text)?;
+        }
         if let Some(ends) = &space.ends {
             let cap = range(CAP.min.max(rollers.radius), CAP.max, "m; flat ends are caps of 10 to 50 m");
             judge.number(&at("ends.cap_radius"), ends.cap_radius, cap)?;
-            judge.number(&at("ends.face_radius"), ends.face_radius, range(1e-5, rollers.radius, "m"))?;
+            judge.number(&at("ends.face_radius"), ends.face_radius, range(1e-5 + 2.0 * grown, rollers.radius + grown, "m"))?;
         }
         if let Some(slices) = self.raceways.as_ref().and_then(|raceways| raceways.slices)
             && !SLICES.contains(&slices)
@@ -61,11 +79,12 @@ impl Scene {
             let at = |field: &str| format!("ribs.list.{k}.{field}");
             judge.number(&at("angle"), rib.angle, RIB_ANGLE)?;
             judge.number(&at("height"), rib.height, range(1e-5, rollers.radius, "m"))?;
-            if rib.height <= rollers.radius - ends.face_radius {
+            let chamfer = rollers.radius + 0.5 * space.length * space.growth() - ends.face_radius;
+            if rib.height <= chamfer {
                 let text = format!(
                     "{:?} m reaches no face: the ends begin {} m from the raceway; more than that",
                     rib.height,
-                    shown(rollers.radius - ends.face_radius)
+                    shown(chamfer)
                 );
                 judge.refuse(&at("height"), text)?;
             }
@@ -77,8 +96,11 @@ impl Scene {
         Ok(())
     }
 
-    /// Whether ribs hold the inner ring along the axis by rollers that the outer ring holds.
-    pub(super) fn has_ribs_on_both_rings(&self) -> bool {
+    /// Whether rollers hold the inner ring along the axis: by ribs of both rings, or by their cones.
+    pub(super) fn rollers_hold_along(&self) -> bool {
+        if self.rollers.as_ref().and_then(|rollers| rollers.space.as_ref()?.taper).is_some() {
+            return true;
+        }
         let on = |ring: RibRing| self.ribs.iter().flat_map(|ribs| &ribs.list).any(|rib| rib.ring == ring);
         on(RibRing::Outer) && on(RibRing::Inner)
     }

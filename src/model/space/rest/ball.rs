@@ -16,7 +16,7 @@ use crate::laws::elastic::point::ElasticPoint;
 use crate::pairs::groove::{Groove, RingPlace, Touch};
 use crate::scalar::{Dual, Of, math};
 use crate::space::solid::{Tilt, Vector, cross, dot, scaled, sum};
-use nalgebra::{SMatrix, SVector};
+use nalgebra::{DMatrix, SMatrix, SVector};
 
 /// What keeps balls from turning about the normals of their contacts, and gives them their gyroscopic moment.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -134,15 +134,26 @@ pub(super) struct OnRing {
     pub(super) energy: f64,
 }
 
-/// What an element does to the ring from a place of rest, by the forces on both over its two coordinates, which come first, and those of the
-/// ring.
-pub(super) fn following(on_element: &[Dual<ALL>; 2], on_ring: &[Dual<ALL>; OF_RING], energy: f64) -> OnRing {
-    let own = SMatrix::<f64, 2, 2>::from_fn(|i, k| -on_element[i].eps[k]);
-    let by_ring = SMatrix::<f64, 2, OF_RING>::from_fn(|i, k| on_element[i].eps[2 + k]);
-    let of_element = SMatrix::<f64, OF_RING, 2>::from_fn(|i, k| on_ring[i].eps[k]);
-    let direct = SMatrix::<f64, OF_RING, OF_RING>::from_fn(|i, k| -on_ring[i].eps[2 + k]);
+/// What an element does to the ring from a place of rest, by the forces on both over its coordinates, which come first, and those of the
+/// ring; a stiffness of `least` (N/m) holds it where nothing does.
+pub(super) fn following<const N: usize, const ALL: usize>(
+    on_element: &[Dual<ALL>; N],
+    on_ring: &[Dual<ALL>; OF_RING],
+    energy: f64,
+    least: f64,
+) -> OnRing {
+    let own = SMatrix::<f64, N, N>::from_fn(|i, k| {
+        -on_element[i].eps[k] + if i == k { least } else { 0.0 }
+    });
+    let by_ring = SMatrix::<f64, N, OF_RING>::from_fn(|i, k| on_element[i].eps[N + k]);
+    let of_element = SMatrix::<f64, OF_RING, N>::from_fn(|i, k| on_ring[i].eps[k]);
+    let direct = SMatrix::<f64, OF_RING, OF_RING>::from_fn(|i, k| -on_ring[i].eps[N + k]);
     // An element that nothing touches does not follow.
-    let follows = own.lu().solve(&by_ring).unwrap_or_else(SMatrix::zeros);
+    let own = DMatrix::from_column_slice(N, N, own.as_slice());
+    let by_ring = DMatrix::from_column_slice(N, OF_RING, by_ring.as_slice());
+    let follows = own.lu().solve(&by_ring).map_or_else(SMatrix::zeros, |found| {
+        SMatrix::<f64, N, OF_RING>::from_column_slice(found.as_slice())
+    });
     let force = SVector::from(on_ring.map(|force| force.re));
     OnRing { force, stiffness: direct - of_element * follows, energy }
 }
@@ -305,6 +316,6 @@ impl Ball<'_> {
     pub(super) fn on_ring(&self, at: [f64; 2], ring: [f64; OF_RING]) -> OnRing {
         let forces = self.slopes(at, ring);
         let energy = self.energy(at, forces.outside.map(|force| force.re), &forces);
-        following(&forces.on_ball, &forces.on_ring, energy)
+        following(&forces.on_ball, &forces.on_ring, energy, 0.0)
     }
 }

@@ -1,18 +1,18 @@
 //! Rollers at rest beside a ring that shifts and tilts: each yields along its radius and tilts with the ring.
 //!
 //! ```text
-//! y = (rho, a tau),   a = l/2
-//! Sum Q f_r + m psi'^2 r = 0,   Sum Q m_psi = 0   over the slices of both raceways
+//! y = (x, rho, a tau),   a = l/2
+//! Sum Q f_x = 0,   Sum Q f_r + m psi'^2 r = 0,   Sum Q m_psi = 0   over the slices of both raceways and the ribs
 //! ```
 //!
-//! Rollers stay in the middle along the axis and do not skew: raceways hold them in neither direction, which ribs, pockets and friction do. They
-//! go round with the speed that they roll at; their weight is left out, as in the plane.
+//! Rollers do not skew: raceways do not hold them, which ribs, pockets and friction do. Along the axis cylinders are held by ribs alone, and stay in the middle
+//! without these. They go round with the speed that they roll at; their weight is left out, as in the plane.
 
 use super::OF_RING;
-use super::ball::{ALL, OnRing, following};
+use super::ball::{OnRing, following};
 use super::ring::{RingAtRest, SettledRing, beside};
 use super::settle::{Balance, Rest, settle};
-use crate::bodies::{ElementSet, RingInSpace, RollerPlace};
+use crate::bodies::{CAGE as RINGS, ElementSet, MovingRing, MovingRoller, RingInSpace, RollerPlace};
 use crate::error::{Error, Result, Status};
 use crate::laws::elastic::profile::Profile;
 use crate::laws::elastic::tilted::{Along, Slice};
@@ -20,15 +20,29 @@ use crate::laws::line_contact::LineContact;
 use crate::model::HostInputs;
 use crate::model::plane::{Plane, StillBearing};
 use crate::pairs::groove::RingPlace;
-use crate::pairs::raceway::{Disc, RacewayGeometry};
-use crate::scalar::{Dual, Of, math};
-use crate::space::solid::{LARGEST_TILT, Tilt, cross, difference, scaled, sum};
+use crate::pairs::raceway::{Cones, Disc, RacewayGeometry};
+use crate::pairs::roller::{EndPair, Spot, SpotLaw, UnitWrench};
+use crate::scalar::{Dual, Of, Real, math};
+use crate::space::solid::{LARGEST_TILT, Moving, Tilt, cross, difference, scaled, sum};
 use nalgebra::{Matrix5, SMatrix, SVector, Vector5};
 
-/// What a roller yields by: rho and a tau, m.
-const OF_ROLLER: usize = 2;
+/// What a roller yields by: x, rho and a tau, m.
+const OF_ROLLER: usize = 3;
+/// With the coordinates of the ring.
+const ALL: usize = OF_ROLLER + OF_RING;
+/// Share of the stiffness of a lightly pressed contact along the axis that holds a roller between ribs that it does not touch, where it follows the ring.
+const BETWEEN_RIBS: f64 = 1e-9;
 /// Load of a lightly pressed contact, N.
 const LIGHTLY: f64 = 1.0;
+
+/// Ring `k` where the inner one is at `ring`, in the axes of the roller.
+fn ring_at<T: Of<f64>>(k: usize, ring: [T; OF_RING]) -> RingPlace<T> {
+    let zero = ring[0].like(0.0);
+    match k {
+        0 => RingPlace { centre: [zero; 3], axis: [zero.like(1.0), zero, zero] },
+        _ => RingPlace { centre: [ring[0], ring[1], ring[2]], axis: Tilt::new([ring[3], ring[4]]).axis },
+    }
+}
 
 /// A raceway along a roller.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,9 +55,19 @@ pub(crate) struct OnRaceway<T> {
     pub(crate) loaded: f64,
 }
 
+/// An end on a rib.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct OnRib<T> {
+    /// delta, m, and Q, N.
+    pub(crate) approach: T,
+    pub(crate) load: T,
+    /// On the roller about the axis along the orbit, N m.
+    pub(crate) moment: T,
+}
+
 /// Forces at one place of roller and ring.
 struct Forces<T> {
-    /// Over rho and a tau, N.
+    /// Over x, rho and a tau, N.
     on_roller: [T; OF_ROLLER],
     /// On the ring over its coordinates, N and N m.
     on_ring: [T; OF_RING],
@@ -83,6 +107,8 @@ pub(crate) struct Rollers<'a> {
     laws: [&'a LineContact; 2],
     /// By how much each radius is larger than nominal, m.
     excess: &'a [f64],
+    /// What holds their ends.
+    ends: &'a [EndPair],
     pub(crate) azimuths: Vec<f64>,
     /// On each, N.
     centrifugal: f64,
@@ -92,14 +118,15 @@ pub(crate) struct Rollers<'a> {
 pub(crate) struct SettledRollers<'a> {
     pub(crate) rollers: Rollers<'a>,
     pub(crate) ring: SettledRing,
-    /// rho and a tau of each, m.
+    /// x, rho and a tau of each, m.
     pub(crate) places: Vec<[f64; OF_ROLLER]>,
 }
 
 impl SettledRollers<'_> {
-    /// rho (m) and tau (rad) of roller `j`.
+    /// x and rho (m) and tau (rad) of roller `j`.
     pub(crate) fn place(&self, j: usize) -> [f64; OF_ROLLER] {
-        [self.places[j][0], self.places[j][1] / self.rollers.half_length()]
+        let [x, rho, tilted] = self.places[j];
+        [x, rho, tilted / self.rollers.half_length()]
     }
 }
 
@@ -121,15 +148,33 @@ impl Rollers<'_> {
         at: [T; OF_ROLLER],
         ring: [T; OF_RING],
     ) -> Contact<'_, T> {
-        let zero = at[0].like(0.0);
-        let tilt = at[1] / self.half_length();
-        let roller = RollerPlace { x: zero, rho: at[0], axis: Tilt::new([zero, tilt]).axis };
-        let place = match k {
-            0 => RingPlace { centre: [zero; 3], axis: [zero.like(1.0), zero, zero] },
-            _ => RingPlace { centre: [ring[0], ring[1], ring[2]], axis: Tilt::new([ring[3], ring[4]]).axis },
-        };
         let profile = self.laws[k].profile.as_ref();
-        Contact { geometry: &self.geometry, profile, excess: self.excess[j], roller, ring: (k, place) }
+        let (roller, ring) = (self.roller(at), (k, ring_at(k, ring)));
+        Contact { geometry: &self.geometry, profile, excess: self.excess[j], roller, ring }
+    }
+
+    /// A roller at `at`.
+    fn roller<T: Of<f64>>(&self, [x, rho, tilted]: [T; OF_ROLLER]) -> RollerPlace<T> {
+        let tilt = Tilt::new([x.like(0.0), tilted / self.half_length()]);
+        RollerPlace { x, rho, axis: self.geometry.cones.inclination.turned(tilt.axis) }
+    }
+
+    /// Ends on ribs: the ring, the law's load, and the unit wrench on the roller.
+    fn on_ribs<T: Of<f64> + Real>(
+        &self,
+        at: [T; OF_ROLLER],
+        ring: [T; OF_RING],
+    ) -> impl Iterator<Item = (usize, OnRib<T>, UnitWrench<T>, &SpotLaw)> {
+        let still = |at: T| Moving { velocity: [at.like(0.0); 3], turning: [at.like(0.0); 3] };
+        let roller = MovingRoller { place: self.roller(at), moving: still(at[0]) };
+        self.ends.iter().filter(|end| end.mate < RINGS).map(move |end| {
+            let RingPlace { centre, axis } = ring_at(end.mate, ring);
+            let mate = MovingRing { centre, axis, moving: still(at[0]), speed: at[0].like(0.0) };
+            let Spot { delta, normal, .. } = end.geometry.touch(&roller, &mate).spot;
+            let load = end.law.elastic_load(delta);
+            let moment = normal[1][2] * load;
+            (end.mate, OnRib { approach: delta, load, moment }, normal, &end.law)
+        })
     }
 
     /// Slices of the loaded part of raceway `k` along roller `j`.
@@ -149,7 +194,7 @@ impl Rollers<'_> {
     }
 
     /// Forces with these slices of both raceways.
-    fn forces<T: Of<f64>>(
+    fn forces<T: Of<f64> + Real>(
         &self,
         j: usize,
         at: [T; OF_ROLLER],
@@ -159,13 +204,13 @@ impl Rollers<'_> {
         let zero = at[0].like(0.0);
         let none = OnRaceway { load: zero, moment: zero, loaded: 0.0 };
         let mut out = Forces {
-            on_roller: [zero + self.centrifugal, zero],
+            on_roller: [zero, zero + self.centrifugal, zero],
             on_ring: [zero; OF_RING],
             raceways: [none; 2],
             energy: 0.0,
         };
         let from_ring =
-            difference([zero, at[0] + self.geometry.pitch_radius, zero], [ring[0], ring[1], ring[2]]);
+            difference([at[0], at[1] + self.geometry.pitch_radius, zero], [ring[0], ring[1], ring[2]]);
         let (mut pushed, mut turned) = ([zero; 3], [zero; 3]);
         for (k, (law, slices)) in self.laws.into_iter().zip(slices).enumerate() {
             let contact = self.contact(j, k, at, ring);
@@ -177,7 +222,9 @@ impl Rollers<'_> {
                 on_raceway.loaded += slice.share;
                 on_raceway.load += load;
                 on_raceway.moment += moment[2];
-                out.on_roller[0] -= load * disc.normal[1];
+                for i in 0..2 {
+                    out.on_roller[i] -= load * disc.normal[i];
+                }
                 // Palmgren's law: the energy at the approach delta is 9/19 Q delta.
                 out.energy += load.base() * disc.delta.base() * (9.0 / 19.0);
                 if k == 1 {
@@ -187,8 +234,24 @@ impl Rollers<'_> {
                 }
             }
         }
-        let moments = out.raceways[0].moment + out.raceways[1].moment;
-        out.on_roller[1] = moments / self.half_length();
+        let mut moments = out.raceways[0].moment + out.raceways[1].moment;
+        for (mate, on_rib, [force, moment], law) in self.on_ribs(at, ring) {
+            for i in 0..2 {
+                out.on_roller[i] += on_rib.load * force[i];
+            }
+            moments += on_rib.moment;
+            out.energy += law.energy(on_rib.approach.base());
+            if mate == 1 {
+                let (force, moment) = (scaled(force, -on_rib.load), scaled(moment, on_rib.load));
+                let about_ring = difference(cross(from_ring, force), moment);
+                (pushed, turned) = (sum(pushed, force), sum(turned, about_ring));
+            }
+        }
+        out.on_roller[2] = moments / self.half_length();
+        if !self.held_along() {
+            // Nothing tells where it is along the axis: it stays there.
+            out.on_roller[0] = -(at[0] * self.laws[0].elastic.stiffness_at_load(LIGHTLY));
+        }
         let [over_r, over_psi] = Tilt::new([ring[3], ring[4]]).moments_over_angles(turned);
         out.on_ring = [pushed[0], pushed[1], pushed[2], over_r, over_psi];
         out
@@ -205,7 +268,7 @@ impl Rollers<'_> {
 
     /// Energy that falls along the forces on the roller, J.
     fn energy(&self, at: [f64; OF_ROLLER], forces: &Forces<Dual<ALL>>) -> f64 {
-        forces.energy - self.centrifugal * at[0]
+        forces.energy - self.centrifugal * at[1]
     }
 
     /// Where roller `j` rests beside a ring at these coordinates in its axes; `None` where it finds none.
@@ -213,11 +276,12 @@ impl Rollers<'_> {
         let gap = self.geometry.gap - self.excess[j];
         let outside = gap + self.laws[0].approach(self.centrifugal);
         // In the middle of what the ring leaves.
-        let start = SVector::from([outside.max(0.5 * ring[1]), 0.5 * ring[4] * self.half_length()]);
+        let along = if self.held_along() { 0.5 * ring[0] } else { 0.0 };
+        let start = SVector::from([along, outside.max(0.5 * ring[1]), 0.5 * ring[4] * self.half_length()]);
         let soft = 1e-3 * self.laws[0].elastic.stiffness_at_load(LIGHTLY);
         let found = settle(start, soft, &mut |at| {
-            let tilt = at[1].abs() / self.half_length();
-            if at[0].abs() > self.geometry.roller_radius || tilt > LARGEST_TILT {
+            let tilt = at[2].abs() / self.half_length();
+            if at[0].abs().max(at[1].abs()) > self.geometry.roller_radius || tilt > LARGEST_TILT {
                 return None;
             }
             let forces = self.slopes(j, (*at).into(), ring);
@@ -231,7 +295,7 @@ impl Rollers<'_> {
         found.ok().map(|rest| rest.x.into())
     }
 
-    /// rho (m) and a tau (m) of all rollers at rest beside a ring at these coordinates; `None` where one finds none.
+    /// x, rho and a tau (m) of all rollers at rest beside a ring at these coordinates; `None` where one finds none.
     fn places(&self, ring: &Vector5<f64>) -> Option<Vec<[f64; OF_ROLLER]>> {
         (0..self.azimuths.len()).map(|j| self.rest(j, (self.beside(j) * ring).into())).collect()
     }
@@ -240,11 +304,16 @@ impl Rollers<'_> {
     fn on_ring(&self, ring: &Vector5<f64>, places: &[[f64; OF_ROLLER]]) -> Balance<OF_RING> {
         let mut total =
             Balance { force: Vector5::zeros(), stiffness: Matrix5::zeros(), energy: 0.0, size: 0.0 };
+        let least = if self.held_along() {
+            BETWEEN_RIBS * self.laws[0].elastic.stiffness_at_load(LIGHTLY)
+        } else {
+            0.0
+        };
         for (j, at) in places.iter().enumerate() {
             let turned = self.beside(j);
             let forces = self.slopes(j, *at, (turned * ring).into());
             let energy = self.energy(*at, &forces);
-            let OnRing { force, stiffness, energy } = following(&forces.on_roller, &forces.on_ring, energy);
+            let OnRing { force, stiffness, energy } = following(&forces.on_roller, &forces.on_ring, energy, least);
             total.force += turned.transpose() * force;
             total.stiffness += turned.transpose() * stiffness * turned;
             total.energy += energy;
@@ -277,6 +346,27 @@ impl Rollers<'_> {
         self.contact(j, k, at, (self.beside(j) * ring).into()).disc(s).delta
     }
 
+    /// Ends of a roller at `at` beside a ring at `ring` in its axes on the ribs of both rings, each with its name and largest pressure (Pa) and mean radius
+    /// (m) of the contact.
+    pub(crate) fn ribs(
+        &self,
+        j: usize,
+        at: [f64; OF_ROLLER],
+        ring: &Vector5<f64>,
+    ) -> Vec<(&'static str, OnRib<f64>, [f64; 2])> {
+        let ring = (self.beside(j) * ring).into();
+        let names = self.ends.iter().filter(|end| end.mate < RINGS).map(|end| end.name);
+        let told = |(_, on_rib, _, law): (usize, OnRib<f64>, UnitWrench<f64>, &SpotLaw)| {
+            (on_rib, if on_rib.load > 0.0 { law.pressed(on_rib.load) } else { [0.0; 2] })
+        };
+        names.zip(self.on_ribs(at, ring).map(told)).map(|(name, (on_rib, pressed))| (name, on_rib, pressed)).collect()
+    }
+
+    /// Whether anything holds rollers along the axis.
+    fn held_along(&self) -> bool {
+        self.geometry.cones != Cones::NONE || self.ends.iter().any(|end| end.mate < RINGS)
+    }
+
     /// Laws of raceway `k`.
     pub(crate) fn law(&self, k: usize) -> &LineContact {
         self.laws[k]
@@ -290,22 +380,22 @@ impl Rollers<'_> {
 pub(crate) fn settled_rollers(plane: &Plane, orbit: f64) -> Result<SettledRollers<'_>> {
     let still = StillBearing::new(plane, orbit)
         .ok_or_else(|| Error::new(Status::BadScene, "raceways: missing; nothing presses on the rollers"))?;
-    let rollers = Rollers::new(still.geometry, still.laws, plane.elements.set(), still.centrifugal);
+    let rollers = Rollers::new(still.geometry, (still.laws, &[]), plane.elements.set(), still.centrifugal);
     let body = RingInSpace::new(&plane.scene);
     let inputs = plane.inputs.at(0.0, &HostInputs::default());
     rollers.settled(&body, body.load(&inputs))
 }
 
 impl<'a> Rollers<'a> {
-    /// Rollers of this set between raceways with these laws, under this centrifugal force, N.
+    /// Rollers of this set between raceways with these laws and what holds their ends, under this centrifugal force, N.
     pub(in crate::model::space) fn new(
         geometry: RacewayGeometry,
-        laws: [&'a LineContact; 2],
+        (laws, ends): ([&'a LineContact; 2], &'a [EndPair]),
         set: &'a ElementSet,
         centrifugal: f64,
     ) -> Self {
         let (excess, azimuths) = (&set.radius_excess[..], set.reference_angles[..set.count].to_vec());
-        Self { geometry, laws, excess, azimuths, centrifugal }
+        Self { geometry, laws, excess, ends, azimuths, centrifugal }
     }
 
     /// These at rest beside this ring under this load, N and N m.

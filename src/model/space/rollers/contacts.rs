@@ -1,7 +1,7 @@
 //! Touching places of rollers at a state, and their sums.
 
 use super::{added, on_mate};
-use crate::bodies::{CAGE, ForceSource, OF_ROLLER, Power, RollerState};
+use crate::bodies::{CAGE, ForceSource, Inclination, OF_ROLLER, Power, RollerState};
 use crate::laws::elastic::loaded::Loaded;
 use crate::laws::elastic::tilted::Slice;
 use crate::pairs::roller::{SliceLaws, Spot, SpotForces, SpotLaw, UnitWrench};
@@ -193,7 +193,7 @@ impl RollerMemory {
     }
 
     pub(super) fn new(count: usize, slices: usize, laws: &[SpotLaw]) -> Self {
-        let state = RollerState::new(1.0, [0.0; 2], [0.0; 2], [0.0; OF_ROLLER]);
+        let state = RollerState::new((1.0, Inclination::NONE), [0.0; 2], [0.0; 2], [0.0; OF_ROLLER]);
         let still = OneRoller { state, direction: [1.0, 0.0], travel: 0.0, forces: [0.0; OF_ROLLER] };
         Self {
             rollers: vec![still; count],
@@ -278,7 +278,7 @@ impl RollerMemory {
         }
         for contact in contacts.iter_mut() {
             let roller = &mut rollers[contact.roller];
-            let axis = roller.state.tilt.axis;
+            let axis = roller.state.axis;
             let [mut normal, mut friction, mut rolling] = [[[0.0; 3]; 2]; PARTS];
             for Node { spot, force, .. } in &nodes[contact.first..contact.last] {
                 add_scaled(&mut normal, &spot.normal, force.normal);

@@ -141,7 +141,7 @@ impl Space {
             if angle > LARGEST_TILT {
                 return Err(Fault::AskewRoller { roller: j, angle });
             }
-            let state = RollerState::new(pitch, [at(0), at(1)], [at(3), at(4)], speeds);
+            let state = RollerState::new((pitch, rollers.body.inclination), [at(0), at(1)], [at(3), at(4)], speeds);
             let (sin, cos) = math::sin_cos(self.set.reference_angles[j] + at(2));
             let roller = &mut ws.rollers.rollers[j];
             (roller.state, roller.direction, roller.travel) = (state, [cos, sin], at(2));
@@ -271,7 +271,7 @@ impl Space {
                     from_mate,
                     Loaded::whole(a),
                 );
-                memory.open(Contact { bent: bent.map(|_| [place.axes[1], place.axes[2]]), ..contact });
+                memory.open(Contact { bent: bent.map(|_| place.displaced), ..contact });
                 for i in 0..memory.found.len() {
                     let slice = memory.found[i];
                     let drop = profile.map_or(0.0, |profile| profile.of_roller(slice.place));

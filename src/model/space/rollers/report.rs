@@ -275,7 +275,7 @@ impl Space {
         let l = cross(n, t);
         // From the centre of the roller to the middle of the load.
         let middle = mean(&|node| node.slice.place);
-        let to_contact = sum(scaled(of.state.tilt.axis, middle), scaled(n, self.set.radius));
+        let to_contact = sum(scaled(of.state.axis, middle), scaled(n, self.set.radius));
         let [force, moment] = contact.on_roller();
         let couple = difference(moment, cross(to_contact, force));
         let turning = contact.passing.turning;

@@ -113,7 +113,7 @@ impl Space {
         rates: (&InputValues, f64),
         slopes: &mut Slopes,
     ) {
-        let (state, direction) = self.varied_roller(pass, ws, contact.roller);
+        let (state, direction) = self.varied_roller(rollers, pass, ws, contact.roller);
         let OnBoth { on_roller: on, from_mate, over_bending } =
             self.varied_contact(rollers, ws, (contact, pass), rates, &state, direction);
         let forces = state.over_speeds([on.force, on.moment], on.own);
@@ -128,7 +128,13 @@ impl Space {
     }
 
     /// Roller `j` over its coordinates, and the direction of its azimuth.
-    fn varied_roller(&self, pass: Pass, ws: &Workspace, j: usize) -> (RollerState<Varied>, [Varied; 2]) {
+    fn varied_roller(
+        &self,
+        rollers: &RollersOfScene,
+        pass: Pass,
+        ws: &Workspace,
+        j: usize,
+    ) -> (RollerState<Varied>, [Varied; 2]) {
         let of = &ws.rollers.rollers[j];
         let variable = |x: f64, k: usize| pass.variable(x, k);
         let [cos, sin] = of.direction;
@@ -136,7 +142,7 @@ impl Space {
         let at = [variable(of.state.at[0], 0), variable(of.state.at[1], 1)];
         let angles = [variable(of.state.angles[0], 3), variable(of.state.angles[1], 4)];
         let speeds = std::array::from_fn(|k| variable(of.state.speeds[k], SPEEDS + k));
-        (RollerState::new(self.set.pitch_radius, at, angles, speeds), direction)
+        (RollerState::new((self.set.pitch_radius, rollers.body.inclination), at, angles, speeds), direction)
     }
 
     /// A ring over its coordinates, in the axes of this direction.
@@ -196,7 +202,7 @@ impl Space {
                 let touch = end.geometry.touch(&state.motion(), &ring);
                 if let Some(force) = end.law.alone(&touch.spot, ln_viscosity) {
                     let forces = [force.normal, force.secant, force.rolling];
-                    on_roller.add(&touch.spot, forces, state.tilt.axis);
+                    on_roller.add(&touch.spot, forces, state.axis);
                 }
                 let [cx, cr, ct] = ring.centre;
                 let from_mate = [state.at[0] - cx, state.r - cr, -ct];
@@ -220,7 +226,7 @@ impl Space {
             let spot = on.spot(&middle, s);
             if let Some(slices) = &ws.rollers.laws[side] {
                 let forces = slices.varied(node.row, &spot, ln_viscosity);
-                on_roller.add(&spot, forces.map(|force| force * share), state.tilt.axis);
+                on_roller.add(&spot, forces.map(|force| force * share), state.axis);
             }
         }
         let [x, rho] = state.at;
@@ -266,12 +272,12 @@ impl Space {
                 },
             };
             let share = node.slice.share;
-            out.on_roller.add(&spot, forces.map(|force| force * share), state.tilt.axis);
+            out.on_roller.add(&spot, forces.map(|force| force * share), state.axis);
         }
         let centre = local(cage.centre, direction);
         out.from_mate = [state.at[0] - centre[0], state.r - centre[1], -centre[2]];
         if bent.is_some() {
-            out.over_bending = [1, 2].map(|k| -dot(place.axes[k], out.on_roller.force));
+            out.over_bending = place.displaced.map(|axis| -dot(axis, out.on_roller.force));
         }
         out
     }
@@ -290,7 +296,7 @@ impl Space {
         let at = [Own::lift(of.state.at[0]), variable(of.state.at[1], 0)];
         let angles = [variable(of.state.angles[0], 2), variable(of.state.angles[1], 3)];
         let speeds = std::array::from_fn(|k| variable(of.state.speeds[k], 4 + k));
-        let state = RollerState::new(self.set.pitch_radius, at, angles, speeds);
+        let state = RollerState::new((self.set.pitch_radius, rollers.body.inclination), at, angles, speeds);
         let ([cos, sin], [gy, gz]) = (of.direction, self.gravity);
         let [outwards, ahead] = [gy * cos + gz * sin, gz * cos - gy * sin];
         let mut gravity = [Own::lift(outwards), Own::lift(ahead)];

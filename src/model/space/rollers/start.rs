@@ -6,7 +6,7 @@ use super::RollersOfScene;
 use crate::bodies::{Input, InputValues, OF_ROLLER, ORBIT, RingInSpace, SPIN};
 use crate::error::Result;
 use crate::model::HostInputs;
-use crate::pairs::raceway::RacewayGeometry;
+use crate::pairs::raceway::{Cones, RacewayGeometry};
 use crate::scalar::math;
 use crate::scene::RingStart;
 
@@ -16,9 +16,9 @@ const STRIBECK: f64 = 4.1;
 impl RollersOfScene {
     /// Orbit speed without slip per speed of outer and inner ring, of a roller that touches the outer raceway.
     fn orbit_ratios(&self) -> [f64; 2] {
-        let RacewayGeometry { pitch_radius, roller_radius, gap } = self.geometry;
-        let centre = pitch_radius + gap;
-        [centre + roller_radius, pitch_radius - roller_radius - gap].map(|raceway| raceway / (2.0 * centre))
+        let RacewayGeometry { pitch_radius, roller_radius, gap, cones } = self.geometry;
+        let (centre, reach) = (pitch_radius + gap, roller_radius * cones.inclination.cos);
+        [centre + reach, pitch_radius - reach - gap].map(|raceway| raceway / (2.0 * centre))
     }
 
     /// Orbit and spin speed without slip, rad/s.
@@ -26,6 +26,7 @@ impl RollersOfScene {
         let [outer_ratio, inner_ratio] = self.orbit_ratios();
         let [outer, inner] = [inputs.of(Input::OuterRingSpeed), inputs.of(Input::RingSpeed)];
         let over = (self.geometry.pitch_radius + self.geometry.gap) / self.geometry.roller_radius;
+        // Of an inclined roller about its own axis: (r + R cos(gamma)) (outer - orbit)/R + orbit cos(gamma), which is the same.
         [inner_ratio * inner + outer_ratio * outer, (outer_ratio * outer - inner_ratio * inner) * over]
     }
 
@@ -37,7 +38,8 @@ impl RollersOfScene {
 }
 
 impl Space {
-    /// Ring and rollers at rest at the start of the scene, if it has rollers; along the axis the ring stays where it starts.
+    /// Ring and rollers at rest at the start of the scene, if it has rollers. A ring that is free along the axis and has no load there stays where it
+    /// starts, unless rollers are tapered.
     ///
     /// # Errors
     /// [`crate::Status::BadState`] where there is no equilibrium, or none was found.
@@ -46,10 +48,14 @@ impl Space {
         let inputs = self.inputs.at(0.0, &HostInputs::default());
         let [orbit, _] = rollers.kinematic_speeds(&inputs);
         let laws = [rollers.raceway(0), rollers.raceway(1)];
+        let laws = (laws, &rollers.ends[..]);
         let resting = Rollers::new(rollers.geometry, laws, &self.set, rollers.centrifugal(orbit));
         let mut body = RingInSpace::new(&self.scene);
-        body.held[0].get_or_insert(0.0);
-        Some(resting.settled(&body, body.load(&inputs)))
+        let load = body.load(&inputs);
+        if rollers.geometry.cones == Cones::NONE && load[0] == 0.0 && body.spring(0.0) == [0.0; 2] {
+            body.held[0].get_or_insert(0.0);
+        }
+        Some(resting.settled(&body, load))
     }
 
     /// Places rollers and ring as the scene says.
@@ -68,8 +74,8 @@ impl Space {
         for j in 0..self.layout.count {
             let places = self.layout.of_element::<OF_ROLLER>(j);
             if let Some(found) = &settled {
-                let [rho, tilt] = found.place(j);
-                (q[places[1]], q[places[4]]) = (rho, tilt);
+                let [x, rho, tilt] = found.place(j);
+                (q[places[0]], q[places[1]], q[places[4]]) = (x, rho, tilt);
             }
             (v[places[ORBIT]], v[places[SPIN]]) = (orbit, spin);
         }

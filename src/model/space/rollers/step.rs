@@ -46,10 +46,10 @@ fn add_square(sum: &mut Matrix, c: f64, wrench: &UnitWrench<f64>) {
 /// Damping over velocity and angular velocity, given by lower triangles, over the speeds of a roller: of all forces, of which those of friction alone
 /// turn it about its own axis.
 fn over_speeds(state: &RollerState<f64>, all: &Matrix, friction: &Matrix) -> Matrix {
-    let axis = state.tilt.axis;
+    let axis = state.axis;
     let around = difference([1.0, 0.0, 0.0], scaled(axis, axis[0]));
     let [skew, tilt] = [[1.0, 0.0], [0.0, 1.0]].map(|rates| {
-        let turning = state.tilt.angular_velocity(rates);
+        let turning = state.turning(rates);
         difference(turning, scaled(axis, dot(turning, axis)))
     });
     // Angular velocity by psi', sigma', tau' and w_1, at these places among the speeds.

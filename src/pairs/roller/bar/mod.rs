@@ -11,6 +11,9 @@
 //! X = C + R m,   m = k (e_n - g u)/c,   t = k e_t     v = v_P + w x (X - P) - v_O - W x (X - O) - d'     u_1 = v . t,   u_2 = 0
 //! ```
 //!
+//! Pockets of tapered rollers are inclined as these, and their walls grow with them: R, R_p and c_p/2 are those beside the disc, whose forces are across the
+//! pocket's axis, so that what pushes the roller along by the cone, sin(beta) of the force, is left out. b and o are then turned by the inclination.
+//!
 //! P is the centre of the roller, at q from that of its pocket (as in `pairs/ball_pocket`), u its axis, O the centre of the cage and W its angular
 //! velocity with its spin, d' the velocity at which a bent cage displaces the pocket. phi is the angle of p from the direction ahead, or behind, and
 //! R_p e the edge at phi_p. Bars are as long as the roller, and their surface rests against the contact: nothing rolls. All differences of radii are
@@ -24,8 +27,9 @@
 mod tests;
 
 use super::{MovingRoller, Spot};
-use crate::bodies::MovingCage;
+use crate::bodies::{Inclination, MovingCage};
 use crate::pairs::ball_pocket::{InPocket, ahead};
+use crate::pairs::raceway::Cones;
 use crate::scalar::{Real, math, smoothstep};
 use crate::space::solid::{Moving, Vector, cross, difference, dot, scaled, sum};
 
@@ -54,6 +58,7 @@ pub(crate) struct Bars {
     roller_radius: f64,
     /// On each side of a centred roller, m: R_p - R_b or c_p/2.
     clearance: f64,
+    cones: Cones,
     shape: BarShape,
     /// Sine and cosine of the angles where the wall ends and where friction begins to change.
     edge: (f64, f64),
@@ -63,7 +68,9 @@ pub(crate) struct Bars {
 /// A roller between the bars of its pocket, in the axes of its azimuth.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct InBars<T> {
-    /// Directions of the pocket along the axis of the cage, outwards and ahead.
+    /// Directions in which a bent cage displaces the pocket: outwards and ahead.
+    pub(crate) displaced: [Vector<T>; 2],
+    /// Directions of the pocket along its axis, outwards and ahead.
     pub(crate) axes: [Vector<T>; 3],
     /// q outwards and ahead in the pocket, m.
     pub(crate) offset: [T; 2],
@@ -104,13 +111,18 @@ impl<T: Real> InBars<T> {
 
 impl Bars {
     /// From the radii of pitch circle and roller, the clearance on each side of a centred roller, m, and the shape of the walls.
-    pub(crate) fn new(pitch_radius: f64, roller_radius: f64, clearance: f64, shape: BarShape) -> Self {
+    pub(crate) fn new(
+        pitch_radius: f64,
+        (roller_radius, cones): (f64, Cones),
+        clearance: f64,
+        shape: BarShape,
+    ) -> Self {
         let (half_angle, edge_blend) = match shape {
             BarShape::Planes => (0.0, 0.0),
             BarShape::Cylinders { half_angle, edge_blend } => (half_angle, edge_blend),
         };
         let (edge, blend) = (math::sin_cos(half_angle), math::sin_cos(half_angle - edge_blend));
-        Self { pitch_radius, roller_radius, clearance, shape, edge, blend }
+        Self { pitch_radius, roller_radius, clearance, cones, shape, edge, blend }
     }
 
     /// Where a roller is and how it moves at the azimuth with this cosine and sine, ahead of its pocket by `lead` (rad), which a bent cage displaces
@@ -136,11 +148,17 @@ impl Bars {
         if let Some([_, [out, on]]) = bent {
             velocity = difference(velocity, sum(scaled(outwards, out), scaled(onwards, on)));
         }
+        let Inclination { sin, cos } = self.cones.inclination;
+        let axis = local(cage.tilt.axis);
+        let along = sum(scaled(axis, one * cos), scaled(outwards, one * sin));
+        let out = difference(scaled(outwards, one * cos), scaled(axis, one * sin));
+        let [x, radial, across] = pocket.q;
         InBars {
-            axes: [local(cage.tilt.axis), outwards, onwards],
-            offset: [pocket.q[1], pocket.q[2]],
+            displaced: [outwards, onwards],
+            axes: [along, out, onwards],
+            offset: [radial * cos - x * sin, across],
             axis: u,
-            slopes: [dot(outwards, u), dot(onwards, u)],
+            slopes: [dot(out, u), dot(onwards, u)],
             passing: Moving { velocity, turning: difference(roller.moving.turning, turning) },
         }
     }
@@ -176,9 +194,10 @@ impl Bars {
         drop: f64,
     ) -> BarTouch<T> {
         let larger = excess - drop;
-        let radius = self.roller_radius + larger;
+        let nominal = self.roller_radius + s * self.cones.growth;
+        let radius = nominal + larger;
         let Nearest { approach, direction: [out, on], side, curvature, edge_share } =
-            self.nearest(wall, place.disc(s), larger);
+            self.nearest(wall, place.disc(s), nominal, larger);
         let ([b, outwards, onwards], [u_out, u_on], u) = (place.axes, place.slopes, place.axis);
         let zero = T::constant(0.0);
         let e_n = sum(scaled(outwards, out), scaled(onwards, on));
@@ -210,8 +229,14 @@ impl Bars {
         BarTouch { spot, edge_share }
     }
 
-    /// What of a bar is nearest to a disc here (m), whose radius is larger than nominal by `larger`, m.
-    fn nearest<T: Real>(&self, wall: usize, [radial, across]: [T; 2], larger: f64) -> Nearest<T> {
+    /// What of a bar is nearest to a disc here (m), whose radius is larger than the nominal one (m) by `larger`, m.
+    fn nearest<T: Real>(
+        &self,
+        wall: usize,
+        [radial, across]: [T; 2],
+        nominal: f64,
+        larger: f64,
+    ) -> Nearest<T> {
         let sign = if wall == 0 { 1.0 } else { -1.0 };
         let zero = T::constant(0.0);
         let (towards, height, room) = (across * sign, radial.abs(), self.clearance - larger);
@@ -228,7 +253,7 @@ impl Bars {
         let beyond = |(sin, cos): (f64, f64)| towards.value() * sin < height.value() * cos;
         if beyond(self.edge) {
             let (sin, cos) = self.edge;
-            let (pocket_radius, radius) = (self.roller_radius + self.clearance, self.roller_radius + larger);
+            let (pocket_radius, radius) = (nominal + self.clearance, nominal + larger);
             let edge = [radial.sign() * pocket_radius * sin, pocket_radius * cos];
             let inside =
                 (radial * edge[0] + towards * edge[1]) * 2.0 - square - room * (radius + pocket_radius);
