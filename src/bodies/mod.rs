@@ -36,9 +36,9 @@ pub(crate) use layout::{OF_ELEMENT, Owner};
 pub(crate) use motions::{Element, ElementBlock, ElementMotion, ElementSet, Motions, WrenchLanes};
 pub(crate) use nodes::{Node, NodeState, nodes};
 pub(crate) use spatial::{
-    Balls, CageInSpace, CageState, Inclination, MovingCage, MovingRing, MovingRoller, OF_BALL, OF_CAGE, OF_RING,
-    OF_ROLLER, ORBIT, RING_COORDINATES, RingInSpace, RingState, RollerPlace, RollerState, RollersInSpace,
-    SPIN, tilt_of,
+    Balls, CageInSpace, CageState, Inclination, MovingCage, MovingRing, MovingRoller, OF_BALL, OF_CAGE,
+    OF_RING, OF_ROLLER, ORBIT, RING_COORDINATES, RingInSpace, RingState, RollerPlace, RollerState,
+    RollersInSpace, SPIN, tilt_of,
 };
 pub(crate) use states::{State, layout_of, states_of};
 

@@ -39,7 +39,11 @@ const CONTACT: [Quantity; 8] = [
         "Pa",
         "largest pressure of Hertz's line contact under that load; stresses at sharp ends come on top",
     ),
-    quantity("half_width", "m", "half width b of Hertz's line contact there; of a rib the mean radius of the contact"),
+    quantity(
+        "half_width",
+        "m",
+        "half width b of Hertz's line contact there; of a rib the mean radius of the contact",
+    ),
 ];
 
 /// Place of the largest pressure among these.
@@ -68,7 +72,8 @@ pub(super) fn told(model: &Model, settled: &SettledRollers<'_>) -> Equilibrium {
             found.contact_values.push(values.to_vec());
             found.line_loads.values.push(line_loads);
         }
-        for (name, on_rib, [pressure, radius]) in settled.rollers.ribs(j, settled.places[j], &settled.ring.at) {
+        for (name, on_rib, [pressure, radius]) in settled.rollers.ribs(j, settled.places[j], &settled.ring.at)
+        {
             let OnRib { load, approach, moment } = on_rib;
             found.contacts.push(format!("{}[{j}].{name}", model.element_kind()));
             found.contact_values.push(vec![load, approach, moment, 0.0, 0.0, 0.0, pressure, radius]);

@@ -11,6 +11,7 @@ mod rollers;
 mod same_bits;
 mod skidding;
 mod steady;
+mod tapered;
 
 use cagedyn::{Model, Scene, Sim};
 use common::Random;

@@ -8,7 +8,9 @@ mod rollers;
 pub(crate) use balls::{Balls, OF_BALL};
 pub(crate) use cage::{CageInSpace, CageState, MovingCage, OF_CAGE, tilt_of};
 pub(crate) use ring::{MovingRing, RING_COORDINATES, RingInSpace, RingState};
-pub(crate) use rollers::{Inclination, MovingRoller, OF_ROLLER, ORBIT, RollerPlace, RollerState, RollersInSpace, SPIN};
+pub(crate) use rollers::{
+    Inclination, MovingRoller, OF_ROLLER, ORBIT, RollerPlace, RollerState, RollersInSpace, SPIN,
+};
 
 use crate::bodies::{Coordinate, Moves};
 

@@ -248,7 +248,8 @@ impl RollersInSpace {
         let solid =
             rollers.mass * (3.0 * rollers.radius * rollers.radius + space.length * space.length) / 12.0;
         let transverse = space.transverse_inertia.unwrap_or(solid);
-        let inclination = space.taper.as_ref().map_or(Inclination::NONE, |taper| Inclination::new(taper.inclination()));
+        let inclination =
+            space.taper.as_ref().map_or(Inclination::NONE, |taper| Inclination::new(taper.inclination()));
         Some(Self { inertia: vec![[rollers.mass, rollers.inertia, transverse]; set.count], inclination })
     }
 

@@ -116,7 +116,8 @@ fn shift<T: Numeric>(r: T, d: T, ring: [T; 2]) -> T {
 mod tests {
     use super::*;
 
-    const G: RacewayGeometry = RacewayGeometry { pitch_radius: 0.03999, roller_radius: 0.0075, gap: 1e-5, cones: Cones::NONE };
+    const G: RacewayGeometry =
+        RacewayGeometry { pitch_radius: 0.03999, roller_radius: 0.0075, gap: 1e-5, cones: Cones::NONE };
 
     #[test]
     fn geometry_splits_the_clearance() {

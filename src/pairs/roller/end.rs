@@ -202,9 +202,8 @@ impl RibGeometry {
     /// Curvature of the cone of the rib across the meridian, where an upright roller touches it, 1/m: positive where it is hollow.
     fn round(&self, cones: &Cones) -> f64 {
         let Inclination { sin, cos } = cones.inclination;
-        let of_rib = self.pitch_radius
-            + 0.5 * self.side * self.end.length * sin
-            + self.outwards * self.middle() * cos;
+        let of_rib =
+            self.pitch_radius + 0.5 * self.side * self.end.length * sin + self.outwards * self.middle() * cos;
         self.outwards * self.angle.sin / of_rib
     }
 
@@ -260,13 +259,12 @@ impl RibGeometry {
         let drop = y1 * y1 * (0.5 / radii[0]) + y2 * y2 * (0.5 / radii[1]);
         let y_n = self.middle();
         let opening = self.opening;
-        let delta = t * (cos * e)
-            + (roller.place.rho + square / (d + r)) * (f * sin)
-            + (nu - opening.cos) * half
-            - drop * nu
-            + y1 * n1
-            + y2 * n2
-            + (opening.cos * y_n * y_n * 0.5 / radii[0] - opening.sin * y_n - self.gap);
+        let delta =
+            t * (cos * e) + (roller.place.rho + square / (d + r)) * (f * sin) + (nu - opening.cos) * half
+                - drop * nu
+                + y1 * n1
+                + y2 * n2
+                + (opening.cos * y_n * y_n * 0.5 / radii[0] - opening.sin * y_n - self.gap);
         let arm = sum(scaled(u, (-drop + half) * e), sum(scaled(m1, y1), scaled(w, y2)));
         let turn = y1 * n2 - y2 * n1;
         let tangential = dot(arm, e_t) / d * (f * sin) + turn * dot(w, e_t) / (c * d);
@@ -389,12 +387,8 @@ mod tests {
                     seen.push((bearing.cones == Cones::NONE, found.region));
                     let sloped = touch(of, std::array::from_fn(|k| Dual::<9>::variable(q[k], k)), None);
                     let [force, moment] = found.spot.normal;
-                    let state = RollerState::new(
-                        (0.0, bearing.cones.inclination),
-                        [0.0; 2],
-                        [q[2], q[3]],
-                        [0.0; 6],
-                    );
+                    let state =
+                        RollerState::new((0.0, bearing.cones.inclination), [0.0; 2], [q[2], q[3]], [0.0; 6]);
                     let of_ring = Tilt::new([q[7], q[8]]);
                     let [.., skew, tilt, _] = state.over_speeds([[0.0; 3], moment], 0.0);
                     let over_angles = [skew, tilt];
@@ -435,10 +429,7 @@ mod tests {
     fn in_the_middle_it_has_half_of_the_play() {
         for (bearing, rib, _) in ribs() {
             let found = touch((&bearing, &rib), [0.0; 9], None);
-            assert!(
-                (found.spot.delta + rib.gap).abs() < 3e-17 && found.region == Region::Cap,
-                "{found:?}"
-            );
+            assert!((found.spot.delta + rib.gap).abs() < 3e-17 && found.region == Region::Cap, "{found:?}");
         }
     }
 

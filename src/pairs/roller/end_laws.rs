@@ -54,13 +54,17 @@ pub(crate) fn ends(
         let sign = [1.0, -1.0][side];
         let of_rib = [rib.angle, rib.height, ribs.end_play];
         let found = RibGeometry::rib(geometry, end, (ring, sign), of_rib).ok_or_else(|| {
-            bad_scene("rollers.space.ends.cap_radius", "as flat as the rib, or flatter; less than 0.99 of the radius of the rib")
+            bad_scene(
+                "rollers.space.ends.cap_radius",
+                "as flat as the rib, or flatter; less than 0.99 of the radius of the rib",
+            )
         })?;
         let material = match rib.ring {
             RibRing::Outer => scene.outer_ring.as_ref().and_then(|ring| ring.material.as_deref()),
             RibRing::Inner => scene.inner_ring.as_ref().and_then(|ring| ring.material.as_deref()),
         };
-        let law = law(&builder.at("ribs.contact"), &ribs.contact, material, found.curvatures(&geometry.cones))?;
+        let law =
+            law(&builder.at("ribs.contact"), &ribs.contact, material, found.curvatures(&geometry.cones))?;
         list.push(EndPair { name: RIBS[ring][side], mate: ring, geometry: found, law });
     }
     if let Some(sides) = sides {

@@ -43,7 +43,11 @@ impl Scene {
         if let Some(ends) = &space.ends {
             let cap = range(CAP.min.max(rollers.radius), CAP.max, "m; flat ends are caps of 10 to 50 m");
             judge.number(&at("ends.cap_radius"), ends.cap_radius, cap)?;
-            judge.number(&at("ends.face_radius"), ends.face_radius, range(1e-5 + 2.0 * grown, rollers.radius + grown, "m"))?;
+            judge.number(
+                &at("ends.face_radius"),
+                ends.face_radius,
+                range(1e-5 + 2.0 * grown, rollers.radius + grown, "m"),
+            )?;
         }
         if let Some(slices) = self.raceways.as_ref().and_then(|raceways| raceways.slices)
             && !SLICES.contains(&slices)

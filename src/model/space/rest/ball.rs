@@ -142,18 +142,17 @@ pub(super) fn following<const N: usize, const ALL: usize>(
     energy: f64,
     least: f64,
 ) -> OnRing {
-    let own = SMatrix::<f64, N, N>::from_fn(|i, k| {
-        -on_element[i].eps[k] + if i == k { least } else { 0.0 }
-    });
+    let own = SMatrix::<f64, N, N>::from_fn(|i, k| -on_element[i].eps[k] + if i == k { least } else { 0.0 });
     let by_ring = SMatrix::<f64, N, OF_RING>::from_fn(|i, k| on_element[i].eps[N + k]);
     let of_element = SMatrix::<f64, OF_RING, N>::from_fn(|i, k| on_ring[i].eps[k]);
     let direct = SMatrix::<f64, OF_RING, OF_RING>::from_fn(|i, k| -on_ring[i].eps[N + k]);
     // An element that nothing touches does not follow.
     let own = DMatrix::from_column_slice(N, N, own.as_slice());
     let by_ring = DMatrix::from_column_slice(N, OF_RING, by_ring.as_slice());
-    let follows = own.lu().solve(&by_ring).map_or_else(SMatrix::zeros, |found| {
-        SMatrix::<f64, N, OF_RING>::from_column_slice(found.as_slice())
-    });
+    let follows = own
+        .lu()
+        .solve(&by_ring)
+        .map_or_else(SMatrix::zeros, |found| SMatrix::<f64, N, OF_RING>::from_column_slice(found.as_slice()));
     let force = SVector::from(on_ring.map(|force| force.re));
     OnRing { force, stiffness: direct - of_element * follows, energy }
 }

@@ -313,7 +313,8 @@ impl Rollers<'_> {
             let turned = self.beside(j);
             let forces = self.slopes(j, *at, (turned * ring).into());
             let energy = self.energy(*at, &forces);
-            let OnRing { force, stiffness, energy } = following(&forces.on_roller, &forces.on_ring, energy, least);
+            let OnRing { force, stiffness, energy } =
+                following(&forces.on_roller, &forces.on_ring, energy, least);
             total.force += turned.transpose() * force;
             total.stiffness += turned.transpose() * stiffness * turned;
             total.energy += energy;
@@ -359,7 +360,10 @@ impl Rollers<'_> {
         let told = |(_, on_rib, _, law): (usize, OnRib<f64>, UnitWrench<f64>, &SpotLaw)| {
             (on_rib, if on_rib.load > 0.0 { law.pressed(on_rib.load) } else { [0.0; 2] })
         };
-        names.zip(self.on_ribs(at, ring).map(told)).map(|(name, (on_rib, pressed))| (name, on_rib, pressed)).collect()
+        names
+            .zip(self.on_ribs(at, ring).map(told))
+            .map(|(name, (on_rib, pressed))| (name, on_rib, pressed))
+            .collect()
     }
 
     /// Whether anything holds rollers along the axis.

@@ -141,7 +141,8 @@ impl Space {
             if angle > LARGEST_TILT {
                 return Err(Fault::AskewRoller { roller: j, angle });
             }
-            let state = RollerState::new((pitch, rollers.body.inclination), [at(0), at(1)], [at(3), at(4)], speeds);
+            let state =
+                RollerState::new((pitch, rollers.body.inclination), [at(0), at(1)], [at(3), at(4)], speeds);
             let (sin, cos) = math::sin_cos(self.set.reference_angles[j] + at(2));
             let roller = &mut ws.rollers.rollers[j];
             (roller.state, roller.direction, roller.travel) = (state, [cos, sin], at(2));
