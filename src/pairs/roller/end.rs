@@ -6,7 +6,7 @@
 //! N1 = N . m1,   N2 = N . w,   Nu = N . e u,   m1 = (e_n - g u)/c,   w = u x m1
 //! y  = nearest point of {|y| <= R_end, f y_1 >= y_min} to R_s (N1, N2)/Nu:   on the cap, its rim, the edge of the rib, or the corner of both
 //! delta = cos(eps) e t + f sin(eps) (rho + (d - r)) + (L/2) (-cos(eps) (1 - u . b) + e f sin(eps) g) - (|y|^2/2 R_s) Nu
-//!         + cos(eps) y_n^2/(2 R_s) + y_1 N1 + y_2 N2 - sin(eps) y_n - g_f,   y_n = R_s tan(eps)
+//!         + cos(eps) y_n^2/(2 R_s) + y_1 N1 + y_2 N2 - sin(eps) y_n - g_f,   y_n = R_s tan(eps), or the nearest of y_min to R_end
 //! on the roller for Q = 1:  force -(N + k_t e_t),   moment about P  -((X - P) x N - T u + T (g/c) m1),   T = y_1 N2 - y_2 N1
 //! ```
 //!
@@ -115,17 +115,22 @@ impl RibGeometry {
         Self { pitch_radius, end, angle: [0.0, 1.0], outwards: 1.0, side, lowest, gap: 0.5 * play }
     }
 
-    /// y_n, m: where the middle of an untilted cap touches.
+    /// y_n, m: where an untilted end touches. A cap whose middle is off the face or below the edge of the rib does so with its rim or at
+    /// that edge.
     fn middle(&self) -> f64 {
         let [sin, cos] = self.angle;
-        self.end.cap_radius * sin / cos
+        let of_cap = self.end.cap_radius * sin / cos;
+        of_cap.max(self.lowest).min(self.end.face_radius)
     }
 
-    /// R_f, m: that of the cap with half of the curvature of the rib.
+    /// R_f, m: that of the cap with half of the curvature of the rib. A cap that is flatter than its rim can lean against the rib has the
+    /// curvature of a cap there, so that it is no contact of conforming surfaces.
     pub(crate) fn radius(&self) -> f64 {
-        let [sin, _] = self.angle;
-        let of_rib = self.pitch_radius + self.outwards * self.middle();
-        1.0 / (1.0 / self.end.cap_radius - self.outwards * sin / (2.0 * of_rib))
+        let ([sin, cos], cap) = (self.angle, self.end.cap_radius);
+        let middle = self.middle();
+        let slope = if middle < cap * sin / cos { cos * middle / cap } else { sin };
+        let of_rib = self.pitch_radius + self.outwards * middle;
+        1.0 / (1.0 / cap - self.outwards * slope / (2.0 * of_rib))
     }
 
     /// Whether the end of a roller there is certainly apart from its rib.
@@ -139,7 +144,7 @@ impl RibGeometry {
         let across =
             place.rho.abs() + or.abs() + ot.abs() + self.pitch_radius * (b[1].abs() + b[2].abs()) * sin;
         let turned = self.end.face_radius * angle + 0.5 * self.end.length * sin * angle;
-        // Largest y_1 N1 - |y|^2/(2 R_s) is that at y_n.
+        // Untilted, y_1 N1 - |y|^2/(2 R_s) is largest at y_n.
         cos * self.side * t + sin * across + turned + angle * angle * self.end.cap_radius < self.gap
     }
 
@@ -308,6 +313,23 @@ mod tests {
             (found.spot.delta + rib(0, 1.0).gap).abs() < 1e-17 && found.region == Region::Cap,
             "{found:?}"
         );
+    }
+
+    #[test]
+    fn the_end_play_is_that_of_any_cap() {
+        // Flat, between, and so round that the edge of the rib touches.
+        for cap_radius in [50.0, 2.0, 0.6, 0.1] {
+            for angle in [0.0, 1e-3, 0.025] {
+                for (ring, side) in [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)] {
+                    let end = EndShape { cap_radius, ..END };
+                    let rib = RibGeometry::rib((PITCH, 7.5e-3, end), (ring, side), [angle, 2.5e-3, 50e-6]);
+                    let at = |x: f64| touch(&rib, [side * x, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], None);
+                    let found = at(25e-6).spot.delta;
+                    assert!(found.abs() < 1e-16, "{cap_radius} {angle} {ring} {side}: {found:e}");
+                    assert!(rib.radius() > 0.7 * cap_radius && rib.radius() < 1.4 * cap_radius);
+                }
+            }
+        }
     }
 
     #[test]
