@@ -38,6 +38,14 @@ pub struct Cage {
     pub space: Option<Box<SpatialCage>>,
 }
 
+impl Cage {
+    /// Its guide in the middle and those of its lands.
+    pub(super) fn guides(&self) -> impl Iterator<Item = &Guide> {
+        let lands = self.space.iter().flat_map(|space| &space.lands);
+        self.guide.iter().chain(lands.map(|land| &land.guide))
+    }
+}
+
 /// External force and torque on the cage over time; the host can take each of them over.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]

@@ -14,6 +14,7 @@ mod elastic_and_warm;
 mod guide;
 mod motion;
 mod numbers;
+mod rollers_in_space;
 mod tables;
 
 use cagedyn::integrate::Tuning;
@@ -89,7 +90,7 @@ fn move_cage(sim: &mut Sim, share: f64) {
 /// All cases.
 pub fn cases() -> Vec<Case> {
     let plane = bearing::cases().into_iter().chain(guide::cases()).chain(elastic_and_warm::cases());
-    plane.chain(cage_in_space::cases()).collect()
+    plane.chain(cage_in_space::cases()).chain(rollers_in_space::cases()).collect()
 }
 
 /// The case of this name.

@@ -33,7 +33,11 @@ fn read(text: &str) -> Result<(), TestCaseError> {
 
 /// The text of one of the examples.
 fn some_example(random: &mut Random) -> String {
-    if random.chance(0.5) { example_text() } else { read_file("scenes/grease_guide.json") }
+    match random.index(6) {
+        0..=2 => example_text(),
+        3 | 4 => read_file("scenes/grease_guide.json"),
+        _ => read_file("scenes/nu2310_space.json"),
+    }
 }
 
 /// Deletes, doubles or alters up to three characters.

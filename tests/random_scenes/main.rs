@@ -4,6 +4,7 @@
 mod common;
 mod damage;
 mod published;
+mod rollers_in_space;
 mod scenes;
 
 use cagedyn::model::FAULTS;

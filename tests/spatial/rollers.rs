@@ -151,6 +151,29 @@ fn without_friction_nothing_is_lost() {
     assert!(missing.abs() < 1e-8, "{missing}");
 }
 
+/// Damping lets the ends of rollers that rock go before they are apart: what they still hold is its loss.
+#[test]
+fn rollers_that_rock_lose_no_energy_without_a_power() {
+    let mut whole = freedom();
+    whole["slices_on"] = json!("whole");
+    let model = rollers(&[
+        ("rollers.space", whole),
+        ("raceways.slices", json!(8)),
+        ("raceways.contact.damping.relaxation_time", json!(2e-6)),
+        ("solver", json!({"method": {"dormand_prince": {"tolerance": 1e-8}}})),
+    ]);
+    let mut sim = Sim::new(model.clone()).unwrap();
+    let mut state = sim.state().to_vec();
+    for j in 0..12 {
+        state[place(&model, &format!("roller[{j}].tilt"))] += 2e-3;
+    }
+    sim.set_state(0.0, &state).unwrap();
+    sim.advance_to(1e-4).unwrap();
+    let missing = sim.power_balance().unwrap().relative_residual();
+    println!("{missing:e}");
+    assert!(missing.abs() < 1e-5, "{missing:e}");
+}
+
 /// A loaded roller that is tilted and rolls keeps the direction of its axis: sigma' = psi' tau. A skewed one stays so.
 #[test]
 fn a_tilted_roller_that_rolls_skews() {
@@ -270,6 +293,39 @@ fn thrust_pins_the_rollers_of_an_nj_bearing() {
     println!("{clockwise:e} {counter:e} {tilt:e}");
     assert!((-0.2e-3..-0.05e-3).contains(&clockwise), "{clockwise}");
     assert!((clockwise + counter).abs() < 0.3 * clockwise.abs(), "{clockwise} {counter}");
+}
+
+/// Ribs of a tilted inner ring find the rollers between them at the start, and carry them round.
+#[test]
+fn rollers_start_between_the_ribs_of_a_tilted_inner_ring() {
+    let rib = |side: &str| json!({"ring": "inner", "side": side, "angle": 0.01, "height": 2.5e-3});
+    let model = model(
+        "scenes/nu2310_space.json",
+        &[
+            ("cage", Value::Null),
+            ("ribs.list", json!([rib("positive"), rib("negative")])),
+            ("inner_ring.motion.space.tilt_y", json!({"held": 4e-3})),
+            ("inner_ring.motion.space.tilt_z", json!({"held": -2e-3})),
+            ("inner_ring.motion.space.x", json!({"held": 2e-4})),
+        ],
+    );
+    let mut sim = Sim::new(model.clone()).unwrap();
+    let forces = |sim: &mut Sim| {
+        let mut out = vec![0.0; model.channels().len()];
+        sim.outputs(&mut out).unwrap();
+        let of_ribs =
+            model.channels().iter().zip(out).filter(|(channel, _)| channel.name.contains("inner_rib"));
+        of_ribs.map(|(_, force)| force).fold(0.0, f64::max)
+    };
+    assert_eq!(forces(&mut sim), 0.0);
+    // Half of a turn of the rollers takes them 0.4 mm along the axis and back.
+    let mut largest: f64 = 0.0;
+    for k in 1..=100 {
+        sim.advance_to(2.5e-4 * f64::from(k)).unwrap();
+        largest = largest.max(forces(&mut sim));
+    }
+    println!("{largest}");
+    assert!(largest > 0.0 && largest < 500.0, "{largest}");
 }
 
 #[test]

@@ -80,7 +80,7 @@ fn forces_cancel_and_powers_are_the_rate_of_the_energy() {
     cancel(&scene, 1e3);
     powers(&scene, 1e-3);
     let whole =
-        crate::model(SCENE, &[("rollers.space.slices_on", json!("whole")), ("rollers.profile", Value::Null)]);
+        model(SCENE, &[("rollers.space.slices_on", json!("whole")), ("rollers.profile", Value::Null)]);
     powers(&whole, 1e-6);
 }
 

@@ -6,7 +6,7 @@
 //! N1 = N . m1,   N2 = N . w,   Nu = N . e u,   m1 = (e_n - g u)/c,   w = u x m1
 //! y  = point of {|y| <= R_end, f y_1 >= y_min} where y . (N1, N2) - z Nu is largest:   on the cap, its rim, the edge of the rib, or the corner of both
 //! delta = cos(eps') e t + f sin(eps') (rho + (d - r)) + (L/2) (Nu - cos(eps)) - z Nu + cos(eps) y_n^2/(2 R_s) + y_1 N1 + y_2 N2 - sin(eps) y_n - g_f
-//!         z = y_1^2/(2 R_1) + y_2^2/(2 R_2),   y_n = R_s tan(eps)
+//!         z = y_1^2/(2 R_1) + y_2^2/(2 R_2),   y_n = R_s tan(eps), or the nearest of y_min to R_end
 //! on the roller for Q = 1:  force -(N + k_t e_t),   moment about P  -((X - P) x N - T u + T (g/c) m1),   T = y_1 N2 - y_2 N1
 //! ```
 //!
@@ -194,9 +194,11 @@ impl RibGeometry {
         }
     }
 
-    /// y_n, m: where the middle of an untilted cap touches.
+    /// y_n, m: where an untilted end touches. A cap whose middle is off the face or below the edge of the rib does so with its rim or at
+    /// that edge.
     fn middle(&self) -> f64 {
-        self.end.cap_radius * self.opening.sin / self.opening.cos
+        let of_cap = self.end.cap_radius * self.opening.sin / self.opening.cos;
+        of_cap.max(self.lowest).min(self.end.face_radius)
     }
 
     /// Curvature of the cone of the rib across the meridian, where an upright roller touches it, 1/m: positive where it is hollow.
@@ -210,11 +212,16 @@ impl RibGeometry {
     /// Curvatures of end and rib together, 1/m: the larger one first.
     pub(crate) fn curvatures(&self, cones: &Cones) -> [f64; 2] {
         let along = 1.0 / self.end.cap_radius;
-        let across = along - self.round(cones);
         if *cones == Cones::NONE {
-            // A circle with half of the curvature of the rib.
-            return [0.5 * (along + across); 2];
+            // A circle with half of the curvature of the rib. A cap that is flatter than its rim can lean against the rib has the curvature of a cap
+            // there, so that it is no contact of conforming surfaces.
+            let Inclination { sin, cos } = self.opening;
+            let (cap, middle) = (self.end.cap_radius, self.middle());
+            let slope = if middle < cap * sin / cos { cos * middle / cap } else { sin };
+            let of_rib = self.pitch_radius + self.outwards * middle;
+            return [along - self.outwards * slope / (2.0 * of_rib); 2];
         }
+        let across = along - self.round(cones);
         [along.max(across), along.min(across)]
     }
 
@@ -233,7 +240,7 @@ impl RibGeometry {
         let across =
             place.rho.abs() + or.abs() + ot.abs() + self.pitch_radius * (b[1].abs() + b[2].abs()) * sin;
         let turned = self.end.face_radius * angle + 0.5 * self.end.length * sin * angle;
-        // Largest y_1 N1 - |y|^2/(2 R_s) is that at y_n.
+        // Untilted, y_1 N1 - |y|^2/(2 R_s) is largest at y_n.
         cos * self.side * t + sin * across + turned + angle * angle * self.end.cap_radius < self.gap
     }
 
@@ -430,6 +437,27 @@ mod tests {
         for (bearing, rib, _) in ribs() {
             let found = touch((&bearing, &rib), [0.0; 9], None);
             assert!((found.spot.delta + rib.gap).abs() < 3e-17 && found.region == Region::Cap, "{found:?}");
+        }
+    }
+
+    #[test]
+    fn the_end_play_is_that_of_any_cap() {
+        // Flat, between, and so round that the edge of the rib touches.
+        for cap_radius in [50.0, 2.0, 0.6, 0.1] {
+            for angle in [0.0, 1e-3, 0.025] {
+                for (ring, side) in [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)] {
+                    let end = EndShape { cap_radius, ..END };
+                    let [bearing, _] = bearings();
+                    let rib = RibGeometry::rib(&bearing, end, (ring, side), [angle, 2.5e-3, 50e-6]).unwrap();
+                    let at = |x: f64| {
+                        touch((&bearing, &rib), [side * x, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], None)
+                    };
+                    let found = at(25e-6).spot.delta;
+                    assert!(found.abs() < 1e-16, "{cap_radius} {angle} {ring} {side}: {found:e}");
+                    let radius = 1.0 / rib.curvatures(&bearing.cones)[0];
+                    assert!(radius > 0.7 * cap_radius && radius < 1.4 * cap_radius);
+                }
+            }
         }
     }
 

@@ -200,13 +200,17 @@ impl SliceLaws {
         slopes.find_sliding(columns, *rows, blocks, across, ln_viscosity, instructions);
     }
 
-    /// Forces of slice `i`, at this approach (m), as those of a whole contact.
-    pub(crate) fn forces(&self, i: usize, delta: f64) -> SpotForces<f64> {
+    /// Forces of slice `i` under this law, at this approach (m), as those of a whole contact.
+    pub(crate) fn forces(&self, i: usize, law: &SpotLaw, delta: f64) -> SpotForces<f64> {
         let force = self.force(i);
+        // Q_el = 9/10 k delta of Palmgren's law; a contact that its damping lets go before it is apart has no stiffness, but energy to lose.
+        let elastic = match law.line() {
+            Some(law) if force.normal == 0.0 => law.elastic.load(delta),
+            _ => force.stiffness * delta * 0.9,
+        };
         SpotForces {
             normal: force.normal,
-            // Q_el = 9/10 k delta of Palmgren's law.
-            elastic: force.stiffness * delta * 0.9,
+            elastic,
             damping: force.damping,
             secant: force.friction_secant,
             rolling: force.rolling_resistance,

@@ -74,9 +74,9 @@ impl Scene {
         }
         if let Some(lubricant) = &self.lubricant {
             lubricant.validate(judge)?;
-            let guide = self.cage.as_ref().and_then(|cage| cage.guide.as_ref()?.film.as_ref());
+            let layered = |guide: &Guide| matches!(guide.film, Some(GuideFilm::LubricantLayer(_)));
             let seen =
-                matches!(guide, Some(GuideFilm::LubricantLayer(_))) || judge.excuses("cage.guide.film");
+                self.cage.iter().flat_map(Cage::guides).any(layered) || judge.excuses("cage.guide.film");
             if lubricant.grease.is_some() && !seen {
                 let text = "nothing sees it; it thickens the oil of cage.guide.film.lubricant_layer only";
                 judge.refuse("lubricant.grease", text)?;

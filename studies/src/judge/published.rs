@@ -79,15 +79,7 @@ fn lubricant(draw: &mut Draw, scene: &mut Value, lumps: bool) {
     });
     let layer = scene["cage"]["guide"]["film"]["lubricant_layer"].is_object();
     if layer && draw.chance(0.5) {
-        scene["lubricant"]["grease"] = if draw.chance(0.5) {
-            json!({"soap": {
-                "yield_stress": draw.log(30.0, 1e3), "consistency": draw.log(2.0, 50.0), "exponent": draw.within(0.3, 0.6)
-            }})
-        } else {
-            json!({"polymer": {
-                "plateau": draw.within(0.3, 0.8), "relaxation_time": draw.log(1e-7, 1e-5), "exponent": draw.within(0.5, 0.9)
-            }})
-        };
+        scene["lubricant"]["grease"] = draw.grease();
     }
 }
 

@@ -1,7 +1,7 @@
 //! One random scene with every preset.
 
 use crate::judge::impossible::Watch;
-use crate::judge::{published, scenes, space};
+use crate::judge::{published, rollers_in_space, scenes, space};
 use cagedyn::integrate::Tuning;
 use cagedyn::sim::{Doubt, LEVEL, Sample};
 use cagedyn::{Error, Model, Sim, Status};
@@ -20,6 +20,8 @@ pub enum Kind {
     Published,
     /// Balls that move in space, with a cage or without.
     Space { caged: bool },
+    /// Rollers that move in space.
+    Rollers,
 }
 
 impl Kind {
@@ -29,6 +31,7 @@ impl Kind {
             Self::Plain => scenes::scene(number, duration),
             Self::Published => published::scene(number, duration),
             Self::Space { caged } => space::scene(number, duration, caged),
+            Self::Rollers => rollers_in_space::scene(number, duration),
         }
     }
 }

@@ -108,6 +108,19 @@ impl Draw {
         }})
     }
 
+    /// What thickens the oil of a grease.
+    pub(super) fn grease(&mut self) -> Value {
+        if self.chance(0.5) {
+            json!({"soap": {
+                "yield_stress": self.log(30.0, 1e3), "consistency": self.log(2.0, 50.0), "exponent": self.within(0.3, 0.6)
+            }})
+        } else {
+            json!({"polymer": {
+                "plateau": self.within(0.3, 0.8), "relaxation_time": self.log(1e-7, 1e-5), "exponent": self.within(0.5, 0.9)
+            }})
+        }
+    }
+
     /// Guide of a cage of `mass` kg at the radius `radius` m with at least the diametral clearance `least` m, land of `width` m;
     /// none now and then.
     pub(super) fn guide(&mut self, ring: &str, radius: f64, least: f64, width: f64, mass: f64) -> Value {
@@ -146,7 +159,8 @@ impl Draw {
         guide
     }
 
-    fn pocket(&mut self, radius: f64, free: f64, mass: f64) -> Value {
+    /// Pocket of one of both kinds around an element of `radius` m, with `free` m between neighbours.
+    pub(super) fn pocket(&mut self, radius: f64, free: f64, mass: f64) -> Value {
         let clearance = (radius * self.log(2e-3, 5e-2)).min(0.6 * free);
         if self.chance(0.5) {
             let contact = self.solid(mass);

@@ -248,7 +248,7 @@ impl RollerMemory {
         for node in &mut self.nodes {
             let law = self.contacts[node.contact].law;
             let force = match &self.laws[law] {
-                Some(slices) => slices.forces(node.row, node.spot.delta),
+                Some(slices) => slices.forces(node.row, &laws[law], node.spot.delta),
                 None => laws[law].alone(&node.spot, ln_viscosity).unwrap_or(NO_FORCE),
             };
             let share = node.slice.share;

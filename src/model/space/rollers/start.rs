@@ -1,9 +1,10 @@
 //! Rollers at the start of a run, speeds without slip, and frequencies.
 
 use super::super::Space;
+use super::super::evaluate::beside;
 use super::super::rest::rollers::{Rollers, SettledRollers};
 use super::RollersOfScene;
-use crate::bodies::{Input, InputValues, OF_ROLLER, ORBIT, RingInSpace, SPIN};
+use crate::bodies::{INNER_RING, Input, InputValues, OF_ROLLER, ORBIT, OUTER_RING, RingInSpace, SPIN};
 use crate::error::Result;
 use crate::model::HostInputs;
 use crate::pairs::raceway::{Cones, RacewayGeometry};
@@ -28,6 +29,12 @@ impl RollersOfScene {
         let over = (self.geometry.pitch_radius + self.geometry.gap) / self.geometry.roller_radius;
         // Of an inclined roller about its own axis: (r + R cos(gamma)) (outer - orbit)/R + orbit cos(gamma), which is the same.
         [inner_ratio * inner + outer_ratio * outer, (outer_ratio * outer - inner_ratio * inner) * over]
+    }
+
+    /// Whether the inner ring alone holds cylindrical rollers between two ribs.
+    fn go_with_inner_ring(&self) -> bool {
+        let ribs = |ring: usize| self.ends.iter().filter(|end| end.mate == ring).count();
+        self.geometry.cones == Cones::NONE && ribs(INNER_RING) == 2 && ribs(OUTER_RING) < 2
     }
 
     /// Centrifugal force at this orbit speed (rad/s), N.
@@ -79,7 +86,26 @@ impl Space {
             }
             (v[places[ORBIT]], v[places[SPIN]]) = (orbit, spin);
         }
+        self.place_between_inner_ribs(q, v, &inputs, orbit);
         Ok(ring)
+    }
+
+    /// Puts rollers that the inner ring alone holds along the axis in the middle between its ribs, across which it may be tilted or shifted.
+    fn place_between_inner_ribs(&self, q: &mut [f64], v: &mut [f64], inputs: &InputValues, orbit: f64) {
+        if !self.rollers.as_ref().is_some_and(RollersOfScene::go_with_inner_ring) {
+            return;
+        }
+        let ring = self.ring.state(q, v, inputs).motion();
+        for j in 0..self.layout.count {
+            let [x, rho, _, skew, ..] = self.layout.of_element::<OF_ROLLER>(j);
+            let (sin, cos) = math::sin_cos(self.set.reference_angles[j]);
+            let ring = beside(&ring, [cos, sin]);
+            let ([along, outward, ahead], [cx, cr, ct]) = (ring.axis, ring.centre);
+            let r = self.set.pitch_radius;
+            q[x] = cx - ((r + q[rho] - cr) * outward - ct * ahead) / along;
+            q[skew] = -ahead;
+            (v[x], v[skew]) = (-r * ahead * orbit, outward * orbit);
+        }
     }
 
     /// Highest frequency of a roller between its raceways in rad/s, at the largest load of the scene.

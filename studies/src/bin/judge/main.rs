@@ -28,6 +28,9 @@ struct Arguments {
     /// The same scenes with cages that tilt among the balls.
     #[arg(long, requires = "space")]
     cages: bool,
+    /// Scenes of rollers that move in space, with numbers of their own.
+    #[arg(long, conflicts_with_all = ["published", "space"])]
+    rollers: bool,
     /// Print the table of published bearings instead.
     #[arg(long)]
     bearings: bool,
@@ -63,9 +66,10 @@ fn main() -> ExitCode {
         print!("{}", bearings::page());
         return ExitCode::SUCCESS;
     }
-    let kind = match (arguments.published, arguments.space) {
-        (true, _) => Kind::Published,
-        (_, true) => Kind::Space { caged: arguments.cages },
+    let kind = match (arguments.published, arguments.space, arguments.rollers) {
+        (true, ..) => Kind::Published,
+        (_, true, _) => Kind::Space { caged: arguments.cages },
+        (.., true) => Kind::Rollers,
         _ => Kind::Plain,
     };
     if arguments.print {
