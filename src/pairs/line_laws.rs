@@ -227,6 +227,8 @@ impl<'a> LawBuilder<'a> {
         let (logarithm, roller_crown) = match &rollers.profile {
             None => (None, None),
             Some(RollerProfile::CircularCrown { radius }) => (None, Some(*radius)),
+            // Of single rollers.
+            Some(RollerProfile::Table(_)) => (None, None),
             Some(RollerProfile::Logarithmic(profile)) => {
                 let steel = self.material("rollers.material", &rollers.material)?;
                 let [young, poisson] = [steel.young_modulus, steel.poisson_ratio];

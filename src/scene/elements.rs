@@ -94,7 +94,7 @@ impl RadiusDeviations {
 }
 
 /// Profile of a roller: how far its surface falls back from a cylinder.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum RollerProfile {
@@ -106,6 +106,19 @@ pub enum RollerProfile {
         #[cfg_attr(feature = "schema", schemars(range(min = 1e-05, max = 1000000.0)))]
         radius: f64,
     },
+    /// Table of drops. Needs `rollers.space`.
+    Table(DropTable),
+}
+
+/// How far a surface falls back at places along it; smooth between them.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct DropTable {
+    /// Places along the axis from the middle, m, growing from one end of the contact length or beyond to the other: 3 to 32.
+    pub places: Vec<f64>,
+    /// How far the surface lies back there, m.
+    pub drops: Vec<f64>,
 }
 
 /// Logarithmic profile.

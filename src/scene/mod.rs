@@ -38,8 +38,8 @@ pub use contact_laws::{
 pub(crate) use elastic_ring::MOST_RING_ORDERS;
 pub use elastic_ring::{ElasticRing, FiniteElementModes, RingSection, RingStiffness};
 pub use elements::{
-    ElementMotion, KinematicElements, LogarithmicProfile, Neighbours, RadiusDeviations, RollerGroup,
-    RollerProfile, Rollers,
+    DropTable, ElementMotion, KinematicElements, LogarithmicProfile, Neighbours, RadiusDeviations,
+    RollerGroup, RollerProfile, Rollers,
 };
 pub use grease::{Grease, PolymerGrease, SoapGrease};
 pub use heat::{

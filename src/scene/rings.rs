@@ -1,6 +1,6 @@
 //! Rings of a scene.
 
-use super::{PlaneVector, Signal, SpatialRing};
+use super::{DropTable, PlaneVector, Signal, SpatialRing};
 use serde::{Deserialize, Serialize};
 
 /// The outer ring: held with its centre at the origin. It stands still unless it is given a speed.
@@ -19,6 +19,9 @@ pub struct OuterRing {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 1e-05, max = 1000000.0)))]
     pub raceway_crown_radius: Option<f64>,
+    /// Table of drops of the raceway along the axis. Absent: none. Needs `rollers.space`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub raceway_drops: Option<DropTable>,
     /// Radius r_o of the groove across its length, m. Needed by balls.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0001, max = 10.0)))]
@@ -78,6 +81,9 @@ pub struct InnerRing {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 1e-05, max = 1000000.0)))]
     pub raceway_crown_radius: Option<f64>,
+    /// Table of drops of the raceway along the axis. Absent: none. Needs `rollers.space`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub raceway_drops: Option<DropTable>,
     /// Radius r_i of the groove across its length, m. Needed by balls.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0001, max = 10.0)))]

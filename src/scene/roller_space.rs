@@ -1,6 +1,6 @@
 //! What rollers that skew and tilt have beside those in the plane, and the ribs that hold them along the axis.
 
-use super::ContactLaws;
+use super::{ContactLaws, RadiusDeviations};
 use crate::scalar::math;
 use serde::{Deserialize, Serialize};
 
@@ -19,6 +19,13 @@ pub struct RollerSpace {
     /// Cones of tapered rollers and their raceways. Absent: cylinders.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub taper: Option<RollerTaper>,
+    /// How much longer than `length` single rollers are, m, and their contact lengths as much. Absent: equal.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub length_deviations: Option<RadiusDeviations>,
+    /// How much larger than that of the profile the drop of single rollers is at both ends of the contact length, m; it grows with the square of the distance from the
+    /// middle. Absent: equal.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub crown_deviations: Option<RadiusDeviations>,
     /// Shape of the ends. Needed by ribs, and by pockets with play along the axis.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ends: Option<RollerEnds>,

@@ -3,6 +3,7 @@
 use crate::conservation::{cancel, powers};
 use crate::derivatives::error;
 use crate::{model, states};
+use cagedyn::equilibrium::{RaceControl, equilibrium};
 use cagedyn::{Model, Sim};
 use serde_json::{Value, json};
 use std::sync::Arc;
@@ -36,6 +37,33 @@ fn rollers(changes: &[(&str, Value)]) -> Arc<Model> {
         ("inner_ring.motion", ring(&[])),
     ];
     model(NU2310, &[&all[..], changes].concat())
+}
+
+/// Places and drops of a table that is steeper at one end, m.
+fn drops() -> Value {
+    json!({
+        "places": [-11e-3, -8e-3, -4e-3, 0.0, 5e-3, 8e-3, 11e-3],
+        "drops": [14e-6, 3e-6, 0.2e-6, 0.0, 0.5e-6, 4e-6, 18e-6],
+    })
+}
+
+/// Rollers and outer raceway by tables, lengths and crowns that deviate, ribs.
+fn shaped() -> Arc<Model> {
+    let mut space = freedom();
+    space["length_deviations"] =
+        json!({"each": (0..12).map(|j| 1e-5 * f64::from(j - 6)).collect::<Vec<_>>()});
+    space["crown_deviations"] =
+        json!({"groups": [{"rollers": [1, 9], "deviation": 2e-6}, {"rollers": [10], "deviation": -1e-6}]});
+    rollers(&[
+        ("rollers.space", space),
+        ("rollers.profile", json!({"table": drops()})),
+        ("outer_ring.raceway_drops", drops()),
+        ("raceways.slices", json!(8)),
+        (
+            "ribs",
+            caged(&[]).scene().ribs.as_ref().map_or(Value::Null, |ribs| serde_json::to_value(ribs).unwrap()),
+        ),
+    ])
 }
 
 /// With everything that has a force: profile, deviations, a speed of both rings.
@@ -93,6 +121,7 @@ fn the_plane_is_a_limit() {
 #[test]
 fn forces_and_moments_cancel() {
     cancel(&everything(), 1e3);
+    cancel(&shaped(), 1e3);
     for model in cages() {
         cancel(&model, 1e3);
     }
@@ -102,6 +131,7 @@ fn forces_and_moments_cancel() {
 fn powers_are_the_rate_of_the_energy() {
     // Of slices on the loaded part the energy is within the error of the rule; on the whole length to round-off.
     powers(&everything(), 1e-3);
+    powers(&shaped(), 1e-3);
     let mut whole = freedom();
     whole["slices_on"] = json!("whole");
     powers(&rollers(&[("rollers.space", whole)]), 1e-7);
@@ -109,7 +139,7 @@ fn powers_are_the_rate_of_the_energy() {
 
 #[test]
 fn derivatives_are_those_of_the_accelerations() {
-    for model in [rollers(&[]), everything()] {
+    for model in [rollers(&[]), everything(), shaped()] {
         let off = error(&model, 0.1);
         assert!(off < 1e-6, "{off}");
     }
@@ -349,6 +379,85 @@ fn what_leaves_the_bearing_is_told() {
         assert!(error.message.contains(told), "{error:?}");
     }
     sim.advance_to(1e-4).unwrap();
+}
+
+/// A table of a crown is the crown; a longer roller has less play between ribs, a flatter one presses on the ends.
+#[test]
+fn shapes_of_single_rollers_are_seen() {
+    let half: f64 = 0.0102;
+    let radius = 4.0;
+    let circle = |s: f64| s * s / (radius + (radius * radius - s * s).sqrt());
+    let places: Vec<f64> = (-15..=15).map(|i| f64::from(i) * half / 15.0).collect();
+    let table =
+        json!({"table": {"places": places, "drops": places.iter().map(|s| circle(*s)).collect::<Vec<_>>()}});
+    let crown = json!({"circular_crown": {"radius": radius}});
+    let loads = |profile: &Value, changes: &[(&str, Value)]| {
+        let all = [
+            &[("rollers.profile", profile.clone()), ("inner_ring.speed", json!({"constant": 0.0}))],
+            changes,
+        ]
+        .concat();
+        let found = equilibrium(&rollers(&all), RaceControl::None).unwrap();
+        let numbers = |k: usize| found.contact_values.iter().map(|values| values[k]).collect::<Vec<_>>();
+        [numbers(0), numbers(3)]
+    };
+    let [by_table, by_crown] = [&table, &crown].map(|profile| loads(profile, &[]));
+    let largest = by_crown[0].iter().copied().fold(0.0, f64::max);
+    for (a, b) in by_table[0].iter().zip(&by_crown[0]) {
+        // Cubics between places follow the circle to a share of the square of their distance.
+        assert!((a - b).abs() < 2e-3 * largest, "{a} {b}");
+    }
+    // A crown on the rollers as on all of them by deviations.
+    let drop = circle(half);
+    let deviations = json!({"each": vec![drop; 12]});
+    let [by_deviation, _] = loads(&Value::Null, &[("rollers.space.crown_deviations", deviations)]);
+    for (a, b) in by_deviation.iter().zip(&by_crown[0]) {
+        assert!((a - b).abs() < 1e-3 * largest, "{a} {b}");
+    }
+    // The lowest roller: shorter, then more crowned.
+    let of = |field: &str, deviation: f64| {
+        let list = json!({"groups": [{"rollers": [9], "deviation": deviation}]});
+        loads(&crown, &[(field, list)])
+    };
+    let k = 2 * 9;
+    let shorter = of("rollers.space.length_deviations", -4e-4);
+    let rounder = of("rollers.space.crown_deviations", 5e-6);
+    assert!(
+        rounder[0][k] < 0.98 * by_crown[0][k] && shorter[0][k] < by_crown[0][k],
+        "{rounder:?} {shorter:?}"
+    );
+    assert!(rounder[0][k + 2] > by_crown[0][k + 2]);
+}
+
+#[test]
+fn drops_and_deviations_that_make_no_sense_are_refused() {
+    let table = |places: &[f64], drops: &[f64]| json!({"table": {"places": places, "drops": drops}});
+    let cases = [
+        ("rollers.profile", table(&[-0.011, 0.011], &[0.0; 2]), "rollers.profile.table.places: has 2"),
+        ("rollers.profile", table(&[-0.011, 0.0, 0.011], &[0.0; 2]), "rollers.profile.table.drops: has 2"),
+        ("rollers.profile", table(&[-0.009, 0.0, 0.011], &[0.0; 3]), "rollers.profile.table.places.0"),
+        ("rollers.profile", table(&[-0.011, 0.001, 0.0, 0.011], &[0.0; 4]), "rollers.profile.table.places.2"),
+        ("rollers.profile", table(&[-0.011, 0.0, 0.011], &[0.0, 0.1, 0.0]), "rollers.profile.table.drops.1"),
+        (
+            "rollers.space.length_deviations",
+            json!({"each": [0.0]}),
+            "rollers.space.length_deviations.each: has 1",
+        ),
+        (
+            "rollers.space.crown_deviations",
+            json!({"groups": [{"rollers": [12], "deviation": 0.0}]}),
+            "rollers.space.crown_deviations.groups.0.rollers.0",
+        ),
+    ];
+    for (field, value, expected) in cases {
+        let base: Value = serde_json::from_str(&crate::common::read("scenes/nu2310_space.json")).unwrap();
+        let scene = crate::common::with(&base, &[(field, value)]);
+        let message = match cagedyn::Scene::from_json(&scene.to_string()) {
+            Ok(_) => panic!("{field} is taken"),
+            Err(error) => error.message,
+        };
+        assert!(message.starts_with(expected), "{message}");
+    }
 }
 
 #[test]

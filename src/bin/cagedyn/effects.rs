@@ -104,6 +104,9 @@ fn profiles(scene: &Scene, list: &mut List) {
         RollerProfile::CircularCrown { radius } => {
             format!("law: raceway contacts in slices, rollers with a crown of radius {radius} m")
         }
+        RollerProfile::Table(table) => {
+            format!("law: rollers with a profile by a table of {} drops", table.places.len())
+        }
     });
     list.add("rollers.profile", of_rollers);
     for (ring, radius) in [

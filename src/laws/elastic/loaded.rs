@@ -4,12 +4,13 @@
 //! delta(s) = c_0 + c_1 s + c_2 s^2 - p(s) - p_r(t_0 + t_1 s),   |s| <= a
 //! ```
 //!
-//! delta is cut at its extremes and where a logarithm begins; between these it is monotone and has one root at most. Loaded pieces that
+//! delta is cut at its extremes, where a logarithm begins and at the places of a table; between these it is monotone and has one root at most. Loaded pieces that
 //! meet are one part. One part has n nodes of Gauss and Legendre, of two each has n/2: a skewed roller may lie on both ends. With nodes on the whole
 //! length instead the stiffness against tilting would fall by a tenth whenever one of them leaves the contact. Within 1e-4 of force and moment
 //! with 4 nodes, 1e-5 with 8; 1e-2 and 2e-3 beside a logarithm with steep ends, whose roots cost some steps (tested).
 
 use super::profile::{MOST_SLICES, legendre};
+use super::surface::{MOST_PLACES, Surface};
 use super::tilted::{Along, Slice};
 use std::sync::LazyLock;
 
@@ -18,7 +19,7 @@ const MOST_STEPS: usize = 40;
 /// Accuracy of a root over the half length.
 const ACCURACY: f64 = 1e-13;
 /// Most places at which delta may turn, with both ends.
-const CUTS: usize = 8;
+const CUTS: usize = 2 * (MOST_PLACES + 3);
 
 /// A node of a rule on a part of the length: its place from the middle over half of that, and its weight.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -115,11 +116,18 @@ impl Along<'_> {
     /// Both ends, where a logarithm begins, and where delta turns, in order; how many these are.
     fn cuts(&self, out: &mut [f64; CUTS]) -> usize {
         let a = self.half_length;
-        let start = self.profile.map_or(0.0, |profile| profile.start());
-        let mut ends = [-a, a, a, a];
+        let start = self.profile.map_or(0.0, Surface::start);
+        let mut ends = [a; MOST_PLACES + 2];
         let mut pieces = 1;
-        if start > 0.0 && start < a {
-            (ends, pieces) = ([-a, -start, start, a], 3);
+        ends[0] = -a;
+        if let Some(table) = self.profile.and_then(|surface| surface.tables[0].as_ref()) {
+            for place in table.places().iter().filter(|place| place.abs() < a) {
+                ends[pieces] = *place;
+                pieces += 1;
+            }
+            ends[pieces] = a;
+        } else if start > 0.0 && start < a {
+            (ends[1], ends[2], pieces) = (-start, start, 3);
         }
         let mut count = 0;
         let mut push = |s: f64| {
@@ -207,7 +215,7 @@ mod tests {
         ]
     }
 
-    fn largest_error(profile: Option<&Profile>, n: usize) -> f64 {
+    fn largest_error(profile: Option<&Surface>, n: usize) -> f64 {
         let mut worst: f64 = 0.0;
         for depth in [-1e-6, 2e-6, 6e-6, 12e-6] {
             for tilt in [0.0, 1e-4, -5e-4, 2e-3] {
@@ -232,9 +240,9 @@ mod tests {
 
     #[test]
     fn a_few_nodes_on_the_loaded_part_are_enough() {
-        let crown = Profile::new(LENGTH, None, [Some(3.0), Some(20.0)], 32).unwrap();
+        let crown = Surface::new(Profile::new(LENGTH, None, [Some(3.0), Some(20.0)], 32).unwrap());
         let log = Logarithm::new(1.5e-6, LENGTH, 0.6, Some(12e-6));
-        let log = Profile::new(LENGTH, Some(log), [None, None], 32).unwrap();
+        let log = Surface::new(Profile::new(LENGTH, Some(log), [None, None], 32).unwrap());
         for (name, profile, allowed) in [
             ("straight", None, [5e-3, 2e-4]),
             ("crowned", Some(&crown), [5e-3, 2e-4]),

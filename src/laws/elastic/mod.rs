@@ -6,4 +6,5 @@ pub mod normal;
 pub mod point;
 pub mod profile;
 pub mod solid;
+pub mod surface;
 pub mod tilted;

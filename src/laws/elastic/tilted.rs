@@ -14,6 +14,7 @@
 //! Source of the sum: ISO/TS 16281, with its spring constant of the full length in every slice.
 
 use super::profile::{Profile, USUAL_SLICES, nodes};
+use super::surface::Surface;
 
 /// Halvings of a part in which the slope or the approach changes its sign: down to 1e-9 of the length.
 const HALVINGS: usize = 30;
@@ -22,7 +23,7 @@ const HALVINGS: usize = 30;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Along<'a> {
     /// Profiles of roller and raceway; without them both are straight.
-    pub profile: Option<&'a Profile>,
+    pub profile: Option<&'a Surface>,
     /// a, m.
     pub half_length: f64,
     /// c_0, m, c_1, and c_2, 1/m.
@@ -65,7 +66,7 @@ impl Along<'_> {
     /// Adds the slices of the loaded part.
     pub fn slices(&self, out: &mut Vec<Slice>) {
         let a = self.half_length;
-        let start = self.profile.map_or(0.0, Profile::start);
+        let start = self.profile.map_or(0.0, Surface::start);
         if start > 0.0 && start < a {
             for [from, to] in [[-start, start], [-start, -a], [start, a]] {
                 self.part(from, to, out);
@@ -115,7 +116,10 @@ impl Along<'_> {
             }
             end = loaded;
         }
-        let nodes = self.profile.map_or_else(|| nodes(USUAL_SLICES), Profile::nodes);
+        let nodes = self
+            .profile
+            .and_then(|surface| surface.profile.as_ref())
+            .map_or_else(|| nodes(USUAL_SLICES), Profile::nodes);
         let length = (end - deep).abs() / (2.0 * self.half_length);
         out.extend(
             nodes
@@ -159,8 +163,8 @@ mod tests {
     #[test]
     fn slices_are_the_integral_whatever_the_tilt() {
         let logarithm = Logarithm::new(1.5e-6, LENGTH, 0.6, Some(12e-6));
-        let log = Profile::new(LENGTH, Some(logarithm), [None, None], 16).unwrap();
-        let crown = Profile::new(LENGTH, None, [Some(3.0), Some(20.0)], 8).unwrap();
+        let log = Surface::new(Profile::new(LENGTH, Some(logarithm), [None, None], 16).unwrap());
+        let crown = Surface::new(Profile::new(LENGTH, None, [Some(3.0), Some(20.0)], 8).unwrap());
         for (name, profile, allowed) in
             [("straight", None, 1e-4), ("crowned", Some(&crown), 2e-4), ("logarithm", Some(&log), 1e-3)]
         {

@@ -16,7 +16,7 @@
 
 use super::{Cones, RacewayGeometry};
 use crate::bodies::RollerPlace;
-use crate::laws::elastic::profile::Profile;
+use crate::laws::elastic::surface::Surface;
 use crate::pairs::groove::RingPlace;
 use crate::scalar::Of;
 use crate::space::solid::{Vector, cross, difference, dot, scaled, sum};
@@ -90,7 +90,7 @@ impl RacewayGeometry {
         &self,
         ring: (usize, &RingPlace<T>),
         roller: &RollerPlace<T>,
-        profile: Option<&Profile>,
+        profile: Option<&Surface>,
         excess: f64,
         s: T,
     ) -> Disc<T> {
@@ -142,7 +142,7 @@ impl RacewayGeometry {
 mod tests {
     use super::*;
     use crate::bodies::{ElementMotion, Inclination, RollerState};
-    use crate::laws::elastic::profile::Logarithm;
+    use crate::laws::elastic::profile::{Logarithm, Profile};
     use crate::pairs::raceway::RingMotion;
     use crate::scalar::Dual;
     use crate::scene::RollerTaper;
@@ -157,9 +157,9 @@ mod tests {
         [NU2310, RacewayGeometry { cones: Cones::new(Some(&taper)), ..NU2310 }]
     }
 
-    fn profile() -> Profile {
+    fn profile() -> Surface {
         let logarithm = Logarithm::new(1.5e-6, 0.0204, 0.6, Some(12e-6));
-        Profile::new(0.0204, Some(logarithm), [None, Some(2.0)], 8).unwrap()
+        Surface::new(Profile::new(0.0204, Some(logarithm), [None, Some(2.0)], 8).unwrap())
     }
 
     /// Coordinates: x, rho, skew and tilt of the roller; x, r, psi and two angles of the ring.

@@ -225,8 +225,8 @@ impl RibGeometry {
         [along.max(across), along.min(across)]
     }
 
-    /// Whether the end of a roller there is certainly apart from its rib.
-    pub(crate) fn apart(&self, roller: &MovingRoller<f64>, ring: &MovingRing<f64>) -> bool {
+    /// Whether the end of a roller there that is longer than nominal by `longer` (m) is certainly apart from its rib.
+    pub(crate) fn apart(&self, roller: &MovingRoller<f64>, ring: &MovingRing<f64>, longer: f64) -> bool {
         if self.angle != self.opening {
             // Of an inclined roller nothing is told early.
             return false;
@@ -241,13 +241,19 @@ impl RibGeometry {
             place.rho.abs() + or.abs() + ot.abs() + self.pitch_radius * (b[1].abs() + b[2].abs()) * sin;
         let turned = self.end.face_radius * angle + 0.5 * self.end.length * sin * angle;
         // Untilted, y_1 N1 - |y|^2/(2 R_s) is largest at y_n.
-        cos * self.side * t + sin * across + turned + angle * angle * self.end.cap_radius < self.gap
+        cos * self.side * t + sin * across + turned + angle * angle * self.end.cap_radius + 0.5 * longer
+            < self.gap
     }
 
-    /// The end of a roller there. They touch where delta is above zero.
-    pub(crate) fn touch<T: Real>(&self, roller: &MovingRoller<T>, ring: &MovingRing<T>) -> EndTouch<T> {
+    /// The end of a roller there that is longer than nominal by `longer`, m. They touch where delta is above zero.
+    pub(crate) fn touch<T: Real>(
+        &self,
+        roller: &MovingRoller<T>,
+        ring: &MovingRing<T>,
+        longer: f64,
+    ) -> EndTouch<T> {
         let Inclination { sin, cos } = self.angle;
-        let (e, f, half) = (self.side, self.outwards, 0.5 * self.end.length);
+        let (e, f, half) = (self.side, self.outwards, 0.5 * (self.end.length + longer));
         let radii = [self.end.cap_radius, self.across_radius];
         let (u, b, [ox, or, ot]) = (roller.place.axis, ring.axis, ring.centre);
         let one = T::constant(1.0);
@@ -266,12 +272,14 @@ impl RibGeometry {
         let drop = y1 * y1 * (0.5 / radii[0]) + y2 * y2 * (0.5 / radii[1]);
         let y_n = self.middle();
         let opening = self.opening;
-        let delta =
-            t * (cos * e) + (roller.place.rho + square / (d + r)) * (f * sin) + (nu - opening.cos) * half
-                - drop * nu
-                + y1 * n1
-                + y2 * n2
-                + (opening.cos * y_n * y_n * 0.5 / radii[0] - opening.sin * y_n - self.gap);
+        let delta = t * (cos * e)
+            + (roller.place.rho + square / (d + r)) * (f * sin)
+            + (nu - opening.cos) * half
+            + 0.5 * longer * opening.cos
+            - drop * nu
+            + y1 * n1
+            + y2 * n2
+            + (opening.cos * y_n * y_n * 0.5 / radii[0] - opening.sin * y_n - self.gap);
         let arm = sum(scaled(u, (-drop + half) * e), sum(scaled(m1, y1), scaled(w, y2)));
         let turn = y1 * n2 - y2 * n1;
         let tangential = dot(arm, e_t) / d * (f * sin) + turn * dot(w, e_t) / (c * d);
@@ -370,7 +378,7 @@ mod tests {
             moving: Moving { velocity: of_ring, turning: ring_turning },
             speed: T::constant(0.0),
         };
-        rib.touch(&roller, &ring)
+        rib.touch(&roller, &ring, 0.0)
     }
 
     /// States with an end on each region, by one side or the other.

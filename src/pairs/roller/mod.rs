@@ -8,11 +8,13 @@ mod bar;
 mod end;
 mod end_laws;
 mod laws;
+mod shapes;
 mod slice;
 
 pub(crate) use bar::Bars;
 pub(crate) use end_laws::{EndPair, ends};
 pub(crate) use laws::{SliceLaws, SpotForces, SpotLaw};
+pub(crate) use shapes::Shapes;
 pub(crate) use slice::OnRaceway;
 
 use super::line_laws::LawBuilder;

@@ -15,7 +15,7 @@
 
 use super::{MovingRoller, Spot, UnitWrench};
 use crate::bodies::MovingRing;
-use crate::laws::elastic::profile::Profile;
+use crate::laws::elastic::surface::Surface;
 use crate::pairs::groove::RingPlace;
 use crate::pairs::raceway::{Disc, RacewayGeometry};
 use crate::scalar::{Of, Real};
@@ -25,7 +25,7 @@ use crate::space::solid::{Moving, cross, difference, dot, scaled, sum};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct OnRaceway<'a, T> {
     pub(crate) geometry: &'a RacewayGeometry,
-    pub(crate) profile: Option<&'a Profile>,
+    pub(crate) profile: Option<&'a Surface>,
     /// 0 outer, 1 inner.
     pub(crate) side: usize,
     pub(crate) ring: MovingRing<T>,
@@ -156,7 +156,7 @@ impl<T: Of<f64>> OnRaceway<'_, T> {
 mod tests {
     use super::*;
     use crate::bodies::{ElementMotion, RingState, RollerState};
-    use crate::laws::elastic::profile::Logarithm;
+    use crate::laws::elastic::profile::{Logarithm, Profile};
     use crate::pairs::raceway::{Cones, RingMotion};
     use crate::scene::RollerTaper;
 
@@ -169,9 +169,9 @@ mod tests {
         RacewayGeometry { cones: Cones::new(Some(&taper)), ..NU2310 }
     }
 
-    fn profile() -> Profile {
+    fn profile() -> Surface {
         let logarithm = Logarithm::new(1.5e-6, 0.0204, 0.6, Some(12e-6));
-        Profile::new(0.0204, Some(logarithm), [None, Some(2.0)], 8).unwrap()
+        Surface::new(Profile::new(0.0204, Some(logarithm), [None, Some(2.0)], 8).unwrap())
     }
 
     /// Place and angles of a roller, then of the ring; rates in the same order. All at the azimuth zero.

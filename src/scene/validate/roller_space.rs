@@ -25,6 +25,17 @@ impl Scene {
         let thin = rollers.mass * space.length * space.length;
         let inertia = range(0.5 * rollers.inertia, rollers.inertia + thin, "kg m^2");
         judge.optional(&at("transverse_inertia"), space.transverse_inertia, inertia)?;
+        let lists = [
+            ("length_deviations", &space.length_deviations, 0.02 * space.length),
+            ("crown_deviations", &space.crown_deviations, 1e-3 * rollers.radius),
+        ];
+        for (field, deviations, largest) in lists {
+            if let Some(deviations) = deviations {
+                let path = at(field);
+                let of = ("rollers", path.as_str(), rollers.count);
+                self.validate_deviations(judge, of, range(-largest, largest, "m"), deviations)?;
+            }
+        }
         if let Some(taper) = &space.taper {
             let at = |field: &str| at(&format!("taper.{field}"));
             judge.number(&at("half_angle"), taper.half_angle, HALF_ANGLE)?;

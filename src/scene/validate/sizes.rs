@@ -1,6 +1,6 @@
 //! Checks of the deviations of the radii of rollers and balls.
 
-use crate::scene::check::range;
+use crate::scene::check::{Range, range};
 use crate::scene::validate::Judge;
 use crate::scene::*;
 
@@ -17,15 +17,26 @@ impl Scene {
         deviations: Option<&RadiusDeviations>,
     ) -> Result<()> {
         let Some(deviations) = deviations else { return Ok(()) };
-        let one = elements.trim_end_matches('s');
         let bound = LARGEST * radius;
         let pocket = self.cage.as_ref().and_then(|cage| cage.pocket.as_ref()).map(Pocket::clearance);
         // A larger roller does not fit into its pocket.
         let largest = pocket.filter(|clearance| *clearance < bound).unwrap_or(bound);
-        let allowed = range(-bound, largest, "m");
+        let path = format!("{elements}.radius_deviations");
+        self.validate_deviations(judge, (elements, &path, count), range(-bound, largest, "m"), deviations)
+    }
+
+    /// Checks deviations of `count` rollers or balls, which are `elements`, at this path.
+    pub(in crate::scene) fn validate_deviations(
+        &self,
+        judge: Judge<'_>,
+        (elements, at, count): (&str, &str, u32),
+        allowed: Range,
+        deviations: &RadiusDeviations,
+    ) -> Result<()> {
+        let one = elements.trim_end_matches('s');
         match deviations {
             RadiusDeviations::Each(list) => {
-                let path = format!("{elements}.radius_deviations.each");
+                let path = format!("{at}.each");
                 if list.len() != count as usize {
                     let text = format!("has {} numbers for {count} {elements}", list.len());
                     judge.refuse(&path, text)?;
@@ -37,7 +48,7 @@ impl Scene {
             RadiusDeviations::Groups(groups) => {
                 let mut seen = std::collections::BTreeSet::new();
                 for (g, group) in groups.iter().enumerate() {
-                    let path = format!("{elements}.radius_deviations.groups.{g}");
+                    let path = format!("{at}.groups.{g}");
                     judge.number(&format!("{path}.deviation"), group.deviation, allowed)?;
                     for (i, number) in group.rollers.iter().enumerate() {
                         let path = format!("{path}.{elements}.{i}");

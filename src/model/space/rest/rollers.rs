@@ -14,14 +14,14 @@ use super::ring::{RingAtRest, SettledRing, beside};
 use super::settle::{Balance, Rest, settle};
 use crate::bodies::{CAGE as RINGS, ElementSet, MovingRing, MovingRoller, RingInSpace, RollerPlace};
 use crate::error::{Error, Result, Status};
-use crate::laws::elastic::profile::Profile;
+use crate::laws::elastic::surface::Surface;
 use crate::laws::elastic::tilted::{Along, Slice};
 use crate::laws::line_contact::LineContact;
 use crate::model::HostInputs;
 use crate::model::plane::{Plane, StillBearing};
 use crate::pairs::groove::RingPlace;
 use crate::pairs::raceway::{Cones, Disc, RacewayGeometry};
-use crate::pairs::roller::{EndPair, Spot, SpotLaw, UnitWrench};
+use crate::pairs::roller::{EndPair, Shapes, Spot, SpotLaw, UnitWrench};
 use crate::scalar::{Dual, Of, Real, math};
 use crate::space::solid::{LARGEST_TILT, Moving, Tilt, cross, difference, scaled, sum};
 use nalgebra::{Matrix5, SMatrix, SVector, Vector5};
@@ -79,7 +79,7 @@ struct Forces<T> {
 /// A roller beside a ring.
 struct Contact<'a, T> {
     geometry: &'a RacewayGeometry,
-    profile: Option<&'a Profile>,
+    profile: Option<&'a Surface>,
     /// m.
     excess: f64,
     roller: RollerPlace<T>,
@@ -107,6 +107,7 @@ pub(crate) struct Rollers<'a> {
     laws: [&'a LineContact; 2],
     /// By how much each radius is larger than nominal, m.
     excess: &'a [f64],
+    shapes: Shapes,
     /// What holds their ends.
     ends: &'a [EndPair],
     pub(crate) azimuths: Vec<f64>,
@@ -148,7 +149,7 @@ impl Rollers<'_> {
         at: [T; OF_ROLLER],
         ring: [T; OF_RING],
     ) -> Contact<'_, T> {
-        let profile = self.laws[k].profile.as_ref();
+        let profile = self.shapes.surface(k, j);
         let (roller, ring) = (self.roller(at), (k, ring_at(k, ring)));
         Contact { geometry: &self.geometry, profile, excess: self.excess[j], roller, ring }
     }
@@ -162,6 +163,7 @@ impl Rollers<'_> {
     /// Ends on ribs: the ring, the law's load, and the unit wrench on the roller.
     fn on_ribs<T: Of<f64> + Real>(
         &self,
+        j: usize,
         at: [T; OF_ROLLER],
         ring: [T; OF_RING],
     ) -> impl Iterator<Item = (usize, OnRib<T>, UnitWrench<T>, &SpotLaw)> {
@@ -170,7 +172,7 @@ impl Rollers<'_> {
         self.ends.iter().filter(|end| end.mate < RINGS).map(move |end| {
             let RingPlace { centre, axis } = ring_at(end.mate, ring);
             let mate = MovingRing { centre, axis, moving: still(at[0]), speed: at[0].like(0.0) };
-            let Spot { delta, normal, .. } = end.geometry.touch(&roller, &mate).spot;
+            let Spot { delta, normal, .. } = end.geometry.touch(&roller, &mate, self.shapes.longer(j)).spot;
             let load = end.law.elastic_load(delta);
             let moment = normal[1][2] * load;
             (end.mate, OnRib { approach: delta, load, moment }, normal, &end.law)
@@ -179,11 +181,11 @@ impl Rollers<'_> {
 
     /// Slices of the loaded part of raceway `k` along roller `j`.
     fn slices(&self, j: usize, k: usize, at: [f64; OF_ROLLER], ring: [f64; OF_RING]) -> Vec<Slice> {
-        let half_length = self.half_length();
+        let half_length = self.shapes.half_length(j);
         let straight = Contact { profile: None, ..self.contact(j, k, at, ring) };
         let bare = [-half_length, 0.0, half_length].map(|s| straight.disc(s));
         let along = Along {
-            profile: self.laws[k].profile.as_ref(),
+            profile: self.shapes.surface(k, j),
             half_length,
             approach: Along::parabola(half_length, bare.map(|disc| disc.delta)),
             in_raceway: [bare[1].in_raceway, (bare[2].in_raceway - bare[0].in_raceway) / (2.0 * half_length)],
@@ -235,7 +237,7 @@ impl Rollers<'_> {
             }
         }
         let mut moments = out.raceways[0].moment + out.raceways[1].moment;
-        for (mate, on_rib, [force, moment], law) in self.on_ribs(at, ring) {
+        for (mate, on_rib, [force, moment], law) in self.on_ribs(j, at, ring) {
             for i in 0..2 {
                 out.on_roller[i] += on_rib.load * force[i];
             }
@@ -361,7 +363,7 @@ impl Rollers<'_> {
             (on_rib, if on_rib.load > 0.0 { law.pressed(on_rib.load) } else { [0.0; 2] })
         };
         names
-            .zip(self.on_ribs(at, ring).map(told))
+            .zip(self.on_ribs(j, at, ring).map(told))
             .map(|(name, (on_rib, pressed))| (name, on_rib, pressed))
             .collect()
     }
@@ -384,7 +386,9 @@ impl Rollers<'_> {
 pub(crate) fn settled_rollers(plane: &Plane, orbit: f64) -> Result<SettledRollers<'_>> {
     let still = StillBearing::new(plane, orbit)
         .ok_or_else(|| Error::new(Status::BadScene, "raceways: missing; nothing presses on the rollers"))?;
-    let rollers = Rollers::new(still.geometry, (still.laws, &[]), plane.elements.set(), still.centrifugal);
+    let shapes = Shapes::new(&plane.scene, still.laws, plane.elements.set().count);
+    let rollers =
+        Rollers::new(still.geometry, (still.laws, shapes, &[]), plane.elements.set(), still.centrifugal);
     let body = RingInSpace::new(&plane.scene);
     let inputs = plane.inputs.at(0.0, &HostInputs::default());
     rollers.settled(&body, body.load(&inputs))
@@ -394,12 +398,12 @@ impl<'a> Rollers<'a> {
     /// Rollers of this set between raceways with these laws and what holds their ends, under this centrifugal force, N.
     pub(in crate::model::space) fn new(
         geometry: RacewayGeometry,
-        (laws, ends): ([&'a LineContact; 2], &'a [EndPair]),
+        (laws, shapes, ends): ([&'a LineContact; 2], Shapes, &'a [EndPair]),
         set: &'a ElementSet,
         centrifugal: f64,
     ) -> Self {
         let (excess, azimuths) = (&set.radius_excess[..], set.reference_angles[..set.count].to_vec());
-        Self { geometry, laws, excess, ends, azimuths, centrifugal }
+        Self { geometry, laws, shapes, excess, ends, azimuths, centrifugal }
     }
 
     /// These at rest beside this ring under this load, N and N m.

@@ -28,7 +28,7 @@ use crate::laws::elastic::tilted::{Along, Slice};
 use crate::laws::line_contact::LineContact;
 use crate::pairs::Law;
 use crate::pairs::raceway::{Disc, RacewayGeometry};
-use crate::pairs::roller::{Bars, EndPair, OnRaceway, SpotLaw};
+use crate::pairs::roller::{Bars, EndPair, OnRaceway, Shapes, SpotLaw};
 use crate::scalar::{Numeric, math};
 use crate::scene::{Scene, SlicesOn};
 use crate::space::solid::{LARGEST_TILT, Vector, cross, scaled, sum};
@@ -52,8 +52,9 @@ pub(super) struct RollersOfScene {
     /// What ends of rollers may touch, and the places of the first among laws and contacts.
     ends: Vec<EndPair>,
     first_end: [usize; 2],
-    /// a, m.
+    /// a of nominal rollers, m.
     half_length: f64,
+    shapes: Shapes,
     slices: usize,
     slices_on: SlicesOn,
     /// What a roller can touch, in the order of reports.
@@ -74,6 +75,7 @@ impl RollersOfScene {
             return Ok(None);
         };
         let raceways = scene.raceways.as_ref();
+        let shapes = Shapes::new(scene, [&laws[0], &laws[1]], set.count);
         let mut list: Vec<SpotLaw> = laws.into_iter().map(SpotLaw::Line).collect();
         let mut contacts: Vec<&'static str> = RACEWAYS.to_vec();
         let bars = crate::pairs::roller::bars(scene, viscosity)?.map(|(bars, law)| {
@@ -96,6 +98,7 @@ impl RollersOfScene {
             ends,
             first_end,
             half_length: 0.5 * rollers.effective_length,
+            shapes,
             slices: raceways.and_then(|raceways| raceways.slices).map_or(USUAL_SLICES, |n| n as usize),
             slices_on: rollers.space.as_ref().map(|space| space.slices_on).unwrap_or_default(),
             contacts,
@@ -185,9 +188,9 @@ impl Space {
     /// Finds where rollers are loaded by one raceway.
     fn touch_raceway(&self, rollers: &RollersOfScene, side: usize, ws: &mut Workspace) {
         let Workspace { rollers: memory, rings, .. } = ws;
-        let (geometry, a) = (&rollers.geometry, rollers.half_length);
-        let profile = rollers.raceway(side).profile.as_ref();
+        let (geometry, nominal) = (&rollers.geometry, rollers.half_length);
         for j in 0..self.layout.count {
+            let (a, profile) = (rollers.shapes.half_length(j), rollers.shapes.surface(side, j));
             let of = &memory.rollers[j];
             let on = OnRaceway {
                 geometry,
@@ -215,7 +218,7 @@ impl Space {
                 continue;
             }
             memory.found.clear();
-            loaded.slices(a, rollers.slices, &mut memory.found);
+            loaded.slices(nominal, rollers.slices, &mut memory.found);
             let middle = on.middle(&middle_disc);
             let [x, rho] = of.state.at;
             let centre = on.ring.centre;
@@ -244,8 +247,8 @@ impl Space {
         ws: &mut Workspace,
     ) -> std::result::Result<(), Fault> {
         let furthest = self.set.radius / self.set.pitch_radius;
-        let (a, profile) = (rollers.half_length, rollers.raceway(0).profile.as_ref());
         for j in 0..self.layout.count {
+            let (a, surface) = (rollers.shapes.half_length(j), rollers.shapes.surface(0, j));
             let of = ws.rollers.rollers[j];
             let excess = self.set.radius_excess[j];
             let lead = of.travel - ws.cage.moving.angle;
@@ -262,7 +265,11 @@ impl Space {
                 }
                 let Workspace { rollers: memory, cage, .. } = ws;
                 memory.found.clear();
-                Loaded::whole(a).slices(a, rollers.slices.max(SLICES_OF_BAR), &mut memory.found);
+                Loaded::whole(a).slices(
+                    rollers.half_length,
+                    rollers.slices.max(SLICES_OF_BAR),
+                    &mut memory.found,
+                );
                 let centre = to_local(cage.moving.centre, of.direction);
                 let from_mate = [of.state.at[0] - centre[0], of.state.r - centre[1], -centre[2]];
                 let contact = Contact::new(
@@ -275,7 +282,7 @@ impl Space {
                 memory.open(Contact { bent: bent.map(|_| place.displaced), ..contact });
                 for i in 0..memory.found.len() {
                     let slice = memory.found[i];
-                    let drop = profile.map_or(0.0, |profile| profile.of_roller(slice.place));
+                    let drop = surface.map_or(0.0, |surface| surface.of_roller(slice.place));
                     let touch = bars.spot(&place, wall, slice.place, excess, drop);
                     // A depth that is no number is told by the forces.
                     if touch.spot.delta > 0.0 || touch.spot.delta.is_nan() {
@@ -298,10 +305,11 @@ impl Space {
                 let of = &memory.rollers[j];
                 let ring = beside(&of_mate, of.direction);
                 let roller = of.state.motion();
-                if end.geometry.apart(&roller, &ring) {
+                let longer = rollers.shapes.longer(j);
+                if end.geometry.apart(&roller, &ring, longer) {
                     continue;
                 }
-                let touch = end.geometry.touch(&roller, &ring);
+                let touch = end.geometry.touch(&roller, &ring, longer);
                 // A depth that is no number is told by the forces.
                 if touch.spot.delta <= 0.0 {
                     continue;

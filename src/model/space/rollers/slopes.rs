@@ -199,7 +199,7 @@ impl Space {
                     self.varied_ring(pass, ws, mate, rates, direction)
                 };
                 let end = &rollers.ends[k];
-                let touch = end.geometry.touch(&state.motion(), &ring);
+                let touch = end.geometry.touch(&state.motion(), &ring, rollers.shapes.longer(contact.roller));
                 if let Some(force) = end.law.alone(&touch.spot, ln_viscosity) {
                     let forces = [force.normal, force.secant, force.rolling];
                     on_roller.add(&touch.spot, forces, state.axis);
@@ -211,13 +211,13 @@ impl Space {
         };
         let on = OnRaceway {
             geometry: &rollers.geometry,
-            profile: rollers.raceway(side).profile.as_ref(),
+            profile: rollers.shapes.surface(side, contact.roller),
             side,
             ring: self.varied_ring(pass, ws, side, rates, direction),
             roller: state.motion(),
             excess: self.set.radius_excess[contact.roller],
         };
-        let a = rollers.half_length;
+        let a = rollers.shapes.half_length(contact.roller);
         let discs = [-a, 0.0, a].map(|s| on.straight(Varied::lift(s)));
         let middle = on.middle(&discs[1]);
         let slices = Edges::new(rollers, side, contact, discs.map(|disc| (disc.delta, disc.in_raceway)));
@@ -258,11 +258,11 @@ impl Space {
             [[at(0, 0), at(0, 1)], [at(1, 0), at(1, 1)]]
         });
         let place = bars.place(&state.motion(), direction, lead, &cage, bent);
-        let profile = rollers.raceway(0).profile.as_ref();
+        let surface = rollers.shapes.surface(0, j);
         let law = &rollers.laws[contact.law];
         for node in ws.rollers.places(contact) {
             let s = node.slice.place;
-            let drop = profile.map_or(0.0, |profile| profile.of_roller(s));
+            let drop = surface.map_or(0.0, |surface| surface.of_roller(s));
             let spot = bars.spot(&place, wall, s, self.set.radius_excess[j], drop).spot;
             let forces = match &ws.rollers.laws[contact.law] {
                 Some(slices) => slices.varied(node.row, &spot, ln_viscosity),

@@ -55,7 +55,7 @@ impl Space {
         let inputs = self.inputs.at(0.0, &HostInputs::default());
         let [orbit, _] = rollers.kinematic_speeds(&inputs);
         let laws = [rollers.raceway(0), rollers.raceway(1)];
-        let laws = (laws, &rollers.ends[..]);
+        let laws = (laws, rollers.shapes.clone(), &rollers.ends[..]);
         let resting = Rollers::new(rollers.geometry, laws, &self.set, rollers.centrifugal(orbit));
         let mut body = RingInSpace::new(&self.scene);
         let load = body.load(&inputs);

@@ -100,7 +100,7 @@ impl Edges {
         contact: &Contact,
         discs: [(Varied, Varied); 3],
     ) -> Self {
-        let a = rollers.half_length;
+        let a = rollers.shapes.half_length(contact.roller);
         let [low, middle, high] = discs;
         let of = |f: &dyn Fn([f64; 3]) -> f64, d: usize, at: [Varied; 3]| f(at.map(|x| x.eps[d]));
         let approach = [low.0, middle.0, high.0];
@@ -115,7 +115,7 @@ impl Edges {
         };
         let [c0, c1, c2] = [coefficient(0), coefficient(1), coefficient(2)];
         let (t0, t1) = (middle.1, (high.1 - low.1) * (0.5 / a));
-        let profile = rollers.raceway(side).profile.as_ref();
+        let profile = rollers.shapes.surface(side, contact.roller);
         let moved = |s: f64| {
             if s.abs() >= a || rollers.slices_on == SlicesOn::Whole {
                 return Varied::lift(s);
@@ -139,7 +139,7 @@ impl Edges {
         for (ends, part) in ends.iter_mut().zip(parts) {
             *ends = part.map(moved);
         }
-        Self { parts: ends, count: parts.len(), half_length: a }
+        Self { parts: ends, count: parts.len(), half_length: rollers.half_length }
     }
 
     /// Place and share of a slice.

@@ -274,7 +274,7 @@ pub(super) const GROUPS: &[Group] = &[
         SIZE,
         |s| match s.rollers.as_ref()?.profile.as_ref()? {
             RollerProfile::CircularCrown { radius } => Some((*radius, s.crowns())),
-            RollerProfile::Logarithmic(_) => None,
+            RollerProfile::Logarithmic(_) | RollerProfile::Table(_) => None,
         },
         UNUSUAL,
     ),
