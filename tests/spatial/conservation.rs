@@ -56,7 +56,10 @@ pub(crate) fn cancel(model: &Arc<Model>, largest: f64) {
     }
     let caged = model.body_names().contains(&"cage".to_owned());
     let ribs = model.contact_names().iter().any(|name| name.contains("_rib_"));
-    assert_eq!(acts, [true, true, caged, caged, ribs]);
+    let cage = model.scene().cage.as_ref();
+    let lands = cage.and_then(|cage| cage.space.as_ref()).is_some_and(|space| !space.lands.is_empty());
+    let guided = lands || cage.is_some_and(|cage| cage.guide.is_some());
+    assert_eq!(acts, [true, true, caged, guided, ribs]);
 }
 
 /// The powers are the rate of the energy.

@@ -139,8 +139,9 @@ fn powers_are_the_rate_of_the_energy() {
 
 #[test]
 fn derivatives_are_those_of_the_accelerations() {
-    for model in [rollers(&[]), everything(), shaped()] {
-        let off = error(&model, 0.1);
+    // Differences across a place of a table, where its curvature jumps, see both sides: of the last one at states without any.
+    for (model, spread) in [(rollers(&[]), 0.1), (everything(), 0.1), (shaped(), 0.13)] {
+        let off = error(&model, spread);
         assert!(off < 1e-6, "{off}");
     }
 }

@@ -27,7 +27,7 @@ impl Scene {
         judge.optional(&at("transverse_inertia"), space.transverse_inertia, inertia)?;
         let lists = [
             ("length_deviations", &space.length_deviations, 0.02 * space.length),
-            ("crown_deviations", &space.crown_deviations, 1e-3 * rollers.radius),
+            ("crown_deviations", &space.crown_deviations, 5e-3 * rollers.radius),
         ];
         for (field, deviations, largest) in lists {
             if let Some(deviations) = deviations {

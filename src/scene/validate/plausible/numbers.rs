@@ -32,6 +32,16 @@ pub(super) const NUMBERS: &[(&str, Range)] = &[
     ("rollers.radius_deviations.groups.*.deviation", range(1e-9, 1e-4, "m")),
     ("rollers.profile.logarithmic.load_factor", range(0.1, 10.0, "")),
     ("rollers.profile.logarithmic.end_drop", range(1e-8, 1e-3, "m")),
+    ("rollers.profile.table.places.*", range(1e-5, 1.0, "m")),
+    ("rollers.profile.table.drops.*", DROPS),
+    ("*.raceway_drops.places.*", range(1e-5, 1.0, "m")),
+    ("*.raceway_drops.drops.*", DROPS),
+    ("rollers.space.length_deviations.each.*", DEVIATION),
+    ("rollers.space.length_deviations.groups.*.deviation", DEVIATION),
+    ("rollers.space.crown_deviations.each.*", DROPS),
+    ("rollers.space.crown_deviations.groups.*.deviation", DROPS),
+    ("rollers.space.taper.half_angle", range(5e-3, 0.15, "rad")),
+    ("rollers.space.taper.outer_raceway_angle", range(0.1, 0.6, "rad")),
     ("rollers.space.length", range(1e-3, 1.0, "m")),
     ("rollers.space.transverse_inertia", range(1e-12, 1e3, "kg m^2")),
     ("rollers.space.ends.cap_radius", range(0.02, 50.0, "m")),
@@ -112,6 +122,8 @@ pub(super) const NUMBERS: &[(&str, Range)] = &[
     ("initial.first_roller_angle", TURN),
 ];
 
+const DROPS: Range = range(1e-9, 5e-4, "m");
+const DEVIATION: Range = range(1e-7, 1e-3, "m");
 const PLACE: Range = range(1e-9, 2e-3, "m");
 const MISALIGNMENT: Range = range(1e-6, 0.03, "rad");
 const FRICTION: Range = range(1e-3, 1.0, "");
