@@ -18,9 +18,9 @@ const ROUND_OFF: f64 = 1e-12;
 const ROLLER: [Quantity; 5] = [
     AZIMUTH,
     RADIAL_OFFSET,
-    quantity("axial_offset", "m", "place along the axis of the bearing"),
     quantity("tilt", "rad", "rotation of its axis about that along the orbit: its +x end outwards"),
     ORBIT_SPEED,
+    quantity("axial_offset", "m", "place along the axis of the bearing"),
 ];
 /// What is known of every contact.
 const CONTACT: [Quantity; 8] = [
@@ -63,7 +63,7 @@ pub(super) fn told(model: &Model, settled: &SettledRollers<'_>) -> Equilibrium {
     found.line_loads.places = (0..=PLACES).map(|i| length * (i as f64 / PLACES as f64 - 0.5)).collect();
     for j in 0..settled.places.len() {
         let [x, rho, tilt] = settled.place(j);
-        found.elements.push(vec![settled.rollers.azimuths[j], rho, x, tilt, orbit]);
+        found.elements.push(vec![settled.rollers.azimuths[j], rho, tilt, orbit, x]);
         for (k, name) in ["outer_raceway", "inner_raceway"].into_iter().enumerate() {
             let name = format!("{}[{j}].{name}", model.element_kind());
             let (values, line_loads) = contact(settled, (j, k), &found.line_loads.places);
