@@ -11,13 +11,15 @@ use std::sync::Arc;
 const SCENE_PAGE: &str = "docs/scene.md and the pages in docs/scene";
 
 /// Types that `docs/scene.md` describes once, under these names.
-const SHARED: [(&str, &str); 7] = [
+const SHARED: [(&str, &str); 9] = [
     ("Signal", "<signal>"),
     ("PlaneVector", "<vector>"),
     ("ContactLaws", "<contact>"),
     ("SolidContact", "<solid>"),
     ("Friction", "<friction>"),
     ("Guide", "<guide>"),
+    ("DropTable", "<drops>"),
+    ("RadiusDeviations", "<deviations>"),
     ("RoundPocket", "<round_pocket>"),
 ];
 

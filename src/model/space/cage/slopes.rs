@@ -3,13 +3,14 @@
 use super::super::Space;
 use super::super::evaluate::{moving, to_global};
 use super::super::linearize::RingSlopes;
+use super::super::rollers::{AT_ONCE, Pass, Varied};
 use super::super::workspace::{Workspace, at_lane};
 use super::turning_outer;
 use crate::bodies::{
     CAGE, CageState, INNER_RING, Input, InputValues, MovingRing, OF_BALL, OF_CAGE, OF_RING, RingState,
 };
 use crate::integrate::Linearization;
-use crate::pairs::ball_pocket::BallAt;
+use crate::pairs::ball_pocket::{BallAt, BallPockets};
 use crate::pairs::guide::land::Land;
 use crate::scalar::{Dual, Numeric, place_of};
 use crate::space::solid::Vector;
@@ -22,7 +23,15 @@ const BALL_SPEEDS: usize = 3;
 const CAGE_IN_POCKET: usize = 3 + OF_BALL;
 const BENT_IN_POCKET: usize = CAGE_IN_POCKET + 2 * OF_CAGE;
 const POCKET_TIME: usize = IN_POCKET - 1;
-type InPocket = Dual<IN_POCKET>;
+/// Slopes of a force over these.
+type PocketSlopes = [f64; IN_POCKET];
+
+/// Slopes of what a pocket does over what it sees, found a few directions at once.
+struct OfPocket {
+    on_ball: [PocketSlopes; 6],
+    on_cage: [PocketSlopes; 6],
+    on_bending: [PocketSlopes; 2],
+}
 
 /// What a land sees: coordinates of the ring, their rates, coordinates of the cage, their rates, time.
 const AT_LAND: usize = 2 * OF_RING + 2 * OF_CAGE + 1;
@@ -96,46 +105,14 @@ impl Space {
         let (j, first, width) = (touching.ball, self.layout.range(CAGE).start, self.layout.hub());
         let (block, lane) = place_of(j);
         let block = &ws.blocks[block];
-        let variable = InPocket::variable;
-        // Elements of prescribed motion go on in time.
-        let [orbit, orbit_rate, spin_rate] = if self.free {
-            [0.0; 3]
-        } else {
-            [rates.angles[0], rates.of(Input::OrbitSpeed), rates.of(Input::SpinSpeed)]
-        };
-        let [x, rho] = at_lane(&block.at, lane);
-        let [cos, sin] = at_lane(&block.direction, lane);
-        let mut direction = [InPocket::lift(cos), InPocket::lift(sin)];
-        (direction[0].eps[2], direction[1].eps[2]) = (-sin, cos);
-        direction = [timed(direction[0], -sin * orbit), timed(direction[1], cos * orbit)];
-        let speeds = at_lane(&block.speeds, lane);
-        let mut of_ball: [InPocket; OF_BALL] = std::array::from_fn(|k| variable(speeds[k], BALL_SPEEDS + k));
-        of_ball[2] = timed(of_ball[2], orbit_rate);
-        of_ball[3] = timed(of_ball[3], spin_rate);
-        let state = CageState {
-            position: std::array::from_fn(|k| variable(ws.cage.state.position[k], CAGE_IN_POCKET + k)),
-            rate: std::array::from_fn(|k| variable(ws.cage.state.rate[k], CAGE_IN_POCKET + OF_CAGE + k)),
-        };
-        let cage = state.motion();
-        let rho = variable(rho, 1);
-        let mut lead = InPocket::lift(block.travel[lane] - ws.cage.moving.angle);
-        (lead.eps[2], lead.eps[CAGE_IN_POCKET + 3]) = (1.0, -1.0);
-        let ball = BallAt {
-            at: [variable(x, 0), rho],
-            direction,
-            lead: timed(lead, orbit),
-            moving: moving(of_ball, rho + self.set.pitch_radius),
-            excess: block.excess[lane],
-            bent: self.displaced_pocket(ws, j).map(|bent| {
-                let at = |i: usize, k: usize| variable(bent[i][k], BENT_IN_POCKET + 2 * i + k);
-                [[at(0, 0), at(0, 1)], [at(1, 0), at(1, 1)]]
-            }),
-        };
-        let in_pocket = pockets.place(&ball, &cage);
-        let Some(contact) = pockets.contact(touching.wall, &ball, &in_pocket, &cage) else { return };
-        let [on_ball, on_cage] = contact.wrenches();
-        let on_bending = contact.on_bending(on_cage[0]);
-        let (on_ball, on_cage) = (numbers(on_ball), numbers(on_cage.map(|v| to_global(v, direction))));
+        let none = [0.0; IN_POCKET];
+        let mut slopes = OfPocket { on_ball: [none; 6], on_cage: [none; 6], on_bending: [none; 2] };
+        for first in (0..IN_POCKET).step_by(AT_ONCE) {
+            if !self.find_pocket_slopes(ws, (pockets, place), rates, Pass { first }, &mut slopes) {
+                return;
+            }
+        }
+        let OfPocket { on_ball, on_cage, on_bending } = slopes;
         let displacements = cage_of_scene.body.displacements(j);
         // Over what the modes do to the pocket.
         let over_modes =
@@ -146,12 +123,12 @@ impl Space {
         ];
         let positions = [3, OF_BALL];
         let [mass, inertia] = at_lane(&block.inertia, lane);
-        let r = self.set.pitch_radius + rho.re;
+        let r = self.set.pitch_radius + at_lane(&block.at, lane)[1];
         let inverse = [mass, mass, mass * r, inertia, inertia, inertia].map(|x| 1.0 / x);
         for (i, by) in by_forces.row_iter().enumerate() {
             let mut row = [0.0; IN_POCKET];
-            let mut add = |by: f64, force: &InPocket| {
-                row.iter_mut().zip(force.eps).for_each(|(sum, slope)| *sum += by * slope);
+            let mut add = |by: f64, force: &PocketSlopes| {
+                row.iter_mut().zip(force).for_each(|(sum, slope)| *sum += by * slope);
             };
             on_cage.iter().enumerate().for_each(|(w, force)| add(by[w], force));
             for (k, force) in on_bending.iter().enumerate().filter(|_| !displacements.is_empty()) {
@@ -183,7 +160,7 @@ impl Space {
             let own = part.own.as_mut_slice().as_chunks_mut::<OF_BALL>().0;
             let from_hub = part.from_hub.as_mut_slice().as_chunks_mut::<OF_BALL>().0;
             for row in 0..OF_BALL {
-                let slopes = on_ball[row].eps;
+                let slopes = on_ball[row];
                 for k in 0..positions {
                     own[j * OF_BALL + k][row] += slopes[of_ball + k] * inverse[row];
                 }
@@ -196,6 +173,69 @@ impl Space {
                 }
             }
         }
+    }
+
+    /// Finds those along the directions of a pass; whether there is a contact.
+    fn find_pocket_slopes(
+        &self,
+        ws: &Workspace,
+        (pockets, place): (&BallPockets, usize),
+        rates: &InputValues,
+        pass: Pass,
+        slopes: &mut OfPocket,
+    ) -> bool {
+        let touching = &ws.cage.touching[place];
+        let j = touching.ball;
+        let (block, lane) = place_of(j);
+        let block = &ws.blocks[block];
+        let variable = |x: f64, direction: usize| pass.variable(x, direction);
+        let timed = |x: Varied, rate: f64| pass.along(x, POCKET_TIME, rate);
+        // Elements of prescribed motion go on in time.
+        let [orbit, orbit_rate, spin_rate] = if self.free {
+            [0.0; 3]
+        } else {
+            [rates.angles[0], rates.of(Input::OrbitSpeed), rates.of(Input::SpinSpeed)]
+        };
+        let [x, rho] = at_lane(&block.at, lane);
+        let [cos, sin] = at_lane(&block.direction, lane);
+        let turning = |x: f64, rate: f64| timed(pass.along(Varied::lift(x), 2, rate), rate * orbit);
+        let direction = [turning(cos, -sin), turning(sin, cos)];
+        let speeds = at_lane(&block.speeds, lane);
+        let mut of_ball: [Varied; OF_BALL] = std::array::from_fn(|k| variable(speeds[k], BALL_SPEEDS + k));
+        of_ball[2] = timed(of_ball[2], orbit_rate);
+        of_ball[3] = timed(of_ball[3], spin_rate);
+        let state = CageState {
+            position: std::array::from_fn(|k| variable(ws.cage.state.position[k], CAGE_IN_POCKET + k)),
+            rate: std::array::from_fn(|k| variable(ws.cage.state.rate[k], CAGE_IN_POCKET + OF_CAGE + k)),
+        };
+        let cage = state.motion();
+        let rho = variable(rho, 1);
+        let lead = pass.along(Varied::lift(block.travel[lane] - ws.cage.moving.angle), 2, 1.0);
+        let lead = pass.along(lead, CAGE_IN_POCKET + 3, -1.0);
+        let ball = BallAt {
+            at: [variable(x, 0), rho],
+            direction,
+            lead: timed(lead, orbit),
+            moving: moving(of_ball, rho + self.set.pitch_radius),
+            excess: block.excess[lane],
+            bent: self.displaced_pocket(ws, j).map(|bent| {
+                let at = |i: usize, k: usize| variable(bent[i][k], BENT_IN_POCKET + 2 * i + k);
+                [[at(0, 0), at(0, 1)], [at(1, 0), at(1, 1)]]
+            }),
+        };
+        let in_pocket = pockets.place(&ball, &cage);
+        let Some(contact) = pockets.contact(touching.wall, &ball, &in_pocket, &cage) else { return false };
+        let [on_ball, on_cage] = contact.wrenches();
+        let on_bending = contact.on_bending(on_cage[0]);
+        let on_cage = numbers(on_cage.map(|v| to_global(v, direction)));
+        let last = (pass.first + AT_ONCE).min(IN_POCKET);
+        let put = |to: &mut PocketSlopes, force: &Varied| {
+            to[pass.first..last].copy_from_slice(&force.eps[..last - pass.first]);
+        };
+        slopes.on_ball.iter_mut().zip(&numbers(on_ball)).for_each(|(to, force)| put(to, force));
+        slopes.on_cage.iter_mut().zip(&on_cage).for_each(|(to, force)| put(to, force));
+        slopes.on_bending.iter_mut().zip(&on_bending).for_each(|(to, force)| put(to, force));
+        true
     }
 
     fn add_land_slopes(

@@ -19,6 +19,7 @@ use crate::laws::elastic::tilted::{Along, Slice};
 use crate::laws::line_contact::LineContact;
 use crate::model::HostInputs;
 use crate::model::plane::{Plane, StillBearing};
+use crate::model::space::rollers::{AT_ONCE, Pass, Varied};
 use crate::pairs::groove::RingPlace;
 use crate::pairs::raceway::{Cones, Disc, RacewayGeometry};
 use crate::pairs::roller::{EndPair, Shapes, Spot, SpotLaw, UnitWrench};
@@ -262,10 +263,31 @@ impl Rollers<'_> {
     /// With their derivatives over the roller and the ring, at slices that stay.
     fn slopes(&self, j: usize, at: [f64; OF_ROLLER], ring: [f64; OF_RING]) -> Forces<Dual<ALL>> {
         let slices = [0, 1].map(|k| self.slices(j, k, at, ring));
-        let variable =
-            |k: usize| Dual::<ALL>::variable(if k < OF_ROLLER { at[k] } else { ring[k - OF_ROLLER] }, k);
-        let at = std::array::from_fn(variable);
-        self.forces(j, at, std::array::from_fn(|k| variable(OF_ROLLER + k)), &slices)
+        let variable = |k: usize, first: usize| {
+            let value = if k < OF_ROLLER { at[k] } else { ring[k - OF_ROLLER] };
+            Pass { first }.variable(value, k)
+        };
+        // As many directions at once as in motion, whose code this is.
+        let pass = |first: usize| {
+            let at = std::array::from_fn(|k| variable(k, first));
+            self.forces(j, at, std::array::from_fn(|k| variable(OF_ROLLER + k, first)), &slices)
+        };
+        let [low, high] = [pass(0), pass(AT_ONCE)];
+        let joined = |low: Varied, high: Varied| {
+            let eps = |d: usize| if d < AT_ONCE { low.eps[d] } else { high.eps[d - AT_ONCE] };
+            Dual { re: low.re, eps: std::array::from_fn(eps) }
+        };
+        let on_raceway = |k: usize| {
+            let (low, high) = (low.raceways[k], high.raceways[k]);
+            let (load, moment) = (joined(low.load, high.load), joined(low.moment, high.moment));
+            OnRaceway { load, moment, loaded: low.loaded }
+        };
+        Forces {
+            on_roller: std::array::from_fn(|k| joined(low.on_roller[k], high.on_roller[k])),
+            on_ring: std::array::from_fn(|k| joined(low.on_ring[k], high.on_ring[k])),
+            raceways: [on_raceway(0), on_raceway(1)],
+            energy: low.energy,
+        }
     }
 
     /// Energy that falls along the forces on the roller, J.

@@ -13,6 +13,7 @@ mod varied;
 
 pub(super) use contacts::{Contact, Place, RollerMemory};
 pub(crate) use report::OfRollers;
+pub(super) use varied::{AT_ONCE, Pass, Varied};
 
 use super::Space;
 use super::cage::add_to_modes;

@@ -21,15 +21,15 @@ pub(super) const TIME: usize = BENT + 4;
 pub(super) const ALL: usize = TIME + 1;
 
 /// Directions of one pass; all at once would make the code four times as large.
-pub(super) const AT_ONCE: usize = 7;
+pub(in super::super) const AT_ONCE: usize = 7;
 pub(super) const PASSES: usize = ALL / AT_ONCE;
 const _: () = assert!(ALL.is_multiple_of(AT_ONCE));
-pub(super) type Varied = Dual<AT_ONCE>;
+pub(in super::super) type Varied = Dual<AT_ONCE>;
 
 /// The directions of a pass.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Pass {
-    pub(super) first: usize,
+pub(in super::super) struct Pass {
+    pub(in super::super) first: usize,
 }
 
 impl Pass {
@@ -39,7 +39,7 @@ impl Pass {
     }
 
     /// Lets a number change at this rate along a direction.
-    pub(super) fn along(self, mut x: Varied, direction: usize, rate: f64) -> Varied {
+    pub(in super::super) fn along(self, mut x: Varied, direction: usize, rate: f64) -> Varied {
         if let Some(place) = self.place(direction) {
             x.eps[place] += rate;
         }
@@ -47,7 +47,7 @@ impl Pass {
     }
 
     /// A coordinate.
-    pub(super) fn variable(self, x: f64, direction: usize) -> Varied {
+    pub(in super::super) fn variable(self, x: f64, direction: usize) -> Varied {
         self.along(Varied::lift(x), direction, 1.0)
     }
 
