@@ -47,6 +47,7 @@ static void check_sim(const Model &model)
     CHECK(state == expected && sim.time() == 1e-3);
     CHECK(sim.outputs()[0] == sim.output(0) && sim.outputs().size() == std::size_t(model.outputs().size()));
     CHECK(sim.contact_forces().size() == std::size_t(48 * model.contact_quantities().size()));
+    CHECK(model.line_load_quantities().name(2) == "line_load" && sim.line_loads(0).empty());
     CHECK(sim.body_forces().size() == std::size_t(15 * model.force_sources().size() * 3));
 
     std::array<double, 70> rate{};

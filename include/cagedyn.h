@@ -310,6 +310,21 @@ int32_t cagedyn_equilibrium_contact(const cagedyn_equilibrium *found,
                                     double *out,
                                     int64_t length);
 
+/* Number of places along every roller at which its line loads are told: those of rollers that may tilt; of others none. Negative status
+ * code on failure. */
+int64_t cagedyn_equilibrium_line_load_count(const cagedyn_equilibrium *found);
+
+/* Writes these places, the same of all contacts, from the middle of the roller along its axis, m (length: line load count). */
+int32_t cagedyn_equilibrium_line_load_places(const cagedyn_equilibrium *found,
+                                             double *out,
+                                             int64_t length);
+
+/* Writes the load per length of a contact at these places, N/m (length: line load count). */
+int32_t cagedyn_equilibrium_line_loads(const cagedyn_equilibrium *found,
+                                       int64_t contact,
+                                       double *out,
+                                       int64_t length);
+
 /* Number of contacts: rows of cagedyn_sim_contact_forces(). Negative status code on failure. */
 int64_t cagedyn_model_contact_count(const cagedyn_model *model);
 
@@ -642,6 +657,36 @@ int32_t cagedyn_watch_set_wall_time_limit(cagedyn_watch *watch,
 /* Writes how far the running search is, or how far the last one came (length: 2): the share of the way that is done, from 0 to 1, rough
  * where its length is not known before; and how many pieces of the result there are, that is whirls or bursts of motion. */
 int32_t cagedyn_watch_progress(const cagedyn_watch *watch,
+                               double *out,
+                               int64_t length);
+
+/* Number of line load quantities: columns of cagedyn_sim_line_loads(). Negative status code on failure. */
+int64_t cagedyn_model_line_load_quantity_count(const cagedyn_model *model);
+
+/* Name of a line load quantity; "" on failure. Lives as long as the model. */
+const char *cagedyn_model_line_load_quantity_name(const cagedyn_model *model, int64_t index);
+
+/* SI unit of a line load quantity; "" on failure. Lives as long as the model. */
+const char *cagedyn_model_line_load_quantity_unit(const cagedyn_model *model, int64_t index);
+
+/* Meaning of a line load quantity; "" on failure. Lives as long as the model. */
+const char *cagedyn_model_line_load_quantity_description(const cagedyn_model *model, int64_t index);
+
+/* Index of the line load quantity of this name; CAGEDYN_ERR_UNKNOWN_NAME or another negative status code on failure. */
+int64_t cagedyn_model_find_line_load_quantity(const cagedyn_model *model,
+                                              const char *name);
+
+/* Number of places along the roller at which a contact is loaded at the present state: rows of cagedyn_sim_line_loads(). Zero
+ * where the surfaces are apart, and of contacts that are no lines of rollers that move in space. Negative status code on failure. */
+int64_t cagedyn_sim_line_load_count(cagedyn_sim *sim,
+                                    int64_t contact);
+
+/* Writes how a contact is loaded along its roller at the present state: one row per place in their order along the roller, one column
+ * per line load quantity, rows one after the other (length: line load count times line load quantity count). Places follow the loaded
+ * part of the contact, so their number may change with the state: ask for it before. Line load times extent, summed over the rows, is
+ * the normal force. */
+int32_t cagedyn_sim_line_loads(cagedyn_sim *sim,
+                               int64_t contact,
                                double *out,
                                int64_t length);
 

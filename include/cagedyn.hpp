@@ -189,6 +189,10 @@ using ContactQuantities =
     Items<cagedyn_model_contact_quantity_count, cagedyn_model_contact_quantity_name,
           cagedyn_model_find_contact_quantity, cagedyn_model_contact_quantity_unit,
           cagedyn_model_contact_quantity_description>;
+using LineLoadQuantities =
+    Items<cagedyn_model_line_load_quantity_count, cagedyn_model_line_load_quantity_name,
+          cagedyn_model_find_line_load_quantity, cagedyn_model_line_load_quantity_unit,
+          cagedyn_model_line_load_quantity_description>;
 using Bodies = Items<cagedyn_model_body_count, cagedyn_model_body_name, cagedyn_model_find_body>;
 using ForceSources =
     Items<cagedyn_model_force_source_count, cagedyn_model_force_source_name, cagedyn_model_find_force_source>;
@@ -239,6 +243,7 @@ public:
     Outputs outputs() const noexcept { return Outputs(get()); }
     Contacts contacts() const noexcept { return Contacts(get()); }
     ContactQuantities contact_quantities() const noexcept { return ContactQuantities(get()); }
+    LineLoadQuantities line_load_quantities() const noexcept { return LineLoadQuantities(get()); }
     Bodies bodies() const noexcept { return Bodies(get()); }
     ForceSources force_sources() const noexcept { return ForceSources(get()); }
     ForceComponents force_components() const noexcept { return ForceComponents(get()); }
@@ -303,6 +308,7 @@ public:
         : sim_(handle), states_(cagedyn_model_state_count(model)), velocities_(cagedyn_model_velocity_count(model)),
           outputs_(cagedyn_model_output_count(model)),
           contacts_(cagedyn_model_contact_count(model) * cagedyn_model_contact_quantity_count(model)),
+          line_load_columns_(cagedyn_model_line_load_quantity_count(model)),
           bodies_(cagedyn_model_body_count(model) * cagedyn_model_force_source_count(model) *
                   cagedyn_model_force_component_count(model))
     {
@@ -353,6 +359,14 @@ public:
     // One row per contact, one column per contact quantity.
     std::vector<double> contact_forces() { return filled(contacts_, [this](Output out) { contact_forces(out); }); }
     void contact_forces(Output out) { detail::check(cagedyn_sim_contact_forces(sim_, out.data(), out.size())); }
+    // How a contact of a roller in space is loaded along it: one row per place, one column per line load quantity.
+    std::vector<double> line_loads(std::int64_t contact)
+    {
+        const std::int64_t rows = detail::counted(cagedyn_sim_line_load_count(sim_, contact));
+        return filled(rows * line_load_columns_, [this, contact](Output out) {
+            detail::check(cagedyn_sim_line_loads(sim_, contact, out.data(), out.size()));
+        });
+    }
     // Per body a block with one row per force source, one column per force component.
     std::vector<double> body_forces() { return filled(bodies_, [this](Output out) { body_forces(out); }); }
     void body_forces(Output out) { detail::check(cagedyn_sim_body_forces(sim_, out.data(), out.size())); }
@@ -478,7 +492,7 @@ private:
     }
 
     cagedyn_sim *sim_;
-    std::int64_t states_, velocities_, outputs_, contacts_, bodies_;
+    std::int64_t states_, velocities_, outputs_, contacts_, line_load_columns_, bodies_;
 };
 
 // A running simulation. May be used by one thread at a time. It keeps what it needs of its model.

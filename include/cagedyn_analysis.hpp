@@ -273,6 +273,14 @@ public:
             return cagedyn_equilibrium_contact(e, index, out, length);
         });
     }
+    // Places along every roller that may tilt, from its middle, m; load per length of a contact there, N/m.
+    std::vector<double> line_load_places() const { return read(places(), cagedyn_equilibrium_line_load_places); }
+    std::vector<double> line_loads(std::int64_t contact) const
+    {
+        return read(places(), [contact](auto *e, double *out, std::int64_t length) {
+            return cagedyn_equilibrium_line_loads(e, contact, out, length);
+        });
+    }
     // What is amiss without preventing the equilibrium.
     std::vector<std::string_view> warnings() const
     {
@@ -286,6 +294,7 @@ private:
         return names[static_cast<std::size_t>(control)];
     }
     std::int64_t dimension() const { return detail::counted(cagedyn_equilibrium_coordinate_count(get())); }
+    std::int64_t places() const { return detail::counted(cagedyn_equilibrium_line_load_count(get())); }
     template <class Count, class Name> std::vector<std::string_view> listed(Count count, Name name) const
     {
         std::vector<std::string_view> names;

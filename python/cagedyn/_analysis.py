@@ -159,6 +159,17 @@ class Equilibrium:
         self.contact_names: tuple[str, ...] = names("contact")
         #: One record per contact: normal_force (N), approach (m), largest_pressure (Pa) and more, by kind of bearing.
         self.contacts: NDArray[np.void] = table("contact", len(self.contact_names), lib.cagedyn_equilibrium_contact)
+        places = counted(lib.cagedyn_equilibrium_line_load_count(handle))
+        #: Places along every roller that may tilt, from its middle, m; of others none.
+        self.line_load_places: Array = filled(
+            places, lambda p, n: lib.cagedyn_equilibrium_line_load_places(handle, p, n)
+        )
+        loads = [
+            filled(places, lambda p, n, i=i: lib.cagedyn_equilibrium_line_loads(handle, i, p, n))
+            for i in range(len(self.contact_names))
+        ]
+        #: Loads per length of all contacts there, N/m; shape (contacts, places).
+        self.line_loads: Array = np.array(loads).reshape(len(loads), places)
         #: SI units of what is known of elements and contacts.
         self.element_units: dict[str, str] = dict(zip(names("element_quantity"), names("element_quantity", "unit"), strict=True))
         self.contact_units: dict[str, str] = dict(zip(names("contact_quantity"), names("contact_quantity", "unit"), strict=True))

@@ -93,6 +93,8 @@ class Model:
         self.contacts = Names(handle, "contact")
         #: Columns of contact forces.
         self.contact_quantities = Names(handle, "contact_quantity")
+        #: Columns of the load along a roller.
+        self.line_load_quantities = Names(handle, "line_load_quantity")
         #: Blocks of body forces, their rows and columns.
         self.bodies = Names(handle, "body")
         self.force_sources = Names(handle, "force_source")

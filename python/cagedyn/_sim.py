@@ -260,6 +260,19 @@ class Sim:
         values = filled(len(self.model.contacts) * len(names), fill)
         return values.view(np.dtype([(name, float) for name in names]))
 
+    def line_loads(self, contact: str) -> NDArray[np.void]:
+        """How a contact of a roller that moves in space is loaded along its length at the present state: a structured array, one row
+        per place, a field per quantity: place (m), extent (m), line_load (N/m), largest_pressure (Pa), half_width (m).
+
+        Empty where the surfaces are apart, and for contacts that are no lines.
+        """
+        place, names = self.model.contacts.index(contact), self.model.line_load_quantities
+        rows = counted(lib.cagedyn_sim_line_load_count(self._handle, place))
+        values = filled(
+            rows * len(names), lambda p, n: lib.cagedyn_sim_line_loads(self._handle, place, p, n)
+        )
+        return values.view(np.dtype([(name, float) for name in names]))
+
     def body_forces(self) -> Array:
         """Forces on all bodies by source at the present state, shape (bodies, sources, components)."""
         return self._bodies(lambda p, n: lib.cagedyn_sim_body_forces(self._handle, p, n))

@@ -363,3 +363,49 @@ pub unsafe extern "C" fn cagedyn_equilibrium_contact(
         unsafe { write_array("out", &contacts[contact], out, length) }
     })
 }
+
+/// Number of places along every roller at which its line loads are told: those of rollers that may tilt; of others none. Negative status
+/// code on failure.
+///
+/// # Safety
+/// `found` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_equilibrium_line_load_count(found: *const cagedyn_equilibrium) -> i64 {
+    // SAFETY: see above.
+    count(|| Ok(unsafe { shared("found", found) }?.found.line_loads.places.len()))
+}
+
+/// Writes these places, the same of all contacts, from the middle of the roller along its axis, m (length: line load count).
+///
+/// # Safety
+/// `found` is NULL or a live handle, `out` NULL or an array of `length` numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_equilibrium_line_load_places(
+    found: *const cagedyn_equilibrium,
+    out: *mut f64,
+    length: i64,
+) -> i32 {
+    // SAFETY: see above.
+    status(|| unsafe { write_array("out", &shared("found", found)?.found.line_loads.places, out, length) })
+}
+
+/// Writes the load per length of a contact at these places, N/m (length: line load count).
+///
+/// # Safety
+/// `found` is NULL or a live handle, `out` NULL or an array of `length` numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_equilibrium_line_loads(
+    found: *const cagedyn_equilibrium,
+    contact: i64,
+    out: *mut f64,
+    length: i64,
+) -> i32 {
+    status(|| {
+        // SAFETY: see above.
+        let found = &unsafe { shared("found", found) }?.found;
+        let contact = index("contact", contact, found.contacts.len())?;
+        let loads = found.line_loads.values.get(contact).map_or(&[][..], Vec::as_slice);
+        // SAFETY: see above.
+        unsafe { write_array("out", loads, out, length) }
+    })
+}

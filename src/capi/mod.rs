@@ -14,6 +14,7 @@ pub mod heat;
 pub mod integrator;
 pub mod interval;
 pub mod limits;
+pub mod line_loads;
 pub mod model;
 pub mod motion;
 pub mod sim;

@@ -2,7 +2,7 @@
 
 use super::guard::{EMPTY, count, free, guard, index, place_of, shared, text, to_c_string};
 use crate::error::{Error, Result, Status};
-use crate::model::{FORCE_SOURCES, Model};
+use crate::model::{FORCE_SOURCES, LINE_LOAD_QUANTITIES, Model};
 use crate::scene::Scene;
 use crate::sim::SparsePattern;
 use libc::c_char;
@@ -20,6 +20,7 @@ pub struct cagedyn_model {
     pub(super) contacts: Vec<Item>,
     pub(super) bodies: Vec<Item>,
     pub(super) quantities: Vec<Item>,
+    pub(super) line_load_quantities: Vec<Item>,
     pub(super) sources: Vec<Item>,
     pub(super) components: Vec<Item>,
     pub(super) geometry: Vec<Item>,
@@ -56,6 +57,10 @@ impl cagedyn_model {
             bodies: plain(model.body_names()),
             quantities: model
                 .contact_quantities()
+                .iter()
+                .map(|q| Item::new(q.name, q.unit, q.description))
+                .collect(),
+            line_load_quantities: LINE_LOAD_QUANTITIES
                 .iter()
                 .map(|q| Item::new(q.name, q.unit, q.description))
                 .collect(),

@@ -36,7 +36,8 @@ pub use plane::{CONTACT_QUANTITIES, ContactForces, FORCE_COMPONENTS, Forces, Gui
 pub use plane::{PARTS, PartTimes, Plane, Workspace};
 pub use space::rest::RaceControl;
 pub use space::{
-    SPATIAL_CONTACT_QUANTITIES, SPATIAL_FORCE_COMPONENTS, SpatialBodyForces, SpatialContact, SpatialForces,
+    LINE_LOAD_QUANTITIES, LineLoad, SPATIAL_CONTACT_QUANTITIES, SPATIAL_FORCE_COMPONENTS, SpatialBodyForces,
+    SpatialContact, SpatialForces,
 };
 
 use crate::error::Result;

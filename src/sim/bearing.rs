@@ -9,8 +9,8 @@ use crate::integrate::{
 };
 use crate::model::space::{self, Space};
 use crate::model::{
-    Energy, Fault, FaultCounts, Forces, HostInputs, Input, LawCounts, Model, OF_BALL, OF_ELEMENT, POWERS,
-    PartTimes, Plane, RATES, Reading, Workspace, plane,
+    Energy, Fault, FaultCounts, Forces, HostInputs, Input, LawCounts, LineLoad, Model, OF_BALL, OF_ELEMENT,
+    POWERS, PartTimes, Plane, RATES, Reading, Workspace, plane,
 };
 use std::sync::Arc;
 
@@ -284,6 +284,14 @@ impl Bearing {
                 out.accelerations.extend_from_slice(a);
                 space.report(workspace, &mut out.space);
             }
+        }
+    }
+
+    /// How a contact of rollers in space is loaded along its length at the last evaluated state; nothing of others.
+    pub(super) fn line_loads(&self, contact: usize) -> Vec<LineLoad> {
+        match &self.moving {
+            Moving::Plane(..) => Vec::new(),
+            Moving::Space(space, workspace) => space.line_loads(workspace, contact),
         }
     }
 

@@ -28,7 +28,7 @@ pub use results::whirl::{CageMotion, SMALLEST_WHIRL_RADIUS, WhirlRecord, WhirlSu
 
 use crate::error::{Error, Result, Status};
 use crate::integrate::{Driver, Failure, Tuning};
-use crate::model::{Channel, Energy, FAULTS, Forces, Input, Model, PartTimes, Reading};
+use crate::model::{Channel, Energy, FAULTS, Forces, Input, LineLoad, Model, PartTimes, Reading};
 use crate::scene::{Preset, Solver};
 use bearing::Bearing;
 pub(crate) use errors::check_time;
@@ -229,6 +229,21 @@ impl Sim {
             self.evaluated = Evaluated::State;
         }
         Ok(&self.forces)
+    }
+
+    /// How a contact, by its place among [`Model::contact_names`], is loaded along its roller at the current state: values of
+    /// [`crate::model::LINE_LOAD_QUANTITIES`] for every place, in their order along the roller. None where the surfaces are apart, and of
+    /// contacts that are no lines of rollers in space.
+    ///
+    /// # Errors
+    /// [`Status::BadIndex`]; [`Status::BadState`] when forces are undefined.
+    pub fn line_loads(&mut self, contact: usize) -> Result<Vec<LineLoad>> {
+        let forces = self.forces()?;
+        let count = forces.contacts.len().max(forces.space.contacts.len());
+        if contact >= count {
+            return Err(bad_index("contact", contact, count));
+        }
+        Ok(self.bearing.line_loads(contact))
     }
 
     /// Advances by `dt` >= 0 seconds.

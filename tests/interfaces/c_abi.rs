@@ -84,6 +84,11 @@ fn c_tilting_rollers() {
 }
 
 #[test]
+fn c_line_loads() {
+    run_c_test("ctests/test_line_loads.c", "scenes/nu2310_space.json");
+}
+
+#[test]
 fn cpp_equilibrium() {
     run_cpp_test("ctests/test_cpp_equilibrium.cpp", "scenes/angular_contact_218.json", &[]);
 }

@@ -12,6 +12,7 @@ use cagedyn::capi::heat::*;
 use cagedyn::capi::integrator::*;
 use cagedyn::capi::interval::*;
 use cagedyn::capi::limits::*;
+use cagedyn::capi::line_loads::*;
 use cagedyn::capi::model::*;
 use cagedyn::capi::sim::*;
 use cagedyn::capi::statistics::*;
@@ -38,7 +39,7 @@ type Anywhere = unsafe extern "C" fn(*mut cagedyn_sim, f64, *const f64, i64, *mu
 type Names = unsafe extern "C" fn(*const c_char) -> i64;
 type Rates = unsafe extern "C" fn(*mut cagedyn_sim, f64, *const f64, *mut f64, i64) -> i32;
 
-const TEXTS: [Texts; 23] = [
+const TEXTS: [Texts; 26] = [
     cagedyn_model_state_name,
     cagedyn_model_state_unit,
     cagedyn_model_state_description,
@@ -52,6 +53,9 @@ const TEXTS: [Texts; 23] = [
     cagedyn_model_contact_quantity_name,
     cagedyn_model_contact_quantity_unit,
     cagedyn_model_contact_quantity_description,
+    cagedyn_model_line_load_quantity_name,
+    cagedyn_model_line_load_quantity_unit,
+    cagedyn_model_line_load_quantity_description,
     cagedyn_model_body_name,
     cagedyn_model_force_source_name,
     cagedyn_model_force_component_name,
@@ -69,7 +73,7 @@ unsafe extern "C" fn scene_json(model: *const cagedyn_model, _: i64) -> *const c
     unsafe { cagedyn_model_scene_json(model) }
 }
 
-const COUNTS: [Counts; 14] = [
+const COUNTS: [Counts; 15] = [
     cagedyn_model_state_count,
     cagedyn_model_position_count,
     cagedyn_model_velocity_count,
@@ -77,6 +81,7 @@ const COUNTS: [Counts; 14] = [
     cagedyn_model_output_count,
     cagedyn_model_contact_count,
     cagedyn_model_contact_quantity_count,
+    cagedyn_model_line_load_quantity_count,
     cagedyn_model_body_count,
     cagedyn_model_force_source_count,
     cagedyn_model_force_component_count,
@@ -86,12 +91,13 @@ const COUNTS: [Counts; 14] = [
     cagedyn_model_jacobian_entry_count,
 ];
 
-const FINDS: [Finds; 9] = [
+const FINDS: [Finds; 10] = [
     cagedyn_model_find_state,
     cagedyn_model_find_input,
     cagedyn_model_find_output,
     cagedyn_model_find_contact,
     cagedyn_model_find_contact_quantity,
+    cagedyn_model_find_line_load_quantity,
     cagedyn_model_find_body,
     cagedyn_model_find_force_source,
     cagedyn_model_find_force_component,
@@ -137,12 +143,15 @@ const LAWS: usize = 8;
 const ENERGIES: usize = 9;
 const JACOBIAN: usize = 10;
 const SPARSE: usize = 11;
+/// Number of contacts, and of what is known of a place along one.
+const CONTACT: usize = 12;
+const LINE_LOAD: usize = 13;
 
 /// A simulation with the lengths of its arrays.
 #[derive(Clone, Copy)]
 struct Owned {
     sim: *mut cagedyn_sim,
-    lengths: [i64; 12],
+    lengths: [i64; 14],
 }
 
 /// What a careless host has.
@@ -162,18 +171,19 @@ struct Host {
 impl Host {
     fn new(seed: u64) -> Self {
         let scenes = [
+            include_str!("../../scenes/nu2310_space.json").to_owned(),
             include_str!("../../scenes/nu2310.json").to_owned(),
             include_str!("../../scenes/grease_guide.json").to_owned(),
             include_str!("../../scenes/grease_guide_heat.json").to_owned(),
         ];
-        let [rollers, balls, warm] = scenes.map(|text| {
+        let [in_space, rollers, balls, warm] = scenes.map(|text| {
             let text = CString::new(text).expect("no NUL");
             // SAFETY: a text.
             unsafe {
                 cagedyn_model_from_json_with(text.as_ptr(), c"record.extremes=[\"guide.moment\"]".as_ptr())
             }
         });
-        let models = [rollers, balls];
+        let models = [rollers, balls, in_space];
         assert!(models.iter().chain([&warm]).all(|model| !model.is_null()));
         let batch = cagedyn_batch_new();
         // SAFETY: a live handle.
@@ -277,6 +287,8 @@ impl Host {
                 cagedyn_energy_count(),
                 states * states,
                 cagedyn_model_jacobian_entry_count(model),
+                cagedyn_model_contact_count(model),
+                cagedyn_model_line_load_quantity_count(model),
             ];
             assert!(lengths.iter().all(|n| *n > 0 && *n < ROOM as i64));
             self.sims.push(Owned { sim, lengths });
@@ -353,7 +365,8 @@ impl Host {
                 6 => {
                     let states = cagedyn_model_state_count(model);
                     let entries = cagedyn_model_jacobian_entry_count(model);
-                    let (mut starts, mut rows) = (vec![0i64; 500], vec![0i64; 5000]);
+                    let (mut starts, mut rows) = (vec![0i64; 500], vec![0i64; ROOM]);
+                    assert!(states < 500 && entries < ROOM as i64);
                     let (a, b) = (self.length(states + 1), self.length(entries));
                     let rows = if self.one_of(10) { null_mut() } else { rows.as_mut_ptr() };
                     let status = cagedyn_model_jacobian_pattern(model, starts.as_mut_ptr(), a, rows, b);
@@ -380,7 +393,7 @@ impl Host {
         let (t, out) = (self.number(), self.out());
         // SAFETY: as above; lengths that are right are those of the arrays.
         unsafe {
-            match self.rng.u32(0..15) {
+            match self.rng.u32(0..16) {
                 0 => {
                     let (call, k) = WRITES[self.rng.usize(0..WRITES.len())];
                     let n = self.length(s.lengths[k]);
@@ -473,6 +486,14 @@ impl Host {
                     cagedyn_canceller_free(canceller);
                 }
                 13 => {
+                    let contact = self.index(s.lengths[CONTACT]);
+                    let rows = cagedyn_sim_line_load_count(s.sim, contact);
+                    self.check("line load count", rows);
+                    let n = self.length(rows.max(0) * s.lengths[LINE_LOAD]);
+                    let status = cagedyn_sim_line_loads(s.sim, contact, out, n);
+                    self.check("line loads", status.into());
+                }
+                14 => {
                     let status = if self.one_of(3) {
                         cagedyn_sim_reset(s.sim)
                     } else {

@@ -174,3 +174,27 @@ fn temperatures_are_on_both_scales() {
         assert!(text(&output.stdout).contains(&format!("{kelvin:.2} K  {:.2} \u{b0}C", kelvin - 273.15)));
     }
 }
+
+/// Rollers in space have their skew, and their line loads at the end and in equilibrium; the map has a rectangle for every roller.
+#[test]
+fn rollers_in_space_have_pictures_of_their_own() {
+    let dir = tempfile::tempdir().expect("a directory");
+    performed("nu2310_space", dir.path(), &["--until", "0.03"]);
+    let summary = json(&dir.path().join("summary.json"));
+    let in_space = &summary["over_orbit"]["rollers_in_space"];
+    assert_eq!(in_space["skew"]["mean"].as_array().map(Vec::len), Some(36));
+    assert_eq!(in_space["ends"][0]["name"], "outer_rib_positive");
+    let skew = picture(dir.path(), "roller_skew.svg");
+    for text in ["skew [mrad]", "tilt [mrad]", "end force, mean [N]", "outer rib +x", "pocket side"] {
+        assert!(skew.contains(text), "no {text}");
+    }
+    let map = picture(dir.path(), "line_load_map.svg");
+    for text in ["load per length [N/mm]", "outer raceway", "inner raceway", "along the roller [mm]"] {
+        assert!(map.contains(text), "no {text}");
+    }
+    let out = dir.path().join("still").to_string_lossy().into_owned();
+    assert!(run(&["equilibrium", "scenes/nu2310_space.json", "--out", &out]).status.success());
+    assert!(picture(&dir.path().join("still"), "line_load_map.svg").contains("load per length [N/mm]"));
+    performed("nu2310", dir.path(), &["--until", "0.01"]);
+    assert!(!dir.path().join("roller_skew.svg").exists() && !dir.path().join("line_load_map.svg").exists());
+}

@@ -1,6 +1,6 @@
 //! The command `equilibrium`.
 
-use crate::plots::equilibrium as picture;
+use crate::plots::{equilibrium as picture, line_load_map};
 use crate::results::facts;
 use crate::results::files::{self, plain, write_csv, write_json, write_text};
 use crate::results::table::{self, Align, number};
@@ -46,6 +46,8 @@ pub fn command(args: &EquilibriumArgs) -> Result<ExitCode> {
         if !found.line_loads.places.is_empty() {
             write_csv(&folder.join("line_loads.csv"), line_loads(&found))?;
             write_text(&folder.join("line_loads.svg"), &picture::along(&title, &found)?)?;
+            let map = line_load_map::of_equilibrium(&title, &found)?;
+            write_text(&folder.join("line_load_map.svg"), &map)?;
         }
     }
     if args.json {

@@ -12,7 +12,7 @@ use crate::starts::{self, Apart};
 use crate::terminal::{self, INTERRUPTED, Progress};
 use crate::workers;
 use crate::{Instead, RunArgs, Sets};
-use cagedyn::model::PartTimes;
+use cagedyn::model::{LineLoad, PartTimes};
 use cagedyn::scene::Record;
 use cagedyn::{Error, Model, Recording, Result, Scene, Sim, Status};
 use serde_json::Value;
@@ -202,6 +202,7 @@ pub fn finished(
     };
     let (contacts, contacts_in_space) = forces
         .map_or((Vec::new(), Vec::new()), |forces| (forces.contacts.clone(), forces.space.contacts.clone()));
+    let line_loads = line_loads(sim);
     Run {
         title,
         facts: facts::facts(&model) + &ending,
@@ -219,12 +220,28 @@ pub fn finished(
         contacts,
         contacts_in_space,
         contacts_at,
+        line_loads,
         works,
         before: notes.works,
         failure: ended.err().filter(|e| e.status != Status::Cancelled).or(written.err()),
         model,
         recording,
     }
+}
+
+/// How rollers in space are loaded along their length where a simulation is now; nothing where forces are undefined.
+fn line_loads(sim: &mut Sim) -> Vec<[Vec<LineLoad>; 2]> {
+    let model = sim.model().clone();
+    if !model.scene().rollers.as_ref().is_some_and(|rollers| rollers.space.is_some()) {
+        return Vec::new();
+    }
+    let names = model.contact_names();
+    let mut of = |j: usize, raceway: &str| {
+        let name = format!("roller[{j}].{raceway}");
+        sim.line_loads(names.iter().position(|contact| *contact == name)?).ok()
+    };
+    let pair = |j: usize| Some([of(j, "outer_raceway")?, of(j, "inner_raceway")?]);
+    (0..model.element_count()).map(pair).collect::<Option<_>>().unwrap_or_default()
 }
 
 /// Size of the table of a run in bytes, a little more than it takes, and in words.

@@ -35,7 +35,7 @@ const COORDINATES: [Coordinate; OF_ROLLER] = [
         position: Some([
             "skew",
             "rad",
-            "rotation vector of its axis, outwards: its +x end lags where positive",
+            "rotation vector of its axis, outwards: its +x end is at smaller angles where positive",
         ]),
         rate: ["skew_speed", "rad/s", "rate of the skew"],
         moves: Moves::Surface,

@@ -27,6 +27,7 @@ pub(crate) use report::{Reading, Source};
 pub use report::{
     SPATIAL_CONTACT_QUANTITIES, SPATIAL_FORCE_COMPONENTS, SpatialBodyForces, SpatialContact, SpatialForces,
 };
+pub use rollers::{LINE_LOAD_QUANTITIES, LineLoad};
 pub use workspace::Workspace;
 
 use super::faults::{Names, in_words};

@@ -16,6 +16,8 @@ pub struct OverOrbit {
     pub mean: Vec<f64>,
     /// 95th percentile of the magnitude.
     pub p95: Vec<f64>,
+    /// 5th and 95th percentile of the value.
+    pub range: Vec<[f64; 2]>,
     /// Largest magnitude.
     pub peak: Vec<f64>,
     /// Share of the records that are above zero.
@@ -49,6 +51,10 @@ impl OverOrbit {
         Self {
             mean: values.iter().map(|x| Spread::of(x).map_or(f64::NAN, |spread| spread.mean)).collect(),
             p95: values.iter().map(magnitude).collect(),
+            range: values
+                .iter()
+                .map(|x| Spread::of(x).map_or([f64::NAN; 2], |spread| [spread.p05, spread.p95]))
+                .collect(),
             peak: peaks,
             positive: values.iter().map(share).collect(),
         }
@@ -102,6 +108,7 @@ mod tests {
         let place = (0..72).max_by(|a, b| over.mean[*a].total_cmp(&over.mean[*b])).unwrap();
         assert!((over.angle(place) - bottom).abs() < 0.1);
         assert!(over.peak[place] > over.p95[place] && over.p95[place] >= over.mean[place]);
+        assert!(over.range[place][0] < over.mean[place] && over.range[place][1] == over.p95[place]);
         assert!((over.peak[place] - 120.0 * (1.0 - (50.0f64).to_radians().cos())).abs() < 0.2);
     }
 

@@ -9,11 +9,13 @@ pub mod equilibrium;
 mod forces;
 pub mod heat_flow;
 mod labels;
+pub mod line_load_map;
 mod orbit;
 mod over_orbit;
 mod panel;
 mod position;
 mod roller;
+mod roller_skew;
 mod spectrogram;
 mod spectrum;
 mod strips;
@@ -58,7 +60,7 @@ fn look(k: usize) -> (Marker, Paint) {
 }
 
 /// File names of the pictures of a run.
-pub const PICTURES: [&str; 11] = [
+pub const PICTURES: [&str; 13] = [
     "cage_orbit.svg",
     "cage_position.svg",
     "roller_history.svg",
@@ -70,6 +72,8 @@ pub const PICTURES: [&str; 11] = [
     "cage_spectrogram.svg",
     "cage_views.svg",
     "land_gaps.svg",
+    "roller_skew.svg",
+    "line_load_map.svg",
 ];
 
 /// File names and contents of the pictures of a run.
@@ -93,6 +97,8 @@ pub fn pictures(run: &Run, summary: &Summary) -> Result<Vec<(&'static str, Strin
         spectrogram::cage_spectrogram(run, summary),
         cage_views::cage_views(run, summary),
         cage_views::land_gaps(run, summary),
+        roller_skew::roller_skew(run, summary),
+        line_load_map::of_run(run),
     ];
     PICTURES.into_iter().zip(drawn).filter_map(|(name, svg)| Some(svg?.map(|svg| (name, svg)))).collect()
 }

@@ -31,14 +31,19 @@ pub fn over_orbit(run: &Run, summary: &Summary) -> Option<Result<String>> {
     }
     let what = "Elements over the angle of their orbit, all of them together";
     let subtitle = &run.subtitle(what);
+    let axis = &angle_axis(run);
+    let texts = Texts { title: &run.title, subtitle, axis, step: Some(45.0), entries };
+    Some(strips::history(&texts, &degrees, &strips, &shaded(summary.load_zone)))
+}
+
+/// Name of the axis of angles of the orbit, which tells the way of the elements.
+pub(super) fn angle_axis(run: &Run) -> String {
     let way = match run.direction() {
         Some(way) if way < 0.0 => "; elements go to smaller angles",
         Some(_) => "; elements go to larger angles",
         None => "",
     };
-    let axis = &format!("angle from y, counter-clockwise; 270 is the bottom [deg]{way}");
-    let texts = Texts { title: &run.title, subtitle, axis, step: Some(45.0), entries };
-    Some(strips::history(&texts, &degrees, &strips, &shaded(summary.load_zone)))
+    format!("angle from y, counter-clockwise; 270 is the bottom [deg]{way}")
 }
 
 fn strips(sectors: &Sectors) -> impl Iterator<Item = Strip<'static>> {
@@ -87,7 +92,7 @@ fn strips(sectors: &Sectors) -> impl Iterator<Item = Strip<'static>> {
 }
 
 /// The load zone in degrees, in two parts where it lies across the beginning.
-fn shaded(zone: Option<LoadZone>) -> Vec<(f64, f64)> {
+pub(super) fn shaded(zone: Option<LoadZone>) -> Vec<(f64, f64)> {
     let Some(zone) = zone else { return Vec::new() };
     let (from, to) = (zone.middle_rad - 0.5 * zone.extent_rad, zone.middle_rad + 0.5 * zone.extent_rad);
     let parts = [(from, to), (from + TAU, to + TAU), (from - TAU, to - TAU)];

@@ -10,7 +10,9 @@ use plotters::style::text_anchor::{HPos, VPos};
 /// Height of a diagram and gap between two, px.
 const HEIGHT: f64 = 165.0;
 const GAP: f64 = 16.0;
-/// Upper edge of the first diagram, px.
+/// Width of the picture, px.
+const WIDTH: f64 = 900.0;
+/// Upper edge of the first diagram below one row of the legend, px.
 const TOP: f64 = 100.0;
 
 /// One diagram.
@@ -69,15 +71,19 @@ pub fn history(
     let (start, end) = (times.first().copied().unwrap_or(0.0), times.last().copied().unwrap_or(1.0));
     let x_axis = Axis::new(texts.axis, start, end, 10);
     let x_axis = texts.step.map_or(x_axis.clone(), |step| x_axis.every(step));
-    let height = TOP + strips.len() as f64 * (HEIGHT + GAP) + 46.0;
-    style::picture((900.0, height), texts.title, texts.subtitle, |canvas| {
-        style::legend_row(canvas, 78.0, &texts.entries)?;
+    let rows = style::legend_rows(&texts.entries, WIDTH);
+    let top = TOP + style::LEGEND_ROW * (rows.len().max(1) - 1) as f64;
+    let height = top + strips.len() as f64 * (HEIGHT + GAP) + 46.0;
+    style::picture((WIDTH, height), texts.title, texts.subtitle, |canvas| {
+        for (k, row) in rows.iter().enumerate() {
+            style::legend_row(canvas, 78.0 + style::LEGEND_ROW * k as f64, row)?;
+        }
         for (k, strip) in strips.iter().enumerate() {
             let values = strip.curves.iter().flat_map(|(_, values)| values.iter().copied());
             let extremes = strip.envelope.unwrap_or_default().iter().flat_map(|x| [x.min, x.max]);
             let shown = values.chain(strip.bounds.iter().copied()).chain(extremes);
             let y_axis = Axis::covering(strip.name, shown, 5);
-            let place = Place { x: 100.0, y: TOP + k as f64 * (HEIGHT + GAP), w: 770.0, h: HEIGHT };
+            let place = Place { x: 100.0, y: top + k as f64 * (HEIGHT + GAP), w: 770.0, h: HEIGHT };
             let last = k + 1 == strips.len();
             if let Some(note) = strip.note {
                 let style = text(TEXT - 2.0, MUTED, HPos::Right, VPos::Center);

@@ -263,12 +263,33 @@ pub enum Symbol {
 const SYMBOL_WIDTH: f64 = 22.0;
 const SYMBOL_GAP: f64 = 7.0;
 
+/// Distance of two rows of a legend, px.
+pub const LEGEND_ROW: f64 = 22.0;
+
+/// Legend entries in as many rows as a picture of this width in px needs.
+pub fn legend_rows(entries: &[(Symbol, String)], width: f64) -> Vec<&[(Symbol, String)]> {
+    let (mut rows, mut first, mut x) = (Vec::new(), 0, LEFT);
+    for (i, (_, label)) in entries.iter().enumerate() {
+        if i > first && x + entry_width(label) > width {
+            rows.push(&entries[first..i]);
+            (first, x) = (i, LEFT);
+        }
+        x += entry_width(label);
+    }
+    rows.push(&entries[first..]);
+    rows
+}
+
+fn entry_width(label: &str) -> f64 {
+    SYMBOL_WIDTH + SYMBOL_GAP + text_width(label, TEXT) + 18.0
+}
+
 /// Draws legend entries in a row that starts at the left margin, centred at height `y` px.
 pub fn legend_row(canvas: &Canvas<'_>, y: f64, entries: &[(Symbol, String)]) -> Drawn {
     let mut x = LEFT;
     for (symbol, label) in entries {
         legend_entry(canvas, (x, y), *symbol, label)?;
-        x += SYMBOL_WIDTH + SYMBOL_GAP + text_width(label, TEXT) + 18.0;
+        x += entry_width(label);
     }
     Ok(())
 }

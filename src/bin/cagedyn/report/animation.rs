@@ -2,6 +2,7 @@
 
 use super::frames::{self, Packed, integral};
 use super::series::Series;
+use super::unrolled::{self, Unrolled};
 use cagedyn::Model;
 use cagedyn::model::{HostInputs, Input};
 use cagedyn::scene::{GuideRing, Pocket};
@@ -60,6 +61,8 @@ struct Content {
     forces: Forces,
     /// What else a bearing in space shows.
     space: Option<SpaceOf>,
+    /// Rollers that skew and tilt.
+    unrolled: Option<Unrolled>,
 }
 
 #[derive(Serialize)]
@@ -109,7 +112,7 @@ struct Forces {
 }
 
 /// Channels of every element: angle, slip, forces.
-const OF_ELEMENT: [&str; 11] = [
+const OF_ELEMENT: [&str; 14] = [
     "orbit_angle",
     "slip",
     "pocket_force",
@@ -121,6 +124,9 @@ const OF_ELEMENT: [&str; 11] = [
     "outer_angle",
     "pitch_angle",
     "yaw_angle",
+    unrolled::CHANNELS[0],
+    unrolled::CHANNELS[1],
+    unrolled::CHANNELS[2],
 ];
 /// Coordinates of ring and cage in space.
 const OF_BODY: [&str; 5] = ["x", "y", "z", "tilt_y", "tilt_z"];
@@ -260,6 +266,7 @@ impl<'a> Shown<'a> {
             spin: self.spin(),
             forces: self.forces(),
             space: self.space(),
+            unrolled: self.unrolled(),
         };
         let json = serde_json::to_string(&content).map_err(|e| e.to_string())?;
         Ok(Animation {
@@ -421,6 +428,14 @@ impl<'a> Shown<'a> {
             axes: axes.map(|(pitch, yaw)| [pitch, yaw]),
             cage,
         })
+    }
+
+    fn unrolled(&mut self) -> Option<Unrolled> {
+        let found = Unrolled::new(self.model.scene(), |field| self.of_elements(field));
+        if found.is_none() && unrolled::wanted(self.model.scene()) {
+            self.miss("how rollers lie", "axial_offset, skew or tilt of the rollers");
+        }
+        found
     }
 
     /// Place and tilts of a body at the frames.

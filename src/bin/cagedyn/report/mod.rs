@@ -6,6 +6,7 @@ mod gather;
 mod page;
 mod scene_text;
 mod series;
+mod unrolled;
 
 use crate::results::files::{file_error, write_text};
 use crate::run::{self, in_file, stem};

@@ -20,6 +20,7 @@ pub fn page(g: &Gathered) -> String {
             "\"use strict\";\n",
             include_str!("bearing.js"),
             include_str!("space.js"),
+            include_str!("unrolled.js"),
             include_str!("pictures.js"),
             include_str!("report.js")
         )

@@ -26,6 +26,7 @@
   } = bearing(data, state);
   const spatial = data.space ? inSpace(data, state, { between, reached, scales, colors, canvas }) : null;
   if (spatial) Object.assign(limits, spatial.limits);
+  const lying = data.unrolled ? unrolled(data, state, { between, colors }) : null;
   const time = (at) => {
     const first = Math.min(Math.floor(at), frames - 2);
     return data.times[first] + (at - first) * (data.times[first + 1] - data.times[first]);
@@ -68,6 +69,9 @@
       rows.push(["inner ring x, y, z", `${[x, y, z].map((v) => digits(1e6 * v, 2)).join(", ")} \u00b5m`]);
       rows.push(["tilt about y, z", `${[a, b].map((v) => digits(1e3 * v, 3)).join(", ")} mrad`]);
     }
+    if (lying) {
+      lying.largest(at).forEach(([name, x, j]) => rows.push([`largest ${name}`, `${digits(1e3 * x, 2)} mrad, roller ${j}`]));
+    }
     if (data.forces.inner) rows.push(["largest on the inner raceway", largestNow(data.forces.inner, at)]);
     if (data.forces.outer) rows.push(["largest on the outer raceway", largestNow(data.forces.outer, at)]);
     const body = element("readout").tBodies[0];
@@ -103,6 +107,9 @@
     element("orbit-text").textContent = !data.cage ? "" : clearance
       ? "Cage centre in the guide clearance (circle); y to the right, z upwards."
       : `Cage centre, y to the right, z upwards; the path goes out to ${digits(farthest, 3)} mm.`;
+    if (lying) {
+      element("unrolled-text").textContent = `Above: rollers around the bearing, from y counter-clockwise to the right, seen from outside, turned by their skew. Below: the same rollers seen along the orbit, turned by their tilt, outwards to the right. +x is up. Skew, place along the axis and end play are drawn ${round(lying.factors[0])} times as large as they are, tilt ${round(lying.factors[1])} times.`;
+    }
   }
 
   function caption(s) {
@@ -123,6 +130,7 @@
   function show() {
     const s = spatial ? spatial.draw(state.at) : drawBearing(state.at);
     drawOrbit(state.at);
+    if (lying) lying.draw(state.at);
     readout(state.at);
     caption(s);
     element("time").value = state.at;
@@ -272,6 +280,13 @@
     slow(100);
     show();
     expect(sum() === usual, "the same settings show another picture");
+    if (lying) {
+      const painted = document.getElementById("unrolled");
+      expect(!painted.hidden && painted.width > 0, "rollers are not unrolled");
+      for (let i = 0; i < frames; i += Math.ceil(frames / 40)) {
+        expect(lying.corners(i).every(Number.isFinite), `frame ${i} has rollers that lie nowhere`);
+      }
+    }
     if (spatial) {
       state.view.turn += 0.3;
       show();

@@ -1,6 +1,6 @@
 //! A run that has come to its end, and what is asked of it.
 
-use cagedyn::model::{Channel, ContactForces, HostInputs, POWERS, PartTimes, SpatialContact};
+use cagedyn::model::{Channel, ContactForces, HostInputs, LineLoad, POWERS, PartTimes, SpatialContact};
 use cagedyn::scene::Record;
 use cagedyn::sim::{PowerBalance, RunStatistics};
 use cagedyn::{Error, Interval, Model, Recording, Result, Sim, Status};
@@ -36,6 +36,8 @@ pub struct Run {
     pub contacts_in_space: Vec<SpatialContact>,
     /// Place of that record.
     pub contacts_at: usize,
+    /// How either raceway loads each roller in space along its length at the end, if forces are defined there; of others nothing.
+    pub line_loads: Vec<[Vec<LineLoad>; 2]>,
     /// Works up to the end, J.
     pub works: [f64; POWERS.len()],
     /// Works up to the beginning of the averaging window: time, s, and J.

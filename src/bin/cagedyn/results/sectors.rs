@@ -41,9 +41,51 @@ pub struct Sectors {
     /// Its largest magnitude in any step, N.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub pocket_force_peak_n: Vec<Option<f64>>,
+    /// Of rollers that move in space.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rollers_in_space: Option<InSpace>,
     /// Turns of the cage in the run, where they are too few for a mean to say much.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub few_cage_turns: Option<f64>,
+}
+
+/// How rollers lie between raceways and ribs over the angle of the orbit.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct InSpace {
+    /// Skew, rad.
+    pub skew: Scattered,
+    /// Tilt, rad.
+    pub tilt: Scattered,
+    /// Normal forces of ends on ribs and pocket sides by their names, N.
+    pub ends: Vec<EndForces>,
+}
+
+/// A quantity of either sign.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Scattered {
+    /// Mean.
+    pub mean: Vec<Option<f64>>,
+    /// 5th and 95th percentile.
+    pub p05: Vec<Option<f64>>,
+    pub p95: Vec<Option<f64>>,
+}
+
+impl Scattered {
+    fn of(found: &OverOrbit) -> Self {
+        let [p05, p95] = [0, 1].map(|k| found.range.iter().map(|range| range[k]).collect::<Vec<f64>>());
+        Self { mean: known(&found.mean), p05: known(&p05), p95: known(&p95) }
+    }
+}
+
+/// Forces of one end of the rollers.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct EndForces {
+    /// Of the contact.
+    pub name: String,
+    /// Mean.
+    pub mean_n: Vec<Option<f64>>,
+    /// 95th percentile.
+    pub p95_n: Vec<Option<f64>>,
 }
 
 /// Quantity `field` of all elements over the angle from time `from` (s) on, if the scene records both; where `loaded` is a force that the
@@ -78,6 +120,24 @@ fn known(column: &[f64]) -> Vec<Option<f64>> {
     column.iter().map(|x| x.is_finite().then_some(*x)).collect()
 }
 
+/// What rollers in space do, if the scene has them and records their skew and tilt.
+fn in_space(run: &Run, from: f64, sectors: usize) -> Option<InSpace> {
+    run.model.scene().rollers.as_ref()?.space.as_ref()?;
+    let find = |field: &str| over_orbit(run, (field, None), from, sectors);
+    let of_first = |name: &String| Some(name.strip_prefix("roller[0].")?.to_owned());
+    let names = run.model.contact_names().iter().filter_map(of_first).collect::<Vec<_>>();
+    let ends = names.into_iter().filter(|name| name.contains("_rib_") || name.contains("_side_"));
+    let ends = ends.filter_map(|name| {
+        let found = find(&format!("{name}_force"))?;
+        Some(EndForces { name, mean_n: known(&found.mean), p95_n: known(&found.p95) })
+    });
+    Some(InSpace {
+        skew: Scattered::of(&find("skew")?),
+        tilt: Scattered::of(&find("tilt")?),
+        ends: ends.collect(),
+    })
+}
+
 /// The table, and where elements carry load.
 pub fn of(run: &Run, from: f64) -> (Option<Sectors>, Option<LoadZone>) {
     let find = |field: &str, sectors: usize| over_orbit(run, (field, None), from, sectors);
@@ -85,7 +145,7 @@ pub fn of(run: &Run, from: f64) -> (Option<Sectors>, Option<LoadZone>) {
     let zone = inner.and_then(|load| load.positive_zone());
     let coarse = SECTORS / TOGETHER;
     let forces = find("pocket_force", coarse);
-    let any = forces.clone().or_else(|| find("orbit_ratio", coarse));
+    let any = forces.clone().or_else(|| find("orbit_ratio", coarse)).or_else(|| find("skew", coarse));
     let Some(any) = any else { return (None, zone) };
     let means = |found: Option<OverOrbit>| found.map_or(Vec::new(), |found| known(&found.mean));
     let mean = |field: &str| means(find(field, coarse));
@@ -107,6 +167,7 @@ pub fn of(run: &Run, from: f64) -> (Option<Sectors>, Option<LoadZone>) {
         pocket_force_mean_n: of_pockets(|x| &x.mean),
         pocket_force_p95_n: of_pockets(|x| &x.p95),
         pocket_force_peak_n: of_pockets(|x| &x.peak),
+        rollers_in_space: in_space(run, from, coarse),
         few_cage_turns: None,
     };
     (Some(sectors), zone)

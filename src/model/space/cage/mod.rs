@@ -302,8 +302,11 @@ impl Space {
         p[Power::GuideFilm as usize] += film;
         p[Power::GuideSolid as usize] += solid;
         let [_, rates] = ws.cage.bending();
-        let lost: f64 = cage.body.damping_of_modes().zip(rates).map(|(damping, v)| damping * v * v).sum();
-        p[Power::CageBending as usize] -= lost;
+        // Memory checkers take the empty chain of the modes of a rigid cage for one that nobody has set.
+        if !rates.is_empty() {
+            let lost: f64 = cage.body.damping_of_modes().zip(rates).map(|(damping, v)| damping * v * v).sum();
+            p[Power::CageBending as usize] -= lost;
+        }
         p[Power::Loads as usize] += power(ws.cage.load, &ws.cage.moving.moving);
     }
 

@@ -5,6 +5,7 @@
 //! the opposite, moved to its centre.
 
 mod contacts;
+mod line_loads;
 mod report;
 mod slopes;
 mod start;
@@ -12,6 +13,7 @@ mod step;
 mod varied;
 
 pub(super) use contacts::{Contact, Place, RollerMemory};
+pub use line_loads::{LINE_LOAD_QUANTITIES, LineLoad};
 pub(crate) use report::OfRollers;
 pub(super) use varied::{AT_ONCE, Pass, Varied};
 

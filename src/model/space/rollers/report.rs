@@ -47,7 +47,7 @@ impl OfRollers {
 
 impl RollersOfScene {
     /// Load per length at a place of a contact, N/m.
-    fn line_load(&self, node: &Node) -> f64 {
+    pub(super) fn line_load(&self, node: &Node) -> f64 {
         if node.slice.share > 0.0 {
             node.force.normal / (node.slice.share * 2.0 * self.half_length)
         } else {
@@ -61,7 +61,7 @@ impl RollersOfScene {
     }
 
     /// Half width (m) and largest pressure (Pa) of Hertz's line contact at the most loaded place of a contact with a raceway.
-    fn hertz(&self, side: usize, node: &Node) -> [f64; 2] {
+    pub(super) fn hertz(&self, side: usize, node: &Node) -> [f64; 2] {
         let Some(law) = self.laws[side].line() else { return [0.0; 2] };
         let elastic = &law.elastic;
         let load = self.line_load(node) * elastic.length;
@@ -96,7 +96,7 @@ impl Space {
         let text = "spin without slip less spin speed, over the larger of both";
         add("slip", "1", text, OfRollers::Slip(j), false);
         add("axial_offset", "m", "place along the axis of the bearing", OfRollers::Axial(j), false);
-        let text = "rotation of its axis about that outwards: its +x end lags the orbit where positive";
+        let text = "rotation of its axis about that outwards: its +x end is at smaller angles where positive";
         add("skew", "rad", text, OfRollers::Skew(j), false);
         let text = "rotation of its axis about that along the orbit: its +x end is outside where positive";
         add("tilt", "rad", text, OfRollers::Tilt(j), false);

@@ -1,6 +1,6 @@
 //! Pictures of sweeps.
 
-mod colours;
+pub(super) mod colours;
 mod lines;
 mod maps;
 mod waterfall;
