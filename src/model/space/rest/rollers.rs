@@ -193,6 +193,11 @@ impl Rollers<'_> {
         };
         let mut slices = Vec::new();
         along.slices(&mut slices);
+        // Shares of the nominal length, which the law has.
+        let longer = half_length / self.half_length();
+        for slice in &mut slices {
+            slice.share *= longer;
+        }
         slices
     }
 

@@ -57,7 +57,8 @@ impl OnRoller {
         Self { force: [zero; 3], moment: [zero; 3], own: zero }
     }
 
-    /// Adds the forces at a place: normal force, secant of friction, rolling resistance.
+    /// Adds the forces at a place: normal force, secant of friction, rolling resistance. Once in the library: it is long.
+    #[inline(never)]
     fn add(&mut self, spot: &Spot<Varied>, [normal, secant, rolling]: [Varied; 3], axis: Vector<Varied>) {
         let [along, across] = spot.slip.map(|slip| -(secant * slip));
         for (wrench, factor, turns) in [
