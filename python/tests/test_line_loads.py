@@ -25,7 +25,7 @@ def test_of_a_simulation(model):
     assert np.sum(loads["line_load"] * loads["extent"]) == pytest.approx(force, rel=1e-12)
     assert np.all(np.diff(loads["place"]) > 0.0)
     assert len(sim.line_loads("roller[3].inner_raceway")) == 0
-    with pytest.raises(ValueError):
+    with pytest.raises(KeyError):
         sim.line_loads("roller[99].inner_raceway")
 
 

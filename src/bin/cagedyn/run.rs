@@ -232,7 +232,8 @@ pub fn finished(
 /// How rollers in space are loaded along their length where a simulation is now; nothing where forces are undefined.
 fn line_loads(sim: &mut Sim) -> Vec<[Vec<LineLoad>; 2]> {
     let model = sim.model().clone();
-    if !model.scene().rollers.as_ref().is_some_and(|rollers| rollers.space.is_some()) {
+    let in_space = model.scene().rollers.as_ref().is_some_and(|rollers| rollers.space.is_some());
+    if !in_space {
         return Vec::new();
     }
     let names = model.contact_names();
