@@ -21,7 +21,7 @@ use nalgebra::{SMatrix, SVector};
 const OF_BALL: usize = 6;
 const ALL: usize = OF_BALL + OF_RING;
 /// Derivatives that are taken at once: all together would be ten times the code of the forces.
-const AT_ONCE: usize = 3;
+const AT_ONCE: usize = 2;
 /// Newton steps, and halvings of one.
 const MOST_STEPS: usize = 80;
 const MOST_HALVINGS: usize = 24;
