@@ -49,7 +49,7 @@ pub(crate) struct Disc<T> {
 impl<T: Of<f64>> Disc<T> {
     /// m: from the centre of the disc towards the place of its rim that touches, with the axis `u` of the roller.
     #[inline(always)]
-    pub(crate) fn to_rim(&self, u: Vector<T>) -> Vector<T> {
+    pub(crate) fn rim_direction(&self, u: Vector<T>) -> Vector<T> {
         scaled(difference(self.facing, scaled(u, self.lean)), self.lean.like(1.0) / self.cosine)
     }
 }

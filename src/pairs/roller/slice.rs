@@ -83,7 +83,7 @@ impl<T: Of<f64>> OnRaceway<'_, T> {
         let k = self.sign();
         let Self { ring, roller, side, .. } = self;
         let geometry = self.geometry;
-        let m = disc.to_rim(roller.place.axis);
+        let m = disc.rim_direction(roller.place.axis);
         let radius = geometry.roller_radius + self.excess;
         let mut arm = disc.distance + dot(m, disc.outward) * radius
             - (disc.along + dot(m, ring.axis) * radius) * geometry.cones.slopes[*side];
@@ -111,7 +111,7 @@ impl<T: Of<f64>> OnRaceway<'_, T> {
         let Disc { normal, on_roller, outward, tangent, distance, radius, .. } = disc;
         let (u, b) = (roller.place.axis, ring.axis);
         let one = s.like(1.0);
-        let direction = disc.to_rim(u);
+        let direction = disc.rim_direction(u);
         let upright = dot(direction, outward);
         let to_centre = scaled(u, s);
         let lever = sum(to_centre, scaled(direction, radius));

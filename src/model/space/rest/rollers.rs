@@ -230,9 +230,8 @@ impl Rollers<'_> {
                 on_raceway.loaded += slice.share;
                 on_raceway.load += load;
                 on_raceway.moment += moment[2];
-                for i in 0..2 {
-                    out.on_roller[i] -= load * disc.normal[i];
-                }
+                out.on_roller[0] -= load * disc.normal[0];
+                out.on_roller[1] -= load * disc.normal[1];
                 // Palmgren's law: the energy at the approach delta is 9/19 Q delta.
                 out.energy += load.base() * disc.delta.base() * (9.0 / 19.0);
                 if k == 1 {
@@ -244,9 +243,8 @@ impl Rollers<'_> {
         }
         let mut moments = out.raceways[0].moment + out.raceways[1].moment;
         for (mate, on_rib, [force, moment], law) in self.on_ribs(j, at, ring) {
-            for i in 0..2 {
-                out.on_roller[i] += on_rib.load * force[i];
-            }
+            out.on_roller[0] += on_rib.load * force[0];
+            out.on_roller[1] += on_rib.load * force[1];
             moments += on_rib.moment;
             out.energy += law.energy(on_rib.approach.base());
             if mate == 1 {
