@@ -7,6 +7,7 @@
 # make figures   the figures of both papers beside what the library gives: docs/papers.md
 # make effects   cost of every effect and what it changes: docs/results/effects.md
 # make cage-in-space the cage of the second paper in space: docs/results/cage-in-space.md
+# make roller-space  the NU2310 with rollers in space beside those in the plane: docs/results/roller-space.md
 # make second-paper  whirl of the second paper with elastic cage and heat balance: docs/results/second-paper.md
 # make verify    errors of the integration methods against CVODE: docs/results/verification.md
 # make hard     hard cases with every method and preset: docs/results/hard-cases.md
@@ -36,7 +37,7 @@ CARGO ?= cargo
 # Python with what tests of its package need.
 PYTHON := $(abspath out/venv/bin/python)
 
-.PHONY: check test release-check tools python-env fmt lint doc shipped quick unit abi deb run cases example figures effects second-paper cage-in-space verify hard judge tuning ellipse-rules random statistics \
+.PHONY: check test release-check tools python-env fmt lint doc shipped quick unit abi deb run cases example figures effects second-paper cage-in-space roller-space verify hard judge tuning ellipse-rules random statistics \
 	accuracy bench build-times header build install uninstall clean
 
 # The same flags everywhere, so that nothing is built twice.
@@ -136,6 +137,9 @@ second-paper: tools
 
 cage-in-space: tools
 	$(CARGO) run --release --locked --package cagedyn-studies --bin cage_in_space -- --docs
+
+roller-space: tools
+	$(CARGO) run --release --locked --package cagedyn-studies --bin roller_space -- --docs
 
 effects: tools
 	$(CARGO) run --release --locked --package cagedyn-studies --bin effects -- --docs
