@@ -51,6 +51,11 @@ impl Space {
     /// # Errors
     /// [`crate::Status::BadState`] where there is no equilibrium, or none was found.
     pub(crate) fn settled_rollers(&self) -> Option<Result<SettledRollers<'_>>> {
+        self.settled_beside(None)
+    }
+
+    /// The same of a ring that is held along the axis here (m), if it is free there.
+    fn settled_beside(&self, held: Option<f64>) -> Option<Result<SettledRollers<'_>>> {
         let rollers = self.rollers.as_ref()?;
         let inputs = self.inputs.at(0.0, &HostInputs::default());
         let [orbit, _] = rollers.kinematic_speeds(&inputs);
@@ -62,6 +67,7 @@ impl Space {
         if rollers.geometry.cones == Cones::NONE && load[0] == 0.0 && body.spring(0.0) == [0.0; 2] {
             body.held[0].get_or_insert(0.0);
         }
+        body.held[0] = body.held[0].or(held);
         Some(resting.settled(&body, load))
     }
 
@@ -71,7 +77,12 @@ impl Space {
         let [orbit, spin] = self.kinematic_speeds(&inputs);
         let mut ring = [0.0; 2];
         let at_rest = self.scene.initial.inner_ring == RingStart::Equilibrium;
-        let settled = self.settled_rollers().filter(|_| at_rest).transpose()?;
+        // A ring that nothing holds along the axis starts in the middle, and leaves.
+        let settle = || match self.settled_rollers()? {
+            Err(_) => self.settled_beside(Some(0.0)),
+            found => Some(found),
+        };
+        let settled = if at_rest { settle().transpose()? } else { None };
         if let Some(found) = &settled {
             for (q, k) in q.iter_mut().zip(self.ring.free()) {
                 *q = found.ring.at[k];
