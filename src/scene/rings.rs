@@ -109,7 +109,8 @@ pub enum RingMotion {
     Fixed(PlaneVector),
     /// Free in the plane under load and contact forces. Needs rollers.
     Free(FreeRing),
-    /// In space, with every coordinate by itself. Needs balls, or rollers, whose ring then has equilibria only and is held along the axis.
+    /// In space, with every coordinate by itself. Needs balls, or rollers; beside rollers in the plane it has equilibria only, and beside cylindrical ones without ribs on both rings it is held
+    /// along the axis.
     Space(Box<SpatialRing>),
 }
 

@@ -7,6 +7,7 @@ pub mod bearings;
 pub mod cvode;
 pub mod effects;
 pub mod judge;
+pub mod page;
 #[path = "../../src/bin/cagedyn/plots"]
 pub mod plots {
     pub mod axis;

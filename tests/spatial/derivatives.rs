@@ -8,6 +8,12 @@ use std::sync::Arc;
 /// Largest error of a column of the Jacobian against central differences of fourth order, over the largest entry of its rows in units
 /// of the scales.
 pub(crate) fn error(model: &Arc<Model>, spread: f64) -> f64 {
+    error_of_steps(model, spread, &[1.0])
+}
+
+/// The same by differences over several steps, as shares of the usual one, of which the best counts: where contacts just touch, or a curvature jumps, a
+/// step may be too long.
+pub(crate) fn error_of_steps(model: &Arc<Model>, spread: f64, steps: &[f64]) -> f64 {
     let mut sim = Sim::new(model.clone()).unwrap();
     let scales = model.state_scales();
     let mut worst: f64 = 0.0;
@@ -23,19 +29,20 @@ pub(crate) fn error(model: &Arc<Model>, spread: f64) -> f64 {
         };
         for k in 0..n {
             let h = 5e-5 * scales[k];
-            // Steps that are longer than the depth of a contact that just touches, or across a kink, are made shorter.
-            let of_steps = [1.0, 0.125].map(|part| {
+            let of_step = |part: &f64| {
                 let h = part * h;
                 let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|s| rate_at(k, s * h));
                 let difference = |i: usize| (a[i] - d[i] + 8.0 * (c[i] - b[i])) / (12.0 * h);
                 (0..n).map(difference).collect::<Vec<_>>()
-            });
+            };
+            let of_steps: Vec<Vec<f64>> = steps.iter().map(of_step).collect();
             for i in 0..n {
                 let unit = scales[i] / scales[k];
                 let row =
                     (0..n).map(|m| (exact[i + n * m] * scales[m] / scales[i]).abs()).fold(1.0, f64::max);
-                let offs = of_steps.each_ref().map(|of| (exact[i + n * k] - of[i]).abs() / (unit * row));
-                let (off, difference) = (offs[0].min(offs[1]), of_steps[0][i]);
+                let off_of = |of: &Vec<f64>| (exact[i + n * k] - of[i]).abs() / (unit * row);
+                let off = of_steps.iter().map(off_of).fold(f64::INFINITY, f64::min);
+                let difference = of_steps[0][i];
                 if off > worst {
                     let names = model.state_infos();
                     println!("d {}' / d {}: {} {difference}", names[i].name, names[k].name, exact[i + n * k]);

@@ -113,8 +113,11 @@ impl Plane {
     fn raceway_geometry(&self) -> Option<RacewayGeometry> {
         let rollers = self.scene.rollers.as_ref()?;
         let outer = self.scene.outer_ring.as_ref()?.raceway_radius?;
-        let taper = rollers.space.as_ref().and_then(|space| space.taper.as_ref());
-        Some(RacewayGeometry::new(outer, (rollers.radius, Cones::new(taper)), self.scene.radial_clearance()))
+        Some(RacewayGeometry::new(
+            outer,
+            (rollers.radius, Cones::new(self.scene.taper())),
+            self.scene.radial_clearance(),
+        ))
     }
 
     /// Orbit and spin speed of the elements without slip at these inputs, rad/s: of rollers that touch both raceways,

@@ -214,7 +214,10 @@ mod tests {
                     assert!((slope - force).abs() < 2e-13, "{ring} {s} {k}: {slope} {force}");
                 }
                 // Nothing turns a body about its own axis.
-                assert!(dot(on_roller, state.axis).abs() < 2e-16 && dot(moment, of_ring.axis).abs() < 1e-15);
+                let allowed = if bearing.cones == Cones::NONE { 1e-16 } else { 2e-16 };
+                assert!(
+                    dot(on_roller, state.axis).abs() < allowed && dot(moment, of_ring.axis).abs() < 1e-15
+                );
             }
         }
     }

@@ -61,8 +61,7 @@ fn laws_of(builder: &LawBuilder<'_>) -> Result<Option<(RacewayGeometry, [LineCon
     let outer = needed("outer_ring.raceway_radius", outer_ring.raceway_radius, "raceways")?;
     let outer_material = needed("outer_ring.material", outer_ring.material.as_deref(), "raceways")?;
     let radius = scene.element_radius();
-    let taper = scene.rollers.as_ref().and_then(|rollers| rollers.space.as_ref()?.taper.as_ref());
-    let cones = Cones::new(taper);
+    let cones = Cones::new(scene.taper());
     let geometry = RacewayGeometry::new(outer, (radius, cones), scene.radial_clearance());
     let inner = geometry.inner_radius(outer);
     let inner_material = rings.1.and_then(|ring| ring.material.as_deref());

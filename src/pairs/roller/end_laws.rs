@@ -24,6 +24,13 @@ pub(crate) struct EndPair {
     pub(crate) law: SpotLaw,
 }
 
+impl EndPair {
+    /// Whether it is a rib, and not the side of a pocket.
+    pub(crate) fn is_rib(&self) -> bool {
+        self.mate != CAGE
+    }
+}
+
 /// Names of ribs by ring and side, and of the sides of pockets.
 const RIBS: [[&str; 2]; 2] =
     [["outer_rib_positive", "outer_rib_negative"], ["inner_rib_positive", "inner_rib_negative"]];

@@ -11,7 +11,6 @@ use crate::pairs::contacts::{
 };
 use crate::scalar::{Dual, Lanes, Of, Real, WIDEST, ZEROS, blocks_for, place_of};
 use pulp::Arch;
-use std::f64::consts::PI;
 
 /// Square of a slip, m^2/s^2, that is added so that its size has a slope at none.
 const SLIP_FLOOR: f64 = 1e-24;
@@ -58,18 +57,14 @@ impl SpotLaw {
         }
     }
 
-    /// Largest pressure (Pa) and half width or mean radius (m) of Hertz's contact under this load, N; zeros of a spring.
+    /// Largest pressure (Pa) and mean radius (m) of Hertz's contact of an end under this load, N; zeros of others.
     pub(crate) fn pressed(&self, load: f64) -> [f64; 2] {
         match self {
-            Self::Line(law) => {
-                let half_width = law.elastic.half_width(load);
-                [4.0 / PI * law.elastic.mean_pressure(load, half_width), half_width]
-            }
-            Self::Solid(_) => [0.0; 2],
             Self::Rib(law) => {
                 let [radius, pressure] = law.circle(load);
                 [pressure, radius]
             }
+            Self::Line(_) | Self::Solid(_) => [0.0; 2],
         }
     }
 

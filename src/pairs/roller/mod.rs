@@ -34,8 +34,7 @@ pub(crate) fn bars(scene: &Scene, viscosity: Option<f64>) -> Result<Option<(Bars
     else {
         return Ok(None);
     };
-    let taper = scene.rollers.as_ref().and_then(|rollers| rollers.space.as_ref()?.taper.as_ref());
-    let (pitch, radius) = (scene.pitch_radius(), (scene.element_radius(), Cones::new(taper)));
+    let (pitch, radius) = (scene.pitch_radius(), (scene.element_radius(), Cones::new(scene.taper())));
     match pocket {
         Pocket::LubricatedCylinder(of) => {
             let law = cylinder::law_of(&LawBuilder::new(scene, viscosity), cage, of)?;

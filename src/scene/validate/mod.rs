@@ -335,13 +335,14 @@ impl Scene {
         let outer = self.outer_ring.as_ref().and_then(|r| r.raceway_radius).unwrap_or(0.0);
         // A clearance that is not known yet changes the circle by less than what checks of a scene can tell.
         let clearance = Some(self.radial_clearance()).filter(|clearance| !clearance.is_nan()).unwrap_or(0.0);
-        outer - self.element_radius() * math::cos(self.inclination_of_rollers()) - clearance / 4.0
+        outer
+            - self.element_radius() * math::cos(self.taper().map_or(0.0, RollerTaper::inclination))
+            - clearance / 4.0
     }
 
-    /// Inclination of the axes of tapered rollers, rad; zero of others.
-    fn inclination_of_rollers(&self) -> f64 {
-        let taper = self.rollers.as_ref().and_then(|rollers| rollers.space.as_ref()?.taper.as_ref());
-        taper.map_or(0.0, RollerTaper::inclination)
+    /// Cones of its rollers, if they are tapered.
+    pub(crate) fn taper(&self) -> Option<&RollerTaper> {
+        self.rollers.as_ref()?.space.as_ref()?.taper.as_ref()
     }
 
     /// Diametral play of the inner ring on the rollers, m; zero without rollers.

@@ -113,7 +113,7 @@ impl Scene {
 
     /// Whether rollers hold the inner ring along the axis: by ribs of both rings, or by their cones.
     pub(super) fn rollers_hold_along(&self) -> bool {
-        if self.rollers.as_ref().and_then(|rollers| rollers.space.as_ref()?.taper).is_some() {
+        if self.taper().is_some() {
             return true;
         }
         let on = |ring: RibRing| self.ribs.iter().flat_map(|ribs| &ribs.list).any(|rib| rib.ring == ring);

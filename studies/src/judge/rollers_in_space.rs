@@ -6,7 +6,7 @@
 //! [`published`](super::published). With or without a cage, whose pockets may have sides; every fourth ring of a cage bends.
 
 use super::parts::elastic_ring;
-use super::scenes::Draw;
+use super::scenes::{Draw, materials};
 use crate::random::Random;
 use serde_json::{Value, json};
 use std::f64::consts::{PI, TAU};
@@ -63,22 +63,13 @@ pub fn scene(number: u64, duration: f64) -> Value {
     let speed =
         draw.log(SPEEDS[0], SPEEDS[1]) / (2.0 * sizes.pitch) * if draw.chance(0.5) { 1.0 } else { -1.0 };
     let ribs = list_of_ribs(draw);
-    // The equilibrium knows no ribs: with those of both rings a ring that it tilts would start in the ends of its rollers.
     let against = held_against(&ribs);
     let mut scene = json!({
         "schema": "cagedyn.scene/1",
         "title": format!("rollers in space, random scene {number}"),
         "gravity": {"y": 0.0, "z": -9.80665},
-        "materials": {
-            "steel": {"young_modulus": 206e9, "poisson_ratio": 0.30,
-                "thermal": {"conductivity": 46.0, "density": 7830.0, "specific_heat": 460.0}},
-            "brass": {"young_modulus": 103e9, "poisson_ratio": 0.34,
-                "thermal": {"conductivity": 110.0, "density": 8500.0, "specific_heat": 380.0}}
-        },
-        "lubricant": {
-            "viscosity": draw.viscosity(), "pressure_viscosity": draw.log(1e-8, 3e-8), "temperature_viscosity": 0.04,
-            "conductivity": 0.13, "eyring_stress": draw.log(2e6, 8e6), "shear_modulus": 0.3e9
-        },
+        "materials": materials(),
+        "lubricant": draw.oil(),
         "rollers": rollers(draw, &sizes, load),
         "outer_ring": {"raceway_radius": sizes.pitch + sizes.radius + 0.25 * sizes.clearance, "material": "steel"},
         "inner_ring": {
@@ -243,16 +234,7 @@ fn ring(draw: &mut Draw, sizes: &Sizes, ribs: &[(&'static str, f64)], load: f64,
     let against = held_against(ribs);
     let most = 0.3 * sizes.end_play / sizes.pitch;
     let tilt = if against.is_some() { misaligned.min(most) } else { misaligned };
-    let coordinate = |draw: &mut Draw, size: f64| match draw.0.index(8) {
-        0 | 1 => json!({"held": size * draw.within(-1.0, 1.0)}),
-        2 => {
-            let [mean, amplitude] = [size, 0.3 * size].map(|size| size * draw.within(-0.5, 0.5));
-            let (frequency, phase) = (draw.log(5.0, 500.0), draw.angle());
-            let sine = json!({"mean": mean, "amplitude": amplitude, "frequency": frequency, "phase": phase});
-            json!({"prescribed": {"sine": sine}})
-        }
-        _ => json!("free"),
-    };
+    let coordinate = |draw: &mut Draw, size: f64| draw.coordinate(size, 8);
     let direction = draw.angle();
     let lever = if against.is_some() { 0.01 } else { 0.1 };
     let moment = lever * load * sizes.effective * draw.within(-1.0, 1.0);

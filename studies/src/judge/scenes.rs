@@ -9,10 +9,43 @@ use crate::random::Random;
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
 
+/// Steel and brass.
+pub(super) fn materials() -> Value {
+    json!({
+        "steel": {"young_modulus": 206e9, "poisson_ratio": 0.30,
+            "thermal": {"conductivity": 46.0, "density": 7830.0, "specific_heat": 460.0}},
+        "brass": {"young_modulus": 103e9, "poisson_ratio": 0.34,
+            "thermal": {"conductivity": 110.0, "density": 8500.0, "specific_heat": 380.0}}
+    })
+}
+
 /// Draws with named distributions.
 pub(super) struct Draw(pub(super) Random);
 
 impl Draw {
+    /// Oil of any viscosity.
+    pub(super) fn oil(&mut self) -> Value {
+        json!({
+            "viscosity": self.viscosity(), "pressure_viscosity": self.log(1e-8, 3e-8), "temperature_viscosity": 0.04,
+            "conductivity": 0.13, "eyring_stress": self.log(2e6, 8e6), "shear_modulus": 0.3e9
+        })
+    }
+
+    /// A coordinate of a ring of this size (m or rad): two times of `of` held, once moved, else free.
+    pub(super) fn coordinate(&mut self, size: f64, of: usize) -> Value {
+        match self.0.index(of) {
+            0 | 1 => json!({"held": size * self.within(-1.0, 1.0)}),
+            2 => {
+                let [mean, amplitude] = [size, 0.3 * size].map(|size| size * self.within(-0.5, 0.5));
+                let (frequency, phase) = (self.log(5.0, 500.0), self.angle());
+                let sine =
+                    json!({"mean": mean, "amplitude": amplitude, "frequency": frequency, "phase": phase});
+                json!({"prescribed": {"sine": sine}})
+            }
+            _ => json!("free"),
+        }
+    }
+
     /// Log-uniform.
     pub(super) fn log(&mut self, low: f64, high: f64) -> f64 {
         self.0.within(low.ln(), high.ln()).exp()
@@ -223,16 +256,8 @@ pub fn scene(number: u64, duration: f64) -> Value {
     let mut scene = json!({
         "schema": "cagedyn.scene/1", "title": format!("random scene {number}"),
         "gravity": {"y": 0.0, "z": -9.80665},
-        "materials": {
-            "steel": {"young_modulus": 206e9, "poisson_ratio": 0.30,
-                "thermal": {"conductivity": 46.0, "density": 7830.0, "specific_heat": 460.0}},
-            "brass": {"young_modulus": 103e9, "poisson_ratio": 0.34,
-                "thermal": {"conductivity": 110.0, "density": 8500.0, "specific_heat": 380.0}}
-        },
-        "lubricant": {
-            "viscosity": draw.viscosity(), "pressure_viscosity": draw.log(1e-8, 3e-8), "temperature_viscosity": 0.04,
-            "conductivity": 0.13, "eyring_stress": draw.log(2e6, 8e6), "shear_modulus": 0.3e9
-        },
+        "materials": materials(),
+        "lubricant": draw.oil(),
         "inner_ring": {"speed": speed},
         "record": {"duration": duration, "interval": 1e-4}
     });

@@ -35,16 +35,7 @@ pub fn scene(number: u64, duration: f64, caged: bool) -> Value {
     let mass = 7830.0 * 4.0 / 3.0 * PI * radius.powi(3);
     let ring_mass = count * mass * draw.log(3.0, 60.0);
     let transverse = ring_mass * pitch * pitch * draw.within(0.4, 1.5);
-    let coordinate = |draw: &mut Draw, size: f64| match draw.0.index(6) {
-        0 | 1 => json!({"held": size * draw.within(-1.0, 1.0)}),
-        2 => {
-            let [mean, amplitude] = [size, 0.3 * size].map(|size| size * draw.within(-0.5, 0.5));
-            let (frequency, phase) = (draw.log(5.0, 500.0), draw.angle());
-            let sine = json!({"mean": mean, "amplitude": amplitude, "frequency": frequency, "phase": phase});
-            json!({"prescribed": {"sine": sine}})
-        }
-        _ => json!("free"),
-    };
+    let coordinate = |draw: &mut Draw, size: f64| draw.coordinate(size, 6);
     let load = |draw: &mut Draw, size: f64| draw.signal(size, duration, 1e3);
     let moment = 0.1 * axial * pitch * draw.within(-1.0, 1.0);
     let steady = json!({"constant": axial});

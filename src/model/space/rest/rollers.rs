@@ -12,7 +12,7 @@ use super::OF_RING;
 use super::ball::{OnRing, following};
 use super::ring::{RingAtRest, SettledRing, beside};
 use super::settle::{Balance, Rest, settle};
-use crate::bodies::{CAGE as RINGS, ElementSet, MovingRing, MovingRoller, RingInSpace, RollerPlace};
+use crate::bodies::{ElementSet, MovingRing, MovingRoller, RingInSpace, RollerPlace};
 use crate::error::{Error, Result, Status};
 use crate::laws::elastic::surface::Surface;
 use crate::laws::elastic::tilted::{Along, Slice};
@@ -170,7 +170,7 @@ impl Rollers<'_> {
     ) -> impl Iterator<Item = (usize, OnRib<T>, UnitWrench<T>, &SpotLaw)> {
         let still = |at: T| Moving { velocity: [at.like(0.0); 3], turning: [at.like(0.0); 3] };
         let roller = MovingRoller { place: self.roller(at), moving: still(at[0]) };
-        self.ends.iter().filter(|end| end.mate < RINGS).map(move |end| {
+        self.ends.iter().filter(|end| end.is_rib()).map(move |end| {
             let RingPlace { centre, axis } = ring_at(end.mate, ring);
             let mate = MovingRing { centre, axis, moving: still(at[0]), speed: at[0].like(0.0) };
             let Spot { delta, normal, .. } = end.geometry.touch(&roller, &mate, self.shapes.longer(j)).spot;
@@ -383,7 +383,7 @@ impl Rollers<'_> {
         ring: &Vector5<f64>,
     ) -> Vec<(&'static str, OnRib<f64>, [f64; 2])> {
         let ring = (self.beside(j) * ring).into();
-        let names = self.ends.iter().filter(|end| end.mate < RINGS).map(|end| end.name);
+        let names = self.ends.iter().filter(|end| end.is_rib()).map(|end| end.name);
         let told = |(_, on_rib, _, law): (usize, OnRib<f64>, UnitWrench<f64>, &SpotLaw)| {
             (on_rib, if on_rib.load > 0.0 { law.pressed(on_rib.load) } else { [0.0; 2] })
         };
@@ -395,7 +395,7 @@ impl Rollers<'_> {
 
     /// Whether anything holds rollers along the axis.
     fn held_along(&self) -> bool {
-        self.geometry.cones != Cones::NONE || self.ends.iter().any(|end| end.mate < RINGS)
+        self.geometry.cones != Cones::NONE || self.ends.iter().any(|end| end.is_rib())
     }
 
     /// Laws of raceway `k`.

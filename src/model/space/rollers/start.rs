@@ -79,7 +79,7 @@ impl Space {
         let at_rest = self.scene.initial.inner_ring == RingStart::Equilibrium;
         // A ring that nothing holds along the axis starts in the middle, and leaves.
         let settle = || match self.settled_rollers()? {
-            Err(_) => self.settled_beside(Some(0.0)),
+            Err(_) if self.ring.held[0].is_none() => self.settled_beside(Some(0.0)),
             found => Some(found),
         };
         let settled = if at_rest { settle().transpose()? } else { None };

@@ -6,23 +6,11 @@ mod runs;
 
 use cagedyn::scene::Signal;
 use cagedyn::{CageMotion, Error, Result, Scene};
+use cagedyn_studies::page::{self, Changes, Make, scene};
 use cagedyn_studies::table::Table;
-use clap::Parser;
 use runs::{Found, Run, all, starts};
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
-use std::path::Path;
-
-#[derive(Parser)]
-#[command(about)]
-struct Arguments {
-    /// Also write the tables into docs/results/cage-in-space.md.
-    #[arg(long)]
-    docs: bool,
-    /// Only the table of this name.
-    #[arg(long)]
-    only: Option<String>,
-}
 
 const LOAD: &str = "inner_ring.motion.space.load.x.constant";
 const SPEED: &str = "inner_ring.speed.constant";
@@ -36,13 +24,8 @@ const STARTS: u32 = 6;
 /// Their distance from the centre, m: half of the radial clearance.
 const START: f64 = 0.1e-3;
 
-/// A table by its name on the page.
-type Make = fn(&str) -> Result<Table>;
-type Changes = Vec<(&'static str, Value)>;
-
 fn main() -> Result<()> {
-    let arguments = Arguments::parse();
-    let tables: [(&str, Make); 10] = [
+    let tables: &[(&str, Make)] = &[
         ("load", load),
         ("speed", speed),
         ("pocket", pockets),
@@ -54,25 +37,7 @@ fn main() -> Result<()> {
         ("unbalance", unbalance),
         ("waves", waves),
     ];
-    let asked = |name: &str| arguments.only.as_deref().is_none_or(|only| only == name);
-    for (name, table) in tables.into_iter().filter(|(name, _)| asked(name)) {
-        let table = table(name)?;
-        println!("{name}\n{}", table.text());
-        if arguments.docs {
-            let page = Path::new("docs/results/cage-in-space.md");
-            cagedyn_studies::write_tables(page, [(name, table.text())])?;
-        }
-    }
-    Ok(())
-}
-
-/// A scene with changes.
-fn scene(name: &str, changes: &Changes) -> Result<Scene> {
-    let path = format!("scenes/{name}.json");
-    let text =
-        std::fs::read_to_string(&path).map_err(|e| cagedyn_studies::file_error(Path::new(&path), e))?;
-    let texts: Vec<(&str, String)> = changes.iter().map(|(path, value)| (*path, value.to_string())).collect();
-    Scene::from_json_with(&text, texts.iter().map(|(path, value)| (*path, value.as_str())))
+    page::print("docs/results/cage-in-space.md", tables)
 }
 
 fn caged(changes: &Changes) -> Result<Scene> {

@@ -1,7 +1,7 @@
 //! Runs of scenes on all cores, and what is read off them.
 
 use cagedyn::{Model, MotionOfCage, Recording, Result, Scene, Sim, WhirlSummary};
-use cagedyn_studies::workers;
+use cagedyn_studies::page::on_all_cores;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
@@ -104,14 +104,7 @@ impl Found {
 
 /// Runs all of them, as many at once as there are cores; results in their order.
 pub fn all(runs: &[Run]) -> Vec<Result<Found>> {
-    let mut done: Vec<Option<Result<Found>>> = runs.iter().map(|_| None).collect();
-    let places: Vec<usize> = (0..runs.len()).collect();
-    let keep = |k: usize, found| {
-        done[k] = Some(found);
-        true
-    };
-    workers::share(&places, workers::threads(None), |k| Some(runs[k].run()), keep);
-    done.into_iter().flatten().collect()
+    on_all_cores(runs.len(), |k| runs[k].run())
 }
 
 /// Starts with the cage at the distance `shift` (m) in directions that spread evenly, and speeds up to a tenth apart.

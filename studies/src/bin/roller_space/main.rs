@@ -5,23 +5,11 @@
 mod runs;
 
 use cagedyn::{Result, Scene};
+use cagedyn_studies::page::{self, Changes, Make, scene};
 use cagedyn_studies::table::Table;
-use clap::Parser;
 use runs::{Case, Found, STARTS, all};
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
-use std::path::Path;
-
-#[derive(Parser)]
-#[command(about)]
-struct Arguments {
-    /// Also write the tables into docs/results/roller-space.md.
-    #[arg(long)]
-    docs: bool,
-    /// Only the table of this name.
-    #[arg(long)]
-    only: Option<String>,
-}
 
 const PAGE: &str = "docs/results/roller-space.md";
 const SPEED: &str = "inner_ring.speed.constant";
@@ -33,10 +21,6 @@ const SLIP_OF_PAPER: &str = "22";
 const DESIGN_LOAD: f64 = 131e3 / 4.0 * 5.0 / 12.0;
 /// Contact length of the rollers, m.
 const LENGTH: f64 = 0.0204;
-
-/// A table by its name on the page.
-type Make = fn(&str) -> Result<Table>;
-type Changes = Vec<(&'static str, Value)>;
 
 /// A column: its head, what turns a result into its unit, how many decimals it has.
 type Column = (&'static str, fn(&Found) -> f64, usize);
@@ -57,8 +41,7 @@ const RIB_LOSSES: Column = ("of ribs, W", |f| f.rib_losses, 2);
 const POCKET: Column = ("95 % of pocket forces, N", |f| f.pocket_force, 0);
 
 fn main() -> Result<()> {
-    let arguments = Arguments::parse();
-    let tables: [(&str, Make); 8] = [
+    let tables: &[(&str, Make)] = &[
         ("plane and space", plane_and_space),
         ("fig9", fig9),
         ("fig10", fig10),
@@ -68,24 +51,7 @@ fn main() -> Result<()> {
         ("misalignment", misalignment),
         ("thrust", thrust),
     ];
-    let asked = |name: &str| arguments.only.as_deref().is_none_or(|only| only == name);
-    for (name, table) in tables.into_iter().filter(|(name, _)| asked(name)) {
-        let table = table(name)?;
-        println!("{name}\n{}", table.text());
-        if arguments.docs {
-            cagedyn_studies::write_tables(Path::new(PAGE), [(name, table.text())])?;
-        }
-    }
-    Ok(())
-}
-
-/// A scene with changes.
-fn scene(name: &str, changes: &Changes) -> Result<Scene> {
-    let path = format!("scenes/{name}.json");
-    let text =
-        std::fs::read_to_string(&path).map_err(|e| cagedyn_studies::file_error(Path::new(&path), e))?;
-    let texts: Vec<(&str, String)> = changes.iter().map(|(path, value)| (*path, value.to_string())).collect();
-    Scene::from_json_with(&text, texts.iter().map(|(path, value)| (*path, value.as_str())))
+    page::print(PAGE, tables)
 }
 
 fn in_space(changes: &Changes) -> Result<Scene> {

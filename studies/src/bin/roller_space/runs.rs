@@ -2,7 +2,7 @@
 
 use cagedyn::model::POWERS;
 use cagedyn::{Error, Model, Recording, Result, Scene, Sim, Status};
-use cagedyn_studies::workers;
+use cagedyn_studies::page::on_all_cores;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
@@ -74,19 +74,8 @@ impl Case {
 /// Runs all scenes from all starts, as many at once as there are cores; cases in the order of the scenes.
 pub fn all(scenes: &[Scene]) -> Vec<Case> {
     let starts = STARTS as usize;
-    let places: Vec<usize> = (0..starts * scenes.len()).collect();
-    let mut done: Vec<Option<Result<Found>>> = places.iter().map(|_| None).collect();
-    let keep = |k: usize, found| {
-        done[k] = Some(found);
-        true
-    };
-    workers::share(
-        &places,
-        workers::threads(None),
-        |k| Some(run(&scenes[k / starts], (k % starts) as u32)),
-        keep,
-    );
-    let mut done = done.into_iter().flatten();
+    let run = |k: usize| run(&scenes[k / starts], (k % starts) as u32);
+    let mut done = on_all_cores(starts * scenes.len(), run).into_iter();
     scenes.iter().map(|_| Case(done.by_ref().take(starts).collect())).collect()
 }
 
