@@ -93,7 +93,10 @@ fn the_plane_is_a_limit() {
         let [mut sim, mut plane] = [&spatial, &planar].map(|model| Sim::new(model.clone()).unwrap());
         let (infos, of_plane) = (spatial.state_infos(), planar.state_infos());
         let mut worst: f64 = 0.0;
-        for state in states(&plane, 40, 1.0, 11) {
+        // Rollers carry up to 33 kN and 190 kN in these states; what is left is round-off of that.
+        let drawn = [(0.2, 2e-8), (1.0, 1e-7)]
+            .map(|(spread, rest)| states(&plane, 40, spread, 11).into_iter().map(move |state| (state, rest)));
+        for (state, rest) in drawn.into_iter().flatten() {
             let mut lifted = vec![0.0; infos.len()];
             for (info, x) in of_plane.iter().zip(&state) {
                 lifted[place(&spatial, &info.name)] = *x;
@@ -110,7 +113,7 @@ fn the_plane_is_a_limit() {
                 match of_plane.iter().position(|other| other.name == info.name) {
                     Some(k) => worst = worst.max((x - expected[k]).abs() / largest(field)),
                     // Skew and tilt of rollers, axial motion and tilts of the ring.
-                    None => assert!(x.abs() < 1e-7, "{}: {x}", info.name),
+                    None => assert!(x.abs() < rest, "{}: {x}", info.name),
                 }
             }
         }
