@@ -28,6 +28,7 @@ int main(int argc, char **argv)
     CHECK(k.size() == 25 && k[0] > 7e8 && std::fabs(k[6] - k[12]) < 1e-9 * k[0]);
     CHECK(still.elements() == 16 && still.contacts().size() == 32 && still.contacts()[1] == "ball[0].inner_raceway");
     CHECK(still.element(15).size() == still.element_quantities().size() && still.warnings().empty());
+    CHECK(still.life_quantities().empty() && still.life_units().empty() && still.life().empty());
     CHECK(still.contact_units().size() == still.contact_quantities().size());
     CHECK(still.element_units()[place(still.element_quantities(), "orbit_speed")] == "rad/s");
     CHECK(status_of([&] { still.contact(32); }) == CAGEDYN_ERR_BAD_INDEX);

@@ -25,6 +25,14 @@ int main(int argc, char **argv)
     CHECK(cagedyn_equilibrium_contact(found, 19, values, 8) == CAGEDYN_OK);
     CHECK(fabs(values[0] - 2469.0) < 0.2 && values[3] > 1.5 * values[0] / 20.4e-3);
 
+    /* Its reference life: turns, time and the load of ISO 281 among others. */
+    const int64_t count = cagedyn_equilibrium_life_quantity_count(found);
+    CHECK(count == 8 && strcmp(cagedyn_equilibrium_life_quantity_name(found, 2), "reference_load") == 0);
+    CHECK(strcmp(cagedyn_equilibrium_life_quantity_unit(found, 1), "s") == 0);
+    CHECK(cagedyn_equilibrium_life(found, values, 7) == CAGEDYN_ERR_WRONG_SIZE);
+    CHECK(cagedyn_equilibrium_life(found, values, count) == CAGEDYN_OK);
+    CHECK(values[2] > 4900.0 && values[2] < 12000.0 && values[0] / 50.0 > 0.99 * values[1]);
+
     CHECK(cagedyn_sim_new(model) == NULL && cagedyn_error_status() == CAGEDYN_ERR_BAD_SCENE);
     CHECK(strstr(cagedyn_error_message(), "inner_ring.motion.space: rollers move over time in the plane") != NULL);
     cagedyn_equilibrium_free(found);

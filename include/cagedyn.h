@@ -325,6 +325,23 @@ int32_t cagedyn_equilibrium_line_loads(const cagedyn_equilibrium *found,
                                        double *out,
                                        int64_t length);
 
+/* Number of numbers that cagedyn_equilibrium_life() writes: zero of balls, where no roller is loaded, and of contact angles above 45 degrees. Negative
+ * status code on failure. */
+int64_t cagedyn_equilibrium_life_quantity_count(const cagedyn_equilibrium *found);
+
+/* Name of one of them; "" on failure. Lives as long as the equilibrium. */
+const char *cagedyn_equilibrium_life_quantity_name(const cagedyn_equilibrium *found, int64_t index);
+
+/* SI unit ("1" for numbers) of one of them; "" on failure. Lives as long as the equilibrium. */
+const char *cagedyn_equilibrium_life_quantity_unit(const cagedyn_equilibrium *found, int64_t index);
+
+/* Writes the reference life of rollers after ISO/TS 16281, and what it follows from (length: life quantity count): turns and time that nine of ten such
+ * bearings reach, the radial load under which ISO 281 gives as much, load ratings and equivalent loads. The time is infinite where the rings do not turn
+ * against each other. */
+int32_t cagedyn_equilibrium_life(const cagedyn_equilibrium *found,
+                                 double *out,
+                                 int64_t length);
+
 /* Number of contacts: rows of cagedyn_sim_contact_forces(). Negative status code on failure. */
 int64_t cagedyn_model_contact_count(const cagedyn_model *model);
 

@@ -281,6 +281,19 @@ public:
             return cagedyn_equilibrium_line_loads(e, contact, out, length);
         });
     }
+    // Reference life of rollers: none of balls, or without load. In the order of these quantities.
+    std::vector<std::string_view> life_quantities() const
+    {
+        return listed(cagedyn_equilibrium_life_quantity_count, cagedyn_equilibrium_life_quantity_name);
+    }
+    std::vector<std::string_view> life_units() const
+    {
+        return listed(cagedyn_equilibrium_life_quantity_count, cagedyn_equilibrium_life_quantity_unit);
+    }
+    std::vector<double> life() const
+    {
+        return read(detail::counted(cagedyn_equilibrium_life_quantity_count(get())), cagedyn_equilibrium_life);
+    }
     // What is amiss without preventing the equilibrium.
     std::vector<std::string_view> warnings() const
     {

@@ -170,6 +170,13 @@ class Equilibrium:
         ]
         #: Loads per length of all contacts there, N/m; shape (contacts, places).
         self.line_loads: Array = np.array(loads).reshape(len(loads), places)
+        values = filled(
+            counted(lib.cagedyn_equilibrium_life_quantity_count(handle)), lambda p, n: lib.cagedyn_equilibrium_life(handle, p, n)
+        )
+        #: Reference life of rollers after ISO/TS 16281 and what it follows from, by name: life_turns, life_time (s), reference_load (N) and more; empty
+        #: of balls and without load.
+        self.life: dict[str, float] = dict(zip(names("life_quantity"), values.tolist(), strict=True))
+        self.life_units: dict[str, str] = dict(zip(names("life_quantity"), names("life_quantity", "unit"), strict=True))
         #: SI units of what is known of elements and contacts.
         self.element_units: dict[str, str] = dict(zip(names("element_quantity"), names("element_quantity", "unit"), strict=True))
         self.contact_units: dict[str, str] = dict(zip(names("contact_quantity"), names("contact_quantity", "unit"), strict=True))

@@ -37,6 +37,9 @@ def test_of_an_equilibrium(model):
     assert forces == pytest.approx(found.contacts["normal_force"], rel=1e-3, abs=1e-6)
 
 
-def test_of_rollers_in_the_plane():
+def test_of_rollers_in_the_plane(model):
     found = cagedyn.Equilibrium(cagedyn.Model.from_file(SCENE.with_name("nu2310.json")))
+    assert found.life["dynamic_load_rating"] == pytest.approx(120542, rel=1e-4)
+    assert found.life["life_turns"] == pytest.approx(cagedyn.Equilibrium(model).life["life_turns"], rel=0.05)
+    assert found.life_units["life_time"] == "s"
     assert found.line_loads.shape == (len(found.contact_names), 0)

@@ -15,6 +15,7 @@ pub struct cagedyn_equilibrium {
     element_quantities: Vec<Item>,
     contact_quantities: Vec<Item>,
     contacts: Vec<Item>,
+    life_quantities: Vec<Item>,
     warnings: Vec<Item>,
 }
 
@@ -29,6 +30,7 @@ impl cagedyn_equilibrium {
             element_quantities: named(found.element_quantities),
             contact_quantities: named(found.contact_quantities),
             contacts: plain(&found.contacts),
+            life_quantities: found.life.as_ref().map_or_else(Vec::new, |life| named(life.quantities)),
             warnings: plain(&found.warnings),
             found,
         }
@@ -407,5 +409,63 @@ pub unsafe extern "C" fn cagedyn_equilibrium_line_loads(
         let loads = found.line_loads.values.get(contact).map_or(&[][..], Vec::as_slice);
         // SAFETY: see above.
         unsafe { write_array("out", loads, out, length) }
+    })
+}
+
+/// Number of numbers that cagedyn_equilibrium_life() writes: zero of balls, where no roller is loaded, and of contact angles above 45 degrees. Negative
+/// status code on failure.
+///
+/// # Safety
+/// `found` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_equilibrium_life_quantity_count(found: *const cagedyn_equilibrium) -> i64 {
+    // SAFETY: see above.
+    unsafe { length(found, |e| &e.life_quantities) }
+}
+
+/// Name of one of them; "" on failure. Lives as long as the equilibrium.
+///
+/// # Safety
+/// `found` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_equilibrium_life_quantity_name(
+    found: *const cagedyn_equilibrium,
+    index: i64,
+) -> *const c_char {
+    // SAFETY: see above.
+    unsafe { item(found, index, |e| &e.life_quantities, |item| &item.name) }
+}
+
+/// SI unit ("1" for numbers) of one of them; "" on failure. Lives as long as the equilibrium.
+///
+/// # Safety
+/// `found` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_equilibrium_life_quantity_unit(
+    found: *const cagedyn_equilibrium,
+    index: i64,
+) -> *const c_char {
+    // SAFETY: see above.
+    unsafe { item(found, index, |e| &e.life_quantities, |item| &item.unit) }
+}
+
+/// Writes the reference life of rollers after ISO/TS 16281, and what it follows from (length: life quantity count): turns and time that nine of ten such
+/// bearings reach, the radial load under which ISO 281 gives as much, load ratings and equivalent loads. The time is infinite where the rings do not turn
+/// against each other.
+///
+/// # Safety
+/// `found` is NULL or a live handle, `out` NULL or an array of `length` numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_equilibrium_life(
+    found: *const cagedyn_equilibrium,
+    out: *mut f64,
+    length: i64,
+) -> i32 {
+    status(|| {
+        // SAFETY: see above.
+        let life = &unsafe { shared("found", found) }?.found.life;
+        let values = life.as_ref().map_or(&[][..], |life| &life.values);
+        // SAFETY: see above.
+        unsafe { write_array("out", values, out, length) }
     })
 }

@@ -6,12 +6,15 @@
 //! | `balls` | ring and balls in space, found by `model/space/rest` |
 //! | `rollers` | ring and rollers in the plane |
 //! | `tilting` | a ring that tilts, and rollers that do so with it |
+//! | `life` | reference life of rollers |
 
 mod balls;
+mod life;
 mod rollers;
 mod tilting;
 
 pub use crate::model::RaceControl;
+pub use life::ReferenceLife;
 
 use crate::bodies::{Coordinate, RING_COORDINATES};
 use crate::error::{Error, Result, Status};
@@ -45,6 +48,8 @@ pub struct Equilibrium {
     pub contact_values: Vec<Vec<f64>>,
     /// How the contacts of rollers that may tilt are loaded along their length; of others nothing.
     pub line_loads: LineLoads,
+    /// Reference life of rollers.
+    pub life: Option<ReferenceLife>,
     /// What is amiss without preventing the equilibrium, one line each.
     pub warnings: Vec<String>,
     /// Rest of the forces on the ring over their size.
@@ -110,6 +115,7 @@ fn of_ring(ring: &SettledRing, quantities: [&'static [Quantity]; 2]) -> Equilibr
         contact_quantities,
         contact_values: Vec::new(),
         line_loads: LineLoads::default(),
+        life: None,
         warnings: Vec::new(),
         residual: ring.residual,
     }

@@ -1,6 +1,8 @@
 //! Ring and rollers in the plane.
 
-use super::{AZIMUTH, Equilibrium, LineLoads, NORMAL_FORCE, ORBIT_SPEED, PRESCRIBED, RADIAL_OFFSET, named};
+use super::{
+    AZIMUTH, Equilibrium, LineLoads, NORMAL_FORCE, ORBIT_SPEED, PRESCRIBED, RADIAL_OFFSET, life, named,
+};
 use crate::bodies::CENTRE;
 use crate::error::{Error, Result, Status};
 use crate::model::plane::{Plane, StillBearing};
@@ -21,6 +23,9 @@ const CONTACT: [Quantity; 4] = [
     ),
     quantity("half_width", "m", "half width b of Hertz's line contact; with a profile that of the middle"),
 ];
+/// Place of the approach among these.
+const APPROACH: usize = 1;
+
 /// The equilibrium of a ring and the rollers that go round with the speed that they roll at.
 pub(super) fn equilibrium(model: &Model, plane: &Plane) -> Result<Equilibrium> {
     let inputs = model.inputs_at(0.0, &HostInputs::default());
@@ -48,6 +53,7 @@ pub(super) fn equilibrium(model: &Model, plane: &Plane) -> Result<Equilibrium> {
         contact_quantities: &CONTACT,
         contact_values: Vec::new(),
         line_loads: LineLoads::default(),
+        life: None,
         warnings: Vec::new(),
         residual: 0.0,
     };
@@ -73,5 +79,7 @@ pub(super) fn equilibrium(model: &Model, plane: &Plane) -> Result<Equilibrium> {
         let rest = [0, 1].map(|k| found.reaction[k] + load[k]);
         found.residual = math::hypot(rest[0], rest[1]) / size.max(f64::MIN_POSITIVE);
     }
+    let approach = |k: usize, j: usize| found.contact_values[2 * j + k][APPROACH];
+    found.life = life::of(model, |k, j, s| still.line_load(k, approach(k, j), s));
     Ok(found)
 }

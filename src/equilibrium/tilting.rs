@@ -1,7 +1,7 @@
 //! The equilibrium of rollers that tilt with their ring, told as users read it.
 
 use super::{
-    AZIMUTH, Equilibrium, NORMAL_FORCE, ORBIT_SPEED, RADIAL_OFFSET, of_ring, over_pressed, pushed_away,
+    AZIMUTH, Equilibrium, NORMAL_FORCE, ORBIT_SPEED, RADIAL_OFFSET, life, of_ring, over_pressed, pushed_away,
 };
 use crate::error::Result;
 use crate::model::plane::Plane;
@@ -80,6 +80,11 @@ pub(super) fn told(model: &Model, settled: &SettledRollers<'_>) -> Equilibrium {
             found.line_loads.values.push(vec![0.0; found.line_loads.places.len()]);
         }
     }
+    found.life = life::of(model, |k, j, s| {
+        let elastic = &settled.rollers.law(k).elastic;
+        let delta = settled.rollers.approach(j, k, settled.places[j], &settled.ring.at, s);
+        elastic.load(delta) / elastic.length
+    });
     found.warnings.extend(pushed_away(&settled.ring));
     found
 }

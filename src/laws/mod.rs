@@ -26,6 +26,7 @@ pub mod film;
 pub mod fluid;
 pub mod guide;
 pub mod heat_network;
+pub mod life;
 pub mod line_contact;
 pub mod point_contact;
 mod resting_line;

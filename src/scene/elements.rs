@@ -25,6 +25,10 @@ pub struct Rollers {
     pub inertia: f64,
     /// Name of the material.
     pub material: String,
+    /// Basic dynamic radial load rating C_r of the bearing in a catalogue, N, for its life. Absent: by ISO 281.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1.0, max = 1e9)))]
+    pub dynamic_load_rating: Option<f64>,
     /// Profile of the rollers along their length in the contacts with the raceways. Absent: straight.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub profile: Option<RollerProfile>,

@@ -4,6 +4,7 @@
 mod common;
 
 mod balls;
+mod life;
 mod random;
 mod refused;
 mod stiffness;

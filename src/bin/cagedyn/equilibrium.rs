@@ -7,7 +7,7 @@ use crate::results::table::{self, Align, number};
 use crate::run::{in_file, read, stem};
 use crate::sweep::{Vary, points};
 use crate::{EquilibriumArgs, terminal};
-use cagedyn::equilibrium::{Equilibrium, RaceControl, equilibrium};
+use cagedyn::equilibrium::{Equilibrium, RaceControl, ReferenceLife, equilibrium};
 use cagedyn::model::Quantity;
 use cagedyn::{Error, Model, Result, Scene};
 use serde_json::{Map, Value, json};
@@ -49,6 +49,9 @@ pub fn command(args: &EquilibriumArgs) -> Result<ExitCode> {
             let map = line_load_map::of_equilibrium(&title, &found)?;
             write_text(&folder.join("line_load_map.svg"), &map)?;
         }
+        if let Some(life) = &found.life {
+            write_csv(&folder.join("life.csv"), laminae(life))?;
+        }
     }
     if args.json {
         terminal::print(&format!("{whole:#}\n"))?;
@@ -72,6 +75,15 @@ fn for_people(quantity: &Quantity) -> (&'static str, f64) {
         "rad/s" => ("rad/s", 1.0),
         "m/s" => ("m/s", 1.0),
         _ => ("", 1.0),
+    }
+}
+
+/// The same of what is known of a life.
+fn of_life(quantity: &Quantity) -> (&'static str, f64) {
+    match quantity.unit {
+        "s" => ("h", 1.0 / 3600.0),
+        "1" => ("million turns", 1e-6),
+        unit => (unit, 1.0),
     }
 }
 
@@ -134,6 +146,21 @@ fn in_words(title: &str, found: &Equilibrium) -> String {
         text.push('\n');
         add(&mut text, &rows, &[&[Align::Left][..], &[Align::Right; 12]].concat());
     }
+    if let Some(life) = &found.life {
+        text.push('\n');
+        let head = ["reference life", "", ""].map(str::to_owned).to_vec();
+        let rows = life.quantities.iter().zip(&life.values).map(|(quantity, value)| {
+            let (unit, factor) = of_life(quantity);
+            let [value, unit] = if value.is_finite() {
+                [number(factor * value), unit.to_owned()]
+            } else {
+                ["-".to_owned(), String::new()]
+            };
+            vec![quantity.name.replace('_', " "), value, unit]
+        });
+        let rows: Vec<Vec<String>> = std::iter::once(head).chain(rows).collect();
+        add(&mut text, &rows, &[Align::Left, Align::Right, Align::Left]);
+    }
     for warning in &found.warnings {
         text.push_str(&format!("\n  {warning}"));
     }
@@ -143,6 +170,8 @@ fn in_words(title: &str, found: &Equilibrium) -> String {
     text
 }
 
+/// What is told of a life where something is varied: turns, time and load.
+const VARIED_OF_LIFE: usize = 3;
 /// What is less is round-off, m and rad.
 const NO_DISPLACEMENT: f64 = 1e-16;
 /// The same of what is known of elements and contacts, in their SI units.
@@ -201,6 +230,13 @@ fn as_json(found: &Equilibrium) -> Value {
         let contacts: Vec<_> = found.contacts.iter().zip(&found.line_loads.values).map(of_contact).collect();
         whole["line_loads"] = json!({"places": found.line_loads.places, "contacts": contacts});
     }
+    if let Some(life) = &found.life {
+        let values = life.quantities.iter().zip(&life.values);
+        let mut told = Map::from_iter(values.map(|(q, value)| (q.name.to_owned(), json!(value))));
+        let [outer, inner] = &life.equivalent_loads;
+        told.insert("laminae".to_owned(), json!({"places": life.places, "outer": outer, "inner": inner}));
+        whole["life"] = Value::Object(told);
+    }
     whole
 }
 
@@ -231,6 +267,19 @@ fn line_loads(found: &Equilibrium) -> Vec<Vec<String>> {
     std::iter::once(head).chain(found.line_loads.places.iter().enumerate().map(row)).collect()
 }
 
+/// Equivalent loads of laminae by place.
+fn laminae(life: &ReferenceLife) -> Vec<Vec<String>> {
+    let head = ["place_m", "outer_equivalent_load_N", "inner_equivalent_load_N"].map(str::to_owned).to_vec();
+    let [outer, inner] = &life.equivalent_loads;
+    let rows = life
+        .places
+        .iter()
+        .zip(outer)
+        .zip(inner)
+        .map(|((place, outer), inner)| [*place, *outer, *inner].map(plain).to_vec());
+    std::iter::once(head).chain(rows).collect()
+}
+
 /// Largest value of a contact quantity; zero of none.
 fn largest(found: &Equilibrium, name: &str) -> f64 {
     let place = found.contact_quantities.iter().position(|q| q.name == name);
@@ -253,20 +302,31 @@ fn tell_all(args: &EquilibriumArgs, vary: &Vary, all: &[(&str, Result<Equilibriu
         let unit = format!("{}_{}", force_unit(row), over.unit);
         column(&format!("stiffness_{}_{}", row.name, over.name), &unit)
     });
+    // Those of the first that is loaded: of an unloaded one there is none.
+    let of_life = all.iter().find_map(|(_, found)| found.as_ref().ok()?.life.as_ref());
+    let lives: Vec<String> = of_life.map_or_else(Vec::new, |life| {
+        life.quantities.iter().take(VARIED_OF_LIFE).map(|q| column(q.name, q.unit)).collect()
+    });
     let head = std::iter::once(vary.path.clone())
         .chain(names("displacement").map(|(part, c)| column(&format!("{part}_{}", c.name), c.unit)))
         .chain(names("load").map(|(part, c)| column(&format!("{part}_{}", c.name), force_unit(c))))
         .chain(["largest_normal_force_N".to_owned(), "largest_pressure_Pa".to_owned()])
+        .chain(lives.clone())
         .chain(stiffness)
         .chain(["failure".to_owned()]);
     let head: Vec<String> = head.collect();
+    let lived = lives.len();
     let row = |(value, found): &(&str, Result<Equilibrium>)| -> Vec<String> {
         let mut row = vec![(*value).to_owned()];
         match found {
             Ok(found) => {
                 let peaks = ["normal_force", "largest_pressure"].map(|name| largest(found, name));
                 let numbers = found.displacement.iter().copied().chain(found.reaction.iter().map(|x| -x));
-                row.extend(numbers.chain(peaks).chain(found.stiffness.iter().copied()).map(plain));
+                let lives = found.life.as_ref().map_or(&[][..], |life| &life.values);
+                let lives = (0..lived).map(|k| lives.get(k).copied().unwrap_or(f64::NAN));
+                row.extend(
+                    numbers.chain(peaks).chain(lives).chain(found.stiffness.iter().copied()).map(plain),
+                );
                 row.push(String::new());
             }
             Err(e) => {
@@ -309,7 +369,8 @@ fn tell_all(args: &EquilibriumArgs, vary: &Vary, all: &[(&str, Result<Equilibriu
     // For people: displacements, peaks and the diagonal of the stiffness.
     let shown: Vec<usize> = (0..=n)
         .chain(1 + 2 * n..3 + 2 * n)
-        .chain((0..n).map(|k| 3 + 2 * n + k * (n + 1)))
+        .chain(3 + 2 * n..3 + 2 * n + lived.min(1))
+        .chain((0..n).map(|k| 3 + 2 * n + lived + k * (n + 1)))
         .chain([head.len() - 1])
         .collect();
     let short = |(i, row): (usize, &Vec<String>)| -> Vec<String> {

@@ -126,6 +126,13 @@ impl<'a> StillBearing<'a> {
         [loading.half_width, 4.0 / PI * loading.mean_pressure]
     }
 
+    /// Load per length (N/m) at `s` (m) along a roller that approaches a raceway so far (m) in its middle.
+    pub(crate) fn line_load(&self, ring: usize, approach: f64, s: f64) -> f64 {
+        let LineContact { elastic, profile, .. } = self.laws[ring];
+        let drop = profile.as_ref().map_or(0.0, |of| of.of_roller(s) + of.of_raceway(s)[0]);
+        elastic.load(approach - drop) / elastic.length
+    }
+
     /// Roller `j` at rest beside a ring at `x` (m).
     pub(crate) fn roller_at_rest(&self, q: &[f64], j: usize, x: [f64; 2]) -> RollerAtRest {
         let [outer, inner] = self.laws;

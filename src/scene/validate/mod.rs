@@ -180,6 +180,7 @@ impl Scene {
         let ring = r.mass * r.radius * r.radius;
         fitting_mass(judge, "rollers.mass", r.mass, r.inertia, [0.2 * ring, 1.1 * ring])?;
         judge.number("rollers.inertia", r.inertia, range(0.2 * ring, 1.1 * ring, "kg m^2"))?;
+        judge.optional("rollers.dynamic_load_rating", r.dynamic_load_rating, range(1.0, 1e9, "N"))?;
         self.validate_sizes(judge, "rollers", (r.count, r.radius), r.radius_deviations.as_ref())?;
         if let Some(neighbours) = &r.neighbours {
             contact(judge, "rollers.neighbours.contact", &neighbours.contact)?;

@@ -100,6 +100,19 @@ pub(super) const GROUPS: &[Group] = &[
         ["lighter than any material of this volume", "heavier than any material of this volume"],
     ),
     group(
+        "rollers.dynamic_load_rating",
+        &["rollers.radius", "rollers.effective_length"],
+        |s| {
+            let r = s.rollers.as_ref()?;
+            // ISO 281 with about the factor of usual bearings, in mm.
+            let [length, diameter] = [r.effective_length, 2.0 * r.radius].map(|x| 1e3 * x);
+            let count = math::powf(f64::from(r.count), 0.75);
+            let usual = 90.0 * math::powf(length, 7.0 / 9.0) * count * math::powf(diameter, 29.0 / 27.0);
+            Some((r.dynamic_load_rating?, range(0.2 * usual, 5.0 * usual, "N")))
+        },
+        UNUSUAL,
+    ),
+    group(
         "balls.mass",
         &["balls.radius"],
         |s| {

@@ -164,6 +164,7 @@ mod tests {
             (GREASE, "cage.guide.solid.contact.damping", "4e-4", "hardly any damping"),
             (OIL, "cage.guide.diametral_clearance", "4e-6", "unusually small"),
             (GREASE, "cage.guide.film.lubricant_layer.thickness", "8e-2", "many times the clearance"),
+            (ROLLERS, "rollers.dynamic_load_rating", "121", "kilonewtons, 121000 N"),
             (GREASE, "inner_ring.speed.constant", "3000", "revolutions per minute, 314.159 rad/s"),
         ] {
             let list = warnings(text, &[(path, value)]);
