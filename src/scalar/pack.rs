@@ -132,6 +132,27 @@ impl<S: Simd, const K: usize> Pack<S, K> {
         sum
     }
 
+    /// What `f` makes of each number.
+    #[inline(always)]
+    pub fn each<const N: usize>(self, f: impl Fn(f64) -> [f64; N]) -> [Self; N] {
+        let numbers = self.lanes();
+        let mut out = [ZEROS; N];
+        for (lane, number) in numbers[..K * S::F64_LANES].iter().enumerate() {
+            for (out, value) in out.iter_mut().zip(f(*number)) {
+                out[lane] = value;
+            }
+        }
+        out.map(|numbers| Self::load(self.simd, &numbers))
+    }
+
+    /// The numbers, and zeros behind them.
+    #[inline(always)]
+    pub fn lanes(self) -> Lanes {
+        let mut numbers = ZEROS;
+        self.store(&mut numbers);
+        numbers
+    }
+
     /// Writes the numbers to the first of these.
     ///
     /// # Panics

@@ -25,6 +25,20 @@ pub struct Moving<T> {
     pub turning: Vector<T>,
 }
 
+impl<T> Moving<T> {
+    /// The same of what `f` makes of every number.
+    #[inline(always)]
+    pub fn map<U>(self, f: impl Fn(T) -> U + Copy) -> Moving<U> {
+        Moving { velocity: mapped(self.velocity, f), turning: mapped(self.turning, f) }
+    }
+}
+
+/// What `f` makes of every component, for the instructions of the caller.
+#[inline(always)]
+pub fn mapped<T, U>([a, b, c]: Vector<T>, f: impl Fn(T) -> U) -> Vector<U> {
+    [f(a), f(b), f(c)]
+}
+
 /// Largest tilt that the series are for, rad: a bearing that tilts so far is none.
 pub const LARGEST_TILT: f64 = 0.3;
 

@@ -15,7 +15,7 @@ use crate::bodies::{BodyEnergy, CENTRE, Coordinate, Input, InputValues};
 use crate::error::Result;
 use crate::scalar::Numeric;
 use crate::scene::{Preload, RingCoordinate, RingMotion, Scene, Signal, SpatialRing, bad_scene};
-use crate::space::solid::{Moving, Tilt, Vector, scaled, sum};
+use crate::space::solid::{Moving, Tilt, Vector, mapped, scaled, sum};
 
 /// Coordinates of a ring in space.
 pub(crate) const RING_COORDINATES: [Coordinate; OF_RING] = [ALONG, CENTRE[0], CENTRE[1], TILTS[0], TILTS[1]];
@@ -59,6 +59,20 @@ pub(crate) struct MovingRing<T> {
     pub(crate) moving: Moving<T>,
     /// w_1, rad/s.
     pub(crate) speed: T,
+}
+
+impl<T> MovingRing<T> {
+    /// The same of what `f` makes of every number.
+    #[inline(always)]
+    pub(crate) fn map<U>(self, f: impl Fn(T) -> U + Copy) -> MovingRing<U> {
+        let Self { centre, axis, moving, speed } = self;
+        MovingRing {
+            centre: mapped(centre, f),
+            axis: mapped(axis, f),
+            moving: moving.map(f),
+            speed: f(speed),
+        }
+    }
 }
 
 impl<T: Numeric> RingState<T> {

@@ -19,7 +19,7 @@ use crate::bodies::elements::{ORBIT_TRAVEL, RADIAL_OFFSET, SPIN_SPEED};
 use crate::bodies::{Coordinate, ElementSet, Moves};
 use crate::scalar::{Base, Numeric, Of, math};
 use crate::scene::Scene;
-use crate::space::solid::{Moving, Tilt, Vector, cross, difference, dot, scaled, sum};
+use crate::space::solid::{Moving, Tilt, Vector, cross, difference, dot, mapped, scaled, sum};
 
 /// Speeds of a roller.
 pub(crate) const OF_ROLLER: usize = 6;
@@ -70,6 +70,18 @@ pub(crate) struct MovingRoller<T> {
     pub(crate) place: RollerPlace<T>,
     /// Velocity of its centre and angular velocity with its spin.
     pub(crate) moving: Moving<T>,
+}
+
+impl<T> MovingRoller<T> {
+    /// The same of what `f` makes of every number.
+    #[inline(always)]
+    pub(crate) fn map<U>(self, f: impl Fn(T) -> U + Copy) -> MovingRoller<U> {
+        let RollerPlace { x, rho, axis } = self.place;
+        MovingRoller {
+            place: RollerPlace { x: f(x), rho: f(rho), axis: mapped(axis, f) },
+            moving: self.moving.map(f),
+        }
+    }
 }
 
 /// Place and speeds of a roller, in the axes of its azimuth.

@@ -8,7 +8,8 @@
 //! continuous. Source: F. N. Fritsch, J. Butland, SIAM J. Sci. Stat. Comput. 5 (1984), slopes by their weighted harmonic mean.
 
 use super::profile::Profile;
-use crate::scalar::Of;
+use crate::scalar::{Numeric, Of, Pack};
+use pulp::Simd;
 
 /// Most places of a table.
 pub const MOST_PLACES: usize = 32;
@@ -75,6 +76,62 @@ impl Table {
         let (square, cube) = (3.0 * rise - 2.0 * first - second, first + second - 2.0 * rise);
         let drop = ((u * cube + square) * u + first) * u + from[0];
         [drop, ((u * (3.0 * cube) + 2.0 * square) * u + first) * (1.0 / width)]
+    }
+}
+
+/// How much less surfaces reach than straight ones, m.
+pub trait Drops<T>: Copy {
+    /// Of the roller, `s` (m) from its middle.
+    fn of_roller(&self, s: T) -> T;
+    /// Of the raceway, `t` (m) from its middle, and its slope.
+    fn of_raceway(&self, t: T) -> [T; 2];
+}
+
+/// Straight surfaces.
+#[derive(Clone, Copy, Debug)]
+pub struct Straight;
+
+impl<T: Numeric> Drops<T> for Straight {
+    #[inline(always)]
+    fn of_roller(&self, s: T) -> T {
+        s.like(0.0)
+    }
+    #[inline(always)]
+    fn of_raceway(&self, t: T) -> [T; 2] {
+        [t.like(0.0); 2]
+    }
+}
+
+/// These surfaces, or straight ones.
+impl<T: Of<f64>> Drops<T> for Option<&Surface> {
+    #[inline(always)]
+    fn of_roller(&self, s: T) -> T {
+        self.map_or_else(|| s.like(0.0), |surface| surface.of_roller(s))
+    }
+    #[inline(always)]
+    fn of_raceway(&self, t: T) -> [T; 2] {
+        self.map_or_else(|| [t.like(0.0); 2], |surface| surface.of_raceway(t))
+    }
+}
+
+/// The same at many places, one after the other: tables and logarithms branch.
+#[derive(Clone, Copy, Debug)]
+pub struct OneByOne<'a>(pub Option<&'a Surface>);
+
+impl<S: Simd, const K: usize> Drops<Pack<S, K>> for OneByOne<'_> {
+    #[inline(always)]
+    fn of_roller(&self, s: Pack<S, K>) -> Pack<S, K> {
+        match self.0 {
+            Some(surface) => s.each(|s| [surface.of_roller(s)])[0],
+            None => s.like(0.0),
+        }
+    }
+    #[inline(always)]
+    fn of_raceway(&self, t: Pack<S, K>) -> [Pack<S, K>; 2] {
+        match self.0 {
+            Some(surface) => t.each(|t| surface.of_raceway(t)),
+            None => [t.like(0.0); 2],
+        }
     }
 }
 

@@ -16,10 +16,10 @@
 
 use super::{Cones, RacewayGeometry};
 use crate::bodies::RollerPlace;
-use crate::laws::elastic::surface::Surface;
+use crate::laws::elastic::surface::Drops;
 use crate::pairs::groove::RingPlace;
-use crate::scalar::Of;
-use crate::space::solid::{Vector, cross, difference, dot, scaled, sum};
+use crate::scalar::Numeric;
+use crate::space::solid::{Vector, cross, difference, dot, mapped, scaled, sum};
 
 /// A disc against a raceway.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,7 +46,28 @@ pub(crate) struct Disc<T> {
     cosine: T,
 }
 
-impl<T: Of<f64>> Disc<T> {
+impl<T: Numeric> Disc<T> {
+    /// The same of what `f` makes of every number.
+    #[inline(always)]
+    pub(crate) fn map<U>(self, f: impl Fn(T) -> U + Copy) -> Disc<U> {
+        let vector = |v: Vector<T>| mapped(v, f);
+        Disc {
+            delta: f(self.delta),
+            normal: vector(self.normal),
+            on_roller: vector(self.on_roller),
+            along: f(self.along),
+            in_raceway: f(self.in_raceway),
+            raceway_drop: f(self.raceway_drop),
+            facing: vector(self.facing),
+            outward: vector(self.outward),
+            tangent: vector(self.tangent),
+            distance: f(self.distance),
+            radius: f(self.radius),
+            lean: f(self.lean),
+            cosine: f(self.cosine),
+        }
+    }
+
     /// m: from the centre of the disc towards the place of its rim that touches, with the axis `u` of the roller.
     #[inline(always)]
     pub(crate) fn rim_direction(&self, u: Vector<T>) -> Vector<T> {
@@ -67,7 +88,7 @@ pub(crate) struct OffAxis<T> {
     pub(crate) tangent: Vector<T>,
 }
 
-impl<T: Of<f64>> OffAxis<T> {
+impl<T: Numeric> OffAxis<T> {
     /// Of a point whose place from the centre of a ring with the axis `b` is (along, r + outwards, across), m.
     #[inline(always)]
     pub(crate) fn new(r: T, [along, outwards, across]: [T; 3], b: Vector<T>) -> Self {
@@ -86,11 +107,24 @@ impl<T: Of<f64>> OffAxis<T> {
 impl RacewayGeometry {
     /// The disc at `s` (m) of a roller whose radius is larger than nominal by `excess` (m) against the raceway of the outer (0) or inner (1)
     /// ring.
-    pub(crate) fn disc<T: Of<f64>>(
+    pub(crate) fn disc<T: Numeric>(
         &self,
         ring: (usize, &RingPlace<T>),
         roller: &RollerPlace<T>,
-        profile: Option<&Surface>,
+        profile: impl Drops<T>,
+        excess: f64,
+        s: T,
+    ) -> Disc<T> {
+        self.disc_in_line(ring, roller, profile, excess, s)
+    }
+
+    /// The same, for the instructions of the caller.
+    #[inline(always)]
+    pub(crate) fn disc_in_line<T: Numeric>(
+        &self,
+        ring: (usize, &RingPlace<T>),
+        roller: &RollerPlace<T>,
+        profile: impl Drops<T>,
         excess: f64,
         s: T,
     ) -> Disc<T> {
@@ -105,9 +139,9 @@ impl RacewayGeometry {
         let facing = difference(scaled(outward, one.like(k * alpha.cos)), scaled(b, one.like(k * alpha.sin)));
         let (g, h) = (dot(facing, u), dot(tangent, u));
         let c = (one - g * g).sqrt();
-        let drop = profile.map_or_else(|| one.like(0.0), |profile| profile.of_roller(s));
+        let drop = profile.of_roller(s);
         let in_raceway = t * self.cones.stretch();
-        let [raceway, slope] = profile.map_or([one.like(0.0); 2], |profile| profile.of_raceway(in_raceway));
+        let [raceway, slope] = profile.of_raceway(in_raceway);
         let larger = one.like(excess) - drop;
         let radius = larger + s * *growth + self.roller_radius;
         let delta = (roller.rho + square / (d + base)) * (k * alpha.cos)
@@ -143,8 +177,9 @@ mod tests {
     use super::*;
     use crate::bodies::{ElementMotion, Inclination, RollerState};
     use crate::laws::elastic::profile::{Logarithm, Profile};
+    use crate::laws::elastic::surface::Surface;
     use crate::pairs::raceway::RingMotion;
-    use crate::scalar::Dual;
+    use crate::scalar::{Dual, Of};
     use crate::scene::RollerTaper;
     use crate::space::solid::Tilt;
 

@@ -53,6 +53,9 @@ pub(crate) fn bars(scene: &Scene, viscosity: Option<f64>) -> Result<Option<(Bars
 /// Force and moment about the centre of the roller, per unit of a force.
 pub(crate) type UnitWrench<T> = [Vector<T>; 2];
 
+/// Numbers of a [`Spot`].
+pub(crate) const NUMBERS: usize = 31;
+
 /// A place where a roller touches a mate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Spot<T> {
@@ -70,4 +73,65 @@ pub(crate) struct Spot<T> {
     pub(crate) along: UnitWrench<T>,
     pub(crate) across: UnitWrench<T>,
     pub(crate) rolling: UnitWrench<T>,
+}
+
+impl<T: Copy> Spot<T> {
+    /// All of its numbers.
+    #[inline(always)]
+    pub(crate) fn numbers(&self) -> [T; NUMBERS] {
+        let [[[n0, n1, n2], [n3, n4, n5]], [[a0, a1, a2], [a3, a4, a5]]] = [self.normal, self.along];
+        let [[[c0, c1, c2], [c3, c4, c5]], [[r0, r1, r2], [r3, r4, r5]]] = [self.across, self.rolling];
+        let ([u1, u2], [along, across]) = (self.surface_speeds, self.slip);
+        [
+            self.delta,
+            self.delta_dot,
+            u1,
+            u2,
+            self.entrainment,
+            along,
+            across,
+            n0,
+            n1,
+            n2,
+            n3,
+            n4,
+            n5,
+            a0,
+            a1,
+            a2,
+            a3,
+            a4,
+            a5,
+            c0,
+            c1,
+            c2,
+            c3,
+            c4,
+            c5,
+            r0,
+            r1,
+            r2,
+            r3,
+            r4,
+            r5,
+        ]
+    }
+
+    /// One with these numbers.
+    #[inline(always)]
+    pub(crate) fn of_numbers(number: impl Fn(usize) -> T) -> Self {
+        let vector = |k: usize| [number(k), number(k + 1), number(k + 2)];
+        let wrench = |k: usize| [vector(k), vector(k + 3)];
+        Self {
+            delta: number(0),
+            delta_dot: number(1),
+            surface_speeds: [number(2), number(3)],
+            entrainment: number(4),
+            slip: [number(5), number(6)],
+            normal: wrench(7),
+            along: wrench(13),
+            across: wrench(19),
+            rolling: wrench(25),
+        }
+    }
 }

@@ -15,17 +15,17 @@
 
 use super::{MovingRoller, Spot, UnitWrench};
 use crate::bodies::MovingRing;
-use crate::laws::elastic::surface::Surface;
+use crate::laws::elastic::surface::{Drops, Straight};
 use crate::pairs::groove::RingPlace;
 use crate::pairs::raceway::{Disc, RacewayGeometry};
-use crate::scalar::{Of, Real};
+use crate::scalar::{Numeric, Real};
 use crate::space::solid::{Moving, cross, difference, dot, scaled, sum};
 
 /// A roller beside the raceway of one ring.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct OnRaceway<'a, T> {
+pub(crate) struct OnRaceway<'a, T, P> {
     pub(crate) geometry: &'a RacewayGeometry,
-    pub(crate) profile: Option<&'a Surface>,
+    pub(crate) profile: P,
     /// 0 outer, 1 inner.
     pub(crate) side: usize,
     pub(crate) ring: MovingRing<T>,
@@ -43,20 +43,38 @@ pub(crate) struct Middle<T> {
     pub(crate) passing: Moving<T>,
 }
 
-impl<T: Of<f64>> OnRaceway<'_, T> {
+impl<T: Numeric> Middle<T> {
+    /// The same of what `f` makes of every number.
+    #[inline(always)]
+    pub(crate) fn map<U>(self, f: impl Fn(T) -> U + Copy) -> Middle<U> {
+        Middle { arm: f(self.arm), passing: self.passing.map(f) }
+    }
+}
+
+impl<'a, T: Numeric, P: Drops<T>> OnRaceway<'a, T, P> {
+    /// The same of what `f` makes of every number, and these drops.
+    #[inline(always)]
+    pub(crate) fn map<U, Q>(self, profile: Q, f: impl Fn(T) -> U + Copy) -> OnRaceway<'a, U, Q> {
+        let Self { geometry, side, ring, roller, excess, .. } = self;
+        OnRaceway { geometry, profile, side, ring: ring.map(f), roller: roller.map(f), excess }
+    }
+
+    #[inline(always)]
     fn sign(&self) -> f64 {
         if self.side == 0 { 1.0 } else { -1.0 }
     }
 
     /// The disc at `s`, m.
-    pub(crate) fn disc(&self, s: T) -> Disc<T> {
+    #[inline(always)]
+    fn disc(&self, profile: impl Drops<T>, s: T) -> Disc<T> {
         let place = RingPlace { centre: self.ring.centre, axis: self.ring.axis };
-        self.geometry.disc((self.side, &place), &self.roller.place, self.profile, self.excess, s)
+        self.geometry.disc_in_line((self.side, &place), &self.roller.place, profile, self.excess, s)
     }
 
-    /// The same of straight surfaces.
+    /// The disc of straight surfaces at `s`, m.
+    #[inline(always)]
     pub(crate) fn straight(&self, s: T) -> Disc<T> {
-        Self { profile: None, ..*self }.disc(s)
+        self.disc(Straight, s)
     }
 
     /// Whether no disc within `half_length` (m) of the middle can touch, by the straight disc in the middle.
@@ -87,10 +105,8 @@ impl<T: Of<f64>> OnRaceway<'_, T> {
         let radius = geometry.roller_radius + self.excess;
         let mut arm = disc.distance + dot(m, disc.outward) * radius
             - (disc.along + dot(m, ring.axis) * radius) * geometry.cones.slopes[*side];
-        if let Some(profile) = self.profile {
-            let [drop, _] = profile.of_raceway(disc.in_raceway);
-            arm += drop * k;
-        }
+        let [drop, _] = self.profile.of_raceway(disc.in_raceway);
+        arm += drop * k;
         let place = roller.place;
         let [cx, cr, ct] = ring.centre;
         let from_ring = [place.x - cx, place.rho + geometry.pitch_radius - cr, -ct];
@@ -103,8 +119,9 @@ impl<T: Of<f64>> OnRaceway<'_, T> {
     }
 
     /// The slice at `s`, m.
+    #[inline(always)]
     pub(crate) fn spot(&self, middle: &Middle<T>, s: T) -> Spot<T> {
-        let disc = self.disc(s);
+        let disc = self.disc(self.profile, s);
         let k = self.sign();
         let Self { ring, roller, .. } = self;
         let Middle { arm, passing } = middle;
@@ -157,6 +174,7 @@ mod tests {
     use super::*;
     use crate::bodies::{ElementMotion, RingState, RollerState};
     use crate::laws::elastic::profile::{Logarithm, Profile};
+    use crate::laws::elastic::surface::Surface;
     use crate::pairs::raceway::{Cones, RingMotion};
     use crate::scene::RollerTaper;
 
@@ -223,7 +241,8 @@ mod tests {
                     OnRaceway { geometry, profile: Some(&profile), side, ring, roller, excess: 2e-7 }
                 };
                 let h = 1e-7;
-                let rate = (on(h).disc(s).delta - on(-h).disc(s).delta) / (2.0 * h);
+                let delta = |h: f64| on(h).disc(Some(&profile), s).delta;
+                let rate = (delta(h) - delta(-h)) / (2.0 * h);
                 let now = on(0.0);
                 let spot = now.spot(&now.middle(&now.straight(0.0)), s);
                 assert!((spot.delta_dot - rate).abs() < 2e-9, "{side} {s}: {} {rate}", spot.delta_dot);
@@ -236,7 +255,7 @@ mod tests {
         // No force is left over: what acts on the ring is the opposite of what acts on the roller.
         for (geometry, side) in [NU2310, tapered()].iter().flat_map(|of| [(of, 0), (of, 1)]) {
             let (ring, roller) = POSE.at(geometry, 0.0);
-            let on = OnRaceway { geometry, profile: None, side, ring, roller, excess: 0.0 };
+            let on = OnRaceway { geometry, profile: Straight, side, ring, roller, excess: 0.0 };
             let middle = on.middle(&on.straight(0.0));
             let spot = on.spot(&middle, 3e-3);
             let power =
@@ -272,7 +291,7 @@ mod tests {
         };
         let contacts = [NU2310.outer(&plane, 20.0), NU2310.inner(&plane, &inner)];
         for (side, ring) in [outer_ring, ring].into_iter().enumerate() {
-            let on = OnRaceway { geometry: &NU2310, profile: None, side, ring, roller, excess: 0.0 };
+            let on = OnRaceway { geometry: &NU2310, profile: Straight, side, ring, roller, excess: 0.0 };
             let spot = on.spot(&on.middle(&on.straight(0.0)), 4e-3);
             let (motion, grip) = &contacts[side];
             assert!((spot.delta - motion.delta).abs() < 1e-19);

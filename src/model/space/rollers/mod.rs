@@ -6,6 +6,7 @@
 
 mod contacts;
 mod line_loads;
+mod raceways;
 mod report;
 mod slopes;
 mod start;
@@ -27,11 +28,11 @@ use crate::bodies::{
 use crate::error::Result;
 use crate::laws::elastic::loaded::Loaded;
 use crate::laws::elastic::profile::USUAL_SLICES;
-use crate::laws::elastic::tilted::{Along, Slice};
+use crate::laws::elastic::tilted::Slice;
 use crate::laws::line_contact::LineContact;
 use crate::pairs::Law;
-use crate::pairs::raceway::{Disc, RacewayGeometry};
-use crate::pairs::roller::{Bars, EndPair, OnRaceway, Shapes, SpotLaw};
+use crate::pairs::raceway::RacewayGeometry;
+use crate::pairs::roller::{Bars, EndPair, Shapes, SpotLaw};
 use crate::scalar::{Numeric, math};
 use crate::scene::{Scene, SlicesOn};
 use crate::space::solid::{LARGEST_TILT, Vector, cross, scaled, sum};
@@ -186,60 +187,6 @@ impl Space {
             self.count_of_rollers(ws);
         }
         Ok(())
-    }
-
-    /// Finds where rollers are loaded by one raceway.
-    fn touch_raceway(&self, rollers: &RollersOfScene, side: usize, ws: &mut Workspace) {
-        let Workspace { rollers: memory, rings, .. } = ws;
-        let (geometry, nominal) = (&rollers.geometry, rollers.half_length);
-        for j in 0..self.layout.count {
-            let (a, profile) = (rollers.shapes.half_length(j), rollers.shapes.surface(side, j));
-            let of = &memory.rollers[j];
-            let on = OnRaceway {
-                geometry,
-                profile,
-                side,
-                ring: beside(&rings[side], of.direction),
-                roller: of.state.motion(),
-                excess: self.set.radius_excess[j],
-            };
-            let middle_disc = on.straight(0.0);
-            if on.apart(&middle_disc, a) {
-                continue;
-            }
-            let told = |disc: Disc<f64>| [disc.delta, disc.in_raceway];
-            let [[d0, low], [d1, middle], [d2, high]] =
-                [told(on.straight(-a)), told(middle_disc), told(on.straight(a))];
-            let approach = Along::parabola(a, [d0, d1, d2]);
-            let along =
-                Along { profile, half_length: a, approach, in_raceway: [middle, 0.5 * (high - low) / a] };
-            let loaded = match rollers.slices_on {
-                SlicesOn::Loaded => along.loaded(),
-                SlicesOn::Whole => Loaded::whole(a),
-            };
-            if loaded.parts().is_empty() {
-                continue;
-            }
-            memory.found.clear();
-            loaded.slices(nominal, rollers.slices, &mut memory.found);
-            let middle = on.middle(&middle_disc);
-            let [x, rho] = of.state.at;
-            let centre = on.ring.centre;
-            let from_mate = [x - centre[0], rho + geometry.pitch_radius - centre[1], -centre[2]];
-            memory.open(Contact::new(
-                j,
-                (Place::Raceway(side), side, side),
-                middle.passing,
-                from_mate,
-                loaded,
-            ));
-            for i in 0..memory.found.len() {
-                let slice = memory.found[i];
-                let spot = on.spot(&middle, slice.place);
-                memory.add(slice, &spot, 0.0);
-            }
-            memory.close();
-        }
     }
 
     /// Finds where rollers touch the bars of their pockets.
