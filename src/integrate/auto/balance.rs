@@ -45,12 +45,27 @@ impl Turnover {
         self.works.iter().sum::<f64>() - self.gains.iter().sum::<f64>()
     }
 
+    /// This energy (J) as a share of what passed through; zero of nothing.
+    fn share(&self, energy: f64) -> f64 {
+        let passed = throughput(self.works.iter().copied(), self.gains);
+        if energy == 0.0 { 0.0 } else { energy / passed }
+    }
+
     /// What is missing as a share of what passed through; zero where nothing passed.
     fn missing_share(&self) -> f64 {
-        let missing = self.missing();
-        let passed = throughput(self.works.iter().copied(), self.gains);
-        if missing == 0.0 { 0.0 } else { (missing / passed).abs() }
+        self.share(self.missing()).abs()
     }
+}
+
+/// What a stretch is worth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Judgement {
+    /// It missed little enough.
+    Right,
+    /// It missed too much.
+    Wrong,
+    /// It missed too much, but steps are not to blame: closer ones missed as much.
+    Inherent,
 }
 
 /// The balance.
@@ -65,8 +80,13 @@ pub struct Balance {
     stretch: Turnover,
     /// All before the stretch.
     before: Turnover,
+    /// What is missing there of which steps are not to blame, J.
+    inherent: f64,
     /// The last stretches; the further back, the less.
     latest: Turnover,
+    /// Share that the last stretch missed, and the one that is made again, if one is.
+    missed: f64,
+    suspected: f64,
     a: Vec<f64>,
 }
 
@@ -82,7 +102,10 @@ impl Balance {
             energy: [0.0; 3],
             stretch: nothing.clone(),
             before: nothing.clone(),
+            inherent: 0.0,
             latest: nothing,
+            missed: 0.0,
+            suspected: 0.0,
             a: vec![0.0; system.velocities()],
         }
     }
@@ -92,6 +115,7 @@ impl Balance {
         self.close();
         self.before.clear();
         self.latest.clear();
+        (self.inherent, self.suspected) = (0.0, 0.0);
     }
 
     /// Ends the stretch without a judgement, as the state may jump.
@@ -121,8 +145,17 @@ impl Balance {
         add_weighted(&mut self.stretch.works, 1.0, works);
     }
 
-    /// Ends the stretch at time `t` (s) and this state, where the next one begins. Whether it missed little enough, or the
+    /// The last stretch, which has been taken back since, is made again.
+    pub fn suspect(&mut self) {
+        self.suspected = self.missed;
+    }
+
+    /// Ends the stretch at time `t` (s) and this state, where the next one begins. It is right if it missed little enough, or the
     /// whole run has and, of steps whose errors nobody `controlled`, the latest stretches, too.
+    ///
+    /// Slices of contacts with steep profiles have forces that are not quite the slopes of their energy. No step lessens what is
+    /// missing by that, and chasing it would never end: where steps with controlled errors miss about as much as those before them
+    /// had, all that is missing so far is forgiven. Whether the run is trusted is judged elsewhere, by everything.
     ///
     /// # Errors
     /// The system's fault at this state; the stretch then goes on.
@@ -132,25 +165,38 @@ impl Balance {
         t: f64,
         state: &[f64],
         controlled: bool,
-    ) -> Result<bool, S::Fault> {
+    ) -> Result<Judgement, S::Fault> {
         let energy = self.energy_at(system, t, state)?;
         self.stretch.gains = [0, 1, 2].map(|k| energy[k] - self.energy[k]);
         self.energy = energy;
         self.before.add(&self.stretch);
         self.latest.fade(self.tuning.latest_memory);
         self.latest.add(&self.stretch);
-        let (missing, missing_share) = (self.stretch.missing(), self.stretch.missing_share());
+        let missing = self.stretch.missing();
+        self.missed = self.stretch.share(missing);
         self.stretch.clear();
+        let suspected = std::mem::take(&mut self.suspected);
         let stored: f64 = energy.iter().map(|x| x.abs()).sum();
         // Written so that what is not a number is too much.
-        Ok(missing.abs() <= self.tuning.energy_rounding * stored
-            || missing_share <= self.tuning.energy_share * self.allowed
-            || self.can_spare() && (controlled || self.latest.missing_share() <= self.tuning.latest_share))
+        if missing.abs() <= self.tuning.energy_rounding * stored
+            || self.missed.abs() <= self.tuning.energy_share * self.allowed
+            || self.can_spare() && (controlled || self.latest.missing_share() <= self.tuning.latest_share)
+        {
+            return Ok(Judgement::Right);
+        }
+        let as_much = suspected != 0.0 && self.missed / suspected >= self.tuning.inherent_share;
+        if !controlled || !as_much {
+            return Ok(Judgement::Wrong);
+        }
+        self.inherent = self.before.missing();
+        self.latest.clear();
+        Ok(Judgement::Inherent)
     }
 
     /// Whether little enough of all is missing for steps that may miss some more.
     pub fn can_spare(&self) -> bool {
-        self.before.missing_share() <= self.tuning.energy_share * self.allowed
+        let missing = self.before.missing() - self.inherent;
+        self.before.share(missing).abs() <= self.tuning.energy_share * self.allowed
     }
 
     fn energy_at<S: Observed>(
@@ -166,7 +212,7 @@ impl Balance {
 }
 
 stored! {
-    impl[] Balance { open, energy, stretch, before, latest }
+    impl[] Balance { open, energy, stretch, before, inherent, latest, suspected }
 }
 
 stored! {

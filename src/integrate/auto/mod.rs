@@ -157,8 +157,8 @@ pub struct Auto<const N: usize> {
     gave_way: u64,
     /// Whether a stretch has just been judged.
     judged: bool,
-    /// The method of that stretch; not taken back with it.
-    wrong: Kind,
+    /// The method of that stretch, and how fine its steps were; not taken back with it.
+    wrong: (Kind, u64),
     /// Simulated time (s) and evaluations of error control in the stretch.
     advanced: f64,
     cost: f64,
@@ -203,7 +203,7 @@ impl<const N: usize> Auto<N> {
             attempts: 0,
             gave_way: 0,
             judged: false,
-            wrong: Kind::Leapfrog,
+            wrong: (Kind::Leapfrog, 0),
             advanced: 0.0,
             cost: 0.0,
             strictness: 0,
@@ -293,16 +293,22 @@ impl<const N: usize> Auto<N> {
         if stretch_over {
             self.note_right_stretch();
             self.wait = self.wait.saturating_sub(1);
+            self.hold = self.hold.saturating_sub(1);
         }
         let event = std::mem::take(&mut self.event);
         if event || stretch_over && self.wait == 0 {
             self.hold = if event { self.aim.tuning.transient } else { 0 };
             return self.control_errors(Reason::Affordable, system, t);
         }
+        let coarser = stretch_over && self.hold == 0 && self.monitor.coarsen();
+        if coarser {
+            (self.hold, self.right) = (self.aim.tuning.first_hold, 0);
+            self.changes += 1;
+        }
         let reason = match self.monitor.look(system, &self.leapfrog, t) {
             _ if self.attempts >= self.aim.tuning.patience => Reason::Failures,
             Verdict::TooFast => Reason::Cost,
-            Verdict::Keep => return None,
+            Verdict::Keep => return coarser.then(|| self.monitor.step()),
             Verdict::Change => {
                 self.changes += 1;
                 return Some(self.monitor.step());
@@ -316,6 +322,11 @@ impl<const N: usize> Auto<N> {
     fn ease<S: Linearized<N> + Split<N> + Observed>(&mut self, system: &mut S, t: f64) -> Option<f64> {
         let (advanced, cost) = (std::mem::take(&mut self.advanced), std::mem::take(&mut self.cost));
         self.note_right_stretch();
+        self.monitor.note_rival(advanced, cost);
+        if self.reason == Reason::Balance && self.monitor.refine(self.monitor.refinement()) {
+            self.strictness = 0;
+            return self.change_to(Kind::Leapfrog, Reason::Vibration, system, t);
+        }
         if self.hold > 0 {
             self.hold -= 1;
             return None;
@@ -341,6 +352,12 @@ impl<const N: usize> Auto<N> {
         }
         self.wait = self.wait.max(self.aim.tuning.first_pause);
         self.change_to(Kind::Leapfrog, Reason::Vibration, system, t)
+    }
+
+    /// No more care than at the start of a run, as it was in vain.
+    fn relax(&mut self) {
+        (self.strictness, self.hold, self.next_hold) = (0, 0, self.aim.tuning.first_hold);
+        self.monitor.relax();
     }
 
     fn note_right_stretch(&mut self) {

@@ -59,6 +59,10 @@ pub struct StabilityMonitor<const N: usize> {
     damped: bool,
     /// Whether a step that rested on them missed too much energy.
     careful: bool,
+    /// How many times the step is divided by [`Tuning::finer`] for what no frequency tells, such as the onset of damping.
+    refinement: u64,
+    /// What error control advanced per evaluation when it was seen last, s; zero before.
+    rival: f64,
     /// Highest frequency met, rad/s.
     highest: f64,
 }
@@ -82,6 +86,8 @@ impl<const N: usize> StabilityMonitor<N> {
             frequency: expected.frequency,
             damped: expected.damped,
             careful: false,
+            refinement: 0,
+            rival: 0.0,
             highest: 0.0,
         }
     }
@@ -91,6 +97,7 @@ impl<const N: usize> StabilityMonitor<N> {
         self.due = 0;
         (self.frequency, self.damped) = (self.expected.frequency, self.expected.damped);
         self.careful = false;
+        (self.refinement, self.rival) = (0, 0.0);
     }
 
     /// Forgets the highest frequency met.
@@ -110,9 +117,49 @@ impl<const N: usize> StabilityMonitor<N> {
 
     /// Step of the leapfrog, s.
     pub fn step(&self) -> f64 {
+        self.refined_step(self.refinement)
+    }
+
+    fn refined_step(&self, refinement: u64) -> f64 {
         let Expectation { share, careful_share, .. } = self.expected;
         let share = if self.careful { careful_share } else { share };
-        self.expected.step_at(share, self.frequency, self.damped)
+        self.expected.step_at(share, self.frequency, self.damped) / self.tuning.finer.powi(refinement as i32)
+    }
+
+    /// Error control advanced by so many s with so many evaluations.
+    pub fn note_rival(&mut self, advanced: f64, cost: f64) {
+        if cost > 0.0 {
+            self.rival = advanced / cost;
+        }
+    }
+
+    /// Whether error control is known to advance clearly less per evaluation than this step, s.
+    fn beats_rival(&self, step: f64) -> bool {
+        self.rival > 0.0 && step > self.tuning.clear_lead * self.rival
+    }
+
+    /// How often the step has been refined.
+    pub fn refinement(&self) -> u64 {
+        self.refinement
+    }
+
+    /// Goes on from this refinement with the next one, if such steps cost clearly less than error control. Whether it does.
+    pub fn refine(&mut self, refinement: u64) -> bool {
+        let cheaper = self.beats_rival(self.refined_step(refinement + 1));
+        self.refinement = if cheaper { refinement + 1 } else { refinement };
+        cheaper
+    }
+
+    /// Takes all refinement back.
+    pub fn relax(&mut self) {
+        self.refinement = 0;
+    }
+
+    /// Takes the last refinement back. Whether there was one.
+    pub fn coarsen(&mut self) -> bool {
+        let refined = self.refinement > 0;
+        self.refinement = self.refinement.saturating_sub(1);
+        refined
     }
 
     /// One more step was made.
@@ -154,8 +201,9 @@ impl<const N: usize> StabilityMonitor<N> {
         !self.too_fast()
     }
 
+    /// What error control costs is guessed until it has been seen.
     fn too_fast(&self) -> bool {
-        self.frequency > self.tuning.highest_frequency * self.expected.frequency
+        self.frequency > self.tuning.highest_frequency * self.expected.frequency && !self.beats_rival(self.step())
     }
 
     fn measure<S: Linearized<N> + Split<N> + Observed>(
@@ -181,6 +229,6 @@ impl<const N: usize> StabilityMonitor<N> {
 }
 
 stored! {
-    impl[const N: usize] StabilityMonitor<N> { due, frequency, highest, damped, careful }
-    if |monitor| monitor.frequency >= 0.0 && monitor.highest >= 0.0
+    impl[const N: usize] StabilityMonitor<N> { due, frequency, highest, damped, careful, refinement, rival }
+    if |monitor| monitor.frequency >= 0.0 && monitor.highest >= 0.0 && monitor.rival >= 0.0
 }

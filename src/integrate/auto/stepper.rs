@@ -1,5 +1,6 @@
 //! The chosen method at work: attempts, accounts, judgement, memory.
 
+use super::balance::Judgement;
 use super::{Auto, Choice, EXPLICIT, IMPLICIT, KINDS, Kind, REASONS, Reason};
 use crate::integrate::driver::control::{Estimate, Law};
 use crate::integrate::{Applied, Kept, Linearized, Observed, Samples, Split, Stepper, Stretch};
@@ -89,9 +90,12 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
         // The leapfrog does not evaluate where it arrives; with error control a failure is the run's own in a moment.
         let controlled = self.active != Kind::Leapfrog;
         let settled = self.balance.settle(system, t, active!(self, ref S, state()), controlled);
-        let right = settled.unwrap_or(controlled);
+        let right = settled.map_or(controlled, |judgement| judgement != Judgement::Wrong);
+        if settled.is_ok_and(|judgement| judgement == Judgement::Inherent) {
+            self.relax();
+        }
         self.judged = true;
-        self.wrong = self.active;
+        self.wrong = (self.active, self.monitor.refinement());
         right || controlled && self.strictness == self.aim.tuning.strictest
     }
 
@@ -99,13 +103,19 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
     fn go_back(&mut self, system: &mut S, t: f64) -> Option<f64> {
         (self.hold, self.right) = (self.next_hold, 0);
         self.next_hold = (2 * self.next_hold).min(self.aim.tuning.longest_hold);
-        if self.wrong == Kind::Leapfrog {
+        self.balance.suspect();
+        let (method, refinement) = self.wrong;
+        if method != Kind::Leapfrog {
+            self.strictness = (self.strictness + 1).min(self.aim.tuning.strictest);
+        } else {
             self.reason = Reason::Balance;
             self.monitor.take_care();
-        } else {
-            self.strictness = (self.strictness + 1).min(self.aim.tuning.strictest);
+            if self.monitor.refine(refinement) {
+                self.strictness = 0;
+                return self.change_to(Kind::Leapfrog, Reason::Vibration, system, t);
+            }
         }
-        if self.active == Kind::Leapfrog { self.control_errors(self.reason, system, t) } else { None }
+        if self.active == Kind::Leapfrog { self.control_errors(Reason::Balance, system, t) } else { None }
     }
 
     fn keep(&self, out: &mut Vec<f64>) {

@@ -66,6 +66,8 @@ tuning! {
     latest_share: f64 = 0.002, "1";
     /// Weight of a stretch in these, over that of the stretch behind it.
     latest_memory: f64 = 0.9, "1";
+    /// Where error control misses this share of what steps before it had missed, or more, the steps are not to blame.
+    inherent_share: f64 = 0.5, "1";
     /// Less missing energy than this share of the stored one is round-off.
     energy_rounding: f64 = 1e-12, "1";
     /// Stretches with more care after a wrong one; twice as many after the next, as long as fewer right ones lie between.
@@ -116,6 +118,9 @@ tuning! {
     light_damping: f64 = 0.01, "1";
     /// Above this many times the expected frequency error control costs no more.
     highest_frequency: f64 = 2.0, "1";
+    /// The step of the leapfrog is divided by this after a stretch that missed energy, where error control advances less per evaluation than
+    /// such steps, and again after the next.
+    finer: f64 = 2.0, "1";
     /// Steps per period of the fastest sine that is switched on, at least.
     steps_per_period: f64 = 10.0, "steps";
     /// Share of a gap, or of the depth over which a law sets in, that one step may cross.
