@@ -84,8 +84,9 @@ pub struct Balance {
     inherent: f64,
     /// The last stretches; the further back, the less.
     latest: Turnover,
-    /// Share that the last stretch missed, and the one that is made again, if one is.
+    /// Share that the last stretch missed.
     missed: f64,
+    /// Share that the present one missed before it was taken back; zero of a new one.
     suspected: f64,
     a: Vec<f64>,
 }
@@ -115,7 +116,7 @@ impl Balance {
         self.close();
         self.before.clear();
         self.latest.clear();
-        (self.inherent, self.suspected) = (0.0, 0.0);
+        (self.inherent, self.missed, self.suspected) = (0.0, 0.0, 0.0);
     }
 
     /// Ends the stretch without a judgement, as the state may jump.
@@ -145,9 +146,19 @@ impl Balance {
         add_weighted(&mut self.stretch.works, 1.0, works);
     }
 
-    /// The last stretch, which has been taken back since, is made again.
-    pub fn suspect(&mut self) {
-        self.suspected = self.missed;
+    /// Share that the last stretch missed; negative where energy came from nowhere.
+    pub fn missed(&self) -> f64 {
+        self.missed
+    }
+
+    /// The next stretch is made again, as it missed this share.
+    pub fn suspect(&mut self, missed: f64) {
+        (self.missed, self.suspected) = (missed, missed);
+    }
+
+    /// Whether the last stretch would have been right if it had missed this many times as much.
+    pub fn has_reserve(&self, factor: f64) -> bool {
+        factor * self.missed.abs() <= self.tuning.energy_share * self.allowed
     }
 
     /// Ends the stretch at time `t` (s) and this state, where the next one begins. It is right if it missed little enough, or the
@@ -166,6 +177,8 @@ impl Balance {
         state: &[f64],
         controlled: bool,
     ) -> Result<Judgement, S::Fault> {
+        // All of it where it cannot be told.
+        self.missed = 1.0;
         let energy = self.energy_at(system, t, state)?;
         self.stretch.gains = [0, 1, 2].map(|k| energy[k] - self.energy[k]);
         self.energy = energy;
@@ -193,10 +206,11 @@ impl Balance {
         Ok(Judgement::Inherent)
     }
 
-    /// Whether little enough of all is missing for steps that may miss some more.
+    /// Whether little enough of all is missing for steps that may miss some more. What was forgiven goes on to grow.
     pub fn can_spare(&self) -> bool {
         let missing = self.before.missing() - self.inherent;
         self.before.share(missing).abs() <= self.tuning.energy_share * self.allowed
+            || missing.abs() <= self.tuning.inherent_share * self.inherent.abs()
     }
 
     fn energy_at<S: Observed>(
@@ -212,7 +226,7 @@ impl Balance {
 }
 
 stored! {
-    impl[] Balance { open, energy, stretch, before, inherent, latest, suspected }
+    impl[] Balance { open, energy, stretch, before, inherent, latest, missed, suspected }
 }
 
 stored! {

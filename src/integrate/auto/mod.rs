@@ -157,8 +157,8 @@ pub struct Auto<const N: usize> {
     gave_way: u64,
     /// Whether a stretch has just been judged.
     judged: bool,
-    /// The method of that stretch, and how fine its steps were; not taken back with it.
-    wrong: (Kind, u64),
+    /// The method of that stretch, how fine its steps were, and the share that it missed; not taken back with it.
+    wrong: (Kind, u64, f64),
     /// Simulated time (s) and evaluations of error control in the stretch.
     advanced: f64,
     cost: f64,
@@ -203,7 +203,7 @@ impl<const N: usize> Auto<N> {
             attempts: 0,
             gave_way: 0,
             judged: false,
-            wrong: (Kind::Leapfrog, 0),
+            wrong: (Kind::Leapfrog, 0, 0.0),
             advanced: 0.0,
             cost: 0.0,
             strictness: 0,
@@ -300,7 +300,8 @@ impl<const N: usize> Auto<N> {
             self.hold = if event { self.aim.tuning.transient } else { 0 };
             return self.control_errors(Reason::Affordable, system, t);
         }
-        let coarser = stretch_over && self.hold == 0 && self.monitor.coarsen();
+        let eased = self.hold == 0 || self.balance.has_reserve(self.aim.tuning.reserve);
+        let coarser = stretch_over && eased && self.monitor.coarsen();
         if coarser {
             (self.hold, self.right) = (self.aim.tuning.first_hold, 0);
             self.changes += 1;
@@ -323,9 +324,9 @@ impl<const N: usize> Auto<N> {
         let (advanced, cost) = (std::mem::take(&mut self.advanced), std::mem::take(&mut self.cost));
         self.note_right_stretch();
         self.monitor.note_rival(advanced, cost);
-        if self.reason == Reason::Balance && self.monitor.refine(self.monitor.refinement()) {
-            self.strictness = 0;
-            return self.change_to(Kind::Leapfrog, Reason::Vibration, system, t);
+        let missed = self.reason == Reason::Balance || self.aim.statistics && self.strictness > 1;
+        if missed && self.monitor.refine(self.monitor.refinement()) {
+            return self.go_on_finer(system, t);
         }
         if self.hold > 0 {
             self.hold -= 1;
@@ -350,6 +351,17 @@ impl<const N: usize> Auto<N> {
         } else if !self.may_leapfrog(system, t) {
             return None;
         }
+        self.wait = self.wait.max(self.aim.tuning.first_pause);
+        self.change_to(Kind::Leapfrog, Reason::Vibration, system, t)
+    }
+
+    /// With the leapfrog, whose steps have become finer.
+    pub(super) fn go_on_finer<S: Linearized<N> + Split<N> + Observed>(
+        &mut self,
+        system: &mut S,
+        t: f64,
+    ) -> Option<f64> {
+        self.strictness = 0;
         self.wait = self.wait.max(self.aim.tuning.first_pause);
         self.change_to(Kind::Leapfrog, Reason::Vibration, system, t)
     }

@@ -203,7 +203,8 @@ impl<const N: usize> StabilityMonitor<N> {
 
     /// What error control costs is guessed until it has been seen.
     fn too_fast(&self) -> bool {
-        self.frequency > self.tuning.highest_frequency * self.expected.frequency && !self.beats_rival(self.step())
+        self.frequency > self.tuning.highest_frequency * self.expected.frequency
+            && !self.beats_rival(self.step())
     }
 
     fn measure<S: Linearized<N> + Split<N> + Observed>(

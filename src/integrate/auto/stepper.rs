@@ -95,7 +95,7 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
             self.relax();
         }
         self.judged = true;
-        self.wrong = (self.active, self.monitor.refinement());
+        self.wrong = (self.active, self.monitor.refinement(), self.balance.missed());
         right || controlled && self.strictness == self.aim.tuning.strictest
     }
 
@@ -103,16 +103,15 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
     fn go_back(&mut self, system: &mut S, t: f64) -> Option<f64> {
         (self.hold, self.right) = (self.next_hold, 0);
         self.next_hold = (2 * self.next_hold).min(self.aim.tuning.longest_hold);
-        self.balance.suspect();
-        let (method, refinement) = self.wrong;
+        let (method, refinement, missed) = self.wrong;
+        self.balance.suspect(missed);
         if method != Kind::Leapfrog {
             self.strictness = (self.strictness + 1).min(self.aim.tuning.strictest);
         } else {
             self.reason = Reason::Balance;
             self.monitor.take_care();
             if self.monitor.refine(refinement) {
-                self.strictness = 0;
-                return self.change_to(Kind::Leapfrog, Reason::Vibration, system, t);
+                return self.go_on_finer(system, t);
             }
         }
         if self.active == Kind::Leapfrog { self.control_errors(Reason::Balance, system, t) } else { None }

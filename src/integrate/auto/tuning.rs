@@ -121,6 +121,9 @@ tuning! {
     /// The step of the leapfrog is divided by this after a stretch that missed energy, where error control advances less per evaluation than
     /// such steps, and again after the next.
     finer: f64 = 2.0, "1";
+    /// A finer step is made coarser again at once where its stretch could have missed this many times as much: four times twice over, as errors
+    /// grow with the square of the step.
+    reserve: f64 = 16.0, "1";
     /// Steps per period of the fastest sine that is switched on, at least.
     steps_per_period: f64 = 10.0, "steps";
     /// Share of a gap, or of the depth over which a law sets in, that one step may cross.
