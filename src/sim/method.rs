@@ -134,6 +134,7 @@ pub(super) fn describe(choice: &Choice) -> String {
             ": errors are controlled, and it is tried whether it advances further per force evaluation"
         }
         Reason::Failures => ": attempts of the method before failed",
+        Reason::Balance if choice.method == Kind::Leapfrog => ": longer ones missed too much of the energy",
         Reason::Balance => ": the leapfrog missed too much of the energy",
         Reason::Affordable => ": errors are controlled, which costs little while nothing vibrates",
         Reason::Cost => ": the leapfrog would need steps that cost as much as error control",

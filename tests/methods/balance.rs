@@ -1,6 +1,6 @@
 //! The balance of energy that judges stretches of steps.
 
-use cagedyn::integrate::auto::balance::Balance;
+use cagedyn::integrate::auto::balance::{Balance, Judgement};
 use cagedyn::integrate::{Observed, System, Tuning};
 
 /// Something that stores energy (J) and has no motion.
@@ -39,8 +39,38 @@ fn judged<const N: usize>(controlled: bool, stretches: [[f64; 2]; N]) -> [bool; 
     stretches.map(|[work, gain]| {
         balance.add(&[work]);
         store.0 += gain;
-        balance.settle(&mut store, 0.0, &[], controlled).unwrap()
+        balance.settle(&mut store, 0.0, &[], controlled).unwrap() == Judgement::Right
     })
+}
+
+/// What closer steps miss as well is forgiven, until it has grown by half.
+#[test]
+fn steps_are_not_to_blame_for_what_closer_ones_miss_as_well() {
+    use Judgement::{Inherent, Right, Wrong};
+    for (controlled, again, judgement) in
+        [(true, 0.0030, Inherent), (true, 0.0010, Wrong), (true, -0.0030, Wrong), (false, 0.0030, Wrong)]
+    {
+        let mut store = Store(0.0);
+        let mut balance = Balance::new(&store, 1e-3, Tuning::default());
+        balance.open(&mut store, 0.0, &[]).unwrap();
+        let before = balance.clone();
+        let mut stretch = |balance: &mut Balance, missing: f64| {
+            balance.add(&[1.0]);
+            store.0 += 1.0 - missing;
+            balance.settle(&mut store, 0.0, &[], controlled).unwrap()
+        };
+        assert_eq!(stretch(&mut balance, 0.0040), Wrong);
+        let missed = balance.missed();
+        assert!((missed - 0.0040).abs() < 1e-12);
+        balance = before;
+        balance.open(&mut Store(1.0 - 0.0040), 0.0, &[]).unwrap();
+        balance.suspect(missed);
+        assert_eq!(stretch(&mut balance, again), judgement, "{controlled} {again}");
+        if judgement == Inherent {
+            assert_eq!(stretch(&mut balance, 0.0012), Right);
+            assert_eq!(stretch(&mut balance, 0.0012), Wrong);
+        }
+    }
 }
 
 #[test]

@@ -2,12 +2,13 @@
 //!
 //! - A system that vibrates most of the time is followed in its statistics: the leapfrog, monitored by [`StabilityMonitor`]. When
 //!   it fails, or would need steps that cost as much as error control, the Rosenbrock method takes over until probes
-//!   say that the leapfrog would do again. It also has the phases in which so little happens that it costs no more.
+//!   say that the leapfrog would do again, or until it is seen that finer steps of the leapfrog advance further per evaluation. It
+//!   also has the phases in which so little happens that it costs no more.
 //! - Any other system, or with a tolerance that was asked for, is followed in its trajectory: Dormand-Prince or the
 //!   Rosenbrock method, whichever advances further per evaluation.
 //!
 //! Every stretch of steps is judged by the energy that it misses. A wrong one is made again: those of the leapfrog with error
-//! control, those of error control with a tenth of the tolerance.
+//! control or finer steps, those of error control with a tenth of the tolerance.
 
 /// Calls a method of the active stepper.
 macro_rules! active {
@@ -98,7 +99,7 @@ pub enum Reason {
     Failures,
     /// The leapfrog would have to take steps that cost as much.
     Cost,
-    /// The leapfrog missed too much energy.
+    /// The leapfrog missed too much energy, at least with longer steps.
     Balance,
     /// Nothing vibrates, or it is tried whether that is so: errors are controlled at little cost.
     Affordable,
@@ -136,6 +137,16 @@ pub struct Choice {
     pub highest_frequency: f64,
 }
 
+/// A stretch that may be wrong.
+#[derive(Clone, Copy, Debug)]
+struct Wrong {
+    method: Kind,
+    /// How often the step of the leapfrog had been refined.
+    refinement: u64,
+    /// Share of the energy that it missed.
+    missed: f64,
+}
+
 /// The methods and the choice among them.
 #[derive(Clone, Debug)]
 pub struct Auto<const N: usize> {
@@ -157,8 +168,8 @@ pub struct Auto<const N: usize> {
     gave_way: u64,
     /// Whether a stretch has just been judged.
     judged: bool,
-    /// The method of that stretch, how fine its steps were, and the share that it missed; not taken back with it.
-    wrong: (Kind, u64, f64),
+    /// That stretch; not taken back with it.
+    wrong: Wrong,
     /// Simulated time (s) and evaluations of error control in the stretch.
     advanced: f64,
     cost: f64,
@@ -203,7 +214,7 @@ impl<const N: usize> Auto<N> {
             attempts: 0,
             gave_way: 0,
             judged: false,
-            wrong: (Kind::Leapfrog, 0, 0.0),
+            wrong: Wrong { method: Kind::Leapfrog, refinement: 0, missed: 0.0 },
             advanced: 0.0,
             cost: 0.0,
             strictness: 0,
@@ -305,6 +316,9 @@ impl<const N: usize> Auto<N> {
         if coarser {
             (self.hold, self.right) = (self.aim.tuning.first_hold, 0);
             self.changes += 1;
+            if self.monitor.refinement() == 0 {
+                self.reason = Reason::Vibration;
+            }
         }
         let reason = match self.monitor.look(system, &self.leapfrog, t) {
             _ if self.attempts >= self.aim.tuning.patience => Reason::Failures,
@@ -324,6 +338,7 @@ impl<const N: usize> Auto<N> {
         let (advanced, cost) = (std::mem::take(&mut self.advanced), std::mem::take(&mut self.cost));
         self.note_right_stretch();
         self.monitor.note_rival(advanced, cost);
+        // Once may be chance.
         let missed = self.reason == Reason::Balance || self.aim.statistics && self.strictness > 1;
         if missed && self.monitor.refine(self.monitor.refinement()) {
             return self.go_on_finer(system, t);
@@ -355,15 +370,17 @@ impl<const N: usize> Auto<N> {
         self.change_to(Kind::Leapfrog, Reason::Vibration, system, t)
     }
 
-    /// With the leapfrog, whose steps have become finer.
+    /// Goes on with the leapfrog, whose steps have become finer. Returns them as [`Auto::change_to`].
     pub(super) fn go_on_finer<S: Linearized<N> + Split<N> + Observed>(
         &mut self,
         system: &mut S,
         t: f64,
     ) -> Option<f64> {
         self.strictness = 0;
-        self.wait = self.wait.max(self.aim.tuning.first_pause);
-        self.change_to(Kind::Leapfrog, Reason::Vibration, system, t)
+        // What error control costs may have been that of a single impact.
+        let pause = self.aim.tuning.finer_pause;
+        self.wait = if self.wait == 0 { pause } else { self.wait.min(pause) };
+        self.change_to(Kind::Leapfrog, Reason::Balance, system, t)
     }
 
     /// No more care than at the start of a run, as it was in vain.

@@ -1,7 +1,7 @@
 //! The chosen method at work: attempts, accounts, judgement, memory.
 
 use super::balance::Judgement;
-use super::{Auto, Choice, EXPLICIT, IMPLICIT, KINDS, Kind, REASONS, Reason};
+use super::{Auto, Choice, EXPLICIT, IMPLICIT, KINDS, Kind, REASONS, Reason, Wrong};
 use crate::integrate::driver::control::{Estimate, Law};
 use crate::integrate::{Applied, Kept, Linearized, Observed, Samples, Split, Stepper, Stretch};
 use crate::stored::{stored, stored_choice};
@@ -95,7 +95,11 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
             self.relax();
         }
         self.judged = true;
-        self.wrong = (self.active, self.monitor.refinement(), self.balance.missed());
+        self.wrong = Wrong {
+            method: self.active,
+            refinement: self.monitor.refinement(),
+            missed: self.balance.missed(),
+        };
         right || controlled && self.strictness == self.aim.tuning.strictest
     }
 
@@ -103,7 +107,7 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
     fn go_back(&mut self, system: &mut S, t: f64) -> Option<f64> {
         (self.hold, self.right) = (self.next_hold, 0);
         self.next_hold = (2 * self.next_hold).min(self.aim.tuning.longest_hold);
-        let (method, refinement, missed) = self.wrong;
+        let Wrong { method, refinement, missed } = self.wrong;
         self.balance.suspect(missed);
         if method != Kind::Leapfrog {
             self.strictness = (self.strictness + 1).min(self.aim.tuning.strictest);

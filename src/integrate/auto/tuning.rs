@@ -118,11 +118,15 @@ tuning! {
     light_damping: f64 = 0.01, "1";
     /// Above this many times the expected frequency error control costs no more.
     highest_frequency: f64 = 2.0, "1";
-    /// The step of the leapfrog is divided by this after a stretch that missed energy, where error control advances less per evaluation than
-    /// such steps, and again after the next.
+    /// The step of the leapfrog is divided by this after a stretch that missed energy, where error control advances less per
+    /// evaluation than such steps, and again after the next.
     finer: f64 = 2.0, "1";
-    /// A finer step is made coarser again at once where its stretch could have missed this many times as much: four times twice over, as errors
-    /// grow with the square of the step.
+    /// Such steps must advance this many times as far: they may still miss energy, and error control soon take longer ones.
+    finer_lead: f64 = 4.0, "1";
+    /// Stretches of finer steps until it is tried whether error control costs less by now.
+    finer_pause: u64 = 64, "stretches";
+    /// A finer step is made coarser again at once where its stretch could have missed this many times as much: four times twice
+    /// over, as errors grow with the square of the step.
     reserve: f64 = 16.0, "1";
     /// Steps per period of the fastest sine that is switched on, at least.
     steps_per_period: f64 = 10.0, "steps";
