@@ -133,7 +133,7 @@ impl<const N: usize> StabilityMonitor<N> {
         }
     }
 
-    /// Whether error control is known to advance far less per evaluation than this step, s.
+    /// Whether error control is known to advance clearly less per evaluation than this step, s.
     fn beats_rival(&self, step: f64) -> bool {
         self.rival > 0.0 && step > self.tuning.finer_lead * self.rival
     }
@@ -143,7 +143,7 @@ impl<const N: usize> StabilityMonitor<N> {
         self.refinement
     }
 
-    /// Goes on from this refinement with the next one, if such steps cost far less than error control. Whether it does.
+    /// Goes on from this refinement with the next one, if such steps cost clearly less than error control. Whether it does.
     pub fn refine(&mut self, refinement: u64) -> bool {
         let cheaper = self.beats_rival(self.refined_step(refinement + 1));
         self.refinement = if cheaper { refinement + 1 } else { refinement };

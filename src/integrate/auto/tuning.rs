@@ -122,7 +122,7 @@ tuning! {
     /// evaluation than such steps, and again after the next.
     finer: f64 = 2.0, "1";
     /// Such steps must advance this many times as far: they may still miss energy, and error control soon take longer ones.
-    finer_lead: f64 = 4.0, "1";
+    finer_lead: f64 = 2.0, "1";
     /// Stretches of finer steps until it is tried whether error control costs less by now.
     finer_pause: u64 = 64, "stretches";
     /// A finer step is made coarser again at once where its stretch could have missed this many times as much: four times twice
