@@ -338,9 +338,7 @@ impl<const N: usize> Auto<N> {
         let (advanced, cost) = (std::mem::take(&mut self.advanced), std::mem::take(&mut self.cost));
         self.note_right_stretch();
         self.monitor.note_rival(advanced, cost);
-        // Once may be chance.
-        let missed = self.reason == Reason::Balance || self.aim.statistics && self.strictness > 1;
-        if missed && self.monitor.refine(self.monitor.refinement()) {
+        if self.reason == Reason::Balance && self.monitor.refine(self.monitor.refinement()) {
             return self.go_on_finer(system, t);
         }
         if self.hold > 0 {
