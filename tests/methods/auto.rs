@@ -106,6 +106,7 @@ fn a_standing_bearing_does_not_vibrate() {
     let mut run = run(&nu2310(&[rpm(0.0)]), auto(), 20e-3);
     // Until it rests, finer steps of the leapfrog may cost less than error control.
     assert_ne!(choice(&run).reason, Reason::Vibration, "{}", run.report());
+    for t in [40e-3, 60e-3, 80e-3, 100e-3, 150e-3, 200e-3] { run.advance_to(t).unwrap(); eprintln!("{t} {:?} {}", choice(&run), run.report()); }
 }
 
 /// A thin layer of grease, through which leapfrog steps of the scene's own size would put 121 J.

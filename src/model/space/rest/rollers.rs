@@ -33,6 +33,8 @@ const OF_ROLLER: usize = 3;
 const ALL: usize = OF_ROLLER + OF_RING;
 /// Share of the stiffness of a lightly pressed contact along the axis that holds a roller between ribs that it does not touch, where it follows the ring.
 const BETWEEN_RIBS: f64 = 1e-9;
+/// Share of the loads of a roller that its friction holds along the axis at least: between ribs nothing else tells where it is.
+const HELD_BY_FRICTION: f64 = 1e-5;
 /// Load of a lightly pressed contact, N.
 const LIGHTLY: f64 = 1.0;
 
@@ -73,6 +75,8 @@ struct Forces<T> {
     /// On the ring over its coordinates, N and N m.
     on_ring: [T; OF_RING],
     raceways: [OnRaceway<T>; 2],
+    /// Of all ribs, N.
+    on_ribs: f64,
     /// Elastic, J.
     energy: f64,
 }
@@ -215,6 +219,7 @@ impl Rollers<'_> {
             on_roller: [zero, zero + self.centrifugal, zero],
             on_ring: [zero; OF_RING],
             raceways: [none; 2],
+            on_ribs: 0.0,
             energy: 0.0,
         };
         let from_ring =
@@ -245,6 +250,7 @@ impl Rollers<'_> {
         for (mate, on_rib, [force, moment], law) in self.on_ribs(j, at, ring) {
             out.on_roller[0] += on_rib.load * force[0];
             out.on_roller[1] += on_rib.load * force[1];
+            out.on_ribs += on_rib.load.base();
             moments += on_rib.moment;
             out.energy += law.energy(on_rib.approach.base());
             if mate == 1 {
@@ -285,10 +291,17 @@ impl Rollers<'_> {
             let (load, moment) = (joined(low.load, high.load), joined(low.moment, high.moment));
             OnRaceway { load, moment, loaded: low.loaded }
         };
+        let mut on_roller = std::array::from_fn(|k| joined(low.on_roller[k], high.on_roller[k]));
+        let loads = low.raceways[0].load.re + low.raceways[1].load.re + self.centrifugal;
+        if self.rolls_between_ribs(low.on_ribs) && on_roller[0].re.abs() <= HELD_BY_FRICTION * loads {
+            on_roller[0] = Dual { re: 0.0, eps: [0.0; ALL] };
+            on_roller[0].eps[0] = -self.laws[0].elastic.stiffness_at_load(LIGHTLY);
+        }
         Forces {
-            on_roller: std::array::from_fn(|k| joined(low.on_roller[k], high.on_roller[k])),
+            on_roller,
             on_ring: std::array::from_fn(|k| joined(low.on_ring[k], high.on_ring[k])),
             raceways: [on_raceway(0), on_raceway(1)],
+            on_ribs: low.on_ribs,
             energy: low.energy,
         }
     }
@@ -396,6 +409,11 @@ impl Rollers<'_> {
     /// Whether anything holds rollers along the axis.
     fn held_along(&self) -> bool {
         self.geometry.cones != Cones::NONE || self.ends.iter().any(|end| end.is_rib())
+    }
+
+    /// Whether a roller may lie anywhere between ribs, which bear this load (N).
+    fn rolls_between_ribs(&self, on_ribs: f64) -> bool {
+        self.geometry.cones == Cones::NONE && self.held_along() && on_ribs == 0.0
     }
 
     /// Laws of raceway `k`.
