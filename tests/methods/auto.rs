@@ -104,9 +104,9 @@ fn it_is_the_default_and_costs_little_more_than_the_leapfrog_once_rollers_vibrat
 #[test]
 fn a_standing_bearing_does_not_vibrate() {
     let mut run = run(&nu2310(&[rpm(0.0)]), auto(), 20e-3);
-    // Until it rests, finer steps of the leapfrog may cost less than error control.
-    assert_ne!(choice(&run).reason, Reason::Vibration, "{}", run.report());
-    for t in [40e-3, 60e-3, 80e-3, 100e-3, 150e-3, 200e-3] { run.advance_to(t).unwrap(); eprintln!("{t} {:?} {}", choice(&run), run.report()); }
+    let choice = choice(&run);
+    assert_eq!(choice.method, Kind::Rosenbrock, "{}", run.report());
+    assert!(choice.steps[Kind::Leapfrog as usize] < 100, "{}", run.report());
 }
 
 /// A thin layer of grease, through which leapfrog steps of the scene's own size would put 121 J.
@@ -152,12 +152,10 @@ fn draft_takes_care_once_its_steps_missed_energy() {
         }
         [before, choice(&sim).leapfrog_step]
     };
-    // Either may have become finer as well.
-    let halved = |ratio: f64| (ratio.log2() - ratio.log2().round()).abs() < 1e-12;
     let [before, after] = steps("draft");
-    assert!(halved(before / after / 1.4), "{before} {after}");
+    assert!((before / after - 1.4).abs() < 1e-12, "{before} {after}");
     let [before, after] = steps("engineering");
-    assert!(halved(before / after), "{before} {after}");
+    assert_eq!(before, after);
 }
 
 /// Steps of records, of calls and of single questions are the same, whatever stretch they are in.

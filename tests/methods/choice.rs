@@ -58,8 +58,7 @@ fn auto(system: &Stiffening, statistics: bool) -> Driver<Stiffening> {
         tolerance: 1e-8,
         first_step: 1e-3,
         missing_energy: 1e-3,
-        // In so small a system nothing costs as much as error control.
-        tuning: Tuning { finer_lead: f64::INFINITY, ..Tuning::default() },
+        tuning: Tuning::default(),
     };
     let limits = limits(aim.nominal_step());
     let mut driver = Driver::new(Box::new(Auto::new(system, aim)), limits);

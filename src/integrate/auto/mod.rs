@@ -337,7 +337,9 @@ impl<const N: usize> Auto<N> {
     fn ease<S: Linearized<N> + Split<N> + Observed>(&mut self, system: &mut S, t: f64) -> Option<f64> {
         let (advanced, cost) = (std::mem::take(&mut self.advanced), std::mem::take(&mut self.cost));
         self.note_right_stretch();
-        self.monitor.note_rival(advanced, cost);
+        if self.derivatives_are_dear() {
+            self.monitor.note_rival(advanced, cost);
+        }
         if self.reason == Reason::Balance && self.monitor.refine(self.monitor.refinement()) {
             return self.go_on_finer(system, t);
         }
@@ -379,6 +381,11 @@ impl<const N: usize> Auto<N> {
         let pause = self.aim.tuning.finer_pause;
         self.wait = if self.wait == 0 { pause } else { self.wait.min(pause) };
         self.change_to(Kind::Leapfrog, Reason::Balance, system, t)
+    }
+
+    /// Whether finer steps of the leapfrog are weighed against error control at all.
+    pub(super) fn derivatives_are_dear(&self) -> bool {
+        self.linearization_cost >= self.aim.tuning.dear_derivatives
     }
 
     /// No more care than at the start of a run, as it was in vain.

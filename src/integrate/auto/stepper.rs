@@ -108,7 +108,9 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
         (self.hold, self.right) = (self.next_hold, 0);
         self.next_hold = (2 * self.next_hold).min(self.aim.tuning.longest_hold);
         let Wrong { method, refinement, missed } = self.wrong;
-        self.balance.suspect(missed);
+        if self.derivatives_are_dear() {
+            self.balance.suspect(missed);
+        }
         if method != Kind::Leapfrog {
             self.strictness = (self.strictness + 1).min(self.aim.tuning.strictest);
         } else {

@@ -118,6 +118,8 @@ tuning! {
     light_damping: f64 = 0.01, "1";
     /// Above this many times the expected frequency error control costs no more.
     highest_frequency: f64 = 2.0, "1";
+    /// Where derivatives cost so many evaluations, finer steps of the leapfrog are weighed against error control.
+    dear_derivatives: f64 = 8.0, "evaluations";
     /// The step of the leapfrog is divided by this after a stretch that missed energy, where error control advances less per
     /// evaluation than such steps, and again after the next.
     finer: f64 = 2.0, "1";

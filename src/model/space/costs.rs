@@ -8,9 +8,9 @@ use std::hint::black_box;
 
 impl Space {
     /// Time that the derivatives of the forces take beside their values, in force evaluations. Never clocked, so that equal runs choose
-    /// equally: of the sums over an ellipse each has its derivatives over all that the law sees.
+    /// equally: of the sums over an ellipse each has its derivatives over all that the law sees; those of rollers go in several passes.
     pub(crate) fn jacobian_cost(&self) -> f64 {
-        6.0
+        if self.rollers.is_some() { 9.0 } else { 6.0 }
     }
 
     /// Wall time of each part of one evaluation at positions `q` and velocities `v`, s: see [`super::super::Plane::time_parts`].
