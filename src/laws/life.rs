@@ -49,7 +49,7 @@ pub struct RollerRow {
 impl RollerRow {
     /// gamma and G.
     fn ratios(&self) -> [f64; 2] {
-        let gamma = self.diameter * self.contact_angle.cos() / self.pitch_diameter;
+        let gamma = self.diameter * math::cos(self.contact_angle) / self.pitch_diameter;
         [gamma, math::powf((1.0 - gamma) / (1.0 + gamma), 143.0 / 108.0)]
     }
 
@@ -61,7 +61,7 @@ impl RollerRow {
             * math::powf(1.0 + math::powf(1.04 * g, STANDING), -2.0 / 9.0);
         let [length, diameter] = [self.effective_length, self.diameter].map(|x| 1e3 * x);
         1.1 * factor
-            * math::powf(length * self.contact_angle.cos(), 7.0 / 9.0)
+            * math::powf(length * math::cos(self.contact_angle), 7.0 / 9.0)
             * math::powf(self.count as f64, 0.75)
             * math::powf(diameter, 29.0 / 27.0)
     }
@@ -69,7 +69,8 @@ impl RollerRow {
     /// Q_ce and Q_ci of a bearing with this C_r, N.
     pub fn ring_ratings(&self, dynamic_load_rating: f64) -> [f64; 2] {
         let [_, g] = self.ratios();
-        let per_roller = dynamic_load_rating / (REDUCTION * self.count as f64 * self.contact_angle.cos());
+        let per_roller =
+            dynamic_load_rating / (REDUCTION * self.count as f64 * math::cos(self.contact_angle));
         let of_ring = |factor: f64, exponent: f64| {
             per_roller / factor * math::powf(1.0 + math::powf(1.038 * g, exponent), 2.0 / 9.0)
         };
