@@ -22,8 +22,10 @@ pub enum Fault {
     LostRoller {
         /// Number of the roller.
         roller: usize,
-        /// Offset from the pitch circle, m.
-        radial_offset: f64,
+        /// Which way: "radial" or "axial".
+        way: &'static str,
+        /// Offset from the pitch circle that way, m.
+        offset: f64,
     },
     /// The axis of a roller is turned further than that of a roller in a bearing can be.
     AskewRoller {

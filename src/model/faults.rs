@@ -31,8 +31,8 @@ pub(super) fn in_words(fault: Fault, names: &Names<'_>) -> String {
         Fault::NoViscosity { temperature } => {
             format!("the lubricant has no viscosity at its temperature {temperature:?} K")
         }
-        Fault::LostRoller { roller, radial_offset } => {
-            format!("roller[{roller}] has left the bearing (radial offset {radial_offset:e} m)")
+        Fault::LostRoller { roller, way, offset } => {
+            format!("roller[{roller}] has left the bearing ({way} offset {offset:e} m)")
         }
         Fault::AskewRoller { roller, angle } => {
             format!(

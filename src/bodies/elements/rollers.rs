@@ -147,7 +147,7 @@ impl Elements for Rollers {
         let limit = LOST_ROLLER * self.set.pitch_radius;
         if largest > limit {
             let roller = places.iter().position(|place| place[0].abs() > limit).unwrap_or_default();
-            return Err(Fault::LostRoller { roller, radial_offset: places[roller][0] });
+            return Err(Fault::LostRoller { roller, way: "radial", offset: places[roller][0] });
         }
         if fastest > SOUND {
             return Err(self.too_fast(layout, v));

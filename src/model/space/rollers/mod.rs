@@ -140,9 +140,10 @@ impl Space {
                     return Err(Fault::TooFast { velocity: places[k], speed: speed.abs() * lever });
                 }
             }
-            let off = at(1).abs().max(at(0).abs());
-            if off > self.set.radius {
-                return Err(Fault::LostRoller { roller: j, radial_offset: at(1) });
+            for (way, offset) in [("radial", at(1)), ("axial", at(0))] {
+                if offset.abs() > self.set.radius {
+                    return Err(Fault::LostRoller { roller: j, way, offset });
+                }
             }
             let angle = math::hypot(at(3), at(4));
             if angle > LARGEST_TILT {
