@@ -106,7 +106,8 @@ impl<T: Numeric> OffAxis<T> {
 
 impl RacewayGeometry {
     /// The disc at `s` (m) of a roller whose radius is larger than nominal by `excess` (m) against the raceway of the outer (0) or inner (1)
-    /// ring.
+    /// ring. Once in the library for each kind of numbers: it is long.
+    #[inline(never)]
     pub(crate) fn disc<T: Numeric>(
         &self,
         ring: (usize, &RingPlace<T>),

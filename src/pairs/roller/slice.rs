@@ -15,7 +15,7 @@
 
 use super::{MovingRoller, Spot, UnitWrench};
 use crate::bodies::MovingRing;
-use crate::laws::elastic::surface::{Drops, Straight};
+use crate::laws::elastic::surface::Drops;
 use crate::pairs::groove::RingPlace;
 use crate::pairs::raceway::{Disc, RacewayGeometry};
 use crate::scalar::{Numeric, Real};
@@ -64,17 +64,21 @@ impl<'a, T: Numeric, P: Drops<T>> OnRaceway<'a, T, P> {
         if self.side == 0 { 1.0 } else { -1.0 }
     }
 
-    /// The disc at `s`, m.
     #[inline(always)]
-    fn disc(&self, profile: impl Drops<T>, s: T) -> Disc<T> {
-        let place = RingPlace { centre: self.ring.centre, axis: self.ring.axis };
-        self.geometry.disc_in_line((self.side, &place), &self.roller.place, profile, self.excess, s)
+    fn place_of_ring(&self) -> RingPlace<T> {
+        RingPlace { centre: self.ring.centre, axis: self.ring.axis }
     }
 
-    /// The disc of straight surfaces at `s`, m.
+    /// The disc at `s`, m, with these drops.
+    pub(crate) fn disc(&self, profile: P, s: T) -> Disc<T> {
+        self.geometry.disc((self.side, &self.place_of_ring()), &self.roller.place, profile, self.excess, s)
+    }
+
+    /// The same for the instructions of the caller.
     #[inline(always)]
-    pub(crate) fn straight(&self, s: T) -> Disc<T> {
-        self.disc(Straight, s)
+    pub(crate) fn disc_in_line(&self, profile: impl Drops<T>, s: T) -> Disc<T> {
+        let ring = (self.side, &self.place_of_ring());
+        self.geometry.disc_in_line(ring, &self.roller.place, profile, self.excess, s)
     }
 
     /// Whether no disc within `half_length` (m) of the middle can touch, by the straight disc in the middle.
@@ -118,10 +122,9 @@ impl<'a, T: Numeric, P: Drops<T>> OnRaceway<'a, T, P> {
         Middle { arm, passing }
     }
 
-    /// The slice at `s`, m.
+    /// The slice at `s` (m), whose disc is this.
     #[inline(always)]
-    pub(crate) fn spot(&self, middle: &Middle<T>, s: T) -> Spot<T> {
-        let disc = self.disc(self.profile, s);
+    pub(crate) fn spot(&self, middle: &Middle<T>, s: T, disc: Disc<T>) -> Spot<T> {
         let k = self.sign();
         let Self { ring, roller, .. } = self;
         let Middle { arm, passing } = middle;
@@ -174,7 +177,7 @@ mod tests {
     use super::*;
     use crate::bodies::{ElementMotion, RingState, RollerState};
     use crate::laws::elastic::profile::{Logarithm, Profile};
-    use crate::laws::elastic::surface::Surface;
+    use crate::laws::elastic::surface::{Straight, Surface};
     use crate::pairs::raceway::{Cones, RingMotion};
     use crate::scene::RollerTaper;
 
@@ -244,7 +247,7 @@ mod tests {
                 let delta = |h: f64| on(h).disc(Some(&profile), s).delta;
                 let rate = (delta(h) - delta(-h)) / (2.0 * h);
                 let now = on(0.0);
-                let spot = now.spot(&now.middle(&now.straight(0.0)), s);
+                let spot = now.spot(&now.middle(&now.disc(None, 0.0)), s, now.disc(Some(&profile), s));
                 assert!((spot.delta_dot - rate).abs() < 2e-9, "{side} {s}: {} {rate}", spot.delta_dot);
             }
         }
@@ -256,8 +259,8 @@ mod tests {
         for (geometry, side) in [NU2310, tapered()].iter().flat_map(|of| [(of, 0), (of, 1)]) {
             let (ring, roller) = POSE.at(geometry, 0.0);
             let on = OnRaceway { geometry, profile: Straight, side, ring, roller, excess: 0.0 };
-            let middle = on.middle(&on.straight(0.0));
-            let spot = on.spot(&middle, 3e-3);
+            let middle = on.middle(&on.disc(Straight, 0.0));
+            let spot = on.spot(&middle, 3e-3, on.disc(Straight, 3e-3));
             let power =
                 dot(spot.rolling[0], middle.passing.velocity) + dot(spot.rolling[1], middle.passing.turning);
             let [u1, u2] = spot.surface_speeds;
@@ -292,7 +295,7 @@ mod tests {
         let contacts = [NU2310.outer(&plane, 20.0), NU2310.inner(&plane, &inner)];
         for (side, ring) in [outer_ring, ring].into_iter().enumerate() {
             let on = OnRaceway { geometry: &NU2310, profile: Straight, side, ring, roller, excess: 0.0 };
-            let spot = on.spot(&on.middle(&on.straight(0.0)), 4e-3);
+            let spot = on.spot(&on.middle(&on.disc(Straight, 0.0)), 4e-3, on.disc(Straight, 4e-3));
             let (motion, grip) = &contacts[side];
             assert!((spot.delta - motion.delta).abs() < 1e-19);
             assert!((spot.delta_dot - motion.delta_dot).abs() < 1e-15);

@@ -7,7 +7,7 @@ use super::RollersOfScene;
 use super::contacts::{Contact, Place, RollerMemory};
 use crate::bodies::MovingRing;
 use crate::laws::elastic::loaded::Loaded;
-use crate::laws::elastic::surface::OneByOne;
+use crate::laws::elastic::surface::{OneByOne, Straight};
 use crate::laws::elastic::tilted::Along;
 use crate::pairs::roller::{NUMBERS, OnRaceway, Spot};
 use crate::scalar::{Pack, ZEROS};
@@ -49,7 +49,7 @@ impl WithSimd for TouchRaceway<'_> {
             let in_lanes = on.map(OneByOne(profile), |x| Pack::<S, 1>::all(simd, x));
             let mut ends = ZEROS;
             (ends[1], ends[2]) = (-a, a);
-            let straight = |first: usize| in_lanes.straight(Pack::load(simd, &ends[first..]));
+            let straight = |first: usize| in_lanes.disc_in_line(Straight, Pack::load(simd, &ends[first..]));
             let discs = straight(0);
             let middle_disc = discs.map(|x| x.lanes()[0]);
             if on.apart(&middle_disc, a) {
@@ -86,7 +86,8 @@ impl WithSimd for TouchRaceway<'_> {
                 for (s, slice) in s.iter_mut().zip(&memory.found[first..last]) {
                     *s = slice.place;
                 }
-                let spots = in_lanes.spot(&middle, Pack::load(simd, &s)).numbers();
+                let s = Pack::load(simd, &s);
+                let spots = in_lanes.spot(&middle, s, in_lanes.disc_in_line(in_lanes.profile, s)).numbers();
                 for (lanes, numbers) in lanes.iter_mut().zip(spots) {
                     numbers.store(lanes);
                 }

@@ -219,12 +219,12 @@ impl Space {
             excess: self.set.radius_excess[contact.roller],
         };
         let a = rollers.shapes.half_length(contact.roller);
-        let discs = [-a, 0.0, a].map(|s| on.straight(Varied::lift(s)));
+        let discs = [-a, 0.0, a].map(|s| on.disc(None, Varied::lift(s)));
         let middle = on.middle(&discs[1]);
         let slices = Edges::new(rollers, side, contact, discs.map(|disc| (disc.delta, disc.in_raceway)));
         for node in ws.rollers.places(contact) {
             let [s, share] = slices.slice(node);
-            let spot = on.spot(&middle, s);
+            let spot = on.spot(&middle, s, on.disc(on.profile, s));
             if let Some(slices) = &ws.rollers.laws[side] {
                 let forces = slices.varied(node.row, &spot, ln_viscosity);
                 on_roller.add(&spot, forces.map(|force| force * share), state.axis);
