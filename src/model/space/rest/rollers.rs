@@ -118,6 +118,8 @@ pub(crate) struct Rollers<'a> {
     pub(crate) azimuths: Vec<f64>,
     /// On each, N.
     centrifugal: f64,
+    /// Whether friction holds rollers that lie between ribs: only where they find no rest without.
+    held_by_friction: bool,
 }
 
 /// The equilibrium of ring and rollers.
@@ -413,7 +415,7 @@ impl Rollers<'_> {
 
     /// Whether a roller may lie anywhere between ribs, which bear this load (N).
     fn rolls_between_ribs(&self, on_ribs: f64) -> bool {
-        self.geometry.cones == Cones::NONE && self.held_along() && on_ribs == 0.0
+        self.held_by_friction && self.geometry.cones == Cones::NONE && self.held_along() && on_ribs == 0.0
     }
 
     /// Laws of raceway `k`.
@@ -446,15 +448,29 @@ impl<'a> Rollers<'a> {
         centrifugal: f64,
     ) -> Self {
         let (excess, azimuths) = (&set.radius_excess[..], set.reference_angles[..set.count].to_vec());
-        Self { geometry, laws, shapes, excess, ends, azimuths, centrifugal }
+        Self { geometry, laws, shapes, excess, ends, azimuths, centrifugal, held_by_friction: false }
     }
 
     /// These at rest beside this ring under this load, N and N m.
     pub(in crate::model::space) fn settled(
-        self,
+        mut self,
         body: &RingInSpace,
         load: [f64; OF_RING],
     ) -> Result<SettledRollers<'a>> {
+        let found = self.search(body, load).or_else(|e| {
+            self.held_by_friction = true;
+            if self.rolls_between_ribs(0.0) { self.search(body, load) } else { Err(e) }
+        });
+        let (ring, places) = found?;
+        Ok(SettledRollers { rollers: self, ring, places })
+    }
+
+    /// The ring at rest, and x, rho and a tau of the rollers, m.
+    fn search(
+        &self,
+        body: &RingInSpace,
+        load: [f64; OF_RING],
+    ) -> Result<(SettledRing, Vec<[f64; OF_ROLLER]>)> {
         let (pitch_radius, count) = (self.geometry.pitch_radius, self.azimuths.len());
         let soft = self.laws[0].elastic.stiffness_at_load(LIGHTLY);
         let reach = self.geometry.roller_radius;
@@ -473,6 +489,6 @@ impl<'a> Rollers<'a> {
         let at = bearing.unscaled(&rest.x);
         let places = self.places(&at).ok_or_else(|| none(rest.x))?;
         let ring = bearing.equilibrium(&rest, self.on_ring(&at, &places))?;
-        Ok(SettledRollers { rollers: self, ring, places })
+        Ok((ring, places))
     }
 }
