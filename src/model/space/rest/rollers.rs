@@ -465,7 +465,8 @@ impl<'a> Rollers<'a> {
         Ok(SettledRollers { rollers: self, ring, places })
     }
 
-    /// The ring at rest, and x, rho and a tau of the rollers, m.
+    /// The ring at rest, and x, rho and a tau of the rollers, m. Once in the library: it is long.
+    #[inline(never)]
     fn search(
         &self,
         body: &RingInSpace,
