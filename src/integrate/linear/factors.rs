@@ -81,7 +81,7 @@ impl<T: Number, const N: usize> Factors<T, N> {
     pub fn factorize(&mut self, a: &Arrowhead<T, N>) -> bool {
         assert!(a.spokes() == self.spokes.len() && a.width() == self.width);
         self.dense = None;
-        if !a.has_rim() && with_width!(self.width, width => self.eliminate(a, width)) {
+        if !a.has_rim() && with_width!(N, self.width, width => self.eliminate(a, width)) {
             return true;
         }
         self.dense = DenseFactors::new(a);
@@ -140,7 +140,7 @@ impl<T: Number, const N: usize> Factors<T, N> {
         if let Some(dense) = &self.dense {
             return dense.solve(hub, spokes);
         }
-        with_width!(self.width, width => self.substitute(hub, spokes, width));
+        with_width!(N, self.width, width => self.substitute(hub, spokes, width));
     }
 
     fn substitute<W: Dim>(&mut self, hub: &mut [T], spokes: &mut [SVector<T, N>], width: W) {

@@ -3,15 +3,18 @@
 
 use super::matrix::Number;
 
-/// Calls a function with the size of a hub, by its type for a cage and for a cage with a ring: loops of known length are quicker.
+/// Spokes of more unknowns take so long themselves that it does not matter how their hub is reached.
+pub(super) const LIGHT_SPOKE: usize = 3;
+
+/// Calls a function with the size of a hub, of light spokes by its type for a cage and for a cage with a ring: loops of known length are quicker.
 macro_rules! with_width {
-    ($width:expr, $n:ident => $call:expr) => {
+    ($spoke:expr, $width:expr, $n:ident => $call:expr) => {
         match $width {
-            5 => {
+            5 if $spoke <= crate::integrate::linear::lu::LIGHT_SPOKE => {
                 let $n = nalgebra::Const::<5>;
                 $call
             }
-            3 => {
+            3 if $spoke <= crate::integrate::linear::lu::LIGHT_SPOKE => {
                 let $n = nalgebra::Const::<3>;
                 $call
             }

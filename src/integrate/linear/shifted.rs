@@ -60,7 +60,7 @@ impl<T: Number, const N: usize> Shifted<T, N> {
         positions: usize,
         r: &mut [T],
     ) {
-        with_width!(self.hub.len(), width => self.eliminate_positions(slope, structure, positions, r, width));
+        with_width!(N, self.hub.len(), width => self.eliminate_positions(slope, structure, positions, r, width));
         let inverse = self.shift.recip();
         let Self { hub, spokes, factors, .. } = self;
         let (r_q, r_v) = r.split_at_mut(positions);
