@@ -80,11 +80,7 @@ pub(super) fn told(model: &Model, settled: &SettledRollers<'_>) -> Equilibrium {
             found.line_loads.values.push(vec![0.0; found.line_loads.places.len()]);
         }
     }
-    found.life = life::of(model, |k, j, s| {
-        let elastic = &settled.rollers.law(k).elastic;
-        let delta = settled.rollers.approach(j, k, settled.places[j], &settled.ring.at, s);
-        elastic.load(delta) / elastic.length
-    });
+    found.life = life::of(model, |k, j, s| settled.line_load(k, settled.approach(j, k, s)));
     found.warnings.extend(pushed_away(&settled.ring));
     found
 }
@@ -96,9 +92,8 @@ fn contact(
     places: &[f64],
 ) -> ([f64; CONTACT.len()], Vec<f64>) {
     let SettledRollers { rollers, ring, places: at } = settled;
-    let ring = &ring.at;
-    let (on_raceway, elastic) = (rollers.raceways(j, at[j], ring)[k], &rollers.law(k).elastic);
-    let approach = |s: f64| rollers.approach(j, k, at[j], ring, s);
+    let (on_raceway, elastic) = (rollers.raceways(j, at[j], &ring.at)[k], &rollers.law(k).elastic);
+    let approach = |s: f64| settled.approach(j, k, s);
     let middle = approach(0.0);
     // Of places that are as deep, the middle.
     let (mut deepest, mut there) = (middle.max(0.0), 0.0);
@@ -108,7 +103,7 @@ fn contact(
         if depth > deepest * (1.0 + ROUND_OFF) {
             (deepest, there) = (depth, s);
         }
-        line_loads.push(elastic.load(depth) / elastic.length);
+        line_loads.push(settled.line_load(k, depth));
     }
     // Of a contact that is everywhere pressed like there.
     let load = elastic.load(deepest);

@@ -1,8 +1,9 @@
 //! Rollers that tilt with their ring.
 
 use super::{free_ring, of, values};
-use cagedyn::equilibrium::{Equilibrium, RaceControl};
+use cagedyn::equilibrium::{Equilibrium, RaceControl, equilibrium};
 use cagedyn::{Error, Model, Scene, Sim, Status};
+use cagedyn_studies::judge::rollers_in_space;
 use serde_json::{Value, json};
 use std::sync::Arc;
 
@@ -183,4 +184,15 @@ fn it_has_no_motion_over_time_and_is_held_along_the_axis() {
     let loose = json!({"space": {"z": "free", "tilt_y": "free"}});
     let refused = of(ROLLERS, RaceControl::Outer, &[("inner_ring.motion", loose)]).unwrap_err();
     assert!(refused.message.contains("nothing holds it"), "{refused}");
+}
+
+/// Rollers that hardly anything presses slide between ribs without end, unless friction holds them.
+#[test]
+fn hardly_loaded_rollers_between_ribs_find_a_rest() {
+    for number in [3050, 3115, 3162] {
+        let scene = rollers_in_space::scene(number, 1e-3).to_string();
+        let found = equilibrium(&Model::from_json(&scene).unwrap(), RaceControl::Outer).unwrap();
+        assert!(found.residual < 1e-9, "{number}: {}", found.residual);
+        assert!(found.displacement.iter().all(|x| x.abs() < 0.1), "{number}: {:?}", found.displacement);
+    }
 }

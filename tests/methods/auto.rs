@@ -2,9 +2,11 @@
 //! says so.
 
 use crate::common::{read, repository, set};
+use cagedyn::integrate::Tuning;
 use cagedyn::integrate::auto::{Choice, Kind, Reason};
 use cagedyn::sim::STATISTICS;
 use cagedyn::{Model, Sim};
+use cagedyn_studies::judge::rollers_in_space;
 use serde_json::{Value, json};
 use std::sync::Arc;
 
@@ -107,6 +109,26 @@ fn a_standing_bearing_does_not_vibrate() {
     let choice = choice(&run);
     assert_eq!(choice.method, Kind::Rosenbrock, "{}", run.report());
     assert!(choice.steps[Kind::Leapfrog as usize] < 100, "{}", run.report());
+}
+
+/// Ends of rollers whose damping sets in within nanometres: where derivatives are dear finer steps of the leapfrog take the place of error control.
+#[test]
+fn finer_steps_cost_less_where_derivatives_are_dear() {
+    const END: f64 = 5e-5;
+    let model = Arc::new(Model::from_json(&rollers_in_space::scene(3280, 1e-3).to_string()).unwrap());
+    let run = |tuning: Tuning| {
+        let mut sim = Sim::with_tuning(model.clone(), tuning).unwrap();
+        sim.advance_to(END).unwrap();
+        assert_eq!(sim.trust(), Ok(()), "{}", sim.report());
+        sim
+    };
+    let without = Tuning { dear_derivatives: f64::INFINITY, ..Tuning::default() };
+    let [finer, without] = [Tuning::default(), without].map(run);
+    let Choice { method, reason, .. } = choice(&finer);
+    assert_eq!((method, reason), (Kind::Leapfrog, Reason::Balance));
+    assert_eq!(choice(&without).method, Kind::Rosenbrock);
+    let cost = |sim: &Sim| sim.statistics().evaluations + 9 * sim.statistics().jacobians;
+    assert!(10 * cost(&finer) < cost(&without), "{} {}", cost(&finer), cost(&without));
 }
 
 /// A thin layer of grease, through which leapfrog steps of the scene's own size would put 121 J.

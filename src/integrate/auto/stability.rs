@@ -7,6 +7,9 @@ use crate::integrate::auto::mode::{Mode, ModeFinder};
 use crate::integrate::{Leapfrog, Linearization, Linearized, Observed, Split, Stepper, Tuning};
 use crate::stored::stored;
 
+/// Most refinements of a step: no step is left after more.
+const MOST_REFINED: u64 = 60;
+
 /// What is known about a system before its first step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Expectation {
@@ -145,7 +148,7 @@ impl<const N: usize> StabilityMonitor<N> {
 
     /// Goes on from this refinement with the next one, if such steps cost clearly less than error control. Whether it does.
     pub fn refine(&mut self, refinement: u64) -> bool {
-        let cheaper = self.beats_rival(self.refined_step(refinement + 1));
+        let cheaper = refinement < MOST_REFINED && self.beats_rival(self.refined_step(refinement + 1));
         self.refinement = if cheaper { refinement + 1 } else { refinement };
         cheaper
     }
@@ -231,5 +234,5 @@ impl<const N: usize> StabilityMonitor<N> {
 
 stored! {
     impl[const N: usize] StabilityMonitor<N> { due, frequency, highest, damped, careful, refinement, rival }
-    if |monitor| monitor.frequency >= 0.0 && monitor.highest >= 0.0 && monitor.rival >= 0.0
+    if |monitor| monitor.frequency >= 0.0 && monitor.highest >= 0.0 && monitor.rival >= 0.0 && monitor.refinement <= MOST_REFINED
 }

@@ -79,42 +79,16 @@ impl<T: Copy> Spot<T> {
     /// All of its numbers.
     #[inline(always)]
     pub(crate) fn numbers(&self) -> [T; NUMBERS] {
-        let [[[n0, n1, n2], [n3, n4, n5]], [[a0, a1, a2], [a3, a4, a5]]] = [self.normal, self.along];
-        let [[[c0, c1, c2], [c3, c4, c5]], [[r0, r1, r2], [r3, r4, r5]]] = [self.across, self.rolling];
-        let ([u1, u2], [along, across]) = (self.surface_speeds, self.slip);
-        [
-            self.delta,
-            self.delta_dot,
-            u1,
-            u2,
-            self.entrainment,
-            along,
-            across,
-            n0,
-            n1,
-            n2,
-            n3,
-            n4,
-            n5,
-            a0,
-            a1,
-            a2,
-            a3,
-            a4,
-            a5,
-            c0,
-            c1,
-            c2,
-            c3,
-            c4,
-            c5,
-            r0,
-            r1,
-            r2,
-            r3,
-            r4,
-            r5,
-        ]
+        let mut out = [self.delta; NUMBERS];
+        (out[1], [out[2], out[3]], out[4]) = (self.delta_dot, self.surface_speeds, self.entrainment);
+        [out[5], out[6]] = self.slip;
+        let wrenches = [self.normal, self.along, self.across, self.rolling];
+        for (i, [force, moment]) in wrenches.iter().enumerate() {
+            for k in 0..3 {
+                (out[7 + 6 * i + k], out[10 + 6 * i + k]) = (force[k], moment[k]);
+            }
+        }
+        out
     }
 
     /// One with these numbers.

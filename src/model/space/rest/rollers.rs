@@ -136,6 +136,18 @@ impl SettledRollers<'_> {
         let [x, rho, tilted] = self.places[j];
         [x, rho, tilted / self.rollers.half_length()]
     }
+
+    /// Approach (m) of raceway `k` at `s` (m) along roller `j`.
+    pub(crate) fn approach(&self, j: usize, k: usize, s: f64) -> f64 {
+        let Self { rollers, ring, places } = self;
+        rollers.contact(j, k, places[j], (rollers.beside(j) * ring.at).into()).disc(s).delta
+    }
+
+    /// Load per length of raceway `k` at this approach (m), N/m.
+    pub(crate) fn line_load(&self, k: usize, approach: f64) -> f64 {
+        let elastic = &self.rollers.law(k).elastic;
+        elastic.load(approach) / elastic.length
+    }
 }
 
 impl Rollers<'_> {
@@ -375,18 +387,6 @@ impl Rollers<'_> {
         let ring = (self.beside(j) * ring).into();
         let slices = [0, 1].map(|k| self.slices(j, k, at, ring));
         self.forces(j, at, ring, &slices).raceways
-    }
-
-    /// Approach (m) of raceway `k` at `s` (m) along roller `j`.
-    pub(crate) fn approach(
-        &self,
-        j: usize,
-        k: usize,
-        at: [f64; OF_ROLLER],
-        ring: &Vector5<f64>,
-        s: f64,
-    ) -> f64 {
-        self.contact(j, k, at, (self.beside(j) * ring).into()).disc(s).delta
     }
 
     /// Ends of a roller at `at` beside a ring at `ring` in its axes on the ribs of both rings, each with its name and largest pressure (Pa) and mean radius
