@@ -6,7 +6,7 @@
 //! The steps of a method that is judged ([`Stepper::longest_stretch`]) count in stretches. The driver runs ahead by one of them and
 //! answers from the dense output of all its steps; nobody sees a stretch before it was judged. After a wrong one everything
 //! goes back to its start. From a new state or input on, stretches grow from a single step, so that a host that sets inputs
-//! often wastes few steps.
+//! often wastes few steps; and they end with the step in which it would set one again, if it did so at equal intervals.
 
 pub mod control;
 mod outcome;
@@ -24,6 +24,9 @@ use watch::Tally;
 
 /// Most places of a step at which a method samples what the host watches.
 const MOST_SAMPLES: usize = 3;
+
+/// Intervals between two times at which the host sets something that are alike, relative: they are differences of sums.
+const SAME_INTERVAL: f64 = 1e-6;
 
 /// Integrates a system with one method.
 pub struct Driver<S: Observed> {
@@ -45,6 +48,9 @@ pub struct Driver<S: Observed> {
     passed: f64,
     /// Of what the host watches.
     tally: Tally,
+    /// When it was started last, and when it will be if the host goes on like this, s; zero where that is not known.
+    begun: f64,
+    expected: f64,
     /// Number of steps of the next stretch.
     length: usize,
     /// The last stretch, whose steps are `made`; without room with a method that is not judged.
@@ -83,6 +89,8 @@ impl<S: Observed> Driver<S> {
             spare: works,
             passed: 0.0,
             tally: Tally::new(watched),
+            begun: 0.0,
+            expected: 0.0,
             length: 1,
             stretch: Trail::default(),
             made: 0,
@@ -113,7 +121,26 @@ impl<S: Observed> Driver<S> {
         self.next_step = self.nominal_step;
         self.control = Controller::default();
         self.needs_refresh = true;
-        (self.length, self.made, self.unfinished) = (1, 0, false);
+        (self.made, self.unfinished) = (0, false);
+        self.expect_next(t);
+    }
+
+    /// Expects the host as long after time `t` (s) as that is after the last time, and stretches until then as long as before.
+    fn expect_next(&mut self, t: f64) {
+        let (interval, before) = (t - self.begun, self.expected - self.begun);
+        let alike = (interval - before).abs() <= SAME_INTERVAL * interval;
+        if interval != 0.0 {
+            self.expected = if interval > 0.0 { t + interval } else { 0.0 };
+        }
+        if interval != 0.0 && !alike {
+            self.length = 1;
+        }
+        self.begun = t;
+    }
+
+    /// Whether the last step is that in which the host is expected.
+    fn meets_host(&self) -> bool {
+        self.made > 0 && self.from < self.expected && self.expected <= self.to
     }
 
     /// Time the integration has reached, s; at least the time asked for.
@@ -175,7 +202,7 @@ impl<S: Observed> Driver<S> {
             }
             let length = self.length;
             let mut made = Ok(());
-            while made.is_ok() && self.made < length && self.has_room() {
+            while made.is_ok() && self.made < length && self.has_room() && !self.meets_host() {
                 made = self.make_step(system, attempts).map(|()| self.keep_step());
             }
             if let Err(Failure::Interrupted { .. } | Failure::TooManySteps { .. }) = made {
@@ -463,7 +490,7 @@ impl<S: Observed> Driver<S> {
 
 stored! {
     impl[S: Observed] Driver<S> {
-        from, to, nominal_step, next_step, control, needs_refresh, length, statistics, works, passed, stepper
+        from, to, nominal_step, next_step, control, needs_refresh, begun, expected, length, statistics, works, passed, stepper
     }
     then { made = 0, unfinished = false }
     if Self::is_sound
