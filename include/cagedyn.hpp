@@ -352,6 +352,11 @@ public:
     {
         detail::check(cagedyn_sim_set_input(sim_, index, value));
     }
+    // The input goes on from the value with this slope per second.
+    void set_input_slope(std::int64_t index, double value, double slope)
+    {
+        detail::check(cagedyn_sim_set_input_slope(sim_, index, value, slope));
+    }
     void release_input(std::int64_t index) { detail::check(cagedyn_sim_release_input(sim_, index)); }
 
     std::vector<double> accelerations() { return filled(velocities_, [this](Output out) { accelerations(out); }); }

@@ -157,6 +157,12 @@ classdef Cagedyn < handle
             cagedyn_mex('set_input', b.sim, Cagedyn.place(b.inputs, name), value);
         end
 
+        function set_input_slope(b, name, value, slope)
+            % The input goes on from the value with this slope per second. A ring is moved by its rate: the slope of 'inner_ring.vy' is its
+            % acceleration.
+            cagedyn_mex('set_input_slope', b.sim, Cagedyn.place(b.inputs, name), value, slope);
+        end
+
         function release_input(b, name)
             cagedyn_mex('release_input', b.sim, Cagedyn.place(b.inputs, name));
         end

@@ -433,6 +433,8 @@ static int sim_command(const char *c, object *o, int n, const mxArray **args, mx
         check(cagedyn_sim_get_input(sim, (int64_t)scalar_of(args[0]) - 1, mxGetPr(*out)));
     } else if (strcmp(c, "set_input") == 0 && n == 2) {
         check(cagedyn_sim_set_input(sim, (int64_t)scalar_of(args[0]) - 1, scalar_of(args[1])));
+    } else if (strcmp(c, "set_input_slope") == 0 && n == 3) {
+        check(cagedyn_sim_set_input_slope(sim, (int64_t)scalar_of(args[0]) - 1, scalar_of(args[1]), scalar_of(args[2])));
     } else if (strcmp(c, "release_input") == 0 && n == 1) {
         check(cagedyn_sim_release_input(sim, (int64_t)scalar_of(args[0]) - 1));
     } else if (strcmp(c, "derivative") == 0 && n == 2) {

@@ -129,13 +129,15 @@ impl Stored for bool {
     }
 }
 
-impl Stored for Option<f64> {
+/// One that is absent takes the place of its default.
+impl<T: Stored + Copy + Default> Stored for Option<T> {
     fn save(&self, out: &mut Vec<f64>) {
-        (self.is_some(), self.unwrap_or(0.0)).save(out);
+        self.is_some().save(out);
+        self.unwrap_or_default().save(out);
     }
 
     fn load(&mut self, from: &mut Reader<'_>) -> Option<()> {
-        let mut read = (false, 0.0);
+        let mut read = (false, T::default());
         read.load(from)?;
         *self = read.0.then_some(read.1);
         Some(())

@@ -52,6 +52,12 @@ class Inputs(MutableMapping[str, float]):
     def __setitem__(self, name: str, value: float) -> None:
         check(lib.cagedyn_sim_set_input(self._sim._handle, self._sim.model.inputs.index(name), value))
 
+    def ramp(self, name: str, value: float, slope: float) -> None:
+        """Lets an input go on from `value` with `slope` per second. A ring is moved by its rate: the slope of `inner_ring.vy` is its
+        acceleration."""
+        input = self._sim.model.inputs.index(name)
+        check(lib.cagedyn_sim_set_input_slope(self._sim._handle, input, value, slope))
+
     def __delitem__(self, name: str) -> None:
         check(lib.cagedyn_sim_release_input(self._sim._handle, self._sim.model.inputs.index(name)))
 

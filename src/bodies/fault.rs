@@ -57,9 +57,18 @@ pub enum Fault {
         /// How far it is outside of the pitch circle, in the axes of the pocket, m; negative inside.
         distance: f64,
     },
-    /// The inner ring has left the bearing.
+    /// A ring has left the bearing.
     LostRing {
-        /// Distance of its centre from that of the bearing, and the most that rollers could let it have, m.
+        /// 0 for the outer one, 1 for the inner one.
+        ring: usize,
+        /// Distance of its centre from that of the outer ring, or of that from the centre of the bearing, and the most that rollers could let it have, m.
+        distance: f64,
+        /// See `distance`.
+        reach: f64,
+    },
+    /// The rotor has left its shaft.
+    LostRotor {
+        /// Distance of its centre from that of the outer ring, and the most that it may have, m.
         distance: f64,
         /// See `distance`.
         reach: f64,
@@ -112,6 +121,7 @@ registry! {
         NoViscosity = "no_viscosity",
         LostRoller = "lost_roller",
         LostRing = "lost_ring",
+        LostRotor = "lost_rotor",
         LostCage = "lost_cage",
         NotFinite = "not_finite",
         NoSlope = "no_slope",
@@ -136,6 +146,7 @@ impl Fault {
             Self::NoViscosity { .. } => FaultKind::NoViscosity,
             Self::LostRoller { .. } => FaultKind::LostRoller,
             Self::LostRing { .. } => FaultKind::LostRing,
+            Self::LostRotor { .. } => FaultKind::LostRotor,
             Self::LostCage => FaultKind::LostCage,
             Self::NotFinite { .. } => FaultKind::NotFinite,
             Self::NoSlope { .. } => FaultKind::NoSlope,

@@ -3,6 +3,7 @@
 //! | body | file | coordinates |
 //! |---|---|---|
 //! | rings | `ring` | centre (y, z), or none for one that is held |
+//! | rotor | `rotor` | centre (y, z) |
 //! | cage | `cage` | centre (y, z), angle, modes of an elastic ring |
 //! | rollers | `elements/rollers` | radial offset and orbit angle, spin speed |
 //! | elements of prescribed motion | `elements/kinematic` | none |
@@ -21,11 +22,14 @@ mod layout;
 mod motions;
 mod nodes;
 mod ring;
+mod rotor;
 mod spatial;
 mod states;
+mod unbalance;
 
 pub use fault::{FAULTS, Fault, FaultCounts};
 pub(crate) use fault::{FaultKind, SOUND};
+pub(crate) use inputs::PLACES;
 pub use inputs::{HostInputs, INPUTS, Input, InputValues};
 pub use layout::Layout;
 
@@ -41,6 +45,7 @@ pub(crate) use spatial::{
     RollersInSpace, SPIN, tilt_of,
 };
 pub(crate) use states::{State, layout_of, states_of};
+pub(crate) use unbalance::SPEEDS;
 
 use crate::registry::registry;
 use crate::scalar::Lanes;
@@ -51,6 +56,7 @@ use elements::{KinematicElements, Rollers};
 use nalgebra::DMatrixViewMut;
 use pulp::Arch;
 use ring::Ring;
+use rotor::Rotor;
 use std::fmt::Debug;
 
 /// Places of the shared bodies.
@@ -59,15 +65,22 @@ pub(crate) const OUTER_RING: usize = 0;
 pub(crate) const INNER_RING: usize = 1;
 /// See [`OUTER_RING`].
 pub(crate) const CAGE: usize = 2;
+/// See [`OUTER_RING`].
+pub(crate) const ROTOR: usize = 3;
 /// Number of shared bodies.
-pub(crate) const SHARED: usize = 3;
+pub(crate) const SHARED: usize = 4;
 
 /// The shared bodies of a bearing.
 pub(crate) type SharedBodies = [Option<Box<dyn SharedBody>>; SHARED];
 
-/// The shared bodies of a checked scene with these elements: outer ring, inner ring, cage.
+/// The shared bodies of a checked scene with these elements: outer ring, inner ring, cage, rotor.
 pub(crate) fn shared_bodies(scene: &Scene, elements: &ElementSet) -> SharedBodies {
-    [Some(Box::new(Ring::outer(scene))), Some(Box::new(Ring::inner(scene))), Cage::new(scene, elements)]
+    [
+        Some(Box::new(Ring::outer(scene))),
+        Some(Box::new(Ring::inner(scene))),
+        Cage::new(scene, elements),
+        Rotor::of(scene),
+    ]
 }
 
 /// The rolling elements of a checked scene.
@@ -129,6 +142,8 @@ registry! {
         Neighbour = "neighbour",
         Drag = "drag",
         Rib = "rib",
+        Unbalance = "unbalance",
+        Shaft = "shaft",
     }
 }
 
@@ -159,6 +174,7 @@ registry! {
         Drag = "drag",
         RibDamping = "rib_damping",
         RibFriction = "rib_friction",
+        ShaftDamping = "shaft_damping",
     }
 }
 
@@ -230,14 +246,34 @@ pub(crate) trait SharedBody: Debug + Send + Sync {
         None
     }
 
-    /// The most that its centre may be off that of the bearing, m.
+    /// Where its y and z are among [`PLACES`], if inputs prescribe them.
+    fn moved_by(&self) -> Option<[usize; 2]> {
+        None
+    }
+
+    /// The most that its centre may be off that of the outer ring, or that one off the centre of the bearing, m.
     fn reach(&self) -> f64;
 
     /// What it is when it is `distance` (m) off, further than that.
     fn lost(&self, distance: f64) -> Fault;
 
-    /// Mass in kg, if it moves freely.
+    /// Mass in kg, if it moves freely: the least that it has in a direction.
     fn mass(&self) -> Option<f64>;
+
+    /// Mass in kg that its weight is of, if it moves freely.
+    fn weighing(&self) -> Option<f64> {
+        self.mass()
+    }
+
+    /// Stiffness of its support, N/m, by rows; zero of a body without one.
+    fn support(&self) -> [[f64; 2]; 2] {
+        [[0.0; 2]; 2]
+    }
+
+    /// Load at rest, N.
+    fn load(&self, _inputs: &InputValues) -> [f64; 2] {
+        [0.0; 2]
+    }
 
     /// Adds loads and supports to the wrench on it.
     fn add_external(&self, state: &BodyState<'_>, inputs: &InputValues, on_body: &mut Wrench<f64>);
@@ -280,8 +316,8 @@ pub(crate) trait SharedBody: Debug + Send + Sync {
     /// Writes weight, loads and supports into a report.
     fn report(&self, state: &BodyState<'_>, inputs: &InputValues, gravity: [f64; 2], out: &mut BodyForces);
 
-    /// Inputs that are its load: to the right, upwards, moment.
-    fn load_inputs(&self) -> [Option<Input>; 3];
+    /// Rates of its load, to the right, upwards, and of its moment, per second, where inputs change at these rates.
+    fn load_rates(&self, inputs: &InputValues, rates: &InputValues) -> [f64; 3];
 
     /// Largest squared frequency in 1/s^2 that a stiffness of `radial` (N/m) between centre and surroundings, and of `turning`
     /// (N/m) along the circle with the radius `lever` (m), gives the body.

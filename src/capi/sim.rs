@@ -288,6 +288,33 @@ pub unsafe extern "C" fn cagedyn_sim_set_input(sim: *mut cagedyn_sim, input: i64
     }
 }
 
+/// Lets an input go on from `value` with `slope` per second from now on, instead of the scene's function of time. With a slope of 0 it
+/// holds.
+///
+/// The place of a ring whose motion is prescribed and its rate (such as inner_ring.y and inner_ring.vy) are one motion. To set the
+/// rate lets the place go on from where it is, with `slope` as its second rate: a host that owns the ring sets velocity and
+/// acceleration at each of its steps, and the place neither jumps nor drifts from y + v h + a h^2/2. To set the place with a slope
+/// sets its rate. A place that jumps does work that the power balance has as that of the drive of the ring. One out of the bearing is
+/// refused.
+///
+/// # Safety
+/// `sim` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_set_input_slope(
+    sim: *mut cagedyn_sim,
+    input: i64,
+    value: f64,
+    slope: f64,
+) -> i32 {
+    // SAFETY: see above.
+    unsafe {
+        with(sim, |s| {
+            let input = index("input", input, s.sim.model().input_count())?;
+            s.sim.set_input_slope(input, value, slope)
+        })
+    }
+}
+
 /// Lets an input follow the scene again.
 ///
 /// # Safety

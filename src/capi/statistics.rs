@@ -134,7 +134,7 @@ pub extern "C" fn cagedyn_balance_count() -> i64 {
 
 /// Name of an item of a power balance; "" for other numbers. Static text.
 ///
-/// - loads, ring_drive (of the inner ring), outer_ring_drive, element_drive (of elements with prescribed motion),
+/// - loads (and unbalance), ring_drive (what turns and moves the inner ring), outer_ring_drive, element_drive (of elements with prescribed motion),
 ///   ring_support, raceway_damping, raceway_friction, rolling_resistance, pocket_damping, pocket_friction, guide_film,
 ///   guide_solid: works in J, positive where they go into the bearing.
 /// - kinetic_energy_gain, elastic_energy_gain, potential_energy_gain: what is stored, J.

@@ -6,7 +6,7 @@ use super::{
 use crate::bodies::CENTRE;
 use crate::error::{Error, Result, Status};
 use crate::model::plane::{Plane, StillBearing};
-use crate::model::{HostInputs, Model, Quantity, quantity};
+use crate::model::{HostInputs, Input, Model, Quantity, quantity};
 use crate::scalar::math;
 use crate::scene::RingMotion;
 
@@ -35,6 +35,7 @@ pub(super) fn equilibrium(model: &Model, plane: &Plane) -> Result<Equilibrium> {
     let q = &state[..model.layout().positions()];
     let (load, held) = match model.scene().inner_ring.as_ref().map(|ring| &ring.motion) {
         Some(RingMotion::Fixed(place)) => (None, [place.y, place.z]),
+        Some(RingMotion::Prescribed(_)) => (None, [Input::RingY, Input::RingZ].map(|input| inputs.of(input))),
         _ => (plane.load_at_rest(&inputs), [0.0; 2]),
     };
     let ring = match load {

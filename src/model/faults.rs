@@ -45,9 +45,19 @@ pub(super) fn in_words(fault: Fault, names: &Names<'_>) -> String {
         Fault::AbovePocket { element, distance } => format!(
             "{kind}[{element}] has left the height of its pocket ({distance:e} m outside of the pitch circle; cage.space.pocket_height)"
         ),
-        Fault::LostRing { distance, reach } => format!(
+        Fault::LostRing { ring: 0, distance, reach } => {
+            format!(
+                "the outer ring has left its place (its centre is {distance:e} m off, allowed are {reach:e} m)"
+            )
+        }
+        Fault::LostRing { distance, reach, .. } => format!(
             "the inner ring has left the bearing (its centre is {distance:e} m off, {kind}s allow {reach:e} m)"
         ),
+        Fault::LostRotor { distance, reach } => {
+            format!(
+                "the rotor has left its shaft (its centre is {distance:e} m off, allowed are {reach:e} m)"
+            )
+        }
         Fault::Overlap { roller, next, depth } => format!(
             "roller[{roller}] and roller[{next}] go through each other (by {depth:e} m); a cage with pockets keeps \
              rollers apart, or their contact, rollers.neighbours"

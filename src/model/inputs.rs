@@ -1,12 +1,14 @@
 //! Inputs of a model: from the scene to functions of time, and what hosts may set.
 
-use super::signals::{Beside, Drive, InSpace, InputSignals, InputSource, Oil, Orbit, Turning};
+use super::signals::{Beside, Drive, InputSignals, InputSource, Oil, Orbit, Turning};
 use super::{HostInputs, Input, InputValues, Model, StateInfo};
+use crate::bodies::{OF_RING, PLACES};
 use crate::error::{Error, Result, Status};
 use crate::laws::fluid::walther::Walther;
 use crate::pairs;
 use crate::scalar::math;
-use crate::scene::{ElementMotion, FORCE, MOMENT, RingMotion, SPEED, Scene, Signal, TEMPERATURE, TORQUE};
+use crate::scene::{ElementMotion, FORCE, FreeRing, Load, MOMENT, OuterRingMotion, POSITION, PlaneMotion};
+use crate::scene::{RingMotion, SPEED, Scene, Signal, TEMPERATURE, TILT, TORQUE, VELOCITY};
 use crate::scene::{Temperature, VISCOSITY, Viscosity, bad_scene, interpolate};
 
 impl Model {
@@ -39,10 +41,11 @@ impl Model {
         self.inputs.rates_at(t, host)
     }
 
-    /// Sets an input at time `t` (s) to `value`, or lets it follow the scene again with `None`.
+    /// Sets an input at time `t` (s) to a value that goes on with a slope, per second, or lets it follow the scene again with `None`: see
+    /// [`crate::Sim::set_input_slope`].
     #[doc(hidden)]
-    pub fn set_input(&self, host: &mut HostInputs, t: f64, input: Input, value: Option<f64>) {
-        self.inputs.set(host, t, input, value);
+    pub fn set_input(&self, host: &mut HostInputs, t: f64, input: Input, to: Option<(f64, Option<f64>)>) {
+        self.inputs.set(host, t, input, to);
     }
 
     /// Whether an input may have this value: those that scenes may give it.
@@ -57,6 +60,13 @@ impl Model {
             Input::CageTorque => TORQUE,
             Input::MomentY | Input::MomentZ | Input::CageMomentY | Input::CageMomentZ => MOMENT,
             Input::Temperature => TEMPERATURE,
+            Input::OuterLoadY | Input::OuterLoadZ | Input::RotorLoadY | Input::RotorLoadZ => FORCE,
+            Input::RingX | Input::RingY | Input::RingZ | Input::OuterRingY | Input::OuterRingZ => POSITION,
+            Input::RingVx | Input::RingVy | Input::RingVz | Input::OuterRingVy | Input::OuterRingVz => {
+                VELOCITY
+            }
+            Input::RingTiltY | Input::RingTiltZ => TILT,
+            Input::RingTiltSpeedY | Input::RingTiltSpeedZ => SPEED,
         };
         allowed.check("value", value).map_err(|e| Error::new(Status::BadValue, e.message))?;
         match self.inputs.oil.filter(|_| input == Input::Temperature).map(|oil| oil.law.viscosity(value)) {
@@ -102,14 +112,27 @@ pub(super) fn inputs(scene: &Scene) -> Result<InputSignals> {
     if let Some(speed) = outer_speed {
         add(Input::OuterRingSpeed, speed);
     }
-    if let Some(RingMotion::Free(free)) = scene.inner_ring.as_ref().map(|ring| &ring.motion) {
-        let none = Signal::Constant(0.0);
-        let (y, z) = free.load.as_ref().map_or((&none, &none), |load| (&load.y, &load.z));
-        add(Input::LoadY, y);
-        add(Input::LoadZ, z);
+    let places = prescribed(scene);
+    for (place, signal) in &places {
+        add(PLACES[*place][0], signal);
     }
+    for (place, signal) in &places {
+        list.push((PLACES[*place][1], InputSource::RateOf(signal.clone())));
+    }
+    let mut add = |input: Input, signal: &Signal| list.push((input, InputSource::Time(signal.clone())));
+    let none = Signal::Constant(0.0);
+    let mut add_load = |[y, z]: [Input; 2], load: Option<Option<&Load>>| {
+        if let Some(load) = load {
+            add(y, load.map_or(&none, |load| &load.y));
+            add(z, load.map_or(&none, |load| &load.z));
+        }
+    };
+    let of_ring = |ring: Option<&'_ FreeRing>| ring.map(|ring| ring.load.clone());
+    let [outer, inner] = [scene.free_outer_ring(), scene.free_inner_ring()].map(of_ring);
+    add_load([Input::OuterLoadY, Input::OuterLoadZ], outer.as_ref().map(Option::as_ref));
+    add_load([Input::RotorLoadY, Input::RotorLoadZ], scene.rotor.as_ref().map(|rotor| rotor.load.as_ref()));
+    add_load([Input::LoadY, Input::LoadZ], inner.as_ref().map(Option::as_ref));
     if let Some(RingMotion::Space(ring)) = scene.inner_ring.as_ref().map(|ring| &ring.motion) {
-        let none = Signal::Constant(0.0);
         let loads = [Input::LoadX, Input::LoadY, Input::LoadZ, Input::MomentY, Input::MomentZ];
         for (input, signal) in loads.into_iter().zip(ring.loads()) {
             add(input, signal.unwrap_or(&none));
@@ -134,7 +157,7 @@ pub(super) fn inputs(scene: &Scene) -> Result<InputSignals> {
                 add(Input::SpinSpeed, spin_speed);
                 let speed = Turning::new(Input::OrbitSpeed, orbit_speed);
                 let drive = Drive { speed, orbit_ratio: 1.0, spin_ratio: None };
-                orbit = Some(Orbit { drive, by_outer: None });
+                orbit = Some(Orbit { drive, by_outer: None, inner: None });
             }
             ElementMotion::Rolling { contact_angle } => {
                 orbit = Some(rolling(elements.radius / elements.pitch_radius, *contact_angle, scene));
@@ -192,31 +215,51 @@ pub(super) fn inputs(scene: &Scene) -> Result<InputSignals> {
         }
         _ => None,
     };
-    let in_space = InSpace { angles: angles(scene), ring: prescribed(scene) };
+    let angles = angles(scene);
     let beside = match orbit {
-        Some(orbit) => Beside::Orbit(orbit),
-        None if in_space == InSpace::default() => Beside::Nothing,
-        None => Beside::Space(Box::new(in_space)),
+        Some(orbit) => {
+            let [_, inner] = angles;
+            Beside::Orbit(Box::new(Orbit { inner, ..orbit }))
+        }
+        None if angles == [None, None] => Beside::Nothing,
+        None => Beside::Angles(Box::new(angles)),
     };
     Ok(InputSignals::new(list, beside, oil))
 }
 
-/// Rings whose raceways are wavy, which makes their angles count.
+/// Rings whose raceways are wavy, or that are unbalanced, which makes their angles count.
 fn angles(scene: &Scene) -> [Option<Turning>; 2] {
-    let outer = scene.outer_ring.as_ref().filter(|ring| !ring.waviness.is_empty());
-    let inner = scene.inner_ring.as_ref().filter(|ring| !ring.waviness.is_empty());
+    let unbalanced = |ring: Option<&FreeRing>| ring.is_some_and(|ring| ring.unbalance.is_some());
+    let outer = scene
+        .outer_ring
+        .as_ref()
+        .filter(|ring| !ring.waviness.is_empty() || unbalanced(scene.free_outer_ring()));
+    let inner = scene.inner_ring.as_ref().filter(|ring| {
+        let rotor = scene.rotor.as_ref().is_some_and(|rotor| rotor.unbalance.is_some());
+        !ring.waviness.is_empty() || unbalanced(scene.free_inner_ring()) || rotor
+    });
     [
         outer.and_then(|ring| Some(Turning::new(Input::OuterRingSpeed, ring.speed.as_ref()?))),
         inner.map(|ring| Turning::new(Input::RingSpeed, &ring.speed)),
     ]
 }
 
-/// How the coordinates of a ring in space move that are prescribed over time.
-fn prescribed(scene: &Scene) -> Vec<Signal> {
-    let Some(RingMotion::Space(ring)) = scene.inner_ring.as_ref().map(|ring| &ring.motion) else {
-        return Vec::new();
-    };
-    ring.coordinates().into_iter().filter_map(|(_, coordinate)| coordinate.prescribed().cloned()).collect()
+/// Which of [`PLACES`] are prescribed over time, and how.
+fn prescribed(scene: &Scene) -> Vec<(usize, Signal)> {
+    let mut list = Vec::new();
+    match scene.inner_ring.as_ref().map(|ring| &ring.motion) {
+        Some(RingMotion::Space(ring)) => {
+            for (k, (_, coordinate)) in ring.coordinates().into_iter().enumerate() {
+                list.extend(coordinate.prescribed().map(|signal| (k, signal.clone())));
+            }
+        }
+        Some(RingMotion::Prescribed(PlaneMotion { y, z })) => list.extend([(1, y.clone()), (2, z.clone())]),
+        _ => {}
+    }
+    if let Some(OuterRingMotion::Prescribed(PlaneMotion { y, z })) = scene.outer_motion() {
+        list.extend([(OF_RING, y.clone()), (OF_RING + 1, z.clone())]);
+    }
+    list
 }
 
 /// Elements that roll without slip on both rings; `radius_ratio` is element over pitch radius.
@@ -239,5 +282,6 @@ fn rolling(radius_ratio: f64, contact_angle: f64, scene: &Scene) -> Orbit {
     Orbit {
         drive: drive(Input::RingSpeed, orbit_ratio, spin_ratio, &inner),
         by_outer: outer.map(|speed| drive(Input::OuterRingSpeed, 1.0 - orbit_ratio, 1.0 - spin_ratio, speed)),
+        inner: None,
     }
 }

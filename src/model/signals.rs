@@ -1,7 +1,7 @@
 //! What inputs follow: quantities that follow the scene's functions of time unless the host takes them over, and
 //! what follows from them: the prescribed motion of kinematic elements.
 
-use crate::bodies::{HostInputs, Input, InputValues};
+use crate::bodies::{HostInputs, Input, InputValues, PLACES, SPEEDS};
 use crate::laws::fluid::Fluid;
 use crate::laws::fluid::grease::Thickener;
 use crate::laws::fluid::walther::Walther;
@@ -12,8 +12,20 @@ use crate::scene::{Scene, Signal, SignalIntegral, Viscosity, interpolate, slope}
 pub(super) enum InputSource {
     /// A function of time.
     Time(Signal),
+    /// The rate of one.
+    RateOf(Signal),
     /// Points (rad/s, unit of the input) over the magnitude of the ring speed.
     RingSpeed(Vec<f64>, Vec<f64>),
+}
+
+impl InputSource {
+    /// The function of time that it follows, if it follows one.
+    fn signal(&self) -> Option<&Signal> {
+        match self {
+            Self::Time(signal) | Self::RateOf(signal) => Some(signal),
+            Self::RingSpeed(..) => None,
+        }
+    }
 }
 
 /// Prescribed orbit of kinematic elements: the sum of what its drives do.
@@ -22,6 +34,8 @@ pub(super) struct Orbit {
     pub(super) drive: Drive,
     /// That by an outer ring that turns.
     pub(super) by_outer: Option<Drive>,
+    /// Angle of the inner ring, where something follows it.
+    pub(super) inner: Option<Turning>,
 }
 
 /// What drives the orbit of kinematic elements.
@@ -46,18 +60,9 @@ pub(super) struct Turning {
 pub(super) enum Beside {
     Nothing,
     /// Kinematic elements.
-    Orbit(Orbit),
-    /// A bearing in space.
-    Space(Box<InSpace>),
-}
-
-/// What follows time in a bearing in space beside its inputs.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct InSpace {
+    Orbit(Box<Orbit>),
     /// Angles of outer and inner ring, where something follows them.
-    pub(super) angles: [Option<Turning>; 2],
-    /// Prescribed coordinates of the inner ring.
-    pub(super) ring: Vec<Signal>,
+    Angles(Box<[Option<Turning>; 2]>),
 }
 
 /// Viscosity that follows the temperature.
@@ -90,17 +95,23 @@ pub(crate) struct InputSignals {
     pub(super) start: InputValues,
     /// Whether these do not follow time.
     pub(super) steady: bool,
+    /// Which of [`PLACES`] are prescribed, and how.
+    places: Vec<(usize, Signal)>,
 }
 
 impl InputSignals {
     /// Those of this list; what is constant is found once.
     pub(super) fn new(list: Vec<(Input, InputSource)>, beside: Beside, oil: Option<Oil>) -> Self {
-        let steady = |(_, source): &(Input, InputSource)| match source {
-            InputSource::Time(signal) => matches!(signal, Signal::Constant(_)),
-            InputSource::RingSpeed(..) => true,
+        let steady = |(_, source): &(Input, InputSource)| {
+            source.signal().is_none_or(|signal| matches!(signal, Signal::Constant(_)))
         };
         let steady = list.iter().all(steady);
-        let mut signals = Self { list, beside, oil, start: InputValues::default(), steady };
+        let place = |(input, source): &(Input, InputSource)| match input.place() {
+            Some((place, false)) => Some((place, source.signal()?.clone())),
+            _ => None,
+        };
+        let places = list.iter().filter_map(place).collect();
+        let mut signals = Self { list, beside, oil, start: InputValues::default(), steady, places };
         let mut start = InputValues::default();
         signals.follow(0.0, &HostInputs::default(), &mut start);
         signals.start = start;
@@ -110,13 +121,17 @@ impl InputSignals {
     /// Finds the values of the list one by one.
     fn follow(&self, t: f64, host: &HostInputs, now: &mut InputValues) {
         for (input, source) in &self.list {
-            now.values[*input as usize] = match (host.of(*input), source) {
-                (Some(value), _) => value,
+            now.values[*input as usize] = match (host.of(*input, t), source) {
+                (Some([value, _]), _) => value,
                 (None, InputSource::Time(signal)) => signal.at(t),
+                (None, InputSource::RateOf(signal)) => signal.rate(t),
                 (None, InputSource::RingSpeed(speed, value)) => {
                     interpolate(speed, value, now.of(Input::RingSpeed).abs())
                 }
             };
+        }
+        for (place, signal) in &self.places {
+            now.second[*place] = host.second_of(*place).unwrap_or_else(|| signal.higher_rates(t)[0]);
         }
     }
 
@@ -140,10 +155,14 @@ impl InputSignals {
             Beside::Orbit(orbit) => {
                 orbit.follow(now);
                 now.angles[0] = orbit.travel(t, host);
+                if let Some(inner) = &orbit.inner {
+                    now.angles[1] = host.anchor[2] + inner.since(host.anchor[0], t, host);
+                    now.speeding[1] = self.rate_of(Input::RingSpeed, t, host);
+                }
             }
-            Beside::Space(space) => {
-                now.angles = space.turned(t, host);
-                now.time = t;
+            Beside::Angles(angles) => {
+                now.angles = turned(angles, t, host);
+                now.speeding = SPEEDS.map(|input| self.rate_of(input, t, host));
             }
         }
     }
@@ -152,77 +171,85 @@ impl InputSignals {
     pub(super) fn rates_at(&self, t: f64, host: &HostInputs) -> InputValues {
         let mut rates = InputValues::default();
         for (input, source) in &self.list {
-            rates.values[*input as usize] = match (host.of(*input), source) {
-                (Some(_), _) => 0.0,
+            rates.values[*input as usize] = match (host.of(*input, t), source) {
+                (Some([_, rate]), _) => rate,
                 (None, InputSource::Time(signal)) => signal.rate(t),
+                (None, InputSource::RateOf(signal)) => signal.higher_rates(t)[0],
                 (None, InputSource::RingSpeed(speed, value)) => {
                     let now = self.at(t, host).of(Input::RingSpeed);
                     slope(speed, value, now.abs()) * now.signum() * rates.of(Input::RingSpeed)
                 }
             };
         }
+        for (place, signal) in &self.places {
+            if host.second_of(*place).is_none() {
+                rates.second[*place] = signal.higher_rates(t)[1];
+            }
+        }
         match &self.beside {
             Beside::Nothing => {}
             Beside::Orbit(orbit) => {
                 orbit.follow(&mut rates);
-                rates.angles[0] = self.at(t, host).of(Input::OrbitSpeed);
-            }
-            Beside::Space(_) => {
                 let now = self.at(t, host);
-                rates.angles = [Input::OuterRingSpeed, Input::RingSpeed].map(|input| now.of(input));
+                rates.angles = [Input::OrbitSpeed, Input::RingSpeed].map(|input| now.of(input));
+                rates.speeding =
+                    SPEEDS.map(|input| self.signal_of(input).map_or(0.0, |s| s.higher_rates(t)[0]));
+            }
+            Beside::Angles(_) => {
+                let now = self.at(t, host);
+                rates.angles = SPEEDS.map(|input| now.of(input));
+                rates.speeding =
+                    SPEEDS.map(|input| self.signal_of(input).map_or(0.0, |s| s.higher_rates(t)[0]));
             }
         }
         rates
     }
 
+    /// What an input follows over time, if the scene gives it so.
+    fn signal_of(&self, input: Input) -> Option<&Signal> {
+        self.list.iter().find(|(i, _)| *i == input).and_then(|(_, source)| source.signal())
+    }
+
+    /// Rate of an input that is a speed at time `t` (s), per second.
+    fn rate_of(&self, input: Input, t: f64, host: &HostInputs) -> f64 {
+        let by_scene = || self.signal_of(input).map_or(0.0, |signal| signal.rate(t));
+        host.of(input, t).map_or_else(by_scene, |[_, rate]| rate)
+    }
+
     /// The first jump or kink after `t`, s.
     pub(super) fn next_event(&self, t: f64, host: &HostInputs) -> f64 {
-        let first = self.of_ring(|signal| signal.next_event(t));
         if self.steady {
-            return first;
+            return f64::INFINITY;
         }
-        let followed = self.list.iter().filter(|(input, _)| host.of(*input).is_none());
+        let followed = self.list.iter().filter(|(input, _)| !host.holds(*input));
         followed
             .map(|(_, source)| match source {
-                InputSource::Time(signal) => signal.next_event(t),
+                InputSource::Time(signal) | InputSource::RateOf(signal) => signal.next_event(t),
                 InputSource::RingSpeed(speed, _) => self.next_speed(t, speed, host),
             })
-            .fold(first, f64::min)
+            .fold(f64::INFINITY, f64::min)
     }
 
     /// The first time after `t` (s) at which the magnitude of the ring speed passes one of these (rad/s).
     fn next_speed(&self, t: f64, speeds: &[f64], host: &HostInputs) -> f64 {
         let ring = self.list.iter().find(|(input, _)| *input == Input::RingSpeed);
         let Some((_, InputSource::Time(signal))) = ring else { return f64::INFINITY };
-        if host.of(Input::RingSpeed).is_some() {
+        if host.holds(Input::RingSpeed) {
             return f64::INFINITY;
         }
         let both = speeds.iter().flat_map(|speed| [*speed, -speed]);
         both.map(|speed| signal.next_passage(t, speed)).fold(f64::INFINITY, f64::min)
     }
 
-    /// The least of a number of every prescribed coordinate of a ring; infinity without any.
-    fn of_ring(&self, number: impl Fn(&Signal) -> f64) -> f64 {
-        let list = match &self.beside {
-            Beside::Space(space) => &space.ring[..],
-            _ => &[],
-        };
-        list.iter().map(number).fold(f64::INFINITY, f64::min)
-    }
-
     /// Shortest period of the sines that are followed, s; infinity without any.
     pub(super) fn shortest_period(&self, host: &HostInputs) -> f64 {
-        let shortest = self.of_ring(Signal::period);
         if self.steady {
-            return shortest;
+            return f64::INFINITY;
         }
-        let followed = self.list.iter().filter(|(input, _)| host.of(*input).is_none());
+        let followed = self.list.iter().filter(|(input, _)| !host.holds(*input));
         followed
-            .map(|(_, source)| match source {
-                InputSource::Time(signal) => signal.period(),
-                InputSource::RingSpeed(..) => f64::INFINITY,
-            })
-            .fold(shortest, f64::min)
+            .filter_map(|(_, source)| source.signal())
+            .fold(f64::INFINITY, |shortest, signal| shortest.min(signal.period()))
     }
 
     /// Viscosity that the laws of a scene are built with, Pa s.
@@ -239,21 +266,29 @@ impl InputSignals {
         self.oil.map(|oil| oil.law.viscosity(inputs.of(Input::Temperature)))
     }
 
-    /// Sets or releases an input at time `t` in s. The elements stay where they are.
-    pub(super) fn set(&self, host: &mut HostInputs, t: f64, input: Input, value: Option<f64>) {
+    /// Sets an input at time `t` in s to a value that goes on with a slope, per second, or releases it. The elements stay where they are.
+    pub(super) fn set(&self, host: &mut HostInputs, t: f64, input: Input, to: Option<(f64, Option<f64>)>) {
         let [first, second] = match &self.beside {
             Beside::Nothing => [0.0; 2],
-            Beside::Orbit(orbit) => [orbit.travel(t, host), 0.0],
-            Beside::Space(space) => space.turned(t, host),
+            Beside::Orbit(orbit) => {
+                let turned = orbit.inner.as_ref().map_or(0.0, |inner| inner.since(host.anchor[0], t, host));
+                [orbit.travel(t, host), host.anchor[2] + turned]
+            }
+            Beside::Angles(angles) => turned(angles, t, host),
         };
+        let here = input.place().map_or(0.0, |(place, _)| self.at(t, host).of(PLACES[place][0]));
         host.anchor = [t, first, second];
-        host.hold(input, value);
+        match to {
+            Some((value, slope)) => host.hold(input, t, [value, here], slope),
+            None => host.release(input),
+        }
     }
 
     /// Largest magnitude of an input by the scene; zero for one it does not have.
     pub(super) fn largest(&self, input: Input) -> f64 {
         self.list.iter().find(|(i, _)| *i == input).map_or(0.0, |(_, source)| match source {
             InputSource::Time(signal) => signal.largest(),
+            InputSource::RateOf(_) => 0.0,
             InputSource::RingSpeed(_, value) => value.iter().fold(0.0, |m, v| m.max(v.abs())),
         })
     }
@@ -288,15 +323,13 @@ impl Orbit {
     }
 }
 
-impl InSpace {
-    /// Angles of outer and inner ring at time `t` in s, rad; zero where nothing follows them.
-    fn turned(&self, t: f64, host: &HostInputs) -> [f64; 2] {
-        let [since, outer, inner] = host.anchor;
-        let angle = |turning: &Option<Turning>, before: f64| {
-            turning.as_ref().map_or(0.0, |turning| before + turning.since(since, t, host))
-        };
-        [angle(&self.angles[0], outer), angle(&self.angles[1], inner)]
-    }
+/// Angles of outer and inner ring at time `t` in s, rad; zero where nothing follows them.
+fn turned(angles: &[Option<Turning>; 2], t: f64, host: &HostInputs) -> [f64; 2] {
+    let [since, outer, inner] = host.anchor;
+    let angle = |turning: &Option<Turning>, before: f64| {
+        turning.as_ref().map_or(0.0, |turning| before + turning.since(since, t, host))
+    };
+    [angle(&angles[0], outer), angle(&angles[1], inner)]
 }
 
 impl Turning {
@@ -308,9 +341,6 @@ impl Turning {
     /// Angle from time `since` to time `t` (s), rad.
     #[inline(always)]
     fn since(&self, since: f64, t: f64, host: &HostInputs) -> f64 {
-        match host.of(self.input) {
-            Some(speed) => speed * (t - since),
-            None => self.integral.at(t) - self.integral.at(since),
-        }
+        host.turned(self.input, since, t).unwrap_or_else(|| self.integral.at(t) - self.integral.at(since))
     }
 }

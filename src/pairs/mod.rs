@@ -7,6 +7,7 @@
 //! | plane pocket | `pocket/plane` | element, cage | spring, damper, friction |
 //! | neighbours | `neighbours` | roller, the next roller | line contact |
 //! | guide | `guide` | cage, outer or inner ring | films, solid contact |
+//! | shaft | `shaft` | rotor, inner ring | spring, damper that turns |
 //!
 //! A pair of elements finds its touching contacts and hands motion and `Grip` of each to `Contacts`. Wrenches, powers,
 //! damping, the change of forces in a step and the reaction follow from these by the same code for all pairs
@@ -25,6 +26,7 @@ mod passage;
 mod pocket;
 pub(crate) mod raceway;
 pub(crate) mod roller;
+mod shaft;
 mod slope_sums;
 
 pub(crate) use contacts::{
@@ -69,7 +71,7 @@ pub(crate) fn element_pairs(scene: &Scene, viscosity: Option<f64>) -> Result<Vec
 /// The pairs of shared bodies of a checked scene.
 pub(crate) fn shared_pairs(scene: &Scene, viscosity: Option<f64>) -> Result<Vec<Box<dyn SharedPair>>> {
     let laws = LawBuilder::new(scene, viscosity);
-    Ok([guide::Guide::of(&laws)?].into_iter().flatten().collect())
+    Ok([guide::Guide::of(&laws)?, shaft::Shaft::of(scene)].into_iter().flatten().collect())
 }
 
 registry! {
@@ -372,6 +374,11 @@ pub(crate) trait SharedPair: Debug + Send + Sync {
 
     /// Wrenches of the film alone on both bodies, which moved like this.
     fn of_film(&self, motions: &Motions, force: &SharedForce) -> [Wrench<f64>; 2];
+
+    /// Energy that it stores beside the works of its forces, J; `None` of one whose works count all.
+    fn stored(&self, _motions: &Motions) -> Option<f64> {
+        None
+    }
 
     /// The force on the first body by its parts.
     fn parts(&self, motions: &Motions, force: &SharedForce) -> GuideForce<f64>;

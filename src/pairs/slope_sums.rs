@@ -1,7 +1,7 @@
 //! Sums of the derivatives of all wrenches over the coordinates, in the structure of the bearing: shared bodies are coupled to
 //! every element, elements to nothing else.
 
-use crate::bodies::{CAGE_MOTION, Input, InputValues, Layout, Motions, OF_ELEMENT, SharedBodies};
+use crate::bodies::{CAGE_MOTION, Input, InputValues, Layout, Motions, OF_ELEMENT, PLACES, SharedBodies};
 use crate::integrate::Linearization;
 use crate::integrate::linear::Arrowhead;
 use crate::scalar::{Lanes, WIDEST, ZEROS};
@@ -68,6 +68,14 @@ impl SlopeSums<'_> {
     pub(crate) fn speeding(&self, body: usize) -> f64 {
         let turned_by = self.bodies[body].as_ref().and_then(|body| body.turned_by());
         turned_by.map_or(0.0, |input| self.rates.of(input))
+    }
+
+    /// Rates of place and velocity of a shared body that inputs move, m/s and m/s^2; zero of others.
+    pub(crate) fn moving(&self, body: usize) -> [[f64; 2]; 2] {
+        let moved_by = self.bodies.get(body).and_then(|body| body.as_ref()?.moved_by());
+        moved_by.map_or([[0.0; 2]; 2], |places| {
+            [0, 1].map(|which| places.map(|place| self.rates.of(PLACES[place][which])))
+        })
     }
 
     /// Adds the derivatives of the contact at a place of the columns, of this element with this mate, but for those of the mate
@@ -178,7 +186,16 @@ impl SlopeSums<'_> {
         let places = self.layout.range(mate);
         add(&mut self.out.over_time[places.clone()], &on_mate[ContactColumns::TIME], lane);
         if j < self.layout.count {
-            let rates = own[ContactColumns::TIME].each_ref().map(|column| column[lane]);
+            let mut rates = own[ContactColumns::TIME].each_ref().map(|column| column[lane]);
+            for (first, of_mate) in
+                [ContactColumns::PLACE, ContactColumns::VELOCITY].into_iter().zip(self.moving(mate))
+            {
+                for (k, rate) in of_mate.into_iter().enumerate().filter(|(_, rate)| *rate != 0.0) {
+                    for (sum, column) in rates.iter_mut().zip(&own[first + k]) {
+                        *sum += column[lane] * rate;
+                    }
+                }
+            }
             for (place, rate) in self.layout.of_element::<OF_ELEMENT>(j).into_iter().zip(rates) {
                 self.out.over_time[place] += rate;
             }

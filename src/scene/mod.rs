@@ -49,7 +49,10 @@ pub use heat::{
 pub(crate) use json::{line_of, nearest, parse_located};
 pub use json::{parse_override, set_path};
 pub use lubricant::{Lubricant, Temperature, Viscosity, ViscosityPoint, WaltherViscosity};
-pub use rings::{FreeRing, InnerRing, Load, OuterRing, RingMotion, WavinessHarmonic};
+pub use rings::{
+    FreeRing, InnerRing, Load, OuterRing, OuterRingMotion, PlaneMatrix, PlaneMotion, RingMotion, Rotor,
+    Shaft, Support, Unbalance, WavinessHarmonic,
+};
 pub use roller_space::{Rib, RibRing, RibSide, Ribs, RollerEnds, RollerSpace, RollerTaper, SlicesOn};
 pub use run::{Auto, ErrorControl, Initial, Leapfrog, Method, Preset, Record, RingStart, Solver};
 pub use signal::{Signal, SignalIntegral, interpolate, slope};
@@ -57,7 +60,7 @@ pub use spatial_cage::{
     CageShape, HertzPocket, Land, PocketLaw, PocketSides, RoundPocket, SpatialCage, SpatialCageLoad,
     SpatialCageStart,
 };
-pub(crate) use validate::{FORCE, MOMENT, SPEED, TEMPERATURE, TORQUE, VISCOSITY};
+pub(crate) use validate::{FORCE, MOMENT, POSITION, SPEED, TEMPERATURE, TILT, TORQUE, VELOCITY, VISCOSITY};
 
 use crate::error::{Error, Result, Status};
 use cases::CASES_NAME;
@@ -103,6 +106,9 @@ pub struct Scene {
     /// The inner ring. Needed by rollers and balls, by elements that roll on it and by a cage that it guides.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inner_ring: Option<InnerRing>,
+    /// A rotor on an elastic shaft whose end is the inner ring. Absent: what the ring carries is in its mass and load. Needs a ring in the plane.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rotor: Option<Rotor>,
     /// Contacts between rollers or balls and raceways. Needed by both.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub raceways: Option<Raceways>,

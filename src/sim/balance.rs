@@ -3,7 +3,7 @@
 use super::Sim;
 use crate::error::Result;
 use crate::integrate::throughput;
-use crate::model::{Condition, Energy, POWERS, RATES};
+use crate::model::{Condition, Energy, POWERS, Power, RATES};
 use crate::registry::registry;
 use crate::stored::stored;
 
@@ -19,6 +19,8 @@ pub(super) struct Start {
     pub(super) energy: Energy,
     /// How many times the host has set the state in this run, away from where the motion had led.
     pub(super) set: u64,
+    /// Work that jumps of the places of outer and inner ring have done, J.
+    pub(super) pushed: [f64; 2],
 }
 
 impl Start {
@@ -27,6 +29,11 @@ impl Start {
         self.energy.kinetic += after.kinetic - before.kinetic;
         self.energy.elastic += after.elastic - before.elastic;
         self.energy.potential += after.potential - before.potential;
+    }
+
+    /// The place of a ring (0 the outer one) jumps, which takes this work, J.
+    pub(super) fn push(&mut self, ring: usize, work: f64) {
+        self.pushed[ring] += work;
     }
 }
 
@@ -142,19 +149,23 @@ impl Sim {
     fn works_at(&self, t: f64) -> [f64; RATES] {
         let mut works = [0.0; RATES];
         self.driver.works_at(t, &mut works);
+        let [outer, inner] = self.balance.pushed;
+        works[Power::OuterRingDrive as usize] += outer;
+        works[Power::RingDrive as usize] += inner;
         works
     }
 
     /// Starts the balance at the last evaluated state, which must be the present one.
     pub(super) fn start_balance(&mut self) {
-        self.balance = Start { time: self.time, energy: self.bearing.energy(), ..self.balance };
+        self.balance =
+            Start { time: self.time, energy: self.bearing.energy(), pushed: [0.0; 2], ..self.balance };
         self.bearing.begin_works(&self.balance.energy);
         self.driver.forget_works();
     }
 }
 
 stored! {
-    impl[] Start { time, energy, set }
+    impl[] Start { time, energy, set, pushed }
     if |start| start.time >= 0.0
 }
 

@@ -120,9 +120,9 @@ impl Bearing {
         &mut self.host
     }
 
-    /// Sets or releases an input at time `t` in s.
-    pub(super) fn set_input(&mut self, t: f64, input: Input, value: Option<f64>) {
-        self.model.set_input(&mut self.host, t, input, value);
+    /// Sets an input at time `t` in s, to a value and a slope, or releases it.
+    pub(super) fn set_input(&mut self, t: f64, input: Input, to: Option<(f64, Option<f64>)>) {
+        self.model.set_input(&mut self.host, t, input, to);
     }
 
     pub(super) fn evaluations(&self) -> u64 {

@@ -10,7 +10,7 @@ use crate::stored::{Reader, Stored, stored};
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// First number of a snapshot; changes when its content changes.
-const FORMAT: f64 = 14.0;
+const FORMAT: f64 = 15.0;
 
 /// Numbers of the checksum, and in front of the content: format, fingerprint, checksum.
 const CHECKSUM: usize = 2;

@@ -130,6 +130,43 @@ pub fn scene(parts: Parts) -> Value {
     scene
 }
 
+/// Lets the rings of a scene move in one way after the other, as often as not in the ways of the scene itself.
+pub fn move_rings(scene: &mut Value, parts: Parts, i: usize) {
+    let swing = |amplitude: f64, frequency: f64| json!({"sine": {"mean": 0.2 * amplitude, "amplitude": amplitude, "frequency": frequency, "phase": 0.3}});
+    let prescribed = || json!({"prescribed": {"y": swing(4e-6, 130.0), "z": swing(-7e-6, 90.0)}});
+    let support = json!({
+        "stiffness": {"yy": 3e7, "yz": 4e6, "zy": -2e6, "zz": 6e7},
+        "damping": {"yy": 300.0, "yz": -20.0, "zy": 50.0, "zz": 900.0},
+        "mass": {"yy": 0.4, "yz": 0.2, "zy": 0.2, "zz": 1.1}
+    });
+    let unbalance = json!({"moment": 2e-4, "phase": 0.8});
+    if !parts.rollers {
+        if i.is_multiple_of(2) {
+            scene["inner_ring"]["motion"] = prescribed();
+        }
+        return;
+    }
+    match i % 8 {
+        1 => {
+            let load = json!({"y": {"constant": 40.0}, "z": swing(300.0, 70.0)});
+            let free = json!({"mass": 2.5, "support": support, "load": load, "unbalance": unbalance});
+            scene["outer_ring"]["motion"] = json!({ "free": free });
+        }
+        3 => scene["outer_ring"]["motion"] = prescribed(),
+        5 => scene["inner_ring"]["motion"] = prescribed(),
+        6 => {
+            scene["inner_ring"]["motion"]["free"]["support"] = support.clone();
+            scene["inner_ring"]["motion"]["free"]["unbalance"] = unbalance;
+            scene["outer_ring"]["motion"] = json!({"free": {"mass": 1.5, "support": support}});
+        }
+        7 => {
+            scene["inner_ring"]["motion"] = prescribed();
+            scene["outer_ring"]["motion"] = prescribed();
+        }
+        _ => {}
+    }
+}
+
 /// Sixteen rollers in the place of the cage, with half a micrometre between neighbours.
 fn fill(scene: &mut Value) {
     let contact = scene["raceways"]["contact"].clone();

@@ -169,7 +169,7 @@ fn unexplained(sim: &mut Sim) -> f64 {
     let forces = sim.forces().expect("forces");
     let ring_mass = scene.inner_ring.as_ref().map(|ring| match &ring.motion {
         RingMotion::Free(free) => free.mass,
-        RingMotion::Fixed(_) | RingMotion::Space(_) => 0.0,
+        RingMotion::Fixed(_) | RingMotion::Prescribed(_) | RingMotion::Space(_) => 0.0,
     });
     let cage = scene.cage.as_ref();
     // The centre of mass, which forces accelerate, turns with the cage.

@@ -445,9 +445,10 @@ impl Host {
                 }
                 8 => {
                     let (input, value) = (self.index(3), self.number());
-                    let status = match self.rng.u32(0..3) {
+                    let status = match self.rng.u32(0..4) {
                         0 => cagedyn_sim_set_input(s.sim, input, value),
                         1 => cagedyn_sim_get_input(s.sim, input, out),
+                        2 => cagedyn_sim_set_input_slope(s.sim, input, value, self.number()),
                         _ => cagedyn_sim_release_input(s.sim, input),
                     };
                     self.check("input", status.into());

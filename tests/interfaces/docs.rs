@@ -11,7 +11,7 @@ use std::sync::Arc;
 const SCENE_PAGE: &str = "docs/scene.md and the pages in docs/scene";
 
 /// Types that `docs/scene.md` describes once, under these names.
-const SHARED: [(&str, &str); 9] = [
+const SHARED: [(&str, &str); 14] = [
     ("Signal", "<signal>"),
     ("PlaneVector", "<vector>"),
     ("ContactLaws", "<contact>"),
@@ -21,6 +21,11 @@ const SHARED: [(&str, &str); 9] = [
     ("DropTable", "<drops>"),
     ("RadiusDeviations", "<deviations>"),
     ("RoundPocket", "<round_pocket>"),
+    ("FreeRing", "<free_ring>"),
+    ("PlaneMotion", "<place>"),
+    ("PlaneMatrix", "<matrix>"),
+    ("Load", "<load>"),
+    ("Unbalance", "<unbalance>"),
 ];
 
 /// The page on scenes with those that it leads to.

@@ -83,6 +83,12 @@ fn host_loop() {
 }
 
 #[test]
+fn rotor() {
+    run("rotor.c", "c99", "rotor.txt", &[]);
+    run("rotor.c", "c++17", "rotor.txt", &[]);
+}
+
+#[test]
 fn batch() {
     run("batch.c", "c99", "batch.txt", &[]);
     run("batch.c", "c++20", "batch.txt", &[]);

@@ -8,6 +8,7 @@ mod extremes;
 mod grease_guide;
 mod impossible;
 mod limits;
+mod machine;
 mod nu2310;
 mod outer_ring;
 mod profile;

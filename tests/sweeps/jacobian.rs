@@ -1,6 +1,6 @@
 //! Exact derivatives of the accelerations against differences of sixth order, in every combination of parts.
 
-use crate::common::parts::{Parts, all, scene};
+use crate::common::parts::{Parts, all, move_rings, scene};
 use crate::common::{Random, example_text, example_with};
 use cagedyn::integrate::Linearization;
 use cagedyn::model::{HostInputs, Workspace};
@@ -206,6 +206,7 @@ fn derivatives_match_differences_in_every_combination() {
         if parts.rollers {
             scene["inner_ring"]["motion"]["free"]["load"]["z"] = swing(-4900.0);
         }
+        move_rings(&mut scene, parts, i);
         let warming = if i % 2 == 0 {
             let sine = json!({"mean": 330.0, "amplitude": 15.0, "frequency": 80.0, "phase": 0.7});
             json!({"over_time": {"sine": sine}})

@@ -98,6 +98,7 @@ fn ring(model: &Model) -> String {
     match model.scene().inner_ring.as_ref().map(|ring| &ring.motion) {
         None => "does not turn".to_owned(),
         Some(RingMotion::Fixed(at)) => format!("held at ({}, {}) m, turns at its given speed", at.y, at.z),
+        Some(RingMotion::Prescribed(_)) => "moves as prescribed, turns at its given speed".to_owned(),
         Some(RingMotion::Free(_)) => "moves in the plane, turns at its given speed".to_owned(),
         Some(RingMotion::Space(ring)) => {
             let coordinates = ring.coordinates();

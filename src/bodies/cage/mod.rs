@@ -314,8 +314,8 @@ impl SharedBody for Cage {
         }
     }
 
-    fn load_inputs(&self) -> [Option<Input>; 3] {
-        LOADS.map(Some)
+    fn load_rates(&self, _inputs: &InputValues, rates: &InputValues) -> [f64; 3] {
+        LOADS.map(|input| rates.of(input))
     }
 
     fn frequency_on(&self, radial: f64, turning: f64, lever: f64) -> f64 {

@@ -11,10 +11,10 @@
 //! takes the moment M_1. Source: Euler's equations; a, b as in `space/solid`.
 
 use super::{ALONG, OF_RING, TILTS};
-use crate::bodies::{BodyEnergy, CENTRE, Coordinate, Input, InputValues};
+use crate::bodies::{BodyEnergy, CENTRE, Coordinate, Input, InputValues, PLACES};
 use crate::error::Result;
 use crate::scalar::Numeric;
-use crate::scene::{Preload, RingCoordinate, RingMotion, Scene, Signal, SpatialRing, bad_scene};
+use crate::scene::{Preload, RingCoordinate, RingMotion, Scene, SpatialRing, bad_scene};
 use crate::space::solid::{Moving, Tilt, Vector, mapped, scaled, sum};
 
 /// Coordinates of a ring in space.
@@ -28,8 +28,8 @@ const LOADS: [Input; OF_RING] = [Input::LoadX, Input::LoadY, Input::LoadZ, Input
 pub(crate) struct RingInSpace {
     /// By coordinate: where it is held, or is at the start where it is prescribed, m or rad; `None` of one that is free.
     pub(crate) held: [Option<f64>; OF_RING],
-    /// By coordinate: how it is moved, where it is prescribed over time.
-    prescribed: [Option<Signal>; OF_RING],
+    /// By coordinate: whether it is prescribed over time.
+    prescribed: [bool; OF_RING],
     preload: Option<Preload>,
     /// m, kg, and I_p and I_t, kg m^2; zero where the scene has none, and nothing that is free needs them.
     mass: f64,
@@ -97,7 +97,7 @@ impl RingInSpace {
     pub(crate) fn new(scene: &Scene) -> Self {
         let at = |held| Self {
             held,
-            prescribed: [const { None }; OF_RING],
+            prescribed: [false; OF_RING],
             preload: None,
             mass: 0.0,
             inertia: [0.0; 2],
@@ -111,7 +111,7 @@ impl RingInSpace {
                     RingCoordinate::Prescribed(signal) => Some(signal.at(0.0)),
                 });
                 Self {
-                    prescribed: ring.coordinates().map(|(_, coordinate)| coordinate.prescribed().cloned()),
+                    prescribed: ring.coordinates().map(|(_, coordinate)| coordinate.prescribed().is_some()),
                     preload: ring.preload,
                     mass: ring.mass.unwrap_or(0.0),
                     inertia: ring.inertia.map_or([0.0; 2], |inertia| [inertia.polar, inertia.transverse]),
@@ -120,6 +120,10 @@ impl RingInSpace {
                 }
             }
             Some(RingMotion::Fixed(place)) => at([0.0, place.y, place.z, 0.0, 0.0].map(Some)),
+            Some(RingMotion::Prescribed(motion)) => Self {
+                prescribed: [false, true, true, false, false],
+                ..at([0.0, motion.y.at(0.0), motion.z.at(0.0), 0.0, 0.0].map(Some))
+            },
             _ => at([Some(0.0); OF_RING]),
         }
     }
@@ -163,22 +167,19 @@ impl RingInSpace {
         self.preload.map_or([0.0; 2], |spring| [spring.force - spring.stiffness * x, spring.stiffness])
     }
 
-    /// Its prescribed coordinates at time `t` (s): m or rad, and their first to third rates.
-    pub(crate) fn prescribed_at(&self, t: f64) -> [Option<[f64; 4]>; OF_RING] {
-        self.prescribed.each_ref().map(|signal| {
-            let signal = signal.as_ref()?;
-            let [second, third] = signal.higher_rates(t);
-            Some([signal.at(t), signal.rate(t), second, third])
-        })
+    /// Of its prescribed coordinates the first to third rates, from the rates of the inputs; zero of others.
+    pub(crate) fn given(&self, rates: &InputValues) -> [[f64; OF_RING]; 3] {
+        let of = |which: usize| std::array::from_fn(|k| rates.of(PLACES[k][which]));
+        [of(0), of(1), std::array::from_fn(|k| rates.second[k])]
     }
 
     /// All coordinates and their rates, from those that are free.
     pub(crate) fn state(&self, q: &[f64], v: &[f64], inputs: &InputValues) -> RingState<f64> {
         let (mut position, mut rate) = (self.held.map(|held| held.unwrap_or(0.0)), [0.0; OF_RING]);
         let mut given = [0.0; OF_RING];
-        for (k, motion) in self.prescribed_at(inputs.time).into_iter().enumerate() {
-            if let Some([at, first, second, _]) = motion {
-                (position[k], rate[k], given[k]) = (at, first, second);
+        for (k, [place, speed]) in PLACES.into_iter().enumerate().take(OF_RING) {
+            if self.prescribed[k] {
+                (position[k], rate[k], given[k]) = (inputs.of(place), inputs.of(speed), inputs.second[k]);
             }
         }
         for ((k, q), v) in self.free().zip(q).zip(v) {
@@ -250,14 +251,14 @@ impl RingInSpace {
         load: [f64; OF_RING],
         gravity: [f64; 2],
     ) -> f64 {
-        if self.prescribed.iter().all(Option::is_none) {
+        if self.prescribed == [false; OF_RING] {
             return 0.0;
         }
         let (acting, [aa, ab, bb]) = self.acting(state, on_ring, load, gravity);
         let [x, y, z, a, b] = self.accelerations(state, on_ring, load, gravity);
         let inertial = [self.mass * x, self.mass * y, self.mass * z, aa * a + ab * b, ab * a + bb * b];
         let power = |k: usize| (inertial[k] - acting[k]) * state.rate[k];
-        (0..OF_RING).filter(|k| self.prescribed[*k].is_some()).map(power).sum()
+        (0..OF_RING).filter(|k| self.prescribed[*k]).map(power).sum()
     }
 
     /// Energy of its motion, but for that of the rotation that is prescribed, and of its weight, J.
@@ -291,7 +292,7 @@ impl RingInSpace {
 
     /// m, kg; zero where its centre is held.
     fn moving_mass(&self) -> f64 {
-        let moves = |k: usize| self.held[k].is_none() || self.prescribed[k].is_some();
+        let moves = |k: usize| self.held[k].is_none() || self.prescribed[k];
         if (0..3).any(moves) { self.mass } else { 0.0 }
     }
 

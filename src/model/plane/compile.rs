@@ -2,7 +2,7 @@
 
 use super::Plane;
 use super::report::Watch;
-use crate::bodies::{self, OUTER_RING, SharedBodies};
+use crate::bodies::{self, OUTER_RING, SHARED, SharedBodies};
 use crate::error::Result;
 use crate::model::Channel;
 use crate::model::signals::InputSignals;
@@ -23,7 +23,8 @@ impl Plane {
             masses: shared
                 .each_ref()
                 .map(|body| body.as_ref().and_then(|b| b.mass()).unwrap_or(f64::INFINITY)),
-            outer_turns: turns(&shared, OUTER_RING),
+            outer_moves: moves(&shared, OUTER_RING),
+            moved: (0..SHARED).filter(|place| is_moved(&shared, *place)).collect(),
             onsets: pairs.iter().any(|pair| pair.has_onset()),
             layout: bodies::layout_of(&shared, &*elements, &nodes),
             gravity: scene.gravity.map_or([0.0; 2], |g| [g.y, g.z]),
@@ -53,7 +54,13 @@ impl Plane {
     }
 }
 
-/// Whether the rotation of a shared body is prescribed.
-fn turns(shared: &SharedBodies, place: usize) -> bool {
-    shared[place].as_ref().is_some_and(|body| body.turned_by().is_some())
+/// Whether a shared body moves or turns.
+fn moves(shared: &SharedBodies, place: usize) -> bool {
+    let body = shared[place].as_ref();
+    body.is_some_and(|body| body.turned_by().is_some() || body.mass().is_some()) || is_moved(shared, place)
+}
+
+/// Whether inputs prescribe the place of a shared body.
+fn is_moved(shared: &SharedBodies, place: usize) -> bool {
+    shared[place].as_ref().is_some_and(|body| body.moved_by().is_some())
 }

@@ -5,7 +5,9 @@
 
 use super::workspace::Workspace;
 use super::{Fault, Input, InputValues, Plane};
-use crate::bodies::{BodyState, CAGE, CAGE_MOTION, OF_ELEMENT, OnBody, SHARED, SOUND, WrenchLanes};
+use crate::bodies::{
+    BodyState, CAGE, CAGE_MOTION, OF_ELEMENT, OUTER_RING, OnBody, SHARED, SOUND, WrenchLanes,
+};
 use crate::laws::contact_pair::ContactForce;
 use crate::pairs::{ContactBlock, Law};
 use crate::scalar::{ZEROS, math};
@@ -78,12 +80,12 @@ impl Plane {
         self.find_motions(q, v, inputs, &mut motions.shared);
         self.find_deformation(ws);
         let Workspace { motions, contacts, inputs, .. } = ws;
-        for (place, body, at) in self.free_bodies() {
-            let Motion { position: [y, z], velocity: [vy, vz], speed, .. } = motions.shared[place];
-            let distance = math::hypot(y, z);
-            if distance > body.reach() {
-                return Err(body.lost(distance));
-            }
+        for place in self.moved.iter().copied() {
+            self.within_reach(place, &motions.shared)?;
+        }
+        for (place, _, at) in self.free_bodies() {
+            self.within_reach(place, &motions.shared)?;
+            let Motion { velocity: [vy, vz], speed, .. } = motions.shared[place];
             // The rotation of rings is prescribed.
             let turning = if place == CAGE { speed.abs() * self.pitch_radius() } else { 0.0 };
             let speeds = [vy.abs(), vz.abs(), turning];
@@ -99,6 +101,15 @@ impl Plane {
             pair.find(motions, &mut contacts.of(place, self.infos[place].mate, motions))?;
         }
         Ok(())
+    }
+
+    /// Whether a shared body is within the bearing.
+    fn within_reach(&self, place: usize, shared: &[Motion<f64>; SHARED]) -> Result<(), Fault> {
+        let Some(body) = &self.shared[place] else { return Ok(()) };
+        let [y, z] = shared[place].position;
+        let [oy, oz] = if place == OUTER_RING { [0.0; 2] } else { shared[OUTER_RING].position };
+        let distance = math::hypot(y - oy, z - oz);
+        if distance > body.reach() { Err(body.lost(distance)) } else { Ok(()) }
     }
 
     /// Evaluates the laws of all contacts.

@@ -1,10 +1,10 @@
 //! Start of a run: kinematic speeds, and on request the static equilibrium of ring and rollers.
 
 use super::{HostInputs, Plane, StillBearing};
-use crate::bodies::INNER_RING;
+use crate::bodies::{INNER_RING, InputValues, OUTER_RING, ROTOR};
 use crate::error::Result;
 use crate::scalar::math;
-use crate::scene::{RingMotion as Held, RingStart, bad_scene};
+use crate::scene::{RingStart, bad_scene};
 
 /// How often the start of a cage in the centre of its ring and that of the ring are found in turn: each time the difference
 /// shrinks by the clearance over the pitch radius.
@@ -28,12 +28,10 @@ impl Plane {
         let (q, v) = state.split_at_mut(layout.positions());
         let [orbit, spin] = self.kinematic_speeds(&inputs);
         let start = &self.scene.initial;
-        let inner_guide = self.guiding_ring() == INNER_RING;
-        let mut cage = match (start.cage, self.scene.inner_ring.as_ref().map(|ring| &ring.motion)) {
-            (Some(place), _) => [place.y, place.z],
-            (None, Some(Held::Fixed(place))) if inner_guide => [place.y, place.z],
-            _ => [0.0; 2],
-        };
+        let guiding = self.guiding_ring();
+        let given = self.shared[guiding].as_ref().filter(|ring| ring.mass().is_none());
+        let guide_centre = given.map_or([0.0; 2], |ring| ring.motion(&[], &[], &inputs).position);
+        let mut cage = start.cage.map_or(guide_centre, |place| [place.y, place.z]);
         if let Some(c) = layout.cage() {
             v[c] = start.cage_velocity.y;
             v[c + 1] = start.cage_velocity.z;
@@ -41,6 +39,8 @@ impl Plane {
         }
         self.place_cage(cage, q);
         self.start_nodes(v);
+        let ring = self.motion_of(INNER_RING, q, v, &inputs).position;
+        self.place_rotor(ring, &inputs, q);
         if !self.has_rollers() {
             return Ok(state);
         }
@@ -49,24 +49,26 @@ impl Plane {
             v[layout.spin(j)] = spin;
         }
         if start.inner_ring == RingStart::Equilibrium
-            && let Some(i) = layout.ring()
-            && let Some(load) = self.load_at_rest(&inputs)
-            && let Some(still) = StillBearing::new(self, orbit)
+            && let Some(mut still) = StillBearing::new(self, orbit)
         {
-            let mut ring = still.equilibrium(q, load)?;
-            if inner_guide {
+            let mut rings = self.rings_at_rest(&mut still, q, &inputs)?;
+            if guiding == INNER_RING || rings[OUTER_RING] != [0.0; 2] {
                 // A cage that starts in the centre of the ring moves the rollers along, and they the ring, by next to nothing.
                 for _ in 0..if start.cage.is_none() { PLACINGS } else { 0 } {
-                    cage = self.beside(ring);
+                    cage = self.beside(rings[guiding]);
                     self.place_cage(cage, q);
-                    ring = still.equilibrium(q, load)?;
+                    rings = self.rings_at_rest(&mut still, q, &inputs)?;
                 }
-                self.scene.check_cage_start(cage, ring)?;
+                self.scene.check_cage_start(cage, rings[guiding])?;
             }
             let offsets: Vec<f64> =
-                (0..layout.count).map(|j| still.roller(q, j, ring).0.radial_offset).collect();
-            q[i] = ring[0];
-            q[i + 1] = ring[1];
+                (0..layout.count).map(|j| still.roller(q, j, rings[INNER_RING]).0.radial_offset).collect();
+            for ring in [OUTER_RING, INNER_RING] {
+                if let Some(i) = layout.shared(ring) {
+                    q[i..i + 2].copy_from_slice(&rings[ring]);
+                }
+            }
+            self.place_rotor(rings[INNER_RING], &inputs, q);
             for (j, offset) in offsets.into_iter().enumerate() {
                 q[layout.element(j)] = offset;
             }
@@ -79,6 +81,13 @@ impl Plane {
         let way = math::hypot(ring[0], ring[1]);
         let reach = SHARE_OF_REACH * self.scene.reach_in_pockets().unwrap_or(f64::INFINITY);
         if way > reach { ring.map(|x| x * reach / way) } else { ring }
+    }
+
+    /// Sets the rotor to where it rests on its shaft, with the inner ring at `ring` (m).
+    fn place_rotor(&self, ring: [f64; 2], inputs: &InputValues, q: &mut [f64]) {
+        if let (Some(i), Some(place)) = (self.layout.shared(ROTOR), self.rotor_at_rest(ring, inputs)) {
+            q[i..i + 2].copy_from_slice(&place);
+        }
     }
 
     /// Sets the cage centre (m), and the rollers into the middle of their pockets, which lie beside their angles then.

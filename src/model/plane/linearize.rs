@@ -80,8 +80,8 @@ impl Plane {
         inverse.clear();
         for (_, body, at) in self.free_bodies() {
             // External loads change by themselves.
-            for (rate, input) in over_time[at.clone()].iter_mut().zip(body.load_inputs()) {
-                *rate += input.map_or(0.0, |input| rates.of(input));
+            for (sum, rate) in over_time[at.clone()].iter_mut().zip(body.load_rates(&ws.inputs, rates)) {
+                *sum += rate;
             }
             body.add_damping(&mut |[i, k], damping| {
                 over_velocities.hub[(at.start + i, at.start + k)] -= damping;

@@ -35,7 +35,8 @@ pub use workspace::Workspace;
 use super::signals::InputSignals;
 use super::{Fault, HostInputs, Input, InputValues, Layout};
 use crate::bodies::{
-    CAGE, CAGE_MOTION, Elements, ForceSource, INNER_RING, Node, OUTER_RING, SHARED, SharedBodies, SharedBody,
+    CAGE, CAGE_MOTION, Elements, ForceSource, INNER_RING, Node, OUTER_RING, ROTOR, SHARED, SharedBodies,
+    SharedBody,
 };
 use crate::pairs::raceway::{Cones, RacewayGeometry};
 use crate::pairs::{ContactLaw, ElementPair, Law, PairInfo, SharedInfo, SharedPair};
@@ -57,8 +58,10 @@ pub struct Plane {
     nodes: Vec<Box<dyn Node>>,
     /// Place among the velocities of the temperature of the lubricant, where it is a state.
     lubricant: Option<usize>,
-    /// Whether the outer ring, which is held in the centre, may turn.
-    outer_turns: bool,
+    /// Whether the outer ring moves in any way.
+    outer_moves: bool,
+    /// Shared bodies whose places inputs prescribe.
+    moved: Vec<usize>,
     /// Masses of the shared bodies, kg; infinite where one is not free.
     masses: [f64; SHARED],
     /// Whether the law of a pair of elements sets in abruptly.
@@ -138,10 +141,10 @@ impl Plane {
     /// Finds those that may move.
     #[inline]
     fn find_motions(&self, q: &[f64], v: &[f64], inputs: &InputValues, out: &mut [Motion<f64>; SHARED]) {
-        for body in [INNER_RING, CAGE] {
+        for body in [INNER_RING, CAGE, ROTOR] {
             out[body] = self.motion_of(body, q, v, inputs);
         }
-        if self.outer_turns {
+        if self.outer_moves {
             out[OUTER_RING] = self.motion_of(OUTER_RING, q, v, inputs);
         }
     }

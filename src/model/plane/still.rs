@@ -1,31 +1,152 @@
 //! Ring and rollers at rest: where the load of the ring is carried.
 
-use super::{Input, InputValues, Plane};
-use crate::bodies::{ElementMotion, ForceSource, INNER_RING};
+use super::{InputValues, Plane};
+use crate::bodies::{ElementMotion, ForceSource, INNER_RING, OUTER_RING, ROTOR, SharedBody};
 use crate::error::{Error, Result, Status};
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
 use crate::laws::line_contact::LineContact;
 use crate::pairs::raceway::{RacewayGeometry, RingMotion};
 use crate::scalar::math;
 use crate::space::Frame;
+use nalgebra::{Matrix2, Vector2};
 use std::f64::consts::PI;
 
 /// Steps for the equilibrium of the ring; about twenty are usual.
 const MAX_ITERATIONS: usize = 500;
 /// Accepted residual force in N, far below any load of interest.
 const NEGLIGIBLE_FORCE: f64 = 1e-9;
+/// How often rings are placed whose supports push across: each time the difference shrinks by what is not symmetric in the stiffness over
+/// what is.
+const PLACINGS: usize = 30;
 /// Accepted residual force relative to the load.
 const TOLERANCE: f64 = 1e-10;
 
 impl Plane {
+    /// Load and weight of a free ring at these inputs, N; `None` of one that is held.
+    fn load_on(&self, ring: usize, inputs: &InputValues) -> Option<Vector2<f64>> {
+        let of = |body: &dyn SharedBody| {
+            let weight = Vector2::from(self.gravity) * body.weighing()?;
+            Some(Vector2::from(body.load(inputs)) + weight)
+        };
+        let own = of(self.shared[ring].as_deref()?)?;
+        let carried = self.shared[ROTOR].as_deref().filter(|_| ring == INNER_RING).and_then(of);
+        Some(carried.map_or(own, |carried| own + carried))
+    }
+
+    /// Place of the rotor at rest with the inner ring at `ring`, m; `None` without one.
+    pub(super) fn rotor_at_rest(&self, ring: [f64; 2], inputs: &InputValues) -> Option<[f64; 2]> {
+        let rotor = self.shared[ROTOR].as_ref()?;
+        let shaft = self.between_infos.iter().position(|info| info.bodies[0] == ROTOR)?;
+        let force = Vector2::from(rotor.load(inputs)) + Vector2::from(self.gravity) * rotor.weighing()?;
+        Some((Vector2::from(ring) + force / self.between[shaft].stiffness()).into())
+    }
+
     /// Load and weight of a free inner ring at these inputs, N; `None` of one that is held.
     pub(crate) fn load_at_rest(&self, inputs: &InputValues) -> Option<[f64; 2]> {
-        let mass = self.shared[INNER_RING].as_ref().and_then(|ring| ring.mass())?;
-        Some([
-            inputs.of(Input::LoadY) + mass * self.gravity[0],
-            inputs.of(Input::LoadZ) + mass * self.gravity[1],
-        ])
+        self.load_on(INNER_RING, inputs).map(Into::into)
     }
+
+    /// What holds the inner ring as seen from the outer one, and where the outer one is then.
+    ///
+    /// ```text
+    /// o outer, x = o + d inner ring, f their loads, K their supports, B(d) force of the rollers on the inner ring
+    /// B(d) + f_x = K_x (o + d),   f_o - B(d) = K_o o   where they are free
+    /// ```
+    ///
+    /// What is not symmetric in K is a load, of rings at `places`.
+    fn hold(&self, inputs: &InputValues, places: [[f64; 2]; 2]) -> (Hold, Follow) {
+        let at = |ring: usize| Vector2::from(self.motion_of(ring, &[0.0; 2], &[0.0; 2], inputs).position);
+        let support = |ring: usize| {
+            let [[yy, yz], [zy, zz]] = self.shared[ring].as_ref().map_or([[0.0; 2]; 2], |b| b.support());
+            let (mean, rest) = (0.5 * (yz + zy), 0.5 * (yz - zy));
+            [Matrix2::new(yy, mean, mean, zz), Matrix2::new(0.0, rest, -rest, 0.0)]
+        };
+        let ([k_outer, rest_outer], [k_inner, rest_inner]) = (support(OUTER_RING), support(INNER_RING));
+        let load = |ring: usize, rest: Matrix2<f64>| {
+            self.load_on(ring, inputs).map(|load| load - rest * Vector2::from(places[ring]))
+        };
+        match (load(OUTER_RING, rest_outer), load(INNER_RING, rest_inner)) {
+            (None, Some(load)) => {
+                let outer = at(OUTER_RING);
+                let load = YieldingLoad { load: load - k_inner * outer, stiffness: k_inner };
+                (Hold::Under(load), Follow { outer, per_distance: Matrix2::zeros() })
+            }
+            (Some(load), None) => {
+                let inner = at(INNER_RING);
+                let load = YieldingLoad { load: k_outer * inner - load, stiffness: k_outer };
+                (Hold::Under(load), Follow { outer: inner, per_distance: -Matrix2::identity() })
+            }
+            (Some(on_outer), Some(on_inner)) => {
+                // Rings that nothing holds stay where they are.
+                let yields = (k_outer + k_inner).try_inverse().unwrap_or_else(Matrix2::zeros);
+                let follow =
+                    Follow { outer: yields * (on_outer + on_inner), per_distance: -(yields * k_inner) };
+                let load = YieldingLoad {
+                    load: on_inner - k_inner * follow.outer,
+                    stiffness: k_inner + k_inner * follow.per_distance,
+                };
+                (Hold::Under(load), follow)
+            }
+            (None, None) => {
+                let (outer, inner) = (at(OUTER_RING), at(INNER_RING));
+                (Hold::At(inner - outer), Follow { outer, per_distance: Matrix2::zeros() })
+            }
+        }
+    }
+
+    /// Places of outer and inner ring at rest, m, with the rollers at `q`; `still` has the outer ring there then.
+    pub(super) fn rings_at_rest(
+        &self,
+        still: &mut StillBearing<'_>,
+        q: &[f64],
+        inputs: &InputValues,
+    ) -> Result<[[f64; 2]; 2]> {
+        let mut places = [[0.0; 2]; 2];
+        for _ in 0..PLACINGS {
+            let (hold, follow) = self.hold(inputs, places);
+            still.outer = [0.0; 2];
+            let distance = match hold {
+                Hold::At(distance) => distance,
+                Hold::Under(load) => still.rest(q, &load)?.into(),
+            };
+            let outer = follow.outer + follow.per_distance * distance;
+            still.outer = outer.into();
+            places = [outer.into(), (outer + distance).into()];
+            if !self.circulates() {
+                break;
+            }
+        }
+        Ok(places)
+    }
+
+    /// Whether a support has a stiffness that is not symmetric.
+    fn circulates(&self) -> bool {
+        self.shared.iter().flatten().any(|body| {
+            let [[_, yz], [zy, _]] = body.support();
+            yz != zy
+        })
+    }
+}
+
+/// What keeps the inner ring at a distance from the outer one.
+enum Hold {
+    /// It is given, m.
+    At(Vector2<f64>),
+    Under(YieldingLoad),
+}
+
+/// Load on the inner ring at the distance d from the outer one: load - stiffness d.
+struct YieldingLoad {
+    /// N
+    load: Vector2<f64>,
+    /// N/m, symmetric.
+    stiffness: Matrix2<f64>,
+}
+
+/// Where the outer ring is, m: `outer` + `per_distance` d.
+struct Follow {
+    outer: Vector2<f64>,
+    per_distance: Matrix2<f64>,
 }
 
 /// The rollers of a bearing in which nothing moves but for the centrifugal force.
@@ -36,6 +157,8 @@ pub(crate) struct StillBearing<'a> {
     pub(in crate::model) laws: [&'a LineContact; 2],
     /// On each roller, N.
     pub(in crate::model) centrifugal: f64,
+    /// Centre of the outer ring, m.
+    outer: [f64; 2],
 }
 
 impl<'a> StillBearing<'a> {
@@ -44,15 +167,21 @@ impl<'a> StillBearing<'a> {
         let law = |ring: ForceSource| model.law_of(ring)?.line();
         let laws = [law(ForceSource::OuterRaceway)?, law(ForceSource::InnerRaceway)?];
         let centrifugal = model.elements.centrifugal(orbit);
-        Some(Self { model, geometry: model.raceway_geometry()?, laws, centrifugal })
+        Some(Self { model, geometry: model.raceway_geometry()?, laws, centrifugal, outer: [0.0; 2] })
     }
 
     /// Position of the ring, m, at which the rollers carry `load` (N): the minimum of the potential energy, found by
     /// Newton steps whose length a Levenberg-Marquardt parameter controls.
     pub(crate) fn equilibrium(&self, q: &[f64], load: [f64; 2]) -> Result<[f64; 2]> {
+        self.rest(q, &YieldingLoad { load: load.into(), stiffness: Matrix2::zeros() })
+    }
+
+    /// The same under a load that gives way.
+    fn rest(&self, q: &[f64], hold: &YieldingLoad) -> Result<[f64; 2]> {
+        let load: [f64; 2] = hold.load.into();
         let mut size = math::hypot(load[0], load[1]);
         let mut x = [0.0; 2];
-        let mut here = self.ring_balance(q, x, load);
+        let mut here = self.ring_balance(q, x, hold);
         // Rollers of different size press on a ring without a load, too, and what they cancel has a round-off.
         if self.model.elements.set().radius_excess.iter().any(|excess| *excess != 0.0) {
             size += here.pressing;
@@ -73,7 +202,7 @@ impl<'a> StillBearing<'a> {
             let [fy, fz] = here.force;
             let trial =
                 [x[0] + (kzz * fy - kyz * fz) / determinant, x[1] + (kyy * fz - kyz * fy) / determinant];
-            let there = self.ring_balance(q, trial, load);
+            let there = self.ring_balance(q, trial, hold);
             // Close to the minimum the energy drowns in round-off, and the force alone tells progress.
             let better =
                 there.energy < here.energy || math::hypot(there.force[0], there.force[1]) < 0.5 * residual;
@@ -89,14 +218,22 @@ impl<'a> StillBearing<'a> {
         Err(Error::new(Status::BadScene, text))
     }
 
-    /// Energy, force and stiffness of the ring at `x` under `load` and all rollers.
-    fn ring_balance(&self, q: &[f64], x: [f64; 2], load: [f64; 2]) -> RingBalance {
+    /// Energy, force and stiffness of the ring at `x` under its load and all rollers.
+    fn ring_balance(&self, q: &[f64], x: [f64; 2], hold: &YieldingLoad) -> RingBalance {
+        let load: [f64; 2] = hold.load.into();
         let mut sum = RingBalance {
             energy: -(load[0] * x[0] + load[1] * x[1]),
             force: load,
             pressing: 0.0,
             stiffness: [0.0; 3],
         };
+        if hold.stiffness != Matrix2::zeros() {
+            let (k, place) = (hold.stiffness, Vector2::from(x));
+            let held = k * place;
+            sum.energy += 0.5 * place.dot(&held);
+            sum.force = [load[0] - held[0], load[1] - held[1]];
+            sum.stiffness = [k[(0, 0)], k[(0, 1)], k[(1, 1)]];
+        }
         for j in 0..self.model.layout.count {
             let (roller, frame) = self.roller(q, j, x);
             let [ny, nz] = frame.to_global(roller.normal);
@@ -115,7 +252,8 @@ impl<'a> StillBearing<'a> {
     pub(super) fn roller(&self, q: &[f64], j: usize, x: [f64; 2]) -> (RollerBalance, Frame<f64>) {
         let Plane { layout, elements, .. } = self.model;
         let frame = elements.frame(layout, q, &InputValues::default(), j);
-        (self.roller_balance(frame.to_local(x), elements.set().radius_excess[j]), frame)
+        let rings = [self.outer, x].map(|place| frame.to_local(place));
+        (self.roller_balance(rings, elements.set().radius_excess[j]), frame)
     }
 
     /// Half width (m) and largest pressure (Pa) of Hertz's contact with outer or inner ring at rest at this approach, m.
@@ -170,24 +308,36 @@ impl<'a> StillBearing<'a> {
         }
     }
 
-    /// Radial equilibrium of a roller whose radius is larger by `excess` (m), with the ring centre at `ring` (m) in its local
-    /// frame.
-    fn roller_balance(&self, ring: [f64; 2], excess: f64) -> RollerBalance {
+    /// Radial equilibrium of a roller whose radius is larger by `excess` (m), with the centres of outer and inner ring at `outside` and
+    /// `ring` (m) in its local frame.
+    fn roller_balance(&self, [outside, ring]: [[f64; 2]; 2], excess: f64) -> RollerBalance {
         let [outer, inner] = self.laws;
         let (g, centrifugal) = (self.geometry, self.centrifugal);
         // On the pitch circle, to the outer raceway.
         let gap = g.gap - excess;
+        // Approach to the outer raceway.
+        let on_outer_at = |offset: f64| {
+            if outside == [0.0; 2] {
+                return offset - gap;
+            }
+            let still =
+                ElementMotion { radial_offset: offset, radius_excess: excess, ..ElementMotion::default() };
+            let held = RingMotion { position: outside, velocity: [0.0; 2], speed: 0.0 };
+            g.outer_beside(&still, &held).0.delta
+        };
         // The outward force of the roller falls with its offset: bisection between resting outside and squeezed in.
         let state = |offset: f64| {
             let still =
                 ElementMotion { radial_offset: offset, radius_excess: excess, ..ElementMotion::default() };
             let still_ring = RingMotion { position: ring, velocity: [0.0; 2], speed: 0.0 };
             let (motion, grip) = g.inner(&still, &still_ring);
-            (inner.rest_at(motion.delta), outer.rest_at(offset - gap), motion.delta, grip.normal)
+            let approach = on_outer_at(offset);
+            (inner.rest_at(motion.delta), outer.rest_at(approach), motion.delta, grip.normal)
         };
         let resting = gap + outer.approach(centrifugal);
         let squeezed = ring[0].abs() + ring[1].abs() + 2.0 * gap.abs();
-        let (mut low, mut high) = (resting, resting + squeezed);
+        let moved = outside[0].abs() + outside[1].abs();
+        let (mut low, mut high) = (resting - moved, resting + squeezed + moved);
         for _ in 0..100 {
             let middle = 0.5 * (low + high);
             let ([on_inner, _], [on_outer, _], _, normal) = state(middle);
@@ -199,10 +349,11 @@ impl<'a> StillBearing<'a> {
         }
         let ([load, work], [on_outer, work_outer], delta, normal) = state(high);
         // Palmgren's law: the energy at the approach delta is 9/19 Q delta.
+        let approach = on_outer_at(high);
         let energy = 9.0 / 19.0 * (work + work_outer) - centrifugal * (high - gap);
         let stiffness = if load > 0.0 {
             1.0 / (1.0 / inner.stiffness_at_rest(load, delta)
-                + 1.0 / outer.stiffness_at_rest(on_outer, high - gap))
+                + 1.0 / outer.stiffness_at_rest(on_outer, approach))
         } else {
             0.0
         };

@@ -2,7 +2,7 @@
 
 use super::{InputValues, Workspace};
 use crate::bodies::{
-    BodyEnergy, BodyForces, BodyState, CAGE, Coordinate, Fault, Input, Moves, OnBody, SharedBody, layout_of,
+    BodyEnergy, BodyForces, BodyState, CAGE, Coordinate, Fault, Moves, OnBody, SharedBody, layout_of,
 };
 use crate::model::{HostInputs, Model};
 use crate::space::{Motion, Wrench};
@@ -96,8 +96,8 @@ impl SharedBody for VibratingCage {
         self.cage.report(state, inputs, gravity, out);
     }
 
-    fn load_inputs(&self) -> [Option<Input>; 3] {
-        self.cage.load_inputs()
+    fn load_rates(&self, inputs: &InputValues, rates: &InputValues) -> [f64; 3] {
+        self.cage.load_rates(inputs, rates)
     }
 
     fn frequency_on(&self, radial: f64, turning: f64, lever: f64) -> f64 {

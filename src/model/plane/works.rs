@@ -59,8 +59,10 @@ impl Plane {
             }
         }
         for (place, (info, force)) in self.between_infos.iter().zip(&ws.between).enumerate() {
-            for (power, of) in self.power_between(place, ws).into_iter().zip(info.powers) {
-                p[of as usize] += power;
+            let [film, rest] = self.power_between(place, ws);
+            p[info.powers[0] as usize] += film;
+            if self.between[place].stored(&ws.motions).is_none() {
+                p[info.powers[1] as usize] += rest;
             }
             for (body, on_body) in info.bodies.iter().zip(&force.on) {
                 if let Some(ring) = driven(*body) {
@@ -78,9 +80,31 @@ impl Plane {
                 p[power as usize] = -moment * ws.inputs.of(speed);
             }
         }
+        for place in &self.moved {
+            let [[fy, fz], [vy, vz]] = [self.on_moved(*place, ws), ws.motions.shared[*place].velocity];
+            p[DRIVES[*place] as usize] -= fy * vy + fz * vz;
+        }
         if self.elements.mass().is_none() {
             p[Power::ElementDrive as usize] = -self.power_on_elements(ws);
         }
+    }
+
+    /// Force of all contacts in the step that was found last on a ring whose place is prescribed, N.
+    fn on_moved(&self, place: usize, ws: &Workspace) -> [f64; 2] {
+        let mut sum = Wrench::default();
+        for (batch, _, contacts) in ws.contacts.by_pair(&self.infos).filter(|(_, info, _)| info.mate == place)
+        {
+            for i in contacts {
+                let (ContactBlock { on_mates, step, .. }, lane) = batch.at(i);
+                let force = [0, 1].map(|k| on_mates[k][lane] + step.reaction[k][lane]);
+                sum.add(&Wrench { force, moment: 0.0 });
+            }
+        }
+        for (info, force) in self.between_infos.iter().zip(&ws.between) {
+            let on = info.bodies.iter().zip(&force.on).filter(|(body, _)| **body == place);
+            on.for_each(|(_, on_body)| sum.add(on_body));
+        }
+        sum.force
     }
 
     /// Power of the film and of the solid contact of a pair of shared bodies, W.
@@ -139,6 +163,7 @@ impl Plane {
         }
         let spring =
             |c: Loaded<'_>| self.infos[c.site.pair].share * self.laws[c.site.pair].spring(c.motion.delta)[1];
+        elastic += self.between.iter().filter_map(|pair| pair.stored(&ws.motions)).sum::<f64>();
         e.elastic = ws.contacts.iter().map(spring).sum::<f64>() + elastic;
         e
     }
@@ -206,6 +231,32 @@ mod tests {
                 r#"{"sine": {"mean": -3000, "amplitude": 2000, "frequency": 400, "phase": 0}}"#,
             )],
         );
+    }
+
+    #[test]
+    fn powers_of_moving_rings_are_the_change_of_energy() {
+        let swing = |frequency: u32| {
+            format!(
+                r#"{{"sine": {{"mean": 2e-6, "amplitude": 6e-6, "frequency": {frequency}, "phase": 0.3}}}}"#
+            )
+        };
+        let prescribed = format!(r#"{{"prescribed": {{"y": {}, "z": {}}}}}"#, swing(130), swing(90));
+        let support = r#"{"stiffness": {"yy": 3e7, "yz": 4e6, "zy": -2e6, "zz": 6e7},
+            "damping": {"yy": 300, "yz": -20, "zy": 50, "zz": 900}, "mass": {"yy": 0.4, "yz": 0.2, "zy": 0.2, "zz": 1.1}}"#;
+        let unbalance = r#"{"moment": 2e-4, "phase": 0.8}"#;
+        let free = format!(
+            r#"{{"free": {{"mass": 2.5, "support": {support}, "unbalance": {unbalance}, "load": {{"y": 40, "z": -300}}}}}}"#
+        );
+        let speed = r#"{"ramp": {"from": -250, "to": -330, "start": 0, "end": 0.01}}"#;
+        for [outer, inner] in
+            [[&free, &free], [&prescribed, &free], [&free, &prescribed], [&prescribed, &prescribed]]
+        {
+            let speed = [("inner_ring.speed", speed), ("outer_ring.speed", "40")];
+            let motion = [("outer_ring.motion", outer.as_str()), ("inner_ring.motion", inner.as_str())];
+            check("nu2310", &[speed, motion].concat());
+        }
+        check("nu2310_elastic", &[("outer_ring.motion", free.as_str())]);
+        check("grease_guide", &[("inner_ring.motion", prescribed.as_str())]);
     }
 
     #[test]

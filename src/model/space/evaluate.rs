@@ -101,10 +101,10 @@ impl Space {
         let (tilted, pitch) = (math::hypot(a, b), self.set.pitch_radius);
         let off = math::hypot(math::hypot(ws.ring.position[0], y), z);
         if tilted > LARGEST_TILT {
-            return Err(Fault::LostRing { distance: tilted * pitch, reach: LARGEST_TILT * pitch });
+            return Err(Fault::LostRing { ring: 1, distance: tilted * pitch, reach: LARGEST_TILT * pitch });
         }
         if off > self.set.radius {
-            return Err(Fault::LostRing { distance: off, reach: self.set.radius });
+            return Err(Fault::LostRing { ring: 1, distance: off, reach: self.set.radius });
         }
         let outer = ws.inputs.of(Input::OuterRingSpeed);
         ws.rings[0].speed = outer;

@@ -191,7 +191,7 @@ impl Space {
         };
         let in_time = |x: f64, rate: f64| timed(Dual { re: x, eps: [0.0; OF_TIME + 1] }, rate);
         let (ring, loads) = (&ws.ring, self.ring.load(rates));
-        let [_, first, second, third] = self.given(ws);
+        let [first, second, third] = self.ring.given(rates);
         let state = RingState {
             position: std::array::from_fn(|k| timed(variable(ring.position[k], 6 + k), first[k])),
             rate: std::array::from_fn(|k| timed(variable(ring.rate[k], 6 + OF_RING + k), second[k])),
@@ -200,13 +200,6 @@ impl Space {
         };
         let load = std::array::from_fn(|k| in_time(ws.load[k], loads[k]));
         self.ring.accelerations(&state, [at(0, force), at(3, moment)], load, self.gravity)
-    }
-
-    /// What moves the ring from outside at the last evaluated state: coordinates, m or rad, and their first to third rates; zero of those that
-    /// are free or held.
-    pub(super) fn given(&self, ws: &Workspace) -> [[f64; OF_RING]; 4] {
-        let all = self.ring.prescribed_at(ws.inputs.time);
-        std::array::from_fn(|i| all.map(|given| given.map_or(0.0, |given| given[i])))
     }
 
     /// Accelerations of a ball over rho, its azimuth, its speeds and the logarithm of the viscosity, at constant forces of contacts.
@@ -267,7 +260,7 @@ impl Space {
         } else {
             let local = LocalRing::new(ws.ring.position, ws.ring.rate, direction);
             // By what moves the ring from outside.
-            let [_, place, rate, _] = self.given(ws);
+            let [place, rate, _] = self.ring.given(rates);
             let given = LocalRing::new(place, rate, direction);
             let tilt = Tilt::new([0, 1].map(|i| timed(variable(local.tilt[i], TILT + i), given.tilt[i])));
             let tilting =

@@ -120,7 +120,7 @@ impl Space {
             contacts_of_ball.extend(pockets.wall_names());
         }
         let of_cage = cage.as_ref().map_or(0, |cage| cage.body.coordinates().len());
-        let layout = Layout::new([0, ring.free().count(), of_cage], of_elements, false, Vec::new());
+        let layout = Layout::new([0, ring.free().count(), of_cage, 0], of_elements, false, Vec::new());
         let gravity = scene.gravity.map_or([0.0; 2], |g| [g.y, g.z]);
         let watched = Vec::new();
         Ok(Some(Self {
@@ -173,7 +173,7 @@ impl Space {
         tuning: &Tuning,
     ) -> f64 {
         let longest =
-            self.inputs.shortest_period(host).min(self.shortest_wave(host)) / tuning.steps_per_period;
+            self.inputs.shortest_period(host).min(self.shortest_wave(t, host)) / tuning.steps_per_period;
         if self.cage.is_none() {
             return longest;
         }
@@ -181,13 +181,14 @@ impl Space {
     }
 
     /// Shortest period of the waves of races that balls pass, s: at most that by which both rings turn; infinity where they are round.
-    fn shortest_wave(&self, host: &HostInputs) -> f64 {
+    fn shortest_wave(&self, t: f64, host: &HostInputs) -> f64 {
         let order = self.races.iter().filter_map(|race| Some(race.waviness.as_ref()?.highest_order()));
         let order = order.fold(0.0, f64::max);
         if order == 0.0 {
             return f64::INFINITY;
         }
-        let speed = |input| host.of(input).map_or_else(|| self.inputs.largest(input), f64::abs);
+        let speed =
+            |input| host.of(input, t).map_or_else(|| self.inputs.largest(input), |[speed, _]| speed.abs());
         TAU / (order * (speed(Input::OuterRingSpeed) + speed(Input::RingSpeed)))
     }
 

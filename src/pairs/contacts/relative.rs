@@ -105,7 +105,8 @@ pub(in crate::pairs) fn add_slopes<P: Kinematics>(
     let speeding = sums.speeding(mate);
     let warming = sums.ln_viscosity_rate;
     let slopes = &batch.slopes;
-    let changing = speeding != 0.0 || warming != 0.0 || sums.layout.count == 0;
+    let moving = sums.moving(mate) != [[0.0; 2]; 2];
+    let changing = speeding != 0.0 || warming != 0.0 || moving || sums.layout.count == 0;
     let holds = sums.layout.shared(mate).is_some();
     let deforms = mate == CAGE && !motions.displaced.is_empty();
     let work = Chain {

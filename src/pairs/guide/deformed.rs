@@ -256,6 +256,13 @@ impl DeformedGuide {
                 }
             }
         }
+        for (over, rates) in over.iter().zip(sums.moving(self.ring)) {
+            for (k, rate) in rates.into_iter().enumerate().filter(|(_, rate)| *rate != 0.0) {
+                for (i, row) in cage.clone().enumerate() {
+                    sums.out.over_time[row] -= over[(i, k)] * rate;
+                }
+            }
+        }
         let speeding = sums.speeding(self.ring);
         self.add_over_time(&beside, &forces.over_ring_speed, speeding, sums);
         if sums.ln_viscosity_rate != 0.0 {

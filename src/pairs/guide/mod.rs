@@ -284,7 +284,7 @@ impl SharedPair for Guide {
         let m = self.journal_motion(&motions.shared);
         let motion = lift(&m);
         let Ok(force) = self.law.force(&motion, fluid) else { return };
-        let speeding = sums.speeding(self.ring);
+        let (speeding, moving) = (sums.speeding(self.ring), sums.moving(self.ring));
         let bodies = [CAGE, self.ring];
         let wrenches = self.side.wrenches(&force, &motion).map(|on_body| on_body.components());
         for (body, rows) in bodies.into_iter().zip(wrenches) {
@@ -293,6 +293,13 @@ impl SharedPair for Guide {
             }
             let over_ring_speed = rows.map(|row| self.side.over_bodies(&row)[1].1[2]);
             sums.add_mate_over_time(body, &over_ring_speed.map(|slope| slope * speeding));
+            if moving != [[0.0; 2]; 2] {
+                let over_ring = rows.map(|row| self.side.over_bodies(&row)[1]);
+                let rate = |x: &[f64], by: [f64; 2]| x[0] * by[0] + x[1] * by[1];
+                let rates =
+                    over_ring.map(|(place, velocity)| rate(&place, moving[0]) + rate(&velocity, moving[1]));
+                sums.add_mate_over_time(body, &rates);
+            }
         }
         let ln_viscosity_rate = sums.ln_viscosity_rate;
         if ln_viscosity_rate == 0.0 {

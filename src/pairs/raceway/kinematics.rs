@@ -1,16 +1,16 @@
 //! Roller against the raceway of the outer or the inner ring.
 //!
-//! The roller is described in cylindrical coordinates about the centre of the outer ring: r = r_p + rho, angle psi.
+//! The roller is described in cylindrical coordinates about the centre of the bearing: r = r_p + rho, angle psi.
 //! rho is its offset from the pitch circle, so a gap of nanometres is a sum of small numbers and never a
 //! difference of radii:
 //!
 //! ```text
-//! outer gap = gap_0 - rho
+//! outer gap = gap_0 - rho - (d - r)
 //! inner gap = gap_0 + rho + (d - r),   d - r = (|x|^2 - 2 r x_r)/(d + r)
 //! ```
 //!
-//! each less what the radius of the roller exceeds the nominal R_b, with x the centre of the inner ring, x_r its component along
-//! the roller's radius and d its distance from the roller centre. Local frame: (radial, circumferential) at the roller.
+//! each less what the radius of the roller exceeds the nominal R_b, with x the centre of the ring, x_r its component along
+//! the roller's radius and d its distance from the roller centre; d = r of an outer ring that is held in the centre. Local frame: (radial, circumferential) at the roller.
 //!
 //! Surface speeds are relative to the contact point, which moves with the line of centres:
 //! `u1 = arm_1 (w_b - phi_dot)`, `u2 = -arm_2 (w_r - phi_dot)`, phi_dot the turning rate of that line.
@@ -77,6 +77,32 @@ impl RacewayGeometry {
         };
         let normal = [arm_1.like(1.0), arm_1.like(0.0)];
         (motion, Grip::centred(normal, arm_1, arm_2))
+    }
+
+    /// The same with an outer ring that moves: the normal leads from its centre through that of the roller.
+    #[inline(always)]
+    pub fn outer_beside<T: Numeric>(
+        &self,
+        roller: &ElementMotion<T>,
+        ring: &RingMotion<T>,
+    ) -> (ContactMotion<T>, Grip<T>) {
+        let r = roller.radial_offset + self.pitch_radius;
+        let from_ring = [r - ring.position[0], -ring.position[1]];
+        let d = (from_ring[0] * from_ring[0] + from_ring[1] * from_ring[1]).sqrt();
+        let normal = [from_ring[0] / d, from_ring[1] / d];
+        let arm_1 = roller.radius_excess + self.roller_radius;
+        let arm_2 = -(d + arm_1);
+        let grip = Grip::centred(normal, arm_1, arm_2);
+        let tangent = grip.tangent();
+        let relative = [roller.radial_speed - ring.velocity[0], r * roller.orbit_speed - ring.velocity[1]];
+        let turning = (relative[0] * tangent[0] + relative[1] * tangent[1]) / d;
+        let motion = ContactMotion {
+            delta: roller.radial_offset - self.gap + roller.radius_excess + shift(r, d, ring.position),
+            delta_dot: relative[0] * normal[0] + relative[1] * normal[1],
+            u1: arm_1 * (roller.spin_speed - turning),
+            u2: arm_2 * (turning - ring.speed),
+        };
+        (motion, grip)
     }
 
     /// Motion and levers of the contact with the inner raceway.
@@ -163,6 +189,42 @@ mod tests {
         let approach = approach_at(0.0, [0.0, 2e-5]);
         let expected = -(G.gap + 4e-10 / (2.0 * G.pitch_radius));
         assert!((approach / expected - 1.0).abs() < 1e-9);
+    }
+
+    /// A roller beside an outer ring that moves is one beside a ring that is held, seen from that ring.
+    #[test]
+    fn an_outer_ring_that_moves_is_seen_from_its_centre() {
+        let roller = ElementMotion {
+            radial_offset: 2e-6,
+            radial_speed: 0.01,
+            orbit_speed: -120.0,
+            spin_speed: 700.0,
+            radius_excess: 1e-6,
+        };
+        let still = RingMotion { position: [0.0; 2], velocity: [0.0; 2], speed: 11.0 };
+        let ((a, grip), (b, other)) = (G.outer(&roller, 11.0), G.outer_beside(&roller, &still));
+        assert_eq!((a.delta, a.delta_dot, a.u1), (b.delta, b.delta_dot, b.u1));
+        assert!((a.u2 - b.u2).abs() < 1e-13 && grip.normal == other.normal);
+        assert!((grip.arm - other.arm).abs() < 1e-17);
+        // Both on their way, with the frame of the roller seen from the ring.
+        let ring = RingMotion { position: [8e-6, -1.5e-5], velocity: [0.02, -0.03], speed: 11.0 };
+        let (moved, grip) = G.outer_beside(&roller, &ring);
+        let r = G.pitch_radius + roller.radial_offset;
+        let from = [r - ring.position[0], -ring.position[1]];
+        let d = from[0].hypot(from[1]);
+        let velocity = [roller.radial_speed - ring.velocity[0], r * roller.orbit_speed - ring.velocity[1]];
+        let (n, t) = ([from[0] / d, from[1] / d], [-from[1] / d, from[0] / d]);
+        let seen = ElementMotion {
+            radial_offset: d - G.pitch_radius,
+            radial_speed: velocity[0] * n[0] + velocity[1] * n[1],
+            orbit_speed: (velocity[0] * t[0] + velocity[1] * t[1]) / d,
+            ..roller
+        };
+        let (expected, _) = G.outer(&seen, 11.0);
+        assert!((moved.delta - expected.delta).abs() < 1e-17, "{} {}", moved.delta, expected.delta);
+        assert!((moved.delta_dot - expected.delta_dot).abs() < 1e-15);
+        assert!((moved.u1 - expected.u1).abs() < 1e-13 && (moved.u2 - expected.u2).abs() < 1e-13);
+        assert_eq!(grip.normal, n);
     }
 
     #[test]

@@ -13,7 +13,7 @@ use crate::bodies::{
 };
 use crate::error::Result;
 use crate::laws::line_contact::LineContact;
-use crate::pairs::contacts::{Beside, Kinematics, Varied, VariedContact, add_slopes};
+use crate::pairs::contacts::{self, Kinematics, Varied, VariedContact, add_slopes};
 use crate::pairs::line_laws::LawBuilder;
 use crate::pairs::{
     Batch, ContactLaw, Cost, ElementPair, Found, Law, PairInfo, RelativeSlopes, Search, SlopeSums,
@@ -29,6 +29,8 @@ struct Raceway {
     geometry: RacewayGeometry,
     law: LineContact,
     ring: &'static PairInfo,
+    /// Whether it is that of an outer ring which is held in the centre.
+    centred: bool,
 }
 
 static OUTER: PairInfo = PairInfo {
@@ -88,13 +90,14 @@ pub(crate) fn laws_of_scene(
 /// The raceway of the outer ring of a scene, if its rollers have laws.
 pub(super) fn outer(laws: &LawBuilder<'_>) -> Result<Option<Box<dyn ElementPair>>> {
     let Some((geometry, [law, _])) = laws_of(laws)? else { return Ok(None) };
-    Ok(Some(Box::new(Raceway { geometry, law, ring: &OUTER })))
+    let centred = laws.scene().outer_motion().is_none();
+    Ok(Some(Box::new(Raceway { geometry, law, ring: &OUTER, centred })))
 }
 
 /// That of the inner ring.
 pub(super) fn inner(laws: &LawBuilder<'_>) -> Result<Option<Box<dyn ElementPair>>> {
     let Some((geometry, [_, law])) = laws_of(laws)? else { return Ok(None) };
-    Ok(Some(Box::new(Raceway { geometry, law, ring: &INNER })))
+    Ok(Some(Box::new(Raceway { geometry, law, ring: &INNER, centred: false })))
 }
 
 impl ElementPair for Raceway {
@@ -109,10 +112,11 @@ impl ElementPair for Raceway {
     fn find(&self, motions: &Motions, out: &mut Search<'_>) -> std::result::Result<(), Fault> {
         let Search { touching, found, .. } = out;
         let geometry = &self.geometry;
-        if self.ring.mate == OUTER_RING {
-            dispatch(motions.instructions, Outer { motions, geometry, found });
-        } else {
-            dispatch(motions.instructions, Inner { motions, geometry, found });
+        let instructions = motions.instructions;
+        match (self.centred, self.ring.mate) {
+            (true, _) => dispatch(instructions, Outer { motions, geometry, found }),
+            (false, OUTER_RING) => dispatch(instructions, Beside::<OUTER_RING> { motions, geometry, found }),
+            (false, _) => dispatch(instructions, Beside::<INNER_RING> { motions, geometry, found }),
         }
         for j in 0..motions.count {
             let (block, lane) = place_of(j);
@@ -144,14 +148,14 @@ impl ElementPair for Raceway {
 
 impl Kinematics for Raceway {
     #[inline(always)]
-    fn contact<B: Base>(&self, at: &Beside<B>) -> VariedContact<B> {
+    fn contact<B: Base>(&self, at: &contacts::Beside<B>) -> VariedContact<B> {
         let (m, r, mate) = (&at.element, at.radius, &at.mate);
         let (zero, one) = (r.splat(0.0), r.splat(1.0));
         let varied = |re: B, eps: [B; 5]| Varied { re, eps };
         let spin_speed = varied(m.spin_speed, [zero, zero, zero, zero, one]);
         let radius_excess = Varied::lift(m.radius_excess);
         let turning = mate.speed;
-        if self.ring.mate == OUTER_RING {
+        if self.centred {
             // The roller moves in the polar coordinates of the ring, whose axes turn with it.
             let (turn, across) = (one / r, r * m.orbit_speed);
             let across_speed = varied(across, [turning, -(turn * m.radial_speed), zero, one, zero]);
@@ -184,7 +188,10 @@ impl Kinematics for Raceway {
             ],
             speed: Varied::lift(turning),
         };
-        let (motion, grip) = self.geometry.inner(&roller, &ring);
+        let (motion, grip) = match self.ring.mate {
+            OUTER_RING => self.geometry.outer_beside(&roller, &ring),
+            _ => self.geometry.inner(&roller, &ring),
+        };
         VariedContact { motion, edge_share: None, grip }
     }
 }
@@ -220,14 +227,14 @@ impl Columns for Outer<'_> {
     }
 }
 
-/// The same with the inner raceway.
-struct Inner<'a> {
+/// The same with the raceway of a ring that may be off the centre.
+struct Beside<'a, const RING: usize> {
     motions: &'a Motions,
     geometry: &'a RacewayGeometry,
     found: &'a mut [Found],
 }
 
-impl Columns for Inner<'_> {
+impl<const RING: usize> Columns for Beside<'_, RING> {
     const PAIRED: bool = false;
 
     fn rows(&self) -> usize {
@@ -237,7 +244,7 @@ impl Columns for Inner<'_> {
     #[inline(always)]
     fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
         let all = |x: f64| Pack::<S, K>::all(simd, x);
-        let ring = &self.motions.shared[INNER_RING];
+        let ring = &self.motions.shared[RING];
         let (block, lane) = place_of(first);
         let ElementBlock { motion, frame, .. } = &self.motions.blocks[block];
         let frame = frame.load(simd, lane);
@@ -245,7 +252,11 @@ impl Columns for Inner<'_> {
         let [vy, vz] = ring.velocity;
         let (position, velocity) = (frame.to_local([all(y), all(z)]), frame.to_local([all(vy), all(vz)]));
         let seen = RingMotion { position, velocity, speed: all(ring.speed) };
-        let (motion, grip) = self.geometry.inner(&motion.load(simd, lane), &seen);
+        let motion = motion.load(simd, lane);
+        let (motion, grip) = match RING {
+            OUTER_RING => self.geometry.outer_beside(&motion, &seen),
+            _ => self.geometry.inner(&motion, &seen),
+        };
         self.found[block].motion.store(lane, &motion);
         self.found[block].grip.store(lane, &grip);
     }

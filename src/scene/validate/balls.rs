@@ -6,7 +6,6 @@ use super::*;
 const DEEPEST: f64 = 1.0;
 /// Largest radius of a groove over that of the ball.
 const WIDEST_GROOVE: f64 = 2.0;
-const TILT: Range = range(-0.1, 0.1, "rad");
 pub(crate) const MOMENT: Range = range(-1e9, 1e9, "N m");
 const STIFFNESS: Range = range(0.0, 1e12, "N/m");
 /// Largest sum of the slopes of the waves of a race.
@@ -199,11 +198,7 @@ impl Scene {
                 }
                 RingCoordinate::Prescribed(motion) => {
                     let path = format!("{}.prescribed", at(name));
-                    signal(judge, &path, motion, allowed)?;
-                    if let Signal::Step { .. } = motion {
-                        let text = "a place that jumps has no speed; write a 'ramp', 'sine' or 'table'";
-                        judge.refuse(&format!("{path}.step"), text)?;
-                    }
+                    rings::place(judge, &path, motion, allowed)?;
                 }
             }
         }
@@ -224,8 +219,8 @@ impl Scene {
             let most = range(INERTIA.min, 2.0 * transverse, "kg m^2, twice the transverse one at most");
             judge.number(&at("inertia.polar"), polar, most)?;
         }
-        judge.optional(&at("support_damping"), ring.support_damping, SUPPORT_DAMPING)?;
-        judge.optional(&at("tilt_damping"), ring.tilt_damping, SUPPORT_DAMPING)?;
+        judge.optional(&at("support_damping"), ring.support_damping, rings::SUPPORT_DAMPING)?;
+        judge.optional(&at("tilt_damping"), ring.tilt_damping, rings::SUPPORT_DAMPING)?;
         self.has_axial_stop(judge, ring)
     }
 

@@ -8,7 +8,7 @@ use std::f64::consts::FRAC_PI_2;
 
 pub(super) const POCKET_CLEARANCE: Range = range(1e-7, 1e-2, "m");
 const GUIDE_CLEARANCE: Range = range(1e-6, 1e-2, "m");
-pub(super) const VELOCITY: Range = range(-100.0, 100.0, "m/s");
+pub(crate) const VELOCITY: Range = range(-100.0, 100.0, "m/s");
 pub(crate) const TORQUE: Range = range(-1e9, 1e9, "N m");
 
 impl Scene {
@@ -76,8 +76,16 @@ impl Scene {
     fn known_guide_centre(&self) -> Option<[f64; 2]> {
         let guide = self.cage.as_ref().and_then(|cage| cage.guide.as_ref());
         let inner = guide.is_some_and(|guide| guide.ring == GuideRing::InnerRing);
+        match self.outer_motion().filter(|_| !inner) {
+            Some(OuterRingMotion::Prescribed(motion)) => return Some([motion.y.at(0.0), motion.z.at(0.0)]),
+            Some(OuterRingMotion::Free(_)) if self.initial.inner_ring == RingStart::Equilibrium => {
+                return None;
+            }
+            _ => {}
+        }
         match self.inner_ring.as_ref().filter(|_| inner).map(|ring| &ring.motion) {
             Some(RingMotion::Fixed(position)) => Some([position.y, position.z]),
+            Some(RingMotion::Prescribed(motion)) => Some([motion.y.at(0.0), motion.z.at(0.0)]),
             Some(RingMotion::Free(_) | RingMotion::Space(_))
                 if self.initial.inner_ring == RingStart::Equilibrium =>
             {

@@ -14,14 +14,16 @@ mod judge;
 mod lubricant;
 mod plausible;
 mod profile;
+mod rings;
 mod roller_space;
 mod series;
 mod sizes;
 mod spatial_cage;
 
 pub(crate) use balls::MOMENT;
-pub(crate) use cage::TORQUE;
+pub(crate) use cage::{TORQUE, VELOCITY};
 pub(in crate::scene) use judge::{Judge, is_at_or_below};
+pub(crate) use rings::{POSITION, TILT};
 
 pub(in crate::scene) use series::signal;
 use series::{harmonics, table};
@@ -36,14 +38,12 @@ pub(in crate::scene) const WIDTH: Range = range(1e-5, 5.0, "m");
 /// Largest step of the leapfrog, s.
 const LARGEST_LEAPFROG_STEP: f64 = 1e-3;
 const ROLLER_CLEARANCE: Range = range(-2e-4, 2e-3, "m");
-pub(in crate::scene) const POSITION: Range = range(-1e-2, 1e-2, "m");
 pub(in crate::scene) const MASS: Range = range(1e-7, 1e6, "kg");
 pub(in crate::scene) const INERTIA: Range = range(1e-15, 1e6, "kg m^2");
 pub(crate) const SPEED: Range = range(-1e5, 1e5, "rad/s");
 pub(crate) const VISCOSITY: Range = range(1e-5, 1e3, "Pa s");
 pub(crate) const FORCE: Range = range(-1e9, 1e9, "N");
 const GRAVITY: Range = range(-1e4, 1e4, "m/s^2");
-const SUPPORT_DAMPING: Range = range(0.0, 1e9, "N s/m");
 pub(in crate::scene) const ANGLE: Range = range(-1e3, 1e3, "rad");
 const TIME: Range = range(0.0, 1e6, "s");
 pub(in crate::scene) const COEFFICIENT: Range = range(0.0, 2.0, "");
@@ -111,8 +111,11 @@ impl Scene {
         if let Some(ring) = &self.inner_ring {
             self.validate_inner_ring(judge, ring)?;
         }
-        if let Some(speed) = self.outer_ring.as_ref().and_then(|ring| ring.speed.as_ref()) {
-            signal(judge, "outer_ring.speed", speed, SPEED)?;
+        if let Some(ring) = &self.outer_ring {
+            self.validate_outer_ring(judge, ring)?;
+        }
+        if let Some(rotor) = &self.rotor {
+            self.validate_rotor(judge, rotor)?;
         }
         // What elements of an unknown kind need is unknown.
         let known = |path: &str| !judge.excuses(path);
@@ -131,36 +134,6 @@ impl Scene {
             self.validate_cage(judge, cage)?;
         }
         self.validate_run(judge)
-    }
-
-    fn validate_inner_ring(&self, judge: Judge<'_>, inner: &InnerRing) -> Result<()> {
-        signal(judge, "inner_ring.speed", &inner.speed, SPEED)?;
-        if let Some(clearance) = inner.radial_clearance {
-            judge.number("inner_ring.radial_clearance", clearance, ROLLER_CLEARANCE)?;
-        }
-        if inner.raceway_crown_radius.is_some() && self.rollers.is_none() {
-            judge.refuse("inner_ring.raceway_crown_radius", "needs 'rollers', which run on it; remove it")?;
-        }
-        if let Some(material) = &inner.material {
-            self.material_exists(judge, "inner_ring.material", material)?;
-        }
-        match &inner.motion {
-            RingMotion::Fixed(position) => vector(judge, "inner_ring.motion.fixed", position, POSITION),
-            RingMotion::Free(_) if self.rollers.is_none() => {
-                judge.refuse("inner_ring.motion", "a free ring needs 'rollers' to carry it; write 'fixed'")
-            }
-            RingMotion::Free(ring) => {
-                judge.number("inner_ring.motion.free.mass", ring.mass, MASS)?;
-                let path = "inner_ring.motion.free.support_damping";
-                judge.optional(path, ring.support_damping, SUPPORT_DAMPING)?;
-                if let Some(load) = &ring.load {
-                    signal(judge, "inner_ring.motion.free.load.y", &load.y, FORCE)?;
-                    signal(judge, "inner_ring.motion.free.load.z", &load.z, FORCE)?;
-                }
-                Ok(())
-            }
-            RingMotion::Space(ring) => self.validate_spatial_ring(judge, ring),
-        }
     }
 
     fn validate_rollers(&self, judge: Judge<'_>, r: &Rollers) -> Result<()> {
@@ -210,7 +183,8 @@ impl Scene {
             );
             judge.refuse("outer_ring.raceway_radius", text)?;
         }
-        if self.initial.inner_ring == RingStart::Equilibrium && matches!(inner.motion, RingMotion::Fixed(_)) {
+        let fixed = matches!(inner.motion, RingMotion::Fixed(_)) && outer.motion.is_none();
+        if self.initial.inner_ring == RingStart::Equilibrium && fixed {
             let text = "'equilibrium' needs a free inner ring; write 'centred' for a fixed one";
             judge.refuse("initial.inner_ring", text)?;
         }

@@ -29,7 +29,7 @@ impl Plane {
             return longest;
         }
         // A ring that stands guides at no input.
-        let moved = self.between_infos.iter().any(|info| info.bodies[1] != OUTER_RING || self.outer_turns);
+        let moved = self.between_infos.iter().any(|info| info.bodies[1] != OUTER_RING || self.outer_moves);
         let inputs = if moved || self.onsets { self.inputs.at(t, host) } else { InputValues::default() };
         let shared = self.motions_at(q, v, &inputs);
         let ahead = Ahead {
@@ -120,7 +120,7 @@ mod tests {
         assert!(
             (fast.longest_step(0.0, [&q, &v], &host, 1.0, &Tuning::default()) / 5e-7 - 1.0).abs() < 1e-12
         );
-        fast.inputs.set(&mut host, 0.0, Input::RingSpeed, Some(300.0));
+        fast.inputs.set(&mut host, 0.0, Input::RingSpeed, Some((300.0, None)));
         assert!(fast.longest_step(0.0, [&q, &v], &host, 1.0, &Tuning::default()) > 1e-6);
     }
 

@@ -1,7 +1,7 @@
 //! Lengths, frequencies and rates that describe a model as a whole: what errors are measured by, and what limits the
 //! steps.
 
-use crate::bodies::{CAGE, ForceSource, INNER_RING, Moves, states_of};
+use crate::bodies::{CAGE, ForceSource, INNER_RING, Moves, OUTER_RING, PLACES, ROTOR, states_of};
 use crate::model::plane::{Input, Plane};
 use crate::pairs::{ContactLaw, NEIGHBOUR};
 use crate::scalar::math;
@@ -62,23 +62,43 @@ impl Plane {
         let rolling = || self.infos.iter().zip(&self.laws).filter(|(info, _)| info.rolls).map(|(_, law)| law);
         let inner = self.law_of(ForceSource::InnerRaceway)?;
         let largest = |input| self.inputs.largest(input);
-        let (ring, count) = (self.shared[INNER_RING].as_ref(), self.layout.count as f64);
-        let ring_mass = ring.and_then(|ring| ring.mass());
-        let weight = ring_mass.unwrap_or(0.0) * math::hypot(self.gravity[0], self.gravity[1]);
+        let count = self.layout.count as f64;
+        let weighing =
+            |body: usize| self.shared[body].as_ref().and_then(|body| body.weighing()).unwrap_or(0.0);
+        let rings = [INNER_RING, OUTER_RING, ROTOR];
+        let weight = rings.map(weighing).iter().sum::<f64>() * math::hypot(self.gravity[0], self.gravity[1]);
         let [by_outer, by_inner] = self.elements.orbit_ratios();
         let orbit = largest(Input::RingSpeed) * by_inner + largest(Input::OuterRingSpeed) * by_outer;
         let centrifugal = self.elements.centrifugal(orbit);
         let larger = self.elements.set().radius_excess.iter().copied().fold(0.0, f64::max);
         let preload = inner.spring((larger - self.scene.radial_clearance() / 4.0).max(0.0))[0];
+        let off = |place: usize| largest(PLACES[place][0]);
+        let apart = math::hypot(off(1) + off(5), off(2) + off(6));
+        let pressed = inner.spring((0.5 * apart - self.scene.radial_clearance() / 4.0).max(0.0))[0];
         // 4.1 F/Z is the largest roller load of a line contact bearing without clearance; 1 N keeps it positive.
         let per_roller = 4.1 / count.max(4.1);
-        let load = math::hypot(largest(Input::LoadY), largest(Input::LoadZ)) + weight;
-        let q = per_roller * load + centrifugal + preload + 1.0;
+        let loads = [
+            [Input::LoadY, Input::LoadZ],
+            [Input::OuterLoadY, Input::OuterLoadZ],
+            [Input::RotorLoadY, Input::RotorLoadZ],
+        ];
+        let load = loads.iter().map(|[y, z]| math::hypot(largest(*y), largest(*z))).sum::<f64>() + weight;
+        let q = per_roller * load + centrifugal + preload + pressed + 1.0;
         let stiffness: f64 = rolling().map(|law| law.stiffness_at_load(q)).sum();
         // A roller between two that move the other way.
         let neighbours = self.laws_on(NEIGHBOUR).map(|law| 4.0 * law.stiffness_at_load(q)).sum();
         let roller = stiffness.max(neighbours) / mass;
-        let ring = ring_mass.map_or(0.0, |mass| inner.stiffness_at_load(q) * 0.5 * count.max(2.0) / mass);
+        let shaft = |body: usize| {
+            let pairs = self.between_infos.iter().zip(&self.between);
+            let of_rotor = pairs.filter(|(info, _)| info.bodies[0] == ROTOR && info.bodies.contains(&body));
+            of_rotor.map(|(_, pair)| pair.stiffness()).sum::<f64>()
+        };
+        let ring = rings.into_iter().fold(0.0, |highest: f64, place| {
+            let contacts =
+                if place == ROTOR { 0.0 } else { inner.stiffness_at_load(q) * 0.5 * count.max(2.0) };
+            let body = self.shared[place].as_ref();
+            highest.max(body.map_or(0.0, |body| body.frequency_on(contacts + shaft(place), 0.0, 0.0)))
+        });
         Some((roller.max(ring), q))
     }
 

@@ -1,6 +1,6 @@
 //! Output channels: the named quantities that a run records.
 
-use crate::bodies::ForceSource;
+use crate::bodies::{ForceSource, INNER_RING, OUTER_RING, ROTOR};
 use crate::model::Channel;
 use crate::model::plane::Plane;
 use crate::pairs::ContactLaw;
@@ -31,8 +31,10 @@ pub(crate) enum Source {
     Viscosity,
     /// Value of a node by its place among the velocities.
     Node(usize),
-    RingY,
-    RingZ,
+    /// Component of the place of a ring or rotor: which, which component.
+    Ring(usize, usize),
+    /// Component of the force of all contacts on a ring.
+    OnRing(usize, usize),
     DragTorque,
     OuterRingTorque,
     OuterDragTorque,
@@ -96,10 +98,20 @@ impl Plane {
         let mut list = ChannelList(Vec::new());
         self.add_cage_channels(&mut list);
         if self.scene.inner_ring.is_some() {
-            list.add("inner_ring.y", "m", "inner ring centre to the right", Source::RingY);
-            list.add("inner_ring.z", "m", "inner ring centre upwards", Source::RingZ);
+            list.add("inner_ring.y", "m", "inner ring centre to the right", Source::Ring(INNER_RING, 0));
+            list.add("inner_ring.z", "m", "inner ring centre upwards", Source::Ring(INNER_RING, 1));
+            self.add_force_on_ring(INNER_RING, &mut list);
             let text = "torque that keeps the inner ring turning, positive against rolling drag";
             list.add("inner_ring.drag_torque", "N m", text, Source::DragTorque);
+        }
+        if self.scene.outer_motion().is_some() {
+            list.add("outer_ring.y", "m", "outer ring centre to the right", Source::Ring(OUTER_RING, 0));
+            list.add("outer_ring.z", "m", "outer ring centre upwards", Source::Ring(OUTER_RING, 1));
+        }
+        self.add_force_on_ring(OUTER_RING, &mut list);
+        if self.scene.rotor.is_some() {
+            list.add("rotor.y", "m", "rotor centre to the right", Source::Ring(ROTOR, 0));
+            list.add("rotor.z", "m", "rotor centre upwards", Source::Ring(ROTOR, 1));
         }
         let text = "moment on the outer ring about its centre, positive counter-clockwise";
         list.add("outer_ring.torque", "N m", text, Source::OuterRingTorque);
@@ -126,6 +138,22 @@ impl Plane {
         list.0.sort_by_key(|channel| channel.detail);
         list.0.shrink_to_fit();
         list.0
+    }
+
+    /// What the bearing does to a ring: for who moves it a result, else a detail.
+    fn add_force_on_ring(&self, ring: usize, list: &mut ChannelList) {
+        let Some(body) = &self.shared[ring] else { return };
+        let add = if body.moved_by().is_some() { ChannelList::add } else { ChannelList::add_detail };
+        for (k, (component, text)) in [
+            ("force_y", "force of rolling elements and cage on the ring, to the right"),
+            ("force_z", "force of rolling elements and cage on the ring, upwards"),
+        ]
+        .into_iter()
+        .enumerate()
+        {
+            let name = format!("{}.{component}", body.name());
+            add(list, &name, "N", text, Source::OnRing(ring, k));
+        }
     }
 
     fn add_cage_channels(&self, list: &mut ChannelList) {

@@ -145,7 +145,8 @@ impl Plane {
             out.contacts[self.contact_place(site)] =
                 quantities(&contact, &element, &loading.unwrap_or_default());
             let source = self.infos[site.pair].source as usize;
-            let bodies = [Some(self.element_body(site.element)), Some(site.mate).filter(|m| *m != NEIGHBOUR)];
+            let mate = Some(site.mate).filter(|mate| *mate != NEIGHBOUR).map(|mate| self.report_place(mate));
+            let bodies = [Some(self.element_body(site.element)), mate];
             let on_bodies = bodies.into_iter().zip(contact.grip.wrenches(&contact.force));
             for (body, on_body) in on_bodies.filter_map(|(body, on_body)| Some((body?, on_body))) {
                 let force = frame.to_global(on_body.force);
@@ -156,7 +157,7 @@ impl Plane {
         out.guide = GuideReport::default();
         for (info, force) in self.between_infos.iter().zip(&ws.between) {
             for (body, on_body) in info.bodies.into_iter().zip(&force.on) {
-                add(&mut out.bodies[body][info.source as usize], on_body);
+                add(&mut out.bodies[self.report_place(body)][info.source as usize], on_body);
             }
         }
         if let Some(on_cage) = self.force_of_guide(ws) {

@@ -32,6 +32,11 @@ impl Plane {
         self.shared.iter().flatten().count() + self.element_count()
     }
 
+    /// Index of a shared body among the bodies of a force report.
+    pub(super) fn report_place(&self, body: usize) -> usize {
+        self.shared[..body].iter().flatten().count()
+    }
+
     /// Index of an element among the bodies of a force report. Shared bodies come first, in their order.
     pub(super) fn element_body(&self, j: usize) -> usize {
         self.shared.iter().flatten().count() + j

@@ -63,12 +63,19 @@ impl<'a> Reading<'a> {
 
     /// Force and moment on a body of this source.
     fn on(&self, body: usize, source: ForceSource) -> [f64; 3] {
-        self.forces.bodies[body][source as usize]
+        self.forces.bodies[self.model.report_place(body)][source as usize]
     }
 
     /// Moment of all forces on a body about its centre, N m.
     fn moment(&self, body: usize) -> f64 {
-        self.forces.bodies[body].iter().map(|force| force[2]).sum()
+        self.forces.bodies[self.model.report_place(body)].iter().map(|force| force[2]).sum()
+    }
+
+    /// Component of the force on a ring by what it touches, N.
+    fn by_contacts(&self, ring: usize, k: usize) -> f64 {
+        const SOURCES: [ForceSource; 3] =
+            [ForceSource::OuterRaceway, ForceSource::InnerRaceway, ForceSource::Guide];
+        SOURCES.into_iter().map(|source| self.on(ring, source)[k]).sum()
     }
 
     fn contact(&self, j: usize, place: usize) -> &ContactForces {
@@ -122,8 +129,8 @@ impl<'a> Reading<'a> {
                 model.inputs.viscosity(&inputs).unwrap_or(f64::NAN)
             }
             Source::Node(place) => v[place],
-            Source::RingY => model.motion_of(INNER_RING, q, v, inputs).position[0],
-            Source::RingZ => model.motion_of(INNER_RING, q, v, inputs).position[1],
+            Source::Ring(ring, k) => model.motion_of(ring, q, v, inputs).position[k],
+            Source::OnRing(ring, k) => self.by_contacts(ring, k),
             // Weight and load have no moment about the centre of a ring.
             Source::DragTorque => -model.turning_of(INNER_RING, inputs) * self.moment(INNER_RING),
             Source::OuterDragTorque => -model.turning_of(OUTER_RING, inputs) * self.moment(OUTER_RING),

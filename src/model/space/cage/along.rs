@@ -188,7 +188,7 @@ impl Space {
         let ring: MovingRing<One> = if land.ring == 0 {
             turning_outer(in_time(One::lift(ws.rings[0].speed), rates.of(Input::OuterRingSpeed)))
         } else {
-            let [_, at, rate, second] = self.given(ws);
+            let [at, rate, second] = self.ring.given(rates);
             let seed = |x: f64, place: usize, rate: bool| along.seed(x, Along::Ring { place, rate });
             let state = RingState {
                 position: std::array::from_fn(|k| in_time(seed(ws.ring.position[k], k, false), at[k])),

@@ -256,7 +256,7 @@ impl Space {
         let moving_ring: MovingRing<AtLand> = if land.ring == 0 {
             turning_outer(timed(AtLand::lift(ws.rings[0].speed), rates.of(Input::OuterRingSpeed)))
         } else {
-            let [_, at, rate, second] = self.given(ws);
+            let [at, rate, second] = self.ring.given(rates);
             let state = RingState {
                 position: std::array::from_fn(|k| timed(variable(ws.ring.position[k], k), at[k])),
                 rate: std::array::from_fn(|k| timed(variable(ws.ring.rate[k], OF_RING + k), rate[k])),

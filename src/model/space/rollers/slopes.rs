@@ -158,7 +158,7 @@ impl Space {
         let ring = if side == 0 {
             turning_outer(pass.timed(Varied::lift(ws.rings[0].speed), rates.of(Input::OuterRingSpeed)))
         } else {
-            let [_, at, rate, second] = self.given(ws);
+            let [at, rate, second] = self.ring.given(rates);
             let place = |k: usize| OF_RING_IN_MATE[k];
             let variable = |x: f64, k: usize| pass.variable(x, k);
             RingState {

@@ -192,7 +192,7 @@ pub(super) const GROUPS: &[Group] = &[
             let radius = s.pitch_radius() - s.element_radius();
             let volume = PI * radius * radius * s.length();
             // A sleeve to a shaft with a rotor of thousands of times the volume.
-            Some((s.free_ring()?.mass, range(300.0 * volume, 2e7 * volume, "kg")))
+            Some((s.free_inner_ring()?.mass, range(300.0 * volume, 2e7 * volume, "kg")))
         },
         UNUSUAL,
     ),
@@ -200,7 +200,7 @@ pub(super) const GROUPS: &[Group] = &[
         "inner_ring.motion.free.support_damping",
         &["inner_ring.motion.free.mass", "materials"],
         |s| {
-            let ring = s.free_ring()?;
+            let ring = s.free_inner_ring()?;
             // Half of the rollers carry, each with about 0.15 E L.
             let stiffness = 0.075 * STEEL * s.length() * f64::from(s.element_count());
             Some((ring.support_damping?, damping(stiffness, ring.mass)))
@@ -211,7 +211,7 @@ pub(super) const GROUPS: &[Group] = &[
         "inner_ring.motion.free.load",
         &["materials", "rollers.effective_length"],
         |s| {
-            let (rollers, load) = (s.rollers.as_ref()?, s.free_ring()?.load.as_ref()?);
+            let (rollers, load) = (s.rollers.as_ref()?, s.free_inner_ring()?.load.as_ref()?);
             let inner = s.pitch_radius() - rollers.radius;
             let surface = |name: &String| {
                 s.materials.get(name).map(|m| (1.0 - m.poisson_ratio.powi(2)) / m.young_modulus)
@@ -516,13 +516,6 @@ impl Scene {
 
     fn outer_speed(&self) -> Option<&Signal> {
         self.outer_ring.as_ref()?.speed.as_ref()
-    }
-
-    fn free_ring(&self) -> Option<&FreeRing> {
-        match &self.inner_ring.as_ref()?.motion {
-            RingMotion::Free(ring) => Some(ring),
-            RingMotion::Fixed(_) | RingMotion::Space(_) => None,
-        }
     }
 
     fn plane_pocket(&self) -> Option<&PlanePocket> {
