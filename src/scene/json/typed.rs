@@ -12,6 +12,7 @@ use serde::de::{
 use serde::forward_to_deserialize_any;
 use serde_json::{Map, Value, map};
 use std::fmt;
+use std::ops::Deref;
 
 /// Longest piece of the text that a message repeats, characters.
 const LONGEST_QUOTE: usize = 60;
@@ -50,9 +51,13 @@ pub const PICKS: usize = 4;
 /// Whole numbers up to this are doubles without loss.
 const LARGEST_WHOLE: f64 = 9_007_199_254_740_992.0;
 
+/// What is wrong: one pointer, so that what reads a value hands little over.
+#[derive(Debug)]
+pub struct Complaint(Box<Wrong>);
+
 /// What is wrong, and the keys that lead there, the last one first.
 #[derive(Debug)]
-pub struct Complaint {
+pub struct Wrong {
     path: Vec<String>,
     /// In words, without the path.
     pub text: String,
@@ -73,14 +78,28 @@ pub enum Kind {
     Choice(String, &'static [&'static str]),
 }
 
+impl Deref for Complaint {
+    type Target = Wrong;
+
+    fn deref(&self) -> &Wrong {
+        &self.0
+    }
+}
+
 impl Complaint {
+    fn new(text: String, kind: Kind) -> Self {
+        Self(Box::new(Wrong { path: Vec::new(), text, kind }))
+    }
+
     fn expected(what: &str, found: &Value) -> Self {
         let found = shortened(found.to_string(), LONGEST_QUOTE);
         de::Error::custom(format!("expected {what}, found {found}"))
     }
 
+    #[cold]
+    #[inline(never)]
     fn below(mut self, key: &str) -> Self {
-        self.path.push(key.to_owned());
+        self.0.path.push(key.to_owned());
         self
     }
 
@@ -102,21 +121,21 @@ fn one_of(names: &[&str], none: &str) -> String {
 
 impl de::Error for Complaint {
     fn custom<T: fmt::Display>(text: T) -> Self {
-        Self { path: Vec::new(), text: text.to_string(), kind: Kind::Value }
+        Self::new(text.to_string(), Kind::Value)
     }
 
     fn missing_field(field: &'static str) -> Self {
-        Self { kind: Kind::Missing(field), ..Self::custom(format_args!("missing field `{field}`")) }
+        Self::new(format!("missing field `{field}`"), Kind::Missing(field))
     }
 
     fn unknown_field(field: &str, expected: &'static [&'static str]) -> Self {
         let text = format!("unknown field `{field}`, {}", one_of(expected, "there are no fields"));
-        Self { kind: Kind::Field(expected), ..Self::custom(text) }
+        Self::new(text, Kind::Field(expected))
     }
 
     fn unknown_variant(choice: &str, expected: &'static [&'static str]) -> Self {
         let text = format!("unknown variant `{choice}`, {}", one_of(expected, "there are no variants"));
-        Self { kind: Kind::Choice(choice.to_owned(), expected), ..Self::custom(text) }
+        Self::new(text, Kind::Choice(choice.to_owned(), expected))
     }
 
     /// Of numbers only, which [`Reader`] lets the field's own type judge.
@@ -193,6 +212,7 @@ impl<'de> Reader<'de> {
     }
 
     /// The fields of an object, and of a blank all of `fields`.
+    #[inline(never)]
     fn object(self, fields: &'static [&'static str]) -> Read<Fields<'de>> {
         let beside = self.beside;
         match self.given() {
@@ -352,6 +372,7 @@ struct Fields<'de> {
 }
 
 impl<'de> Fields<'de> {
+    #[inline(never)]
     fn next(&mut self) -> Option<(&'de str, Reader<'de>)> {
         for (key, value) in self.rest.as_mut().into_iter().flatten().filter(|(key, _)| !is_remark(key)) {
             // A name that is wrong has the place of the one that is meant, if that is free.
@@ -377,6 +398,8 @@ impl<'de> MapAccess<'de> for Fields<'de> {
         seed.deserialize(name).map(Some).map_err(|e| e.below(key))
     }
 
+    /// Once per type: what reads an object is as long as the list of its fields already.
+    #[inline(never)]
     fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Read<V::Value> {
         let (key, value) = self.value.take().ok_or_else(|| de::Error::custom("a value without a key"))?;
         seed.deserialize(value).map_err(|e| e.below(key))
