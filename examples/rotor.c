@@ -28,12 +28,13 @@ static const char *const forces[AXES] = {"inner_ring.force_y", "inner_ring.force
 /* A bearing whose inner ring is the host's. */
 static bearing made(const char *scene)
 {
-    bearing b = {0};
+    bearing b;
     cagedyn_model *model = cagedyn_model_from_json_with(
         scene, "inner_ring.motion={\"prescribed\": {\"y\": 0, \"z\": -27e-6}}\ninitial.inner_ring=equilibrium");
     b.sim = model ? cagedyn_sim_new(model) : NULL;
     if (b.sim == NULL) fail("bearing");
     for (int k = 0; k < AXES; k++) {
+        b.v[k] = b.a[k] = b.f[k] = 0.0;
         b.velocity[k] = cagedyn_model_find_input(model, velocities[k]);
         b.force[k] = cagedyn_model_find_output(model, forces[k]);
         if (b.velocity[k] < 0 || b.force[k] < 0) fail(velocities[k]);

@@ -905,6 +905,19 @@ int32_t cagedyn_sim_set_input(cagedyn_sim *sim,
                               int64_t input,
                               double value);
 
+/* Lets an input go on from `value` with `slope` per second from now on, instead of the scene's function of time. With a slope of 0 it
+ * holds.
+ *
+ * The place of a ring whose motion is prescribed and its rate (such as inner_ring.y and inner_ring.vy) are one motion. To set the
+ * rate lets the place go on from where it is, with `slope` as its second rate: a host that owns the ring sets velocity and
+ * acceleration at each of its steps, and the place neither jumps nor drifts from y + v h + a h^2/2. To set the place with a slope
+ * sets its rate. A place that jumps does work that the power balance has as that of the drive of the ring. One out of the bearing is
+ * refused. */
+int32_t cagedyn_sim_set_input_slope(cagedyn_sim *sim,
+                                    int64_t input,
+                                    double value,
+                                    double slope);
+
 /* Lets an input follow the scene again. */
 int32_t cagedyn_sim_release_input(cagedyn_sim *sim, int64_t input);
 
@@ -986,7 +999,7 @@ int64_t cagedyn_balance_count(void);
 
 /* Name of an item of a power balance; "" for other numbers. Static text.
  *
- * - loads, ring_drive (of the inner ring), outer_ring_drive, element_drive (of elements with prescribed motion),
+ * - loads (and unbalance), ring_drive (what turns and moves the inner ring), outer_ring_drive, element_drive (of elements with prescribed motion),
  *   ring_support, raceway_damping, raceway_friction, rolling_resistance, pocket_damping, pocket_friction, guide_film,
  *   guide_solid: works in J, positive where they go into the bearing.
  * - kinetic_energy_gain, elastic_energy_gain, potential_energy_gain: what is stored, J.

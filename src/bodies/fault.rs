@@ -121,7 +121,6 @@ registry! {
         NoViscosity = "no_viscosity",
         LostRoller = "lost_roller",
         LostRing = "lost_ring",
-        LostRotor = "lost_rotor",
         LostCage = "lost_cage",
         NotFinite = "not_finite",
         NoSlope = "no_slope",
@@ -132,6 +131,7 @@ registry! {
         LostBall = "lost_ball",
         AbovePocket = "above_pocket",
         AskewRoller = "askew_roller",
+        LostRotor = "lost_rotor",
     }
 }
 

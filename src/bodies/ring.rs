@@ -12,6 +12,7 @@ use super::{
     BodyEnergy, BodyForces, BodyState, CENTRE, Coordinate, Fault, ForceSource, Input, InputValues, OnBody,
     PLACES, Power, SharedBody, weight,
 };
+use crate::scalar::math;
 use crate::scene::{FreeRing, OuterRingMotion, PlaneMatrix, RingMotion, Scene, Support};
 use crate::space::{Motion, Wrench};
 use nalgebra::{DMatrixViewMut, Matrix2, Vector2};
@@ -91,6 +92,13 @@ impl Matrices {
     }
 }
 
+/// Smallest and largest eigenvalue of a symmetric matrix.
+fn extremes(matrix: &Matrix2<f64>) -> [f64; 2] {
+    let (mean, half) = (0.5 * matrix.trace(), 0.5 * (matrix[(0, 0)] - matrix[(1, 1)]));
+    let radius = math::hypot(half, matrix[(0, 1)]);
+    [mean - radius, mean + radius]
+}
+
 impl Free {
     fn new(ring: &FreeRing, turning: usize) -> Self {
         Self {
@@ -103,7 +111,7 @@ impl Free {
 
     /// The smallest mass that it has in a direction, kg.
     fn least_mass(&self) -> f64 {
-        self.support.as_ref().map_or(self.mass, |support| support.mass.symmetric_eigenvalues().min())
+        self.support.as_ref().map_or(self.mass, |support| extremes(&support.mass)[0])
     }
 
     /// Force of the support, N.
@@ -342,7 +350,7 @@ impl SharedBody for Ring {
 
     fn frequency_on(&self, radial: f64, _turning: f64, _lever: f64) -> f64 {
         let Some(free) = self.free() else { return 0.0 };
-        let held = free.support.as_ref().map_or(0.0, |s| s.stiffness[0].symmetric_eigenvalues().max());
+        let held = free.support.as_ref().map_or(0.0, |support| extremes(&support.stiffness[0])[1]);
         (radial + held) / free.least_mass()
     }
 }

@@ -20,6 +20,8 @@ fn sources_have_the_expected_names() {
         "neighbour",
         "drag",
         "rib",
+        "unbalance",
+        "shaft",
     ];
     assert_eq!(FORCE_SOURCES, names);
 }

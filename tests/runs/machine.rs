@@ -210,7 +210,10 @@ fn places_that_jump_do_work_and_stay_in_the_bearing() {
     let mut sim = sim(&scene);
     sim.advance_to(1e-3).unwrap();
     let (place, before) = (input(&sim, "inner_ring.z"), work(&sim, "ring_drive"));
-    let energy = |sim: &mut Sim| sim.energy_at(sim.time(), &sim.state().to_vec()).unwrap().total();
+    let energy = |sim: &mut Sim| {
+        let (t, state) = (sim.time(), sim.state().to_vec());
+        sim.energy_at(t, &state).unwrap().total()
+    };
     let stored = energy(&mut sim);
     sim.set_input(place, -30e-6).unwrap();
     let put = energy(&mut sim) - stored;

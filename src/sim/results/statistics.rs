@@ -44,7 +44,6 @@ registry! {
         FailedNoViscosity = "failed_no_viscosity",
         FailedLostRoller = "failed_lost_roller",
         FailedLostRing = "failed_lost_ring",
-        FailedLostRotor = "failed_lost_rotor",
         FailedLostCage = "failed_lost_cage",
         FailedNotFinite = "failed_not_finite",
         FailedNoSlope = "failed_no_slope",
@@ -57,6 +56,7 @@ registry! {
         FailedLostBall = "failed_lost_ball",
         FailedAbovePocket = "failed_above_pocket",
         FailedAskewRoller = "failed_askew_roller",
+        FailedLostRotor = "failed_lost_rotor",
     }
 }
 

@@ -61,14 +61,14 @@ impl<'a> Reading<'a> {
         if ratio.abs() <= 1.0 { 1.0 - ratio } else { (1.0 - ratio) / ratio.abs() }
     }
 
-    /// Force and moment on a body of this source.
+    /// Force and moment on a body of the report of this source: rings and cage have their places among the shared bodies there.
     fn on(&self, body: usize, source: ForceSource) -> [f64; 3] {
-        self.forces.bodies[self.model.report_place(body)][source as usize]
+        self.forces.bodies[body][source as usize]
     }
 
     /// Moment of all forces on a body about its centre, N m.
     fn moment(&self, body: usize) -> f64 {
-        self.forces.bodies[self.model.report_place(body)].iter().map(|force| force[2]).sum()
+        self.forces.bodies[body].iter().map(|force| force[2]).sum()
     }
 
     /// Component of the force on a ring by what it touches, N.
