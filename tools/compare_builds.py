@@ -5,8 +5,8 @@
 
 For every scene it runs 2 ms with each method, and asks both libraries for everything that they know: states, outputs,
 contact and body forces, works, counts, and at states around the run rates and exact derivatives. It prints what is not equal
-to the last bit, and the largest difference as a share of the largest number of its kind. Powers, counts and forces that only
-one of them has are left out.
+to the last bit, and the largest difference as a share of the largest number of its kind. Outputs, powers, counts and forces that
+only one of them has are left out.
 """
 
 import ctypes as c
@@ -48,10 +48,10 @@ class Library:
         """Names of what every model has of a kind, in their order."""
         return self.names(kind + "_name", self.count(kind + "_count"))
 
-    def sources(self, scene):
-        """Names of the sources of forces in a scene."""
+    def of_scene(self, kind, scene):
+        """Names of what a scene has of a kind."""
         model = c.c_void_p(self.c.cagedyn_model_from_json(json.dumps(scene).encode()))
-        names = self.names("model_force_source_name", self.count("model_force_source_count", model), model) if model else []
+        names = self.names(kind + "_name", self.count(kind + "_count", model), model) if model else []
         self.c.cagedyn_model_free(model)
         return names
 
@@ -84,10 +84,11 @@ def everything(lib, scene, states, known):
     outputs = lib.count("model_output_count", model)
     contacts = lib.count("model_contact_count", model) * lib.count("model_contact_quantity_count", model)
     bodies = lib.count("model_body_count", model) * lib.count("model_force_source_count", model) * 3
+    output_names = lib.names("model_output_name", outputs, model)
     found = {
         "names": lib.names("model_state_name", n, model)
-        + lib.names("model_output_name", outputs, model)
-        + lib.names("model_output_description", outputs, model)
+        + [pair for pair in zip(output_names, lib.names("model_output_description", outputs, model))
+           if pair[0] in known["model_output"]]
         + lib.names("model_contact_name", lib.count("model_contact_count", model), model)
         + lib.names("model_body_name", lib.count("model_body_count", model), model)
     }
@@ -103,7 +104,7 @@ def everything(lib, scene, states, known):
     for step in range(1, 11):
         put("status", [lib.c.cagedyn_sim_advance_to(sim, c.c_double(2e-4 * step))])
         put("state", lib.numbers("sim_get_state", sim, n))
-        put("outputs", lib.numbers("sim_get_outputs", sim, outputs))
+        put("outputs", shared(lib.numbers("sim_get_outputs", sim, outputs), output_names, known["model_output"]))
         put("contacts", lib.numbers("sim_contact_forces", sim, contacts))
         status, *values = lib.numbers("sim_body_forces", sim, bodies)
         of_body = 3 * len(sources)
@@ -152,7 +153,8 @@ def main():
     unequal = total = compared = 0
     for path in sys.argv[3:]:
         scene = json.loads(pathlib.Path(path).read_text())
-        known["model_force_source"] = {*before.sources(scene)} & {*after.sources(scene)}
+        for kind in ("model_force_source", "model_output"):
+            known[kind] = {*before.of_scene(kind, scene)} & {*after.of_scene(kind, scene)}
         for method in METHODS:
             scene["solver"] = {"method": method}
             states = []
