@@ -159,6 +159,31 @@ static void check_sparse(const cagedyn_model *m)
     free(state), free(dense), free(values), free(starts), free(rows);
 }
 
+/* Derivatives over a load are those of the ring alone; an output that is a state has a one. */
+static void check_inputs_and_outputs(const cagedyn_model *m)
+{
+    int64_t n = cagedyn_model_state_count(m), inputs = cagedyn_model_input_count(m);
+    int64_t outputs = cagedyn_model_output_count(m), load = cagedyn_model_find_input(m, "load.z");
+    int64_t ring = cagedyn_model_find_state(m, "inner_ring.vz"), cage = cagedyn_model_find_state(m, "cage.y");
+    int64_t place = cagedyn_model_find_output(m, "cage.y");
+    double *state = numbers(n), *over_inputs = numbers(n * inputs), event = 0.0;
+    double *by_states = numbers(n * outputs), *by_inputs = numbers(inputs * outputs);
+    cagedyn_sim *sim = cagedyn_sim_new(m);
+    CHECK(cagedyn_sim_get_state(sim, state, n) == CAGEDYN_OK);
+    CHECK(cagedyn_sim_input_jacobian(sim, 0.0, state, n, over_inputs, n * inputs) == CAGEDYN_OK);
+    for (int64_t i = 0; i < n; i++) CHECK((over_inputs[i + load * n] != 0.0) == (i == ring));
+    CHECK(cagedyn_sim_output_jacobian(sim, 0.0, state, n, by_states, n * outputs, by_inputs, inputs * outputs) ==
+          CAGEDYN_OK);
+    CHECK(fabs(by_states[place + cage * outputs] - 1.0) < 1e-6);
+    CHECK(cagedyn_sim_next_event(sim, 0.0, &event) == CAGEDYN_OK && event > 1e300);
+    CHECK_FAILS(cagedyn_sim_input_jacobian(sim, 0.0, state, n, over_inputs, n), CAGEDYN_ERR_WRONG_SIZE, "jacobian");
+    CHECK_FAILS(cagedyn_sim_output_jacobian(sim, 0.0, state, n, by_states, n, by_inputs, inputs * outputs),
+                CAGEDYN_ERR_WRONG_SIZE, "over_states");
+    CHECK_FAILS(cagedyn_sim_next_event(sim, 0.0, NULL), CAGEDYN_ERR_NULL_ARGUMENT, "event");
+    cagedyn_sim_free(sim);
+    free(state), free(over_inputs), free(by_states), free(by_inputs);
+}
+
 /* The derivative over time is that of the inputs, and kinetic energy grows by the power of the forces. */
 static void check_time_and_energy(const char *scene)
 {
@@ -220,6 +245,7 @@ int main(int argc, char **argv)
     check_own_state(m);
     check_drawn_forces(m);
     check_sparse(m);
+    check_inputs_and_outputs(m);
     check_time_and_energy(cagedyn_model_scene_json(m));
     check_geometry(m);
     cagedyn_model_free(m);

@@ -527,6 +527,36 @@ int32_t cagedyn_sim_jacobian(cagedyn_sim *sim,
                              double *jacobian,
                              int64_t jacobian_length);
 
+/* Writes the exact derivatives of what cagedyn_sim_derivative() gives over the inputs, at an arbitrary state and time `t` (s), to
+ * `jacobian`, by columns: jacobian[i + k * length] is that of rate i over input k. `length` is the length of the state,
+ * `jacobian_length` that times the number of inputs. What follows from an input, such as the orbit of elements that roll, moves with it;
+ * the rate of the place of a ring is an input of its own. The simulation's own state does not change. */
+int32_t cagedyn_sim_input_jacobian(cagedyn_sim *sim,
+                                   double t,
+                                   const double *state,
+                                   int64_t length,
+                                   double *jacobian,
+                                   int64_t jacobian_length);
+
+/* Writes the derivatives of the outputs at an arbitrary state and time `t` (s) over the states and over the inputs, by columns:
+ * over_states[i + k * outputs] is that of output i over state k. `length` is the length of the state, `states_length` that times the
+ * number of outputs, `inputs_length` the number of inputs times that of outputs. They are central differences, good to some five digits; at a
+ * kink of a force the mean of both sides. The simulation's own state does not change. */
+int32_t cagedyn_sim_output_jacobian(cagedyn_sim *sim,
+                                    double t,
+                                    const double *state,
+                                    int64_t length,
+                                    double *over_states,
+                                    int64_t states_length,
+                                    double *over_inputs,
+                                    int64_t inputs_length);
+
+/* Writes the first time after `t` (s) at which an input that follows the scene jumps or has a kink to `event`, where a host's own integrator has
+ * to stop; infinity if there is none. Forces have no jumps that it would have to land on. */
+int32_t cagedyn_sim_next_event(cagedyn_sim *sim,
+                               double t,
+                               double *event);
+
 /* Number of derivatives that cagedyn_sim_sparse_jacobian() gives. Negative status code on failure. */
 int64_t cagedyn_model_jacobian_entry_count(const cagedyn_model *model);
 

@@ -449,6 +449,23 @@ public:
     {
         detail::check(cagedyn_sim_jacobian(sim_, t, state.data(), state.size(), out.data(), out.size()));
     }
+    // Of the rates over the inputs, and of the outputs over states and inputs; by columns.
+    void input_jacobian(double t, Input state, Output out)
+    {
+        detail::check(cagedyn_sim_input_jacobian(sim_, t, state.data(), state.size(), out.data(), out.size()));
+    }
+    void output_jacobian(double t, Input state, Output over_states, Output over_inputs)
+    {
+        detail::check(cagedyn_sim_output_jacobian(sim_, t, state.data(), state.size(), over_states.data(),
+                                                  over_states.size(), over_inputs.data(), over_inputs.size()));
+    }
+    // The first jump or kink of an input after t; infinity without one.
+    double next_event(double t)
+    {
+        double event = 0.0;
+        detail::check(cagedyn_sim_next_event(sim_, t, &event));
+        return event;
+    }
     // In the order of Model::jacobian_pattern().
     void sparse_jacobian(double t, Input state, Output values)
     {

@@ -177,6 +177,18 @@ classdef Cagedyn < handle
             matrix = cagedyn_mex('jacobian', b.sim, t, x, b.model);
         end
 
+        function matrix = input_jacobian(b, t, x)
+            % Exact derivatives of derivative over the inputs, one column per input.
+            matrix = cagedyn_mex('input_jacobian', b.sim, t, x, b.model);
+        end
+
+        function [over_states, over_inputs] = output_jacobian(b, t, x)
+            % Derivatives of the outputs over states and over inputs, one row per output.
+            both = cagedyn_mex('output_jacobian', b.sim, t, x, b.model);
+            over_states = both(:, 1:numel(x));
+            over_inputs = both(:, numel(x) + 1:end);
+        end
+
         function values = contact_forces(b)
             % One row per contact, one column per contact quantity.
             values = cagedyn_mex('contact_forces', b.sim)';

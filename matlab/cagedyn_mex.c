@@ -444,6 +444,18 @@ static int sim_command(const char *c, object *o, int n, const mxArray **args, mx
     } else if (strcmp(c, "jacobian") == 0 && n == 3) {
         x = numbers_of(args[1], &length);
         *out = jacobian(o, object_of(args[2], MODEL), scalar_of(args[0]), x, length);
+    } else if (strcmp(c, "input_jacobian") == 0 && n == 3) {
+        x = numbers_of(args[1], &length);
+        int64_t inputs = cagedyn_model_input_count((cagedyn_model *)object_of(args[2], MODEL)->pointer);
+        *out = mxCreateDoubleMatrix((mwSize)length, (mwSize)inputs, mxREAL);
+        check(cagedyn_sim_input_jacobian(sim, scalar_of(args[0]), x, length, mxGetPr(*out), length * inputs));
+    } else if (strcmp(c, "output_jacobian") == 0 && n == 3) {
+        /* Over states, and behind them over inputs. */
+        x = numbers_of(args[1], &length);
+        int64_t inputs = cagedyn_model_input_count((cagedyn_model *)object_of(args[2], MODEL)->pointer);
+        *out = mxCreateDoubleMatrix((mwSize)o->outputs, (mwSize)(length + inputs), mxREAL);
+        check(cagedyn_sim_output_jacobian(sim, scalar_of(args[0]), x, length, mxGetPr(*out), o->outputs * length,
+                                          mxGetPr(*out) + o->outputs * length, o->outputs * inputs));
     } else if (strcmp(c, "contact_forces") == 0) {
         /* One column per contact, one row per quantity. */
         *out = mxCreateDoubleMatrix((mwSize)o->quantities, (mwSize)o->contacts, mxREAL);

@@ -329,6 +329,35 @@ class Sim:
         )
         return by_columns.reshape(length, length).T
 
+    def input_jacobian(self, t: float, state: ArrayLike) -> Array:
+        """Exact derivatives of what `derivative` gives over the inputs, shape (states, inputs)."""
+        x, length, _keep = numbers(state)
+        inputs = len(self.model.inputs)
+        by_columns = filled(
+            length * inputs, lambda p, n: lib.cagedyn_sim_input_jacobian(self._handle, t, x, length, p, n)
+        )
+        return by_columns.reshape(inputs, length).T
+
+    def output_jacobian(self, t: float, state: ArrayLike) -> tuple[Array, Array]:
+        """Derivatives of the outputs over states, shape (outputs, states), and over inputs, shape (outputs, inputs), good to some
+        five digits."""
+        x, length, _keep = numbers(state)
+        outputs, inputs = len(self.model.outputs), len(self.model.inputs)
+        over_states, over_inputs = np.empty(outputs * length), np.empty(outputs * inputs)
+        pointers = [ffi.cast("double *", ffi.from_buffer(array)) for array in (over_states, over_inputs)]
+        check(
+            lib.cagedyn_sim_output_jacobian(
+                self._handle, t, x, length, pointers[0], over_states.size, pointers[1], over_inputs.size
+            )
+        )
+        return over_states.reshape(length, outputs).T, over_inputs.reshape(inputs, outputs).T
+
+    def next_event(self, t: float) -> float:
+        """The first time after `t` (s) at which an input that follows the scene jumps or has a kink; infinity without one."""
+        event = ffi.new("double *")
+        check(lib.cagedyn_sim_next_event(self._handle, t, event))
+        return float(event[0])
+
     def sparse_jacobian(self, t: float, state: ArrayLike, pattern: SparsePattern) -> Array:
         """The same without what is always zero, in the order of `Model.jacobian_pattern`, shape (entries,)."""
         x, length, _keep = numbers(state)

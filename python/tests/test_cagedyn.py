@@ -122,6 +122,12 @@ def test_own_integrators(model, sim):
     sim.factorize(1e-6)
     assert np.allclose((np.eye(n) - 1e-6 * jacobian) @ sim.solve(rate), rate, rtol=1e-8)
     assert not sim.time_derivative(t, x).any()
+    over_inputs = sim.input_jacobian(t, x)
+    load = model.inputs.index("load.z")
+    assert over_inputs.shape == (n, len(model.inputs)) and np.count_nonzero(over_inputs[:, load]) == 1
+    by_states, by_inputs = sim.output_jacobian(t, x)
+    assert by_states.shape == (len(model.outputs), n) and by_inputs.shape == (len(model.outputs), len(model.inputs))
+    assert np.isclose(by_states[model.outputs.index("cage.y"), 2], 1.0) and sim.next_event(t) == np.inf
     assert sim.outputs_at(t, x)["cage.y"] == x[2] and sim.energies_at(t, x)["kinetic"] > 0.0
 
 

@@ -174,6 +174,14 @@ impl InputValues {
     pub fn of(&self, input: Input) -> f64 {
         self.values[input as usize]
     }
+
+    /// These moved by `step` along a direction.
+    pub(crate) fn moved(mut self, direction: &Self, step: f64) -> Self {
+        for (value, by) in self.values.iter_mut().zip(&direction.values) {
+            *value += step * by;
+        }
+        self
+    }
 }
 
 /// How a host lets an input go on: value + slope (t - since) + curvature (t - since)^2/2.

@@ -344,7 +344,7 @@ impl SharedBody for Ring {
 
     fn load_rates(&self, inputs: &InputValues, rates: &InputValues) -> [f64; 3] {
         let Some(free) = self.free() else { return [0.0; 3] };
-        let all = Vector2::from(self.load(rates)) + free.unbalance.rate(inputs, rates);
+        let all = Vector2::from(self.load(rates)) + free.unbalance.change(inputs, rates);
         [all[0], all[1], 0.0]
     }
 

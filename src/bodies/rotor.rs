@@ -126,7 +126,7 @@ impl SharedBody for Rotor {
     }
 
     fn load_rates(&self, inputs: &InputValues, rates: &InputValues) -> [f64; 3] {
-        let ([y, z], off_centre) = (self.load(rates), self.unbalance.rate(inputs, rates));
+        let ([y, z], off_centre) = (self.load(rates), self.unbalance.change(inputs, rates));
         [y + off_centre[0], z + off_centre[1], 0.0]
     }
 

@@ -1,7 +1,7 @@
 //! Mass off the axis of a body that turns.
 //!
 //! ```text
-//! U = e m (w^2 n - w' t),   U' = e m (3 w w' n + (w^3 - w'') t),   n = (cos a, sin a), t = (-sin a, cos a), a = phase + angle
+//! U = e m (w^2 n - w' t),   dU = e m ((2 w dw + w' da) n + (w^2 da - dw') t),   n = (cos a, sin a), t = (-sin a, cos a), a = phase + angle
 //! ```
 //!
 //! e m mass times distance, w speed. Its work is that of a load on the centre; the moment is taken by what turns the body.
@@ -40,11 +40,11 @@ impl OffCentre {
         Some(outwards * (w * w) - ahead * inputs.speeding[self.with])
     }
 
-    /// U', N/s, where the inputs change at these rates.
-    pub(super) fn rate(&self, inputs: &InputValues, rates: &InputValues) -> Vector2<f64> {
+    /// dU, N, where the inputs change by these, or its rate, where these are rates.
+    pub(super) fn change(&self, inputs: &InputValues, by: &InputValues) -> Vector2<f64> {
         let Some([outwards, ahead]) = self.axes(inputs) else { return Vector2::zeros() };
-        let (w, dw, ddw) =
-            (inputs.of(SPEEDS[self.with]), inputs.speeding[self.with], rates.speeding[self.with]);
-        outwards * (3.0 * w * dw) + ahead * (w * w * w - ddw)
+        let (w, dw) = (inputs.of(SPEEDS[self.with]), by.of(SPEEDS[self.with]));
+        let (speeding, da) = (inputs.speeding[self.with], by.angles[self.with]);
+        outwards * (2.0 * w * dw + speeding * da) + ahead * (w * w * da - by.speeding[self.with])
     }
 }

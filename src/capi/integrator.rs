@@ -94,6 +94,87 @@ pub unsafe extern "C" fn cagedyn_sim_jacobian(
     }
 }
 
+/// Writes the exact derivatives of what cagedyn_sim_derivative() gives over the inputs, at an arbitrary state and time `t` (s), to
+/// `jacobian`, by columns: jacobian[i + k * length] is that of rate i over input k. `length` is the length of the state,
+/// `jacobian_length` that times the number of inputs. What follows from an input, such as the orbit of elements that roll, moves with it;
+/// the rate of the place of a ring is an input of its own. The simulation's own state does not change.
+///
+/// # Safety
+/// `sim` is NULL or a live handle, `state` NULL or an array of `length` numbers, `jacobian` NULL or an array of
+/// `jacobian_length` numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_input_jacobian(
+    sim: *mut cagedyn_sim,
+    t: f64,
+    state: *const f64,
+    length: i64,
+    jacobian: *mut f64,
+    jacobian_length: i64,
+) -> i32 {
+    // SAFETY: see above.
+    unsafe {
+        with(sim, |s| {
+            let size = s.state.len() * s.sim.model().input_count();
+            check_array("jacobian", jacobian.is_null(), jacobian_length, size)?;
+            read_array("state", state, length, &mut s.state)?;
+            let mut found = vec![0.0; size];
+            s.sim.input_jacobian(t, &s.state, &mut found)?;
+            write_array("jacobian", &found, jacobian, jacobian_length)
+        })
+    }
+}
+
+/// Writes the derivatives of the outputs at an arbitrary state and time `t` (s) over the states and over the inputs, by columns:
+/// over_states[i + k * outputs] is that of output i over state k. `length` is the length of the state, `states_length` that times the
+/// number of outputs, `inputs_length` the number of inputs times that of outputs. They are central differences, good to some five digits; at a
+/// kink of a force the mean of both sides. The simulation's own state does not change.
+///
+/// # Safety
+/// `sim` is NULL or a live handle, the arrays are NULL or hold as many numbers as their lengths say.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_output_jacobian(
+    sim: *mut cagedyn_sim,
+    t: f64,
+    state: *const f64,
+    length: i64,
+    over_states: *mut f64,
+    states_length: i64,
+    over_inputs: *mut f64,
+    inputs_length: i64,
+) -> i32 {
+    // SAFETY: see above.
+    unsafe {
+        with(sim, |s| {
+            let outputs = s.sim.channels().len();
+            let sizes = [s.state.len(), s.sim.model().input_count()].map(|n| n * outputs);
+            check_array("over_states", over_states.is_null(), states_length, sizes[0])?;
+            check_array("over_inputs", over_inputs.is_null(), inputs_length, sizes[1])?;
+            read_array("state", state, length, &mut s.state)?;
+            let [mut states, mut inputs] = sizes.map(|size| vec![0.0; size]);
+            s.sim.output_jacobian(t, &s.state, &mut states, &mut inputs)?;
+            write_array("over_states", &states, over_states, states_length)?;
+            write_array("over_inputs", &inputs, over_inputs, inputs_length)
+        })
+    }
+}
+
+/// Writes the first time after `t` (s) at which an input that follows the scene jumps or has a kink to `event`, where a host's own integrator has
+/// to stop; infinity if there is none. Forces have no jumps that it would have to land on.
+///
+/// # Safety
+/// `sim` is NULL or a live handle, `event` NULL or a place for a number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_sim_next_event(sim: *mut cagedyn_sim, t: f64, event: *mut f64) -> i32 {
+    // SAFETY: see above.
+    unsafe {
+        with(sim, |s| {
+            check_array("event", event.is_null(), 1, 1)?;
+            let found = s.sim.next_event(t)?;
+            write_array("event", &[found], event, 1)
+        })
+    }
+}
+
 /// Number of derivatives that cagedyn_sim_sparse_jacobian() gives. Negative status code on failure.
 ///
 /// # Safety

@@ -41,6 +41,11 @@ impl Model {
         self.inputs.rates_at(t, host)
     }
 
+    /// How all values change per unit of one of them: see [`Model::input_rates_at`].
+    pub(crate) fn input_direction(&self, input: Input, t: f64, host: &HostInputs) -> InputValues {
+        self.inputs.direction(input, t, host)
+    }
+
     /// Sets an input at time `t` (s) to a value that goes on with a slope, per second, or lets it follow the scene again with `None`: see
     /// [`crate::Sim::set_input_slope`].
     #[doc(hidden)]

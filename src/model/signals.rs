@@ -205,6 +205,24 @@ impl InputSignals {
         rates
     }
 
+    /// How all values change with one of them, at time `t` (s), where angles and second rates stay.
+    pub(super) fn direction(&self, input: Input, t: f64, host: &HostInputs) -> InputValues {
+        let mut by = InputValues::default();
+        by.values[input as usize] = 1.0;
+        for (other, source) in &self.list {
+            if let (InputSource::RingSpeed(speed, value), Input::RingSpeed, false) =
+                (source, input, host.holds(*other))
+            {
+                let now = self.at(t, host).of(Input::RingSpeed);
+                by.values[*other as usize] = slope(speed, value, now.abs()) * now.signum();
+            }
+        }
+        if let Beside::Orbit(orbit) = &self.beside {
+            orbit.follow(&mut by);
+        }
+        by
+    }
+
     /// What an input follows over time, if the scene gives it so.
     fn signal_of(&self, input: Input) -> Option<&Signal> {
         self.list.iter().find(|(i, _)| *i == input).and_then(|(_, source)| source.signal())

@@ -9,8 +9,8 @@ use crate::integrate::{
 };
 use crate::model::space::{self, Space};
 use crate::model::{
-    Energy, Fault, FaultCounts, Forces, HostInputs, Input, LawCounts, LineLoad, Model, OF_BALL, OF_ELEMENT,
-    POWERS, PartTimes, Plane, RATES, Reading, Workspace, plane,
+    Energy, Fault, FaultCounts, Forces, HostInputs, Input, InputValues, LawCounts, LineLoad, Model, OF_BALL,
+    OF_ELEMENT, POWERS, PartTimes, Plane, RATES, Reading, Workspace, plane,
 };
 use std::sync::Arc;
 
@@ -209,14 +209,43 @@ impl Bearing {
         self.set_differentiating(false);
         evaluated?;
         let rates = self.model.input_rates_at(t, &self.host);
+        self.linearize_along(&rates, slopes);
+        Ok(())
+    }
+
+    /// Derivatives at the last evaluated state, with inputs that change at these rates.
+    pub(super) fn linearize_along(&mut self, rates: &InputValues, slopes: &mut AnySlopes) {
         match (&mut self.moving, slopes) {
             (Moving::Plane(plane, workspace), AnySlopes::Plane(slopes)) => {
-                plane.linearize(workspace, &rates, &mut slopes.linearization);
+                plane.linearize(workspace, rates, &mut slopes.linearization);
             }
             (Moving::Space(space, workspace), AnySlopes::Space(slopes)) => {
-                space.linearize(workspace, &rates, &mut slopes.linearization);
+                space.linearize(workspace, rates, &mut slopes.linearization);
             }
             _ => unreachable!("slopes are made for their bearing"),
+        }
+    }
+
+    /// Writes the output channels of a state vector at these inputs; not counted.
+    pub(super) fn outputs_with(
+        &mut self,
+        inputs: &InputValues,
+        state: &[f64],
+        (a, forces): (&mut [f64], &mut Forces),
+        out: &mut [f64],
+    ) -> Result<(), Fault> {
+        let (q, v) = state.split_at(self.model.layout().positions());
+        of_moving!(self, bearing, workspace => {
+            workspace.set_counting(false);
+            *workspace.inputs_mut() = *inputs;
+            let result = bearing.evaluate(q, v, workspace, a);
+            workspace.set_counting(true);
+            result?;
+        });
+        self.report(state, a, forces);
+        let reading = self.reading_with(*inputs, state, forces);
+        for (out, channel) in out.iter_mut().zip(self.model.channels()) {
+            *out = reading.value(channel);
         }
         Ok(())
     }
@@ -325,7 +354,10 @@ impl Bearing {
 
     /// The state at time `t` (s) with `forces` that were found last.
     pub(super) fn reading<'a>(&'a self, t: f64, state: &'a [f64], forces: &'a Forces) -> Reading<'a> {
-        let inputs = self.model.inputs_at(t, &self.host);
+        self.reading_with(self.model.inputs_at(t, &self.host), state, forces)
+    }
+
+    fn reading_with<'a>(&'a self, inputs: InputValues, state: &'a [f64], forces: &'a Forces) -> Reading<'a> {
         let (q, v) = state.split_at(self.model.layout().positions());
         match &self.moving {
             Moving::Plane(plane, workspace) => {

@@ -120,13 +120,14 @@ const READS: [(Reads, usize); 4] = [
     (cagedyn_sim_statistics, STATISTICS),
     (cagedyn_sim_law_evaluations, LAWS),
 ];
-const ANYWHERE: [(Anywhere, usize); 6] = [
+const ANYWHERE: [(Anywhere, usize); 7] = [
     (cagedyn_sim_contact_forces_at, CONTACTS),
     (cagedyn_sim_body_forces_at, BODIES),
     (cagedyn_sim_outputs_at, OUTPUTS),
     (cagedyn_sim_energies_at, ENERGIES),
     (cagedyn_sim_jacobian, JACOBIAN),
     (cagedyn_sim_sparse_jacobian, SPARSE),
+    (cagedyn_sim_input_jacobian, INPUT_JACOBIAN),
 ];
 const RATES: [Rates; 2] = [cagedyn_sim_derivative, cagedyn_sim_time_derivative];
 
@@ -146,12 +147,13 @@ const SPARSE: usize = 11;
 /// Number of contacts, and of what is known of a place along one.
 const CONTACT: usize = 12;
 const LINE_LOAD: usize = 13;
+const INPUT_JACOBIAN: usize = 14;
 
 /// A simulation with the lengths of its arrays.
 #[derive(Clone, Copy)]
 struct Owned {
     sim: *mut cagedyn_sim,
-    lengths: [i64; 14],
+    lengths: [i64; 15],
 }
 
 /// What a careless host has.
@@ -289,6 +291,7 @@ impl Host {
                 cagedyn_model_jacobian_entry_count(model),
                 cagedyn_model_contact_count(model),
                 cagedyn_model_line_load_quantity_count(model),
+                states * cagedyn_model_input_count(model),
             ];
             assert!(lengths.iter().all(|n| *n > 0 && *n < ROOM as i64));
             self.sims.push(Owned { sim, lengths });
