@@ -487,6 +487,46 @@ fn a_host_owns_the_rings_of_a_rotor() {
     assert!(cages.iter().all(|apart| apart.abs() < 0.05), "{cages:?}");
 }
 
+/// A host moves a ring in space along the axis and tilts it, and has the force and moment of the bearing back: those that a free ring has
+/// in equilibrium.
+#[test]
+fn a_host_moves_a_ring_in_space() {
+    let text: Value = serde_json::from_str(&read("scenes/angular_contact_70.json")).unwrap();
+    let coordinate = |value: f64| json!({"prescribed": {"constant": value}});
+    let scene = with(
+        &text,
+        &[
+            ("inner_ring.motion.space.x", coordinate(0.0)),
+            ("inner_ring.motion.space.tilt_y", coordinate(0.0)),
+        ],
+    );
+    let mut sim = sim(&scene);
+    let [x, vx, tilting] =
+        ["inner_ring.x", "inner_ring.vx", "inner_ring.tilt_speed_y"].map(|name| input(&sim, name));
+    // Pressed in by 20 um and tilted by 0.2 mrad within 2 ms.
+    sim.set_input(vx, 20e-6 / 2e-3).unwrap();
+    sim.set_input(tilting, 2e-4 / 2e-3).unwrap();
+    sim.advance_to(2e-3).unwrap();
+    sim.set_input(vx, 0.0).unwrap();
+    sim.set_input(tilting, 0.0).unwrap();
+    sim.advance_to(5e-3).unwrap();
+    assert!((sim.input(x).unwrap() - 20e-6).abs() < 1e-12);
+    assert_eq!(sim.trust(), Ok(()));
+    let missing = sim.power_balance().unwrap().relative_residual();
+    assert!(missing.abs() < 1e-3, "{missing:e}");
+    // The bearing pushes back, against both.
+    let (force, moment) = (output(&mut sim, "inner_ring.force_x"), output(&mut sim, "inner_ring.moment_y"));
+    assert!(force < -50.0 && moment < -0.01, "{force} {moment}");
+    let inner: [f64; 6] = sim.forces().unwrap().space.bodies[1]
+        .iter()
+        .take(2)
+        .fold([0.0; 6], |sum, force| std::array::from_fn(|k| sum[k] + force[k]));
+    // The output is that of the step, with its share of the damping.
+    assert!((inner[0] - force).abs() < 1e-4 * force.abs(), "{inner:?} {force}");
+    let error = sim.set_input(x, 0.2).unwrap_err();
+    assert!(error.message.starts_with("value: 0.2 m"), "{error}");
+}
+
 /// Scenes whose inputs are all there are.
 fn scenes_with_inputs() -> Vec<Value> {
     let unbalance = json!({"moment": 5e-3, "phase": 0.8});

@@ -151,6 +151,11 @@ impl RingInSpace {
         Ok(())
     }
 
+    /// Whether a coordinate is prescribed over time.
+    pub(crate) fn is_moved(&self) -> bool {
+        self.prescribed.contains(&true)
+    }
+
     /// Its coordinates that are free, by their places among all.
     pub(crate) fn free(&self) -> impl Iterator<Item = usize> {
         let held = self.held;

@@ -92,6 +92,8 @@ pub struct SpatialForces {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Source {
     Ring(usize),
+    /// Component of the force of all contacts on the inner ring, by its place among [`SPATIAL_FORCE_COMPONENTS`].
+    OnRing(usize),
     DragTorque,
     OuterRingTorque,
     OuterDragTorque,
@@ -124,6 +126,25 @@ impl Source {
         }
     }
 }
+
+/// What elements and cage do to the inner ring: place among the components, name, unit and meaning.
+const ON_RING: [(usize, &str, &str, &str); 5] = [
+    (0, "force_x", "N", "force of rolling elements and cage on the ring, along the axis of the bearing"),
+    (1, "force_y", "N", "force of rolling elements and cage on the ring, to the right"),
+    (2, "force_z", "N", "force of rolling elements and cage on the ring, upwards"),
+    (
+        4,
+        "moment_y",
+        "N m",
+        "moment of rolling elements and cage about the centre of the ring, about the axis to the right",
+    ),
+    (
+        5,
+        "moment_z",
+        "N m",
+        "moment of rolling elements and cage about the centre of the ring, about the upward axis",
+    ),
+];
 
 /// A channel of a bearing in space.
 pub(super) fn channel(
@@ -160,6 +181,10 @@ impl Space {
             if let Some([name, unit, description]) = coordinate.position {
                 push(format!("inner_ring.{name}"), unit, description, Source::Ring(k), false);
             }
+        }
+        for (k, component, unit, text) in ON_RING {
+            let moved = self.ring.is_moved();
+            push(format!("inner_ring.{component}"), unit, text, Source::OnRing(k), !moved);
         }
         let text = "torque that keeps the inner ring turning, positive against rolling drag";
         push("inner_ring.drag_torque".to_owned(), "N m", text, Source::DragTorque, false);
@@ -427,6 +452,13 @@ impl Reading<'_> {
         match source {
             Source::Cage(source) => self.cage(source),
             Source::Rollers(source) => space.rollers_value(source, ws),
+            Source::OnRing(k) => {
+                let by_machine = [ForceSource::Gravity, ForceSource::Load, ForceSource::Support]
+                    .map(|source| source as usize);
+                let sources = self.forces.bodies[1].iter().enumerate();
+                let touching = sources.filter(|(source, _)| !by_machine.contains(source));
+                touching.map(|(_, force)| force[k]).sum()
+            }
             Source::Ring(k) => space.ring.state(q, v, inputs).position[k],
             Source::DragTorque | Source::OuterRingTorque | Source::OuterDragTorque => {
                 space.torque(source, ws)
