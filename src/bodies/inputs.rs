@@ -11,34 +11,6 @@ registry! {
         RingSpeed = "inner_ring.speed",
         /// Rotation speed of the outer ring, rad/s.
         OuterRingSpeed = "outer_ring.speed",
-        /// Place of an inner ring whose motion is prescribed: along the axis of the bearing, m.
-        RingX = "inner_ring.x",
-        /// To the right, m.
-        RingY = "inner_ring.y",
-        /// Upwards, m.
-        RingZ = "inner_ring.z",
-        /// Its tilt about the axis to the right, rad.
-        RingTiltY = "inner_ring.tilt_y",
-        /// About the upward axis, rad.
-        RingTiltZ = "inner_ring.tilt_z",
-        /// Rates of these, m/s and rad/s.
-        RingVx = "inner_ring.vx",
-        /// See [`Input::RingVx`].
-        RingVy = "inner_ring.vy",
-        /// See [`Input::RingVx`].
-        RingVz = "inner_ring.vz",
-        /// See [`Input::RingVx`].
-        RingTiltSpeedY = "inner_ring.tilt_speed_y",
-        /// See [`Input::RingVx`].
-        RingTiltSpeedZ = "inner_ring.tilt_speed_z",
-        /// Place of an outer ring whose motion is prescribed, to the right, m.
-        OuterRingY = "outer_ring.y",
-        /// Upwards, m.
-        OuterRingZ = "outer_ring.z",
-        /// Rates of these, m/s.
-        OuterRingVy = "outer_ring.vy",
-        /// See [`Input::OuterRingVy`].
-        OuterRingVz = "outer_ring.vz",
         /// External load on the outer ring to the right, N.
         OuterLoadY = "outer_ring.load.y",
         /// External load on the outer ring upwards, N.
@@ -75,6 +47,34 @@ registry! {
         SpinSpeed = "elements.spin_speed",
         /// Temperature of the lubricant, K.
         Temperature = "lubricant.temperature",
+        /// Place of an inner ring whose motion is prescribed: along the axis of the bearing, m.
+        RingX = "inner_ring.x",
+        /// To the right, m.
+        RingY = "inner_ring.y",
+        /// Upwards, m.
+        RingZ = "inner_ring.z",
+        /// Its tilt about the axis to the right, rad.
+        RingTiltY = "inner_ring.tilt_y",
+        /// About the upward axis, rad.
+        RingTiltZ = "inner_ring.tilt_z",
+        /// Rates of these, m/s and rad/s.
+        RingVx = "inner_ring.vx",
+        /// See [`Input::RingVx`].
+        RingVy = "inner_ring.vy",
+        /// See [`Input::RingVx`].
+        RingVz = "inner_ring.vz",
+        /// See [`Input::RingVx`].
+        RingTiltSpeedY = "inner_ring.tilt_speed_y",
+        /// See [`Input::RingVx`].
+        RingTiltSpeedZ = "inner_ring.tilt_speed_z",
+        /// Place of an outer ring whose motion is prescribed, to the right, m.
+        OuterRingY = "outer_ring.y",
+        /// Upwards, m.
+        OuterRingZ = "outer_ring.z",
+        /// Rates of these, m/s.
+        OuterRingVy = "outer_ring.vy",
+        /// See [`Input::OuterRingVy`].
+        OuterRingVz = "outer_ring.vz",
     }
 }
 
@@ -123,7 +123,10 @@ impl Input {
     }
 }
 
-/// Places and their rates: coordinates of rings whose motion is prescribed.
+/// Number of inputs before those of [`PLACES`], which few scenes have.
+pub(crate) const GENERAL: usize = INPUTS - 2 * PLACES.len();
+
+/// Places and their rates: coordinates of rings whose motion is prescribed. They are the last inputs.
 pub(crate) const PLACES: [[Input; 2]; 7] = [
     [Input::RingX, Input::RingVx],
     [Input::RingY, Input::RingVy],
@@ -173,6 +176,13 @@ impl InputValues {
     /// Value of one input.
     pub fn of(&self, input: Input) -> f64 {
         self.values[input as usize]
+    }
+
+    /// Takes over the values of a scene that has no places, without angles.
+    #[inline]
+    pub(crate) fn take_general(&mut self, from: &Self) {
+        debug_assert!(PLACES.as_flattened().iter().all(|input| *input as usize >= GENERAL));
+        self.values[..GENERAL].copy_from_slice(&from.values[..GENERAL]);
     }
 
     /// These moved by `step` along a direction.

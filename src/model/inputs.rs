@@ -117,14 +117,6 @@ pub(super) fn inputs(scene: &Scene) -> Result<InputSignals> {
     if let Some(speed) = outer_speed {
         add(Input::OuterRingSpeed, speed);
     }
-    let places = prescribed(scene);
-    for (place, signal) in &places {
-        add(PLACES[*place][0], signal);
-    }
-    for (place, signal) in &places {
-        list.push((PLACES[*place][1], InputSource::RateOf(signal.clone())));
-    }
-    let mut add = |input: Input, signal: &Signal| list.push((input, InputSource::Time(signal.clone())));
     let none = Signal::Constant(0.0);
     let mut add_load = |[y, z]: [Input; 2], load: Option<Option<&Load>>| {
         if let Some(load) = load {
@@ -220,6 +212,9 @@ pub(super) fn inputs(scene: &Scene) -> Result<InputSignals> {
         }
         _ => None,
     };
+    let places = prescribed(scene);
+    list.extend(places.iter().map(|(k, signal)| (PLACES[*k][0], InputSource::Time(signal.clone()))));
+    list.extend(places.iter().map(|(k, signal)| (PLACES[*k][1], InputSource::RateOf(signal.clone()))));
     let angles = angles(scene);
     let beside = match orbit {
         Some(orbit) => {

@@ -146,7 +146,11 @@ impl InputSignals {
     /// Finds [`InputSignals::at`] in place: every evaluation of forces asks.
     #[inline]
     pub(super) fn find(&self, t: f64, host: &HostInputs, now: &mut InputValues) {
-        *now = self.start;
+        if self.places.is_empty() {
+            now.take_general(&self.start);
+        } else {
+            *now = self.start;
+        }
         if !self.steady || host.sets_any() {
             self.follow(t, host, now);
         }

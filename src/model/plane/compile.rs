@@ -2,7 +2,7 @@
 
 use super::Plane;
 use super::report::Watch;
-use crate::bodies::{self, OUTER_RING, SHARED, SharedBodies};
+use crate::bodies::{self, CAGE, INNER_RING, OUTER_RING, ROTOR, SHARED, SharedBodies};
 use crate::error::Result;
 use crate::model::Channel;
 use crate::model::signals::InputSignals;
@@ -24,6 +24,8 @@ impl Plane {
                 .each_ref()
                 .map(|body| body.as_ref().and_then(|b| b.mass()).unwrap_or(f64::INFINITY)),
             outer_moves: moves(&shared, OUTER_RING),
+            moving: Vec::new(),
+            free: Vec::new(),
             moved: (0..SHARED).filter(|place| is_moved(&shared, *place)).collect(),
             onsets: pairs.iter().any(|pair| pair.has_onset()),
             layout: bodies::layout_of(&shared, &*elements, &nodes),
@@ -45,6 +47,13 @@ impl Plane {
         };
         let lubricant = model.nodes_in().find_map(|(node, at)| Some(at.start + node.lubricant()?));
         model.lubricant = lubricant;
+        model.moving = [INNER_RING, CAGE, ROTOR, OUTER_RING]
+            .into_iter()
+            .filter(|place| *place != OUTER_RING || model.outer_moves)
+            .filter(|place| model.shared[*place].is_some())
+            .map(|place| (place, model.layout.shared(place).unwrap_or(0)))
+            .collect();
+        model.free = model.layout.free().map(|place| (place, model.layout.range(place))).collect();
         Ok(model)
     }
 

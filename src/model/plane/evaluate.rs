@@ -6,7 +6,7 @@
 use super::workspace::Workspace;
 use super::{Fault, Input, InputValues, Plane};
 use crate::bodies::{
-    BodyState, CAGE, CAGE_MOTION, OF_ELEMENT, OUTER_RING, OnBody, SHARED, SOUND, WrenchLanes,
+    BodyState, CAGE, CAGE_MOTION, OF_ELEMENT, OUTER_RING, OnBody, SHARED, SOUND, SharedBody, WrenchLanes,
 };
 use crate::laws::contact_pair::ContactForce;
 use crate::pairs::{ContactBlock, Law};
@@ -48,10 +48,14 @@ impl Plane {
         self.apply_laws(ws)?;
         self.assemble(ws, a);
         self.find_node_rates(v, ws, a);
-        match a.iter().position(|x| !x.is_finite()) {
-            None => Ok(()),
-            Some(velocity) => Err(Fault::NotFinite { velocity, contact: self.contact_not_finite(ws) }),
-        }
+        if a.iter().all(|x| x.is_finite()) { Ok(()) } else { Err(self.not_finite(a, ws)) }
+    }
+
+    /// The first acceleration that is not finite.
+    #[cold]
+    fn not_finite(&self, a: &[f64], ws: &Workspace) -> Fault {
+        let velocity = a.iter().position(|x| !x.is_finite()).unwrap_or_default();
+        Fault::NotFinite { velocity, contact: self.contact_not_finite(ws) }
     }
 
     /// Finds the viscosity at the present temperature.
@@ -80,11 +84,11 @@ impl Plane {
         self.find_motions(q, v, inputs, &mut motions.shared);
         self.find_deformation(ws);
         let Workspace { motions, contacts, inputs, .. } = ws;
-        for place in self.moved.iter().copied() {
-            self.within_reach(place, &motions.shared)?;
+        if !self.moved.is_empty() {
+            self.moved_within_reach(&motions.shared)?;
         }
-        for (place, _, at) in self.free_bodies() {
-            self.within_reach(place, &motions.shared)?;
+        for (place, body, at) in self.free_bodies() {
+            within_reach(place, body, &motions.shared)?;
             let Motion { velocity: [vy, vz], speed, .. } = motions.shared[place];
             // The rotation of rings is prescribed.
             let turning = if place == CAGE { speed.abs() * self.pitch_radius() } else { 0.0 };
@@ -103,13 +107,11 @@ impl Plane {
         Ok(())
     }
 
-    /// Whether a shared body is within the bearing.
-    fn within_reach(&self, place: usize, shared: &[Motion<f64>; SHARED]) -> Result<(), Fault> {
-        let Some(body) = &self.shared[place] else { return Ok(()) };
-        let [y, z] = shared[place].position;
-        let [oy, oz] = if place == OUTER_RING { [0.0; 2] } else { shared[OUTER_RING].position };
-        let distance = math::hypot(y - oy, z - oz);
-        if distance > body.reach() { Err(body.lost(distance)) } else { Ok(()) }
+    /// Whether rings whose places are prescribed are within the bearing.
+    #[cold]
+    fn moved_within_reach(&self, shared: &[Motion<f64>; SHARED]) -> Result<(), Fault> {
+        let mut moved = self.moved.iter().filter_map(|place| Some((*place, self.shared[*place].as_deref()?)));
+        moved.try_for_each(|(place, body)| within_reach(place, body, shared))
     }
 
     /// Evaluates the laws of all contacts.
@@ -188,8 +190,8 @@ impl Plane {
             let coordinates = if place == CAGE { on_modes.as_slice() } else { &[] };
             let on_body = OnBody { wrench: &on[place], coordinates };
             body.accelerate(&on_body, &state, self.gravity, &mut a[at]);
+            on_shared[place] = on[place];
         }
-        *on_shared = on;
         self.elements.accelerate(&self.layout, motions, on_elements, self.gravity, a);
     }
 
@@ -276,6 +278,14 @@ impl Plane {
             }
         }
     }
+}
+
+/// Whether a shared body is within the bearing.
+#[inline(always)]
+fn within_reach(place: usize, body: &dyn SharedBody, shared: &[Motion<f64>; SHARED]) -> Result<(), Fault> {
+    let ([y, z], [oy, oz]) = (shared[place].position, shared[OUTER_RING].position);
+    let distance = if place == OUTER_RING { math::hypot(y, z) } else { math::hypot(y - oy, z - oz) };
+    if distance > body.reach() { Err(body.lost(distance)) } else { Ok(()) }
 }
 
 #[cfg(test)]

@@ -35,8 +35,7 @@ pub use workspace::Workspace;
 use super::signals::InputSignals;
 use super::{Fault, HostInputs, Input, InputValues, Layout};
 use crate::bodies::{
-    CAGE, CAGE_MOTION, Elements, ForceSource, INNER_RING, Node, OUTER_RING, ROTOR, SHARED, SharedBodies,
-    SharedBody,
+    CAGE, CAGE_MOTION, Elements, ForceSource, Node, OUTER_RING, SHARED, SharedBodies, SharedBody,
 };
 use crate::pairs::raceway::{Cones, RacewayGeometry};
 use crate::pairs::{ContactLaw, ElementPair, Law, PairInfo, SharedInfo, SharedPair};
@@ -60,7 +59,9 @@ pub struct Plane {
     lubricant: Option<usize>,
     /// Whether the outer ring moves in any way.
     outer_moves: bool,
-    /// Shared bodies whose places inputs prescribe.
+    /// Shared bodies that may move at all, with their first coordinates; that are free; and whose places inputs prescribe.
+    moving: Vec<(usize, usize)>,
+    free: Vec<(usize, Range<usize>)>,
     moved: Vec<usize>,
     /// Masses of the shared bodies, kg; infinite where one is not free.
     masses: [f64; SHARED],
@@ -141,11 +142,10 @@ impl Plane {
     /// Finds those that may move.
     #[inline]
     fn find_motions(&self, q: &[f64], v: &[f64], inputs: &InputValues, out: &mut [Motion<f64>; SHARED]) {
-        for body in [INNER_RING, CAGE, ROTOR] {
-            out[body] = self.motion_of(body, q, v, inputs);
-        }
-        if self.outer_moves {
-            out[OUTER_RING] = self.motion_of(OUTER_RING, q, v, inputs);
+        for (body, first) in &self.moving {
+            if let Some(moving) = &self.shared[*body] {
+                out[*body] = moving.motion(&q[*first..], &v[*first..], inputs);
+            }
         }
     }
 
@@ -171,8 +171,7 @@ impl Plane {
     /// The shared bodies that move freely: place, body, coordinates.
     #[inline]
     fn free_bodies(&self) -> impl Iterator<Item = (usize, &dyn SharedBody, Range<usize>)> {
-        let free = self.layout.free();
-        free.filter_map(|place| Some((place, self.shared[place].as_deref()?, self.layout.range(place))))
+        self.free.iter().filter_map(|(place, at)| Some((*place, self.shared[*place].as_deref()?, at.clone())))
     }
 
     /// Place of the guide among the pairs of shared bodies, and what it says of itself: the first, if there are several, whose
