@@ -47,14 +47,19 @@ impl Plane {
         };
         let lubricant = model.nodes_in().find_map(|(node, at)| Some(at.start + node.lubricant()?));
         model.lubricant = lubricant;
-        model.moving = [INNER_RING, CAGE, ROTOR, OUTER_RING]
-            .into_iter()
-            .filter(|place| *place != OUTER_RING || model.outer_moves)
-            .filter(|place| model.shared[*place].is_some())
-            .map(|place| (place, model.layout.shared(place).unwrap_or(0)))
-            .collect();
-        model.free = model.layout.free().map(|place| (place, model.layout.range(place))).collect();
+        model.list_bodies();
         Ok(model)
+    }
+
+    /// Lists the shared bodies that evaluations look at, by bodies and layout.
+    pub(super) fn list_bodies(&mut self) {
+        self.moving = [INNER_RING, CAGE, ROTOR, OUTER_RING]
+            .into_iter()
+            .filter(|place| *place != OUTER_RING || self.outer_moves)
+            .filter(|place| self.shared[*place].is_some())
+            .map(|place| (place, self.layout.shared(place).unwrap_or(0)))
+            .collect();
+        self.free = self.layout.free().map(|place| (place, self.layout.range(place))).collect();
     }
 
     /// Follows the channels at these places of all in every step.

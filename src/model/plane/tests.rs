@@ -126,6 +126,7 @@ fn model(file: &str, method: &str) -> Model {
     let coordinates = cage.coordinates().iter().copied().chain(own).collect();
     plane.shared[CAGE] = Some(Box::new(VibratingCage { cage, coordinates }));
     plane.layout = layout_of(&plane.shared, &*plane.elements, &plane.nodes);
+    plane.list_bodies();
     model
 }
 
