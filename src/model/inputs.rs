@@ -118,17 +118,15 @@ pub(super) fn inputs(scene: &Scene) -> Result<InputSignals> {
         add(Input::OuterRingSpeed, speed);
     }
     let none = Signal::Constant(0.0);
-    let mut add_load = |[y, z]: [Input; 2], load: Option<Option<&Load>>| {
+    let mut add_load = |[y, z]: [Input; 2], load: Option<&Option<Load>>| {
         if let Some(load) = load {
-            add(y, load.map_or(&none, |load| &load.y));
-            add(z, load.map_or(&none, |load| &load.z));
+            add(y, load.as_ref().map_or(&none, |load| &load.y));
+            add(z, load.as_ref().map_or(&none, |load| &load.z));
         }
     };
-    let of_ring = |ring: Option<&'_ FreeRing>| ring.map(|ring| ring.load.clone());
-    let [outer, inner] = [scene.free_outer_ring(), scene.free_inner_ring()].map(of_ring);
-    add_load([Input::OuterLoadY, Input::OuterLoadZ], outer.as_ref().map(Option::as_ref));
-    add_load([Input::RotorLoadY, Input::RotorLoadZ], scene.rotor.as_ref().map(|rotor| rotor.load.as_ref()));
-    add_load([Input::LoadY, Input::LoadZ], inner.as_ref().map(Option::as_ref));
+    add_load([Input::OuterLoadY, Input::OuterLoadZ], scene.free_outer_ring().map(|ring| &ring.load));
+    add_load([Input::RotorLoadY, Input::RotorLoadZ], scene.rotor.as_ref().map(|rotor| &rotor.load));
+    add_load([Input::LoadY, Input::LoadZ], scene.free_inner_ring().map(|ring| &ring.load));
     if let Some(RingMotion::Space(ring)) = scene.inner_ring.as_ref().map(|ring| &ring.motion) {
         let loads = [Input::LoadX, Input::LoadY, Input::LoadZ, Input::MomentY, Input::MomentZ];
         for (input, signal) in loads.into_iter().zip(ring.loads()) {

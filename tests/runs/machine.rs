@@ -3,26 +3,25 @@
 use crate::common::{example_with, read, with};
 use cagedyn::model::POWERS;
 use cagedyn::{Model, Sim, Status};
-use nalgebra::Vector2;
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
 const NORMAL: usize = 0;
 
-fn sim(scene: &Value) -> Sim {
+pub fn sim(scene: &Value) -> Sim {
     Sim::new(Arc::new(Model::from_json(&scene.to_string()).unwrap_or_else(|e| panic!("{e}")))).unwrap()
 }
 
-fn input(sim: &Sim, name: &str) -> usize {
+pub fn input(sim: &Sim, name: &str) -> usize {
     sim.model().input_infos().iter().position(|info| info.name == name).unwrap_or_else(|| panic!("{name}"))
 }
 
-fn state_place(sim: &Sim, name: &str) -> usize {
+pub fn state_place(sim: &Sim, name: &str) -> usize {
     sim.model().state_infos().iter().position(|info| info.name == name).unwrap()
 }
 
-fn output(sim: &mut Sim, name: &str) -> f64 {
+pub fn output(sim: &mut Sim, name: &str) -> f64 {
     let place = sim.channels().iter().position(|c| c.name == name).unwrap_or_else(|| panic!("{name}"));
     sim.output(place).unwrap()
 }
@@ -31,7 +30,7 @@ fn work(sim: &Sim, name: &str) -> f64 {
     sim.works()[POWERS.iter().position(|power| *power == name).unwrap()]
 }
 
-fn support() -> Value {
+pub fn support() -> Value {
     json!({
         "stiffness": {"yy": 3e8, "yz": 4e7, "zy": -2e7, "zz": 6e8},
         "damping": {"yy": 3e3, "yz": -200.0, "zy": 500.0, "zz": 9e3},
@@ -39,7 +38,7 @@ fn support() -> Value {
     })
 }
 
-fn prescribed(y: Value, z: Value) -> Value {
+pub fn prescribed(y: Value, z: Value) -> Value {
     json!({"prescribed": {"y": y, "z": z}})
 }
 
@@ -312,181 +311,6 @@ fn a_rotor_on_a_shaft_is_that_of_jeffcott() {
     }
 }
 
-/// A rigid rotor on two bearings, with its ends as coordinates.
-struct RigidRotor {
-    /// Own and other mass of the ends, kg.
-    masses: [f64; 2],
-    unbalance: [[f64; 2]; 2],
-    speed: f64,
-    /// Of each end to the ground, N s/m.
-    damping: f64,
-}
-
-impl RigidRotor {
-    const MASS: f64 = 50.0;
-    const GRAVITY: f64 = -9.80665;
-    /// Load of each end, N: without it the ends wander in their clearance, and no two runs stay together.
-    const LOAD: f64 = -4900.0;
-
-    fn new() -> Self {
-        let (inertia, span) = (1.2, 0.4);
-        let [mean, turning] = [Self::MASS / 4.0, inertia / (span * span)];
-        Self {
-            masses: [mean + turning, mean - turning],
-            unbalance: [[2e-2, 0.0], [1e-2, 1.5]],
-            speed: -314.159,
-            damping: 6e3,
-        }
-    }
-
-    /// Forces of weight and unbalance at an end, N.
-    fn outer(&self, end: usize, t: f64) -> [f64; 2] {
-        let [moment, phase] = self.unbalance[end];
-        let (sin, cos) = (self.speed * t + phase).sin_cos();
-        let size = moment * self.speed * self.speed;
-        [size * cos, size * sin + 0.5 * Self::MASS * Self::GRAVITY + Self::LOAD]
-    }
-
-    /// Accelerations of both ends under these forces of the bearings, at these velocities.
-    fn accelerations(&self, forces: [[f64; 2]; 2], v: [[f64; 2]; 2], t: f64) -> [[f64; 2]; 2] {
-        let [own, other] = self.masses;
-        let scale = 1.0 / (own * own - other * other);
-        let total: [[f64; 2]; 2] = std::array::from_fn(|i| {
-            std::array::from_fn(|k| forces[i][k] + self.outer(i, t)[k] - self.damping * v[i][k])
-        });
-        std::array::from_fn(|i| {
-            std::array::from_fn(|k| scale * (own * total[i][k] - other * total[1 - i][k]))
-        })
-    }
-}
-
-fn bearing_of_rotor(motion: Value) -> Sim {
-    sim(&example_with(&[
-        ("inner_ring.speed", json!({"constant": RigidRotor::new().speed})),
-        ("inner_ring.motion", motion),
-        ("initial", json!({"inner_ring": "equilibrium"})),
-    ]))
-}
-
-const FORCES: [&str; 2] = ["inner_ring.force_y", "inner_ring.force_z"];
-const ENDS: [&str; 2] = ["inner_ring.y", "inner_ring.z"];
-const CAGE: [&str; 2] = ["cage.y_ratio", "cage.z_ratio"];
-
-/// Values of two channels.
-fn two(sim: &mut Sim, names: [&str; 2]) -> [f64; 2] {
-    names.map(|name| output(sim, name))
-}
-
-/// Places of both ends at every 0.1 ms, from a host that owns the rings.
-fn owned(duration: f64) -> (Vec<[f64; 6]>, u64) {
-    let (rotor, h) = (RigidRotor::new(), 1e-4);
-    let start = two(&mut monolithic_bearing(), ENDS);
-    let mut ends: [Sim; 2] =
-        std::array::from_fn(|_| bearing_of_rotor(prescribed(json!(start[0]), json!(start[1]))));
-    let rates = ["inner_ring.vy", "inner_ring.vz"].map(|name| input(&ends[0], name));
-    let (mut places, mut v, mut t) = (Vec::new(), [[0.0; 2]; 2], 0.0);
-    let forces =
-        |ends: &mut [Sim; 2]| -> [[f64; 2]; 2] { std::array::from_fn(|i| two(&mut ends[i], FORCES)) };
-    let mut a = rotor.accelerations(forces(&mut ends), v, t);
-    for n in 1..=(duration / h).round() as u32 {
-        for (i, end) in ends.iter_mut().enumerate() {
-            for k in 0..2 {
-                end.set_input_slope(rates[k], v[i][k], a[i][k]).unwrap();
-            }
-            end.advance_to(f64::from(n) * h).unwrap();
-        }
-        t = f64::from(n) * h;
-        let (before, by_bearings) = (v, forces(&mut ends));
-        let mut next = a;
-        // The damping is that of the velocity which it leads to.
-        for _ in 0..4 {
-            v = std::array::from_fn(|i| {
-                std::array::from_fn(|k| before[i][k] + 0.5 * h * (a[i][k] + next[i][k]))
-            });
-            next = rotor.accelerations(by_bearings, v, t);
-        }
-        a = next;
-        let [[y0, z0], [y1, z1]] = std::array::from_fn(|i| two(&mut ends[i], ENDS));
-        let [cage_y, cage_z] = two(&mut ends[0], CAGE);
-        places.push([y0, z0, y1, z1, cage_y, cage_z]);
-    }
-    (places, ends[0].statistics().evaluations)
-}
-
-fn monolithic_bearing() -> Sim {
-    let (own, damping) = (RigidRotor::new().masses[0], RigidRotor::new().damping);
-    // The weight of the ring in the scene is that of its own mass.
-    let rest = (0.5 * RigidRotor::MASS - own) * RigidRotor::GRAVITY + RigidRotor::LOAD;
-    let load = json!({"y": {"constant": 0.0}, "z": {"constant": rest}});
-    bearing_of_rotor(json!({"free": {"mass": own, "load": load, "support_damping": damping}}))
-}
-
-/// The same from rings that are free, each with its own mass, and whatever else acts on them set as loads every microsecond.
-fn loaded(duration: f64) -> (Vec<[f64; 6]>, u64) {
-    let (rotor, h) = (RigidRotor::new(), 1e-6);
-    let mut ends: [Sim; 2] = std::array::from_fn(|_| monolithic_bearing());
-    let loads = ["load.y", "load.z"].map(|name| input(&ends[0], name));
-    let rates = ["inner_ring.vy", "inner_ring.vz"].map(|name| state_place(&ends[0], name));
-    let [own, other] = rotor.masses;
-    let mut places = Vec::new();
-    for n in 0..(duration / h).round() as u32 {
-        let t = f64::from(n) * h;
-        let forces = std::array::from_fn(|i| two(&mut ends[i], FORCES));
-        let v = std::array::from_fn(|i| rates.map(|place| ends[i].state()[place]));
-        let a = rotor.accelerations(forces, v, t);
-        for (i, end) in ends.iter_mut().enumerate() {
-            let outer = rotor.outer(i, t + 0.5 * h);
-            let weight = [0.0, own * RigidRotor::GRAVITY];
-            for k in 0..2 {
-                end.set_input(loads[k], outer[k] - other * a[1 - i][k] - weight[k]).unwrap();
-            }
-            end.advance_to(t + h).unwrap();
-        }
-        if (n + 1) % 100 == 0 {
-            let [[y0, z0], [y1, z1]] = std::array::from_fn(|i| two(&mut ends[i], ENDS));
-            let [cage_y, cage_z] = two(&mut ends[0], CAGE);
-            places.push([y0, z0, y1, z1, cage_y, cage_z]);
-        }
-    }
-    (places, ends[0].statistics().evaluations)
-}
-
-/// Cosine and sine of a coordinate once per revolution, over two revolutions at every 0.1 ms.
-fn synchronous(places: &[[f64; 6]], k: usize) -> Vector2<f64> {
-    let turn = TAU / 200.0;
-    let places = &places[places.len() - 400..];
-    let sum = places.iter().enumerate().map(|(n, x)| {
-        let (sin, cos) = (turn * n as f64).sin_cos();
-        Vector2::new(cos, sin) * x[k]
-    });
-    sum.sum::<Vector2<f64>>() / 200.0
-}
-
-/// Orbits of a rotor of 50 kg on two bearings: by a host that owns the rings in steps of 0.1 ms, and by loads at every microsecond.
-#[test]
-fn a_host_owns_the_rings_of_a_rotor() {
-    const DURATION: f64 = 0.08;
-    let (owned, evaluations) = owned(DURATION);
-    let (loaded, _) = loaded(DURATION);
-    let mut free = monolithic_bearing();
-    free.advance_to(DURATION).unwrap();
-    let ratio = evaluations as f64 / free.statistics().evaluations as f64;
-    // What goes round with the rotor: rollers pass at other times in both, as cages are not reproducible.
-    let mut worst = 0.0f64;
-    for k in 0..4 {
-        let [one, other] = [&loaded, &owned].map(|places| synchronous(places, k));
-        worst = worst.max((one - other).norm() / one.norm());
-    }
-    let mean = |places: &[[f64; 6]], k: usize| places[400..].iter().map(|x| x[k]).sum::<f64>() / 400.0;
-    let cages = [4, 5].map(|k| mean(&loaded, k) - mean(&owned, k));
-    println!(
-        "orbits {worst:.4} apart, {ratio:.2} of the evaluations of a free run, means of cages {cages:.3?}"
-    );
-    assert!(worst < 0.01, "{worst}");
-    assert!(ratio < 1.5, "{ratio}");
-    assert!(cages.iter().all(|apart| apart.abs() < 0.05), "{cages:?}");
-}
-
 /// A host moves a ring in space along the axis and tilts it, and has the force and moment of the bearing back: those that a free ring has
 /// in equilibrium.
 #[test]
@@ -522,114 +346,7 @@ fn a_host_moves_a_ring_in_space() {
         .take(2)
         .fold([0.0; 6], |sum, force| std::array::from_fn(|k| sum[k] + force[k]));
     // The output is that of the step, with its share of the damping.
-    assert!((inner[0] - force).abs() < 1e-4 * force.abs(), "{inner:?} {force}");
+    assert!((inner[0] - force).abs() < 1e-5 * force.abs(), "{inner:?} {force}");
     let error = sim.set_input(x, 0.2).unwrap_err();
     assert!(error.message.starts_with("value: 0.2 m"), "{error}");
-}
-
-/// Scenes whose inputs are all there are.
-fn scenes_with_inputs() -> Vec<Value> {
-    let unbalance = json!({"moment": 5e-3, "phase": 0.8});
-    let load = json!({"y": {"constant": 200.0}, "z": {"constant": -4000.0}});
-    let free = json!({"free": {"mass": 2.0, "support": support(), "load": load, "unbalance": unbalance}});
-    let rotor =
-        json!({"mass": 30.0, "shaft": {"stiffness": 5e7, "internal_damping": 300.0}, "unbalance": unbalance});
-    let at = prescribed(json!(3e-6), json!(-27e-6));
-    let space: Value = serde_json::from_str(&read("scenes/angular_contact_70_cage.json")).unwrap();
-    let grease: Value = serde_json::from_str(&read("scenes/grease_guide.json")).unwrap();
-    let speed = ("outer_ring.speed", json!({"constant": 20.0}));
-    vec![
-        example_with(&[
-            ("outer_ring.motion", free.clone()),
-            ("inner_ring.motion", free),
-            ("rotor", rotor),
-            speed.clone(),
-        ]),
-        example_with(&[("outer_ring.motion", at.clone()), ("inner_ring.motion", at.clone()), speed]),
-        with(&grease, &[("inner_ring.motion", at.clone()), ("gravity", Value::Null)]),
-        with(&space, &[("inner_ring.motion.space.y", json!({"prescribed": {"constant": 2e-6}}))]),
-    ]
-}
-
-/// Exact derivatives over every input are differences of the rates; those of the outputs have the forces of these rates.
-#[test]
-fn derivatives_over_inputs_are_differences() {
-    let (mut compared, mut acting) = (0, 0);
-    for scene in scenes_with_inputs() {
-        let mut sim = sim(&scene);
-        sim.advance_to(1.2e-3).unwrap();
-        let (t, state) = (sim.time(), sim.state().to_vec());
-        let (n, infos) = (state.len(), sim.model().input_infos());
-        let mut exact = vec![0.0; n * infos.len()];
-        sim.input_jacobian(t, &state, &mut exact).unwrap();
-        for (k, info) in infos.iter().enumerate() {
-            let now = sim.input(k).unwrap();
-            let step = match info.unit {
-                "m" | "rad" => 1e-11,
-                "m/s" => 1e-7,
-                // Friction that hardly slips bends within 1e-2 rad/s.
-                "rad/s" => 1e-4,
-                "K" => 1e-3,
-                _ => 1e-2,
-            };
-            let rates = [1.0, -1.0, 2.0, -2.0].map(|side| {
-                sim.set_input(k, now + side * step).unwrap();
-                let mut rate = vec![0.0; n];
-                sim.derivative(t, &state, &mut rate).unwrap();
-                rate
-            });
-            sim.release_input(k).unwrap();
-            let column = &exact[k * n..(k + 1) * n];
-            let largest = column.iter().fold(0.0f64, |most, x| most.max(x.abs()));
-            let size = rates[0].iter().fold(0.0f64, |most, x| most.max(x.abs()));
-            acting += usize::from(largest > 0.0);
-            for i in 0..n {
-                let [near, far] = [rates[0][i] - rates[1][i], rates[2][i] - rates[3][i]];
-                let difference = (8.0 * near - far) / (12.0 * step);
-                let error = (column[i] - difference).abs();
-                // Round-off of the rates counts where an input does little.
-                assert!(
-                    error < 2e-5 * largest + 1e-14 * size / step,
-                    "{} {i}: {} {difference}",
-                    info.name,
-                    column[i]
-                );
-                compared += 1;
-            }
-        }
-    }
-    assert!(compared > 1000 && acting > 15, "{compared} {acting}");
-}
-
-#[test]
-fn derivatives_of_outputs_have_the_forces_of_the_rates() {
-    let load = json!({"y": {"constant": 0.0}, "z": {"constant": -4900.0}});
-    let mut sim = sim(&example_with(&[("inner_ring.motion", json!({"free": {"mass": 3.0, "load": load}}))]));
-    sim.advance_to(1.2e-3).unwrap();
-    let (t, state) = (sim.time(), sim.state().to_vec());
-    let (n, outputs, inputs) = (state.len(), sim.channels().len(), sim.model().input_count());
-    let mut exact = vec![0.0; n * n];
-    sim.jacobian(t, &state, &mut exact).unwrap();
-    let (mut over_states, mut over_inputs) = (vec![0.0; n * outputs], vec![0.0; inputs * outputs]);
-    sim.output_jacobian(t, &state, &mut over_states, &mut over_inputs).unwrap();
-    let place = |name: &str| sim.channels().iter().position(|c| c.name == name).unwrap();
-    let (force, rate, cage) =
-        (place("inner_ring.force_z"), state_place(&sim, "inner_ring.vz"), place("cage.y"));
-    let largest = (0..n).fold(0.0f64, |most, k| most.max(3.0 * exact[k * n + rate].abs()));
-    for k in 0..n {
-        let (by_output, by_rate) = (over_states[k * outputs + force], 3.0 * exact[k * n + rate]);
-        assert!((by_output - by_rate).abs() < 1e-6 * largest, "{k}: {by_output} {by_rate}");
-    }
-    let own = state_place(&sim, "cage.y");
-    for k in 0..n {
-        let expected = f64::from(u8::from(k == own));
-        assert!((over_states[k * outputs + cage] - expected).abs() < 1e-6, "{k}");
-    }
-    // The speed of the ring moves the friction on it; a load moves no force of the bearing at once.
-    let [speed, load] = ["inner_ring.speed", "load.z"].map(|name| input(&sim, name));
-    assert!(over_inputs[speed * outputs + place("inner_ring.drag_torque")].abs() > 1e-6);
-    assert_eq!(over_inputs[load * outputs + force], 0.0);
-    let text = sim.output_jacobian(t, &state, &mut over_states, &mut []).unwrap_err().message;
-    assert!(text.starts_with("over_inputs"), "{text}");
-    assert_eq!(sim.next_event(t), Ok(f64::INFINITY));
 }
