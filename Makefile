@@ -8,6 +8,7 @@
 # make effects   cost of every effect and what it changes: docs/results/effects.md
 # make cage-in-space the cage of the second paper in space: docs/results/cage-in-space.md
 # make roller-space  the NU2310 with rollers in space beside those in the plane: docs/results/roller-space.md
+# make waviness  orders of waves and passing of spalls beside those of textbooks: docs/results/waviness.md
 # make second-paper  whirl of the second paper with elastic cage and heat balance: docs/results/second-paper.md
 # make verify    errors of the integration methods against CVODE: docs/results/verification.md
 # make hard     hard cases with every method and preset: docs/results/hard-cases.md
@@ -37,7 +38,7 @@ CARGO ?= cargo
 # Python with what tests of its package need.
 PYTHON := $(abspath out/venv/bin/python)
 
-.PHONY: check test release-check tools python-env fmt lint doc shipped quick unit abi deb run cases example figures effects second-paper cage-in-space roller-space verify hard judge tuning ellipse-rules random statistics \
+.PHONY: check test release-check tools python-env fmt lint doc shipped quick unit abi deb run cases example figures effects second-paper cage-in-space roller-space waviness verify hard judge tuning ellipse-rules random statistics \
 	accuracy bench build-times header build install uninstall clean
 
 # The same flags everywhere, so that nothing is built twice.
@@ -140,6 +141,9 @@ cage-in-space: tools
 
 roller-space: tools
 	$(CARGO) run --release --locked --package cagedyn-studies --bin roller_space -- --docs
+
+waviness: tools
+	$(CARGO) run --release --locked --package cagedyn-studies --bin waviness -- --docs
 
 effects: tools
 	$(CARGO) run --release --locked --package cagedyn-studies --bin effects -- --docs

@@ -8,7 +8,8 @@
 //! That is in the plane; in space a ring has up to five coordinates, and a ball x, rho and travel with three spin speeds.
 //!
 //! Blocks in brackets exist only if the scene has them: a fixed ring and an absent cage add nothing. The spin angle
-//! of an element enters no force, so only its speed is a state. The rate of position `i` is velocity `i`.
+//! of an element that is round enters no force, so only its speed is a state; of rollers with waves it is the third position of each.
+//! The rate of position `i` is velocity `i`.
 //!
 //! The travel of an element and the angle of the cage both count from the start, so the place of an element in its pocket
 //! is their difference and does not depend on where in the bearing it is.
@@ -144,7 +145,16 @@ impl Layout {
 
     /// Index of the first spin speed of element `j` in `v`.
     pub fn spin(&self, j: usize) -> usize {
-        self.positions() + self.of_element[1] * j
+        match self.of_element {
+            [positions, 0] => self.element(j) + positions.saturating_sub(1),
+            [_, spins] => self.positions() + spins * j,
+        }
+    }
+
+    /// Whether the spin angles of elements in the plane are positions.
+    #[inline]
+    pub(in crate::bodies) fn has_spin_angles(&self) -> bool {
+        self.of_element == [OF_ELEMENT, 0]
     }
 
     /// Velocities of element `j`.

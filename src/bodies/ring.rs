@@ -13,7 +13,9 @@ use super::{
     PLACES, Power, SharedBody, weight,
 };
 use crate::scalar::math;
-use crate::scene::{FreeRing, OuterRingMotion, PlaneMatrix, RingMotion, Scene, Support};
+use crate::scene::{
+    FreeRing, InnerRing, OuterRing, OuterRingMotion, PlaneMatrix, RingMotion, Scene, Support,
+};
 use crate::space::{Motion, Wrench};
 use nalgebra::{DMatrixViewMut, Matrix2, Vector2};
 
@@ -29,6 +31,8 @@ pub(super) struct Ring {
     speed: Option<Input>,
     /// Which ring it is: 0 the outer one.
     which: usize,
+    /// Whether its raceway has waves, which makes its angle count.
+    wavy: bool,
     /// Inputs that are its load.
     load: [Input; 2],
     /// Clearance and a tenth of a roller's radius, which no elastic approach comes near, m.
@@ -137,6 +141,7 @@ impl Ring {
             held,
             speed: speed.map(|_| Input::OuterRingSpeed),
             which: 0,
+            wavy: scene.rollers.is_some() && scene.outer_ring.as_ref().is_some_and(OuterRing::wavy),
             load: [Input::OuterLoadY, Input::OuterLoadZ],
             reach: LOST_RING * scene.pitch_radius(),
         }
@@ -153,7 +158,8 @@ impl Ring {
         let clearance = scene.radial_clearance().max(0.0);
         let reach = clearance + scene.largest_deviation() + LOST_RING * scene.element_radius();
         let load = [Input::LoadY, Input::LoadZ];
-        Self { name: "inner_ring", held, speed: Some(Input::RingSpeed), which: 1, load, reach }
+        let wavy = scene.rollers.is_some() && scene.inner_ring.as_ref().is_some_and(InnerRing::wavy);
+        Self { name: "inner_ring", held, speed: Some(Input::RingSpeed), which: 1, wavy, load, reach }
     }
 
     fn free(&self) -> Option<&Free> {
@@ -187,7 +193,8 @@ impl SharedBody for Ring {
             }
             Held::Free(_) => ([q[0], q[1]], [v[0], v[1]]),
         };
-        Motion { position, velocity, angle: 0.0, speed: self.turning(inputs) }
+        let angle = if self.wavy { inputs.angles[self.which] } else { 0.0 };
+        Motion { position, velocity, angle, speed: self.turning(inputs) }
     }
 
     fn turned_by(&self) -> Option<Input> {

@@ -228,13 +228,10 @@ pub(super) fn inputs(scene: &Scene) -> Result<InputSignals> {
 /// Rings whose raceways are wavy, or that are unbalanced, which makes their angles count.
 fn angles(scene: &Scene) -> [Option<Turning>; 2] {
     let unbalanced = |ring: Option<&FreeRing>| ring.is_some_and(|ring| ring.unbalance.is_some());
-    let outer = scene
-        .outer_ring
-        .as_ref()
-        .filter(|ring| !ring.waviness.is_empty() || unbalanced(scene.free_outer_ring()));
+    let outer = scene.outer_ring.as_ref().filter(|ring| ring.wavy() || unbalanced(scene.free_outer_ring()));
     let inner = scene.inner_ring.as_ref().filter(|ring| {
         let rotor = scene.rotor.as_ref().is_some_and(|rotor| rotor.unbalance.is_some());
-        !ring.waviness.is_empty() || unbalanced(scene.free_inner_ring()) || rotor
+        ring.wavy() || unbalanced(scene.free_inner_ring()) || rotor
     });
     [
         outer.and_then(|ring| Some(Turning::new(Input::OuterRingSpeed, ring.speed.as_ref()?))),

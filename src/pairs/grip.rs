@@ -5,8 +5,10 @@
 //!
 //! ```text
 //! force on the element   -n Q + t (F_T + k F_EHLr)          force on the mate   the opposite
-//! moments                a (F_T + F_EHLr)                                       l_n Q + l_t F_T + l_r F_EHLr
+//! moments                a (F_T + F_EHLr) + e Q                                 l_n Q + l_t F_T + l_r F_EHLr
 //! ```
+//!
+//! On waves n is the gradient of the approach over the place of the element, a little longer than 1.
 //!
 //! A contact has one contact point, at the distance a from the centre of the element along n. All tangential forces act
 //! there or through the centres, so forces and moments of a pair balance to round-off. The same rows take speeds of the
@@ -24,6 +26,8 @@ pub struct Grip<T> {
     pub normal: [T; 2],
     /// a, distance from the centre of the element to the contact point, m.
     pub arm: T,
+    /// e, moment on the element per normal force, m: zero on one that is round.
+    pub offset: T,
     /// k, share of the rolling resistance that drives the element along t.
     pub rolling: T,
     /// l_n, l_t and l_r: moment on the mate per normal force, friction and rolling resistance, m.
@@ -39,7 +43,8 @@ impl<T: Numeric> Grip<T> {
     #[inline(always)]
     pub fn centred(normal: [T; 2], arm_1: T, arm_2: T) -> Self {
         let rolling = (arm_1 - arm_2) / (arm_1 + arm_2);
-        Self { normal, arm: arm_1, rolling, on_mate: [normal[0].like(0.0), arm_2, -arm_2] }
+        let none = arm_1.like(0.0);
+        Self { normal, arm: arm_1, offset: none, rolling, on_mate: [none, arm_2, -arm_2] }
     }
 
     /// Contact at a `point` of the mate, m from its centre, with the `normal`, both in a frame that moves with the mate and that
@@ -49,7 +54,8 @@ impl<T: Numeric> Grip<T> {
         let across = point[0] * normal[1] - point[1] * normal[0];
         let along = -(point[0] * normal[0] + point[1] * normal[1]);
         let rolling = arm.like(1.0);
-        Self { normal: lead.to_local(normal), arm, rolling, on_mate: [across, along, along] }
+        let offset = arm.like(0.0);
+        Self { normal: lead.to_local(normal), arm, offset, rolling, on_mate: [across, along, along] }
     }
 
     /// t: n turned by +90 degrees.
@@ -62,7 +68,7 @@ impl<T: Numeric> Grip<T> {
     #[inline(always)]
     pub fn speeds(&self, [radial, across, spin]: [T; 3]) -> [T; 2] {
         let [r, c] = self.normal;
-        [r * radial + c * across, r * across - c * radial + self.arm * spin]
+        [r * radial + c * across - self.offset * spin, r * across - c * radial + self.arm * spin]
     }
 
     /// Pressure forces of the rolling film through the centres of element and mate along t, N.
@@ -80,7 +86,7 @@ impl<T: Numeric> Grip<T> {
         let ([n, t], [l_n, l_t, l_r]) = ([self.normal, self.tangent()], self.on_mate);
         let along = f.friction + self.rolling * f.rolling_resistance;
         let force = [along * t[0] - f.normal * n[0], along * t[1] - f.normal * n[1]];
-        let moment = self.arm * (f.friction + f.rolling_resistance);
+        let moment = self.arm * (f.friction + f.rolling_resistance) + self.offset * f.normal;
         let on_mate = l_n * f.normal + l_t * f.friction + l_r * f.rolling_resistance;
         [Wrench { force, moment }, Wrench { force: [-force[0], -force[1]], moment: on_mate }]
     }
@@ -98,14 +104,15 @@ impl Grip<f64> {
 
 impl Grip<Lanes> {
     /// Zeros.
-    pub const ZERO: Self = Self { normal: [ZEROS; 2], arm: ZEROS, rolling: ZEROS, on_mate: [ZEROS; 3] };
+    pub const ZERO: Self =
+        Self { normal: [ZEROS; 2], arm: ZEROS, offset: ZEROS, rolling: ZEROS, on_mate: [ZEROS; 3] };
 
     /// Sets the levers at a place of the lanes.
     #[inline(always)]
     pub fn set(&mut self, lane: usize, grip: &Grip<f64>) {
         let i = lane % WIDEST;
         (self.normal[0][i], self.normal[1][i]) = (grip.normal[0], grip.normal[1]);
-        (self.arm[i], self.rolling[i]) = (grip.arm, grip.rolling);
+        (self.arm[i], self.offset[i], self.rolling[i]) = (grip.arm, grip.offset, grip.rolling);
         for (column, lever) in self.on_mate.iter_mut().zip(grip.on_mate) {
             column[i] = lever;
         }
@@ -116,7 +123,13 @@ impl Grip<Lanes> {
     pub fn of(&self, lane: usize) -> Grip<f64> {
         let (i, [n, c], [l_n, l_t, l_r]) = (lane % WIDEST, &self.normal, &self.on_mate);
         let on_mate = [l_n[i], l_t[i], l_r[i]];
-        Grip { normal: [n[i], c[i]], arm: self.arm[i], rolling: self.rolling[i], on_mate }
+        Grip {
+            normal: [n[i], c[i]],
+            arm: self.arm[i],
+            offset: self.offset[i],
+            rolling: self.rolling[i],
+            on_mate,
+        }
     }
 
     /// Levers from this place of the lanes on, as many as fit.
@@ -127,6 +140,7 @@ impl Grip<Lanes> {
         Grip {
             normal: [load(n), load(c)],
             arm: load(&self.arm),
+            offset: load(&self.offset),
             rolling: load(&self.rolling),
             on_mate: [load(l_n), load(l_t), load(l_r)],
         }
@@ -142,6 +156,7 @@ impl Grip<Lanes> {
         from.on_mate[1].store(&mut l_t[lane..]);
         from.on_mate[2].store(&mut l_r[lane..]);
         from.arm.store(&mut self.arm[lane..]);
+        from.offset.store(&mut self.offset[lane..]);
         from.rolling.store(&mut self.rolling[lane..]);
     }
 }

@@ -28,6 +28,7 @@ pub(crate) mod raceway;
 pub(crate) mod roller;
 mod shaft;
 mod slope_sums;
+mod waves;
 
 pub(crate) use contacts::{
     Batch, ContactBlock, Contacts, Found, LAWS_OF_PAIR, Loaded, RelativeSlopes, Search, Site, SpeedChanges,
@@ -35,6 +36,7 @@ pub(crate) use contacts::{
 pub(crate) use grip::Grip;
 use guide::OnDeformed;
 pub(crate) use slope_sums::SlopeSums;
+pub(crate) use waves::Waves;
 
 use crate::bodies::{
     CAGE, CAGE_MOTION, Elements, Fault, ForceSource, InputValues, Layout, Motions, Power, SHARED,

@@ -46,6 +46,19 @@ impl ContactColumns {
         Self { own: [[ZEROS; OF_ELEMENT]; Self::COUNT], on_mate: [[ZEROS; OF_ELEMENT]; Self::COUNT] };
 }
 
+/// Derivatives of the wrenches of a block of contacts over the spin angles of their elements.
+#[derive(Clone, Debug)]
+pub(crate) struct OverSpinAngles {
+    /// On elements, in their axes.
+    pub(crate) own: [Lanes; OF_ELEMENT],
+    /// On mates, in global axes.
+    pub(crate) on_mate: [Lanes; OF_ELEMENT],
+}
+
+impl OverSpinAngles {
+    pub(crate) const ZERO: Self = Self { own: [ZEROS; OF_ELEMENT], on_mate: [ZEROS; OF_ELEMENT] };
+}
+
 /// Adds what stands at a place of the lanes to the first components of a wrench.
 #[inline(always)]
 fn add(sum: &mut [f64], slopes: &[Lanes; OF_ELEMENT], lane: usize) {
@@ -115,6 +128,19 @@ impl SlopeSums<'_> {
                 add(column, slopes, lane);
             }
         }
+    }
+
+    /// Adds the derivatives of the wrenches of the contact at a place of the lanes over the spin angle of its element, where that is a
+    /// position.
+    pub(crate) fn add_over_spin_angle(&mut self, j: usize, mate: usize, over: &OverSpinAngles, lane: usize) {
+        if j >= self.layout.count {
+            return;
+        }
+        let (places, width) = (self.layout.range(mate), self.layout.hub());
+        let Linearization { over_positions, .. } = &mut *self.out;
+        let column = OF_ELEMENT * j + OF_ELEMENT - 1;
+        add(&mut chunks(over_positions.own.as_mut_slice())[column], &over.own, lane);
+        add(&mut over_positions.to_hub.as_mut_slice()[width * column..][places], &over.on_mate, lane);
     }
 
     /// Adds the derivatives of the wrench on element `j`, in its axes, over its own coordinates and those of its neighbour on a

@@ -1,6 +1,6 @@
 //! Rolling elements of a scene: rollers that move freely, or elements whose motion is prescribed.
 
-use super::{ContactLaws, RollerSpace, Signal};
+use super::{ContactLaws, RollerSpace, Signal, WavinessHarmonic, WavinessTable};
 use serde::{Deserialize, Serialize};
 
 /// A set of equally spaced cylindrical rollers that move in the plane under the forces of their contacts.
@@ -35,12 +35,30 @@ pub struct Rollers {
     /// How much the radii of single rollers deviate from `radius`. Absent: they are equal.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius_deviations: Option<RadiusDeviations>,
+    /// Waves of single rollers around their axes. Absent: round. Needs rollers in the plane.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub waviness: Vec<RollerWaviness>,
     /// Contact of each roller with those beside it. Absent: rollers must not touch each other.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub neighbours: Option<Neighbours>,
     /// Freedom to shift along the axis, to skew and to tilt. Absent: rollers stay in the plane.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub space: Option<RollerSpace>,
+}
+
+/// Waves of rollers, which are numbered from 0 on counter-clockwise from the first.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct RollerWaviness {
+    /// Their numbers.
+    pub rollers: Vec<u32>,
+    /// Waves around the axis: heights towards the raceways. Absent: none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub harmonics: Vec<WavinessHarmonic>,
+    /// Measured heights around the axis, beside the harmonics. Absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub table: Option<WavinessTable>,
 }
 
 /// Contact of neighbouring rollers.

@@ -39,7 +39,7 @@ pub(crate) use elastic_ring::MOST_RING_ORDERS;
 pub use elastic_ring::{ElasticRing, FiniteElementModes, RingSection, RingStiffness};
 pub use elements::{
     DropTable, ElementMotion, KinematicElements, LogarithmicProfile, Neighbours, RadiusDeviations,
-    RollerGroup, RollerProfile, Rollers,
+    RollerGroup, RollerProfile, RollerWaviness, Rollers,
 };
 pub use grease::{Grease, PolymerGrease, SoapGrease};
 pub use heat::{
@@ -51,7 +51,7 @@ pub use json::{parse_override, set_path};
 pub use lubricant::{Lubricant, Temperature, Viscosity, ViscosityPoint, WaltherViscosity};
 pub use rings::{
     FreeRing, InnerRing, Load, OuterRing, OuterRingMotion, PlaneMatrix, PlaneMotion, RingMotion, Rotor,
-    Shaft, Support, Unbalance, WavinessHarmonic,
+    Shaft, Support, Unbalance, WavinessHarmonic, WavinessTable,
 };
 pub use roller_space::{Rib, RibRing, RibSide, Ribs, RollerEnds, RollerSpace, RollerTaper, SlicesOn};
 pub use run::{Auto, ErrorControl, Initial, Leapfrog, Method, Preset, Record, RingStart, Solver};

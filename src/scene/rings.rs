@@ -33,21 +33,24 @@ pub struct OuterRing {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 1e-06, max = 10.0)))]
     pub shoulder_height: Option<f64>,
-    /// Waves of the raceway around the ring. Absent: round. Needs balls.
+    /// Waves of the raceway around the ring. Absent: round. Needs balls, or rollers in the plane.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub waviness: Vec<WavinessHarmonic>,
+    /// Measured heights of the raceway around the ring, beside `waviness`. Absent: none. Needs balls, or rollers in the plane.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub waviness_table: Option<WavinessTable>,
     /// Name of the material. Needed by rollers and balls.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
 }
 
-/// One harmonic of the waves of a raceway: height amplitude * cos(order * angle + phase) towards the balls, the angle in the ring, from y
-/// to z at the start.
+/// One harmonic of the waves of a raceway or a roller: height amplitude * cos(order * angle + phase) towards the mate, the angle in the
+/// body, from y to z at the start.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct WavinessHarmonic {
-    /// Order n. Order 1 is a race that is off the centre of its ring.
+    /// Order n. Order 1 is a surface that is off the centre of its body.
     #[cfg_attr(feature = "schema", schemars(range(min = 1, max = 200)))]
     pub order: u32,
     /// Amplitude a_n, m.
@@ -58,7 +61,23 @@ pub struct WavinessHarmonic {
     pub phase: f64,
 }
 
+/// Heights over the angle in a body, smooth between them and around: a measured roundness, or a local defect such as a spall.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct WavinessTable {
+    /// Angles, rad, growing, within one turn, from y to z at the start: 4 to 4096.
+    pub angles: Vec<f64>,
+    /// Heights there towards the mate, m.
+    pub heights: Vec<f64>,
+}
+
 impl OuterRing {
+    /// Whether its raceway has waves.
+    pub(crate) fn wavy(&self) -> bool {
+        !self.waviness.is_empty() || self.waviness_table.is_some()
+    }
+
     /// Whether it ever turns by the scene; a host may turn it where there is a `speed`.
     pub fn turns(&self) -> bool {
         self.speed.as_ref().is_some_and(|speed| *speed != Signal::Constant(0.0))
@@ -95,12 +114,22 @@ pub struct InnerRing {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schemars(range(min = 1e-06, max = 10.0)))]
     pub shoulder_height: Option<f64>,
-    /// Waves of the raceway around the ring. Absent: round. Needs balls.
+    /// Waves of the raceway around the ring. Absent: round. Needs balls, or rollers in the plane.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub waviness: Vec<WavinessHarmonic>,
+    /// Measured heights of the raceway around the ring, beside `waviness`. Absent: none. Needs balls, or rollers in the plane.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub waviness_table: Option<WavinessTable>,
     /// Name of the material. Needed by rollers and balls.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
+}
+
+impl InnerRing {
+    /// Whether its raceway has waves.
+    pub(crate) fn wavy(&self) -> bool {
+        !self.waviness.is_empty() || self.waviness_table.is_some()
+    }
 }
 
 /// Motion of the centre of the inner ring.

@@ -19,6 +19,7 @@ pub mod random;
 pub mod spectrum;
 pub mod statistics;
 pub mod table;
+pub mod waves;
 #[path = "../../src/bin/cagedyn/workers.rs"]
 pub mod workers;
 

@@ -167,6 +167,35 @@ pub fn move_rings(scene: &mut Value, parts: Parts, i: usize) {
     }
 }
 
+/// Gives raceways and single rollers of a scene waves, one after the other, as often as not none.
+pub fn roughen(scene: &mut Value, parts: Parts, i: usize) {
+    if !parts.rollers {
+        return;
+    }
+    let waves = json!([{"order": 2, "amplitude": 4e-6, "phase": 0.7}, {"order": 13, "amplitude": -6e-7, "phase": -0.2}]);
+    let table =
+        json!({"angles": [-0.4, 0.6, 1.9, 2.4, 4.0, 5.1], "heights": [0.0, 2e-6, -3e-6, 1e-6, 0.0, -1e-6]});
+    let rollers = json!([
+        {"rollers": [0, 2], "harmonics": [{"order": 3, "amplitude": 5e-7, "phase": 0.4}]},
+        {"rollers": [5], "harmonics": [{"order": 2, "amplitude": 1e-6, "phase": 0.0}], "table": table}
+    ]);
+    match i % 7 {
+        1 => scene["inner_ring"]["waviness"] = waves,
+        3 => {
+            scene["outer_ring"]["waviness"] = waves;
+            scene["outer_ring"]["waviness_table"] = table.clone();
+            scene["inner_ring"]["waviness_table"] = table;
+        }
+        5 => scene["rollers"]["waviness"] = rollers,
+        6 => {
+            scene["outer_ring"]["waviness"] = waves.clone();
+            scene["inner_ring"]["waviness"] = waves;
+            scene["rollers"]["waviness"] = rollers;
+        }
+        _ => {}
+    }
+}
+
 /// Sixteen rollers in the place of the cage, with half a micrometre between neighbours.
 fn fill(scene: &mut Value) {
     let contact = scene["raceways"]["contact"].clone();

@@ -11,7 +11,7 @@ use std::sync::Arc;
 const SCENE_PAGE: &str = "docs/scene.md and the pages in docs/scene";
 
 /// Types that `docs/scene.md` describes once, under these names.
-const SHARED: [(&str, &str); 14] = [
+const SHARED: [(&str, &str); 16] = [
     ("Signal", "<signal>"),
     ("PlaneVector", "<vector>"),
     ("ContactLaws", "<contact>"),
@@ -20,6 +20,8 @@ const SHARED: [(&str, &str); 14] = [
     ("Guide", "<guide>"),
     ("DropTable", "<drops>"),
     ("RadiusDeviations", "<deviations>"),
+    ("WavinessHarmonic", "<wave>"),
+    ("WavinessTable", "<heights>"),
     ("RoundPocket", "<round_pocket>"),
     ("FreeRing", "<free_ring>"),
     ("PlaneMotion", "<place>"),

@@ -20,3 +20,4 @@ mod roller_sizes;
 mod sim;
 mod snapshots;
 mod started;
+mod waviness;

@@ -1,6 +1,6 @@
 //! Exact derivatives of the accelerations against differences of sixth order, in every combination of parts.
 
-use crate::common::parts::{Parts, all, move_rings, scene};
+use crate::common::parts::{Parts, all, move_rings, roughen, scene};
 use crate::common::{Random, example_text, example_with};
 use cagedyn::integrate::Linearization;
 use cagedyn::model::{HostInputs, Workspace};
@@ -12,9 +12,11 @@ use std::sync::Arc;
 const STEPS: [f64; 3] = [7e-6, 4e-6, 2e-6];
 /// Time in which the inputs change as much as the states by their scales, s.
 const TIME_SCALE: f64 = 1e-4;
-/// Agreement of the differences, and jump of a slope, that count as smooth; agreement of differences and derivatives.
+/// Agreement of the differences, and jump of a slope, that count as smooth; agreement of differences and derivatives. The
+/// temperatures of self-heating are solved to a part in some ten million of their slopes, which counts for more where the friction of two raceways
+/// nearly cancels; without self-heating all agree to 3e-8.
 const SMOOTH: f64 = 2e-8;
-const TOLERANCE: f64 = 1e-7;
+const TOLERANCE: f64 = 2e-7;
 
 /// Rows: accelerations; columns: positions, velocities, time.
 fn dense(model: &Model, slope: &Linearization<3>) -> Vec<Vec<f64>> {
@@ -207,6 +209,7 @@ fn derivatives_match_differences_in_every_combination() {
             scene["inner_ring"]["motion"]["free"]["load"]["z"] = swing(-4900.0);
         }
         move_rings(&mut scene, parts, i);
+        roughen(&mut scene, parts, i);
         let warming = if i % 2 == 0 {
             let sine = json!({"mean": 330.0, "amplitude": 15.0, "frequency": 80.0, "phase": 0.7});
             json!({"over_time": {"sine": sine}})
@@ -248,6 +251,7 @@ fn all_instructions_give_the_same_derivatives() {
     for (i, parts) in all().into_iter().enumerate() {
         let mut scene = scene(parts);
         add_profile(&mut scene, i);
+        roughen(&mut scene, parts, i);
         let mut sim = Sim::new(Arc::new(Model::from_json(&scene.to_string()).unwrap())).unwrap();
         sim.advance_to(1.1e-3).unwrap();
         let (model, host) = (sim.model(), HostInputs::default());

@@ -40,6 +40,12 @@ pub(in crate::bodies) const SPIN_SPEED: Coordinate = Coordinate {
     moves: Moves::Surface,
 };
 
+/// See [`ORBIT_TRAVEL`]: of rollers that are not round.
+pub(in crate::bodies) const SPIN_ANGLE: Coordinate = Coordinate {
+    position: Some(["spin_angle", "rad", "angle turned about its own axis since the start"]),
+    ..SPIN_SPEED
+};
+
 /// Derivatives of the wrench on one element, or of its accelerations, by columns: over its own coordinates, over those of the
 /// hub, and over those of its neighbours where these touch it.
 pub(crate) struct ElementSlopes<'a> {

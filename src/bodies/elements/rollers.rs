@@ -4,9 +4,11 @@
 //! m (rho'' - r psi'^2) = F_r,   m (r psi'' + 2 rho' psi') = F_psi,   I w' = M,   r = r_p + rho
 //! ```
 //!
-//! The travel counts from the centred place of the pocket at the start; the spin angle enters no force.
+//! The travel counts from the centred place of the pocket at the start. The spin angle is a state where a roller has waves.
 
-use super::{Damping, ElementSlopes, ORBIT_TRAVEL, RADIAL_OFFSET, SPIN_SPEED, Spacing, UPPER, scale_rows};
+use super::{
+    Damping, ElementSlopes, ORBIT_TRAVEL, RADIAL_OFFSET, SPIN_ANGLE, SPIN_SPEED, Spacing, UPPER, scale_rows,
+};
 use crate::bodies::{
     BodyEnergy, BodyForces, Coordinate, Element, ElementSet, Elements, Fault, ForceSource, Input,
     InputValues, Layout, Motions, OF_ELEMENT, SOUND, WrenchLanes, weight,
@@ -35,9 +37,11 @@ pub(in crate::bodies) struct Rollers {
     /// Gap of a roller on the pitch circle to either raceway with the inner ring centred, m.
     gap: f64,
     spacing: Spacing,
+    coordinates: &'static [Coordinate; OF_ELEMENT],
 }
 
-const COORDINATES: [Coordinate; OF_ELEMENT] = [RADIAL_OFFSET, ORBIT_TRAVEL, SPIN_SPEED];
+const ROUND: [Coordinate; OF_ELEMENT] = [RADIAL_OFFSET, ORBIT_TRAVEL, SPIN_SPEED];
+const WAVY: [Coordinate; OF_ELEMENT] = [RADIAL_OFFSET, ORBIT_TRAVEL, SPIN_ANGLE];
 
 impl Rollers {
     /// The rollers of a scene, if it has any.
@@ -48,6 +52,7 @@ impl Rollers {
             inertia: Inertia { mass: rollers.mass, moment: rollers.inertia },
             gap: scene.radial_clearance() / 4.0,
             spacing: Spacing::new(scene),
+            coordinates: if rollers.waviness.is_empty() { &ROUND } else { &WAVY },
         })
     }
 
@@ -58,6 +63,59 @@ impl Rollers {
         let speeds = all.map(|(velocity, lever)| (velocity, v[velocity].abs() * lever));
         let (velocity, speed) = speeds.fold((0, 0.0), |a, b| if b.1 > a.1 { b } else { a });
         Fault::TooFast { velocity, speed }
+    }
+
+    /// Refuses rollers that are lost, too fast or in each other, given the largest offset, m, and speed, m/s, and their places.
+    #[inline]
+    fn judge(
+        &self,
+        layout: &Layout,
+        v: &[f64],
+        [largest, fastest]: [f64; 2],
+        place: impl Fn(usize) -> [f64; 2],
+    ) -> Result<(), Fault> {
+        let limit = LOST_ROLLER * self.set.pitch_radius;
+        if largest > limit {
+            let roller = (0..layout.count).find(|j| place(*j)[0].abs() > limit).unwrap_or_default();
+            return Err(Fault::LostRoller { roller, way: "radial", offset: place(roller)[0] });
+        }
+        if fastest > SOUND {
+            return Err(self.too_fast(layout, v));
+        }
+        self.spacing.overlap(&self.set, place).map_or(Ok(()), Err)
+    }
+
+    /// [`Elements::find`] of rollers whose spin angles are positions.
+    fn find_with_angles(
+        &self,
+        layout: &Layout,
+        q: &[f64],
+        v: &[f64],
+        out: &mut Motions,
+    ) -> Result<(), Fault> {
+        let ((places, _), (rates, _)) =
+            (q[layout.elements..].as_chunks::<OF_ELEMENT>(), v[layout.elements..].as_chunks::<OF_ELEMENT>());
+        let lever = [1.0, self.set.pitch_radius, self.set.radius];
+        let [mut largest, mut fastest] = [0.0_f64; 2];
+        out.spin_angles.clear();
+        for (j, ([offset, turned, spun], rates)) in places.iter().zip(rates).take(layout.count).enumerate() {
+            let (block, lane) = place_of(j);
+            let block = &mut out.blocks[block];
+            (block.motion.radial_offset[lane], block.travel[lane]) = (*offset, *turned);
+            block.azimuth[lane] = self.set.reference_angles[j] + turned;
+            out.spin_angles.push(*spun);
+            [
+                block.motion.radial_speed[lane],
+                block.motion.orbit_speed[lane],
+                block.motion.spin_speed[lane],
+            ] = *rates;
+            largest = largest.max(offset.abs());
+            fastest =
+                rates.iter().zip(lever).fold(fastest, |most, (rate, lever)| most.max(rate.abs() * lever));
+        }
+        self.judge(layout, v, [largest, fastest], |j| [places[j][0], places[j][1]])?;
+        out.find_directions();
+        Ok(())
     }
 
     /// Radius of the circle of the centres of rollers that touch the outer raceway, m.
@@ -76,7 +134,7 @@ impl Elements for Rollers {
     }
 
     fn coordinates(&self) -> &'static [Coordinate] {
-        &COORDINATES
+        self.coordinates
     }
 
     fn mass(&self) -> Option<f64> {
@@ -122,6 +180,9 @@ impl Elements for Rollers {
         _inputs: &InputValues,
         out: &mut Motions,
     ) -> Result<(), Fault> {
+        if layout.has_spin_angles() {
+            return self.find_with_angles(layout, q, v, out);
+        }
         let n = layout.count;
         let (places, _) = q[layout.elements..].as_chunks::<2>();
         let (rates, spins) = v[layout.elements..].split_at(2 * n);
@@ -144,17 +205,7 @@ impl Elements for Rollers {
             motion.spin_speed[..reference.len()].copy_from_slice(&spins[..reference.len()]);
             fastest = spins.iter().fold(fastest, |fastest, spin| fastest.max(spin.abs() * self.set.radius));
         }
-        let limit = LOST_ROLLER * self.set.pitch_radius;
-        if largest > limit {
-            let roller = places.iter().position(|place| place[0].abs() > limit).unwrap_or_default();
-            return Err(Fault::LostRoller { roller, way: "radial", offset: places[roller][0] });
-        }
-        if fastest > SOUND {
-            return Err(self.too_fast(layout, v));
-        }
-        if let Some(overlap) = self.spacing.overlap(&self.set, |j| places[j]) {
-            return Err(overlap);
-        }
+        self.judge(layout, v, [largest, fastest], |j| places[j])?;
         out.find_directions();
         Ok(())
     }
@@ -172,9 +223,14 @@ impl Elements for Rollers {
         gravity: [f64; 2],
         a: &mut [f64],
     ) {
-        let a = a[layout.elements..].split_at_mut(2 * layout.count);
-        let work =
-            Accelerate { rollers: self, motions, on_elements, gravity, a: (a.0.as_chunks_mut().0, a.1) };
+        let a = &mut a[layout.elements..];
+        let a = if layout.has_spin_angles() {
+            Rates::Together(a.as_chunks_mut().0)
+        } else {
+            let (rates, spins) = a.split_at_mut(2 * layout.count);
+            Rates::Apart(rates.as_chunks_mut().0, spins)
+        };
+        let work = Accelerate { rollers: self, motions, on_elements, gravity, a };
         dispatch(motions.instructions, work);
     }
 
@@ -235,7 +291,15 @@ struct Accelerate<'a> {
     motions: &'a Motions,
     on_elements: &'a [WrenchLanes],
     gravity: [f64; 2],
-    a: (&'a mut [[f64; 2]], &'a mut [f64]),
+    a: Rates<'a>,
+}
+
+/// Accelerations of all rollers in the order of the state vector.
+enum Rates<'a> {
+    /// Radial and orbital ones, and those of the spins behind them.
+    Apart(&'a mut [[f64; 2]], &'a mut [f64]),
+    /// All of each roller.
+    Together(&'a mut [[f64; OF_ELEMENT]]),
 }
 
 impl Columns for Accelerate<'_> {
@@ -247,7 +311,7 @@ impl Columns for Accelerate<'_> {
 
     #[inline(always)]
     fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
-        let Self { rollers, motions, on_elements, gravity, a: (rates, spins) } = self;
+        let Self { rollers, motions, on_elements, gravity, a } = self;
         let Inertia { mass, moment } = rollers.inertia;
         let all = |x: f64| Pack::<S, K>::all(simd, x);
         let (block, lane) = place_of(first);
@@ -263,9 +327,18 @@ impl Columns for Accelerate<'_> {
             .store(&mut columns[1]);
         (load(turning) * (1.0 / moment)).store(&mut columns[2]);
         let last = (first + K * S::F64_LANES).min(motions.count);
-        for j in first..last {
-            rates[j] = [columns[0][j - first], columns[1][j - first]];
-            spins[j] = columns[2][j - first];
+        match a {
+            Rates::Apart(rates, spins) => {
+                for j in first..last {
+                    rates[j] = [columns[0][j - first], columns[1][j - first]];
+                    spins[j] = columns[2][j - first];
+                }
+            }
+            Rates::Together(rates) => {
+                for j in first..last {
+                    rates[j] = [columns[0][j - first], columns[1][j - first], columns[2][j - first]];
+                }
+            }
         }
     }
 }

@@ -127,6 +127,8 @@ pub(crate) struct Motions {
     pub(crate) blocks: Vec<ElementBlock>,
     /// Number of elements.
     pub(crate) count: usize,
+    /// Spin angles of the elements since the start, rad; none where no force depends on them.
+    pub(crate) spin_angles: Vec<f64>,
     /// The travel of all elements, where it is the same, rad.
     pub(crate) together: Option<f64>,
     /// r_p, m.
@@ -149,6 +151,7 @@ impl Motions {
             displaced: vec![[[ZEROS; 2]; 2]; if modes > 0 { blocks_for(set.count) } else { 0 }],
             blocks,
             count: set.count,
+            spin_angles: Vec::new(),
             together: None,
             pitch_radius: set.pitch_radius,
             instructions: Arch::new(),
@@ -166,6 +169,19 @@ impl Motions {
     pub(crate) fn travel(&self, j: usize) -> f64 {
         let (block, lane) = place_of(j);
         self.together.unwrap_or(self.blocks[block].travel[lane])
+    }
+
+    /// Direction of element `j`, which moves freely, from the centre of the bearing, rad.
+    #[inline]
+    pub(crate) fn azimuth(&self, j: usize) -> f64 {
+        let (block, lane) = place_of(j);
+        self.blocks[block].azimuth[lane]
+    }
+
+    /// Angle that element `j` has turned about its own axis since the start, rad; zero where no force depends on it.
+    #[inline]
+    pub(crate) fn spin_angle(&self, j: usize) -> f64 {
+        self.spin_angles.get(j).copied().unwrap_or(0.0)
     }
 
     /// How the pocket of element `j` is displaced, and how fast: see [`DisplacedBlock`].

@@ -61,7 +61,7 @@ impl Table {
     }
 
     /// Drop at `s` (m), m, and its slope.
-    fn at<T: Of<f64>>(&self, s: T) -> [T; 2] {
+    pub fn at<T: Of<f64>>(&self, s: T) -> [T; 2] {
         let (x, last) = (s.base(), self.places.len() - 1);
         let next = self.places.partition_point(|place| *place <= x);
         if next == 0 || next > last {

@@ -52,7 +52,7 @@ impl Plane {
                         p[Condition::AtFloor.place()] = 1.0;
                     }
                 }
-                moment += step.surface_moment[lane];
+                moment += step.moment_on_mate[lane];
             }
             if let Some(ring) = driven(info.mate) {
                 on_rings[ring] += moment;
@@ -256,6 +256,19 @@ mod tests {
             check("nu2310", &[speed, motion].concat());
         }
         check("nu2310_elastic", &[("outer_ring.motion", free.as_str())]);
+        let waves = r#"[{"order": 13, "amplitude": 1e-6, "phase": -0.2}]"#;
+        let table = r#"{"angles": [0, 1, 1.1, 1.2], "heights": [0, 0, -4e-6, 0]}"#;
+        let rollers = format!(r#"[{{"rollers": [0, 3, 4, 8], "harmonics": {waves}, "table": {table}}}]"#);
+        let waves = [
+            ("inner_ring.waviness", waves),
+            ("outer_ring.waviness_table", table),
+            ("rollers.waviness", rollers.as_str()),
+            ("outer_ring.speed", "40"),
+        ];
+        check("nu2310", &waves);
+        let crown = ("rollers.profile", r#"{"circular_crown": {"radius": 2.0}}"#);
+        check("nu2310", &[&waves[..2], &[crown]].concat());
+        check("nu2310", &[&waves[..], &[("outer_ring.motion", free.as_str())]].concat());
         check("grease_guide", &[("inner_ring.motion", prescribed.as_str())]);
     }
 

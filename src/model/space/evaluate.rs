@@ -4,7 +4,8 @@ use super::workspace::{BallBlock, WRENCH, Workspace, at_lane, load, store};
 use super::{RACES, Space};
 use crate::bodies::{Balls, Fault, INNER_RING, Input, Moves, MovingRing, OF_BALL, SOUND};
 use crate::pairs::Law;
-use crate::pairs::groove::{InGroove, Race, Waviness};
+use crate::pairs::Waves;
+use crate::pairs::groove::{InGroove, Race};
 use crate::scalar::{Columns, Numeric, Pack, dispatch, math, place_of};
 use crate::space::solid::{LARGEST_TILT, Moving, Tilt, Vector, dot, scaled, sum};
 use pulp::Simd;
@@ -174,7 +175,7 @@ impl Space {
     }
 
     /// Finds the waves of race `k` under every ball.
-    fn place_on_waves(&self, k: usize, waviness: &Waviness, ws: &mut Workspace) {
+    fn place_on_waves(&self, k: usize, waviness: &Waves, ws: &mut Workspace) {
         for j in 0..ws.count {
             let (block, lane) = place_of(j);
             let direction = at_lane(&ws.blocks[block].direction, lane);

@@ -58,29 +58,28 @@ impl Columns for FindTriangles<'_> {
         let (block, at) = place_of(first);
         let ContactBlock { grip, force, damping, .. } = &mut self.blocks[block];
         let load = |column: &Lanes| Pack::<S, K>::load(simd, &column[at..]);
-        let ([r, c], arm) = ([load(&grip.normal[0]), load(&grip.normal[1])], load(&grip.arm));
+        let levers = [load(&grip.normal[0]), load(&grip.normal[1]), load(&grip.arm), load(&grip.offset)];
         let (normal, friction) = (load(&force.damping), load(&force.friction_secant));
-        store_triangle(&mut damping.full, at, [r, c], arm, normal, friction);
+        store_triangle(&mut damping.full, at, levers, normal, friction);
         let acting = friction * implicit_share(friction * self.rate);
-        store_triangle(&mut damping.implicit, at, [r, c], arm, normal * 0.5, acting);
+        store_triangle(&mut damping.implicit, at, levers, normal * 0.5, acting);
     }
 }
 
-/// Writes the upper triangle of c W_n' W_n + s W_t' W_t with the normal (r, c) and damping and slope c and s.
+/// Writes the upper triangle of c W_n' W_n + s W_t' W_t with the normal (r, c), arm and offset, and damping and slope c and s.
 #[inline(always)]
 fn store_triangle<S: Simd, const K: usize>(
     out: &mut [Lanes; UPPER.len()],
     at: usize,
-    [r, c]: [Pack<S, K>; 2],
-    arm: Pack<S, K>,
+    [r, c, arm, offset]: [Pack<S, K>; 4],
     damping: Pack<S, K>,
     slope: Pack<S, K>,
 ) {
-    let turning = slope * arm;
+    let (turning, pressing) = (slope * arm, damping * offset);
     (damping * r * r + slope * c * c).store(&mut out[0][at..]);
     ((damping - slope) * r * c).store(&mut out[1][at..]);
-    (-(turning * c)).store(&mut out[2][at..]);
+    (-(turning * c + pressing * r)).store(&mut out[2][at..]);
     (damping * c * c + slope * r * r).store(&mut out[3][at..]);
-    (turning * r).store(&mut out[4][at..]);
-    (turning * arm).store(&mut out[5][at..]);
+    (turning * r - pressing * c).store(&mut out[4][at..]);
+    (turning * arm + pressing * offset).store(&mut out[5][at..]);
 }

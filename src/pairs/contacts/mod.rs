@@ -14,7 +14,7 @@ pub(super) use law_columns::LawColumns;
 use law_slopes::contact_force;
 pub(super) use law_slopes::{DIRECTIONS, EDGE_SHARE, FORCES, LawSlopes, VISCOSITY};
 pub(crate) use relative::RelativeSlopes;
-pub(super) use relative::{Beside, Kinematics, Varied, VariedContact, add_slopes};
+pub(super) use relative::{Beside, Kinematics, OverSpinAngle, Varied, VariedContact, add_slopes};
 pub(crate) use step::SpeedChanges;
 use step::StepForces;
 

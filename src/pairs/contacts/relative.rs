@@ -16,7 +16,7 @@ use super::law_slopes::{DIRECTIONS, EDGE_SHARE, FORCES, LawSlopes, VISCOSITY, co
 use super::{Batch, ContactBlock};
 use crate::bodies::{CAGE, ElementMotion, Motions};
 use crate::laws::contact_pair::ContactMotion;
-use crate::pairs::slope_sums::{ContactColumns, SlopeSums};
+use crate::pairs::slope_sums::{ContactColumns, OverSpinAngles, SlopeSums};
 use crate::pairs::{ElementPair, Grip};
 use crate::scalar::{Base, Columns, Duals, Lanes, Numeric, Pack, ZEROS, dispatch, place_of};
 use crate::space::{Frame, Motion};
@@ -40,6 +40,8 @@ pub(in crate::pairs) struct Beside<B> {
     pub(in crate::pairs) mate: Motion<B>,
     /// How a deformed mate displaces its places for the elements, and how fast: outwards and counter-clockwise, m and m/s.
     pub(in crate::pairs) displacement: Option<[[B; 2]; 2]>,
+    /// Slope and curvature of waves of the mate and of the element, m/rad and m/rad^2: see [`Kinematics::waves`].
+    pub(in crate::pairs) waves: Option<[[B; 2]; 2]>,
 }
 
 impl<B: Base> Beside<B> {
@@ -55,11 +57,26 @@ pub(in crate::pairs) struct VariedContact<B> {
     pub(in crate::pairs) motion: ContactMotion<Varied<B>>,
     /// Share of edge friction, where there are edges.
     pub(in crate::pairs) edge_share: Option<Varied<B>>,
+    /// How they change with the spin angle of the element, where it counts.
+    pub(in crate::pairs) over_spin_angle: Option<OverSpinAngle<B>>,
     pub(in crate::pairs) grip: Grip<Varied<B>>,
+}
+
+/// Derivatives of a contact over the spin angle of its element: of approach and its rate, normal and offset.
+pub(in crate::pairs) struct OverSpinAngle<B> {
+    pub(in crate::pairs) delta: B,
+    pub(in crate::pairs) delta_dot: B,
+    pub(in crate::pairs) normal: [B; 2],
+    pub(in crate::pairs) offset: B,
 }
 
 /// How the contacts of a pair vary.
 pub(in crate::pairs) trait Kinematics: ElementPair {
+    /// Slopes and curvatures of waves of the mate and of element `j` where they touch, m/rad and m/rad^2; `None` where both are round.
+    fn waves(&self, _motions: &Motions, _j: usize) -> Option<[[f64; 2]; 2]> {
+        None
+    }
+
     /// The contacts of these elements. Must be inlined with all that it calls.
     fn contact<B: Base>(&self, at: &Beside<B>) -> VariedContact<B>;
 }
@@ -72,7 +89,9 @@ pub(crate) struct RelativeSlopes {
     travel: Lanes,
     contact: Lanes,
     displaced: [[Lanes; 2]; 2],
+    waves: Option<[[Lanes; 2]; 2]>,
     columns: ContactColumns,
+    over_spin_angle: OverSpinAngles,
 }
 
 impl RelativeSlopes {
@@ -82,7 +101,9 @@ impl RelativeSlopes {
             travel: ZEROS,
             contact: ZEROS,
             displaced: [[ZEROS; 2]; 2],
+            waves: None,
             columns: ContactColumns::ZERO,
+            over_spin_angle: OverSpinAngles::ZERO,
         }
     }
 }
@@ -106,7 +127,8 @@ pub(in crate::pairs) fn add_slopes<P: Kinematics>(
     let warming = sums.ln_viscosity_rate;
     let slopes = &batch.slopes;
     let moving = sums.moving(mate) != [[0.0; 2]; 2];
-    let changing = speeding != 0.0 || warming != 0.0 || moving || sums.layout.count == 0;
+    let turning = sums.rates.angles.get(mate).copied().filter(|_| pair.waves(motions, 0).is_some());
+    let changing = speeding != 0.0 || warming != 0.0 || moving || turning.is_some() || sums.layout.count == 0;
     let holds = sums.layout.shared(mate).is_some();
     let deforms = mate == CAGE && !motions.displaced.is_empty();
     let work = Chain {
@@ -121,6 +143,7 @@ pub(in crate::pairs) fn add_slopes<P: Kinematics>(
         motions,
         speeding,
         warming,
+        turning: turning.unwrap_or(0.0),
         changing,
         sums,
         memory,
@@ -146,6 +169,8 @@ struct Chain<'a, 'b, P> {
     /// Rate of the speed of the mate, rad/s^2, and of the logarithm of the viscosity, 1/s.
     speeding: f64,
     warming: f64,
+    /// Rate of the angle of a mate with waves, rad/s.
+    turning: f64,
     /// Whether anything changes while the state does not.
     changing: bool,
     sums: &'a mut SlopeSums<'b>,
@@ -184,6 +209,13 @@ impl<P: Kinematics> Columns for Chain<'_, '_, P> {
                 sums.add_displaced(j, self.mate, [y[lane], z[lane]], self.motions, columns, lane);
             }
         }
+        if self.memory.waves.is_some() {
+            for i in here.clone() {
+                let (_, lane) = place_of(i);
+                let over = &self.memory.over_spin_angle;
+                sums.add_over_spin_angle(self.batch.sites[i].element, self.mate, over, lane);
+            }
+        }
         if self.changing {
             for i in here {
                 let (_, lane) = place_of(i);
@@ -197,7 +229,8 @@ impl<P: Kinematics> Chain<'_, '_, P> {
     /// Brings the elements of contacts to the places of these.
     #[inline(always)]
     fn gather(&mut self, contacts: Range<usize>) {
-        let RelativeSlopes { element, travel, contact, displaced, .. } = &mut *self.memory;
+        let RelativeSlopes { element, travel, contact, displaced, waves, .. } = &mut *self.memory;
+        *waves = None;
         for i in contacts {
             let site = &self.batch.sites[i];
             let ((block, from), (_, lane)) = (place_of(site.element), place_of(i));
@@ -215,6 +248,10 @@ impl<P: Kinematics> Chain<'_, '_, P> {
                 }
             }
             contact[lane] = site.contact as f64;
+            if let Some(here) = self.pair.waves(self.motions, site.element) {
+                let columns = waves.get_or_insert([[ZEROS; 2]; 2]).iter_mut().flatten();
+                columns.zip(here.as_flattened()).for_each(|(column, x)| column[lane] = *x);
+            }
         }
     }
 
@@ -248,8 +285,12 @@ impl<P: Kinematics> Chain<'_, '_, P> {
             let [[outwards, ahead], [outwards_rate, ahead_rate]] = displaced;
             [[load(outwards), load(ahead)], [load(outwards_rate), load(ahead_rate)]]
         });
-        let at = Beside { element, radius, travel, contact, mate, displacement };
-        let VariedContact { motion, edge_share, grip } = self.pair.contact(&at);
+        let waves = match &self.memory.waves {
+            Some([[a, b], [c, d]]) => Some([[load(a), load(b)], [load(c), load(d)]]),
+            None => None,
+        };
+        let at = Beside { element, radius, travel, contact, mate, displacement, waves };
+        let VariedContact { motion, edge_share, over_spin_angle, grip } = self.pair.contact(&at);
 
         let zero = all(0.0);
         let slopes = self.slopes.block(block);
@@ -280,12 +321,36 @@ impl<P: Kinematics> Chain<'_, '_, P> {
         let still = Grip {
             normal: [grip.normal[0].re, grip.normal[1].re],
             arm: grip.arm.re,
+            offset: grip.offset.re,
             rolling: grip.rolling.re,
             on_mate: [zero; 3],
         };
         let warming = on_element(&still, warm);
         let columns = &mut self.memory.columns;
-        let by = chain(&at, frame, &own, &warming, self.speeding, columns, lane);
+        let mut turning = None;
+        if let Some(over) = &over_spin_angle {
+            let mut rates = [Duals::<1, _> { re: zero, eps: [zero] }; FORCES];
+            for f in 0..FORCES {
+                let by = load(&slopes[f][0]) * over.delta + load(&slopes[f][1]) * over.delta_dot;
+                rates[f] = Duals { re: values[f], eps: [by] };
+            }
+            let lift = |re| Duals { re, eps: [zero] };
+            let turned = Grip {
+                normal: [
+                    Duals { re: still.normal[0], eps: [over.normal[0]] },
+                    Duals { re: still.normal[1], eps: [over.normal[1]] },
+                ],
+                arm: lift(still.arm),
+                offset: Duals { re: still.offset, eps: [over.offset] },
+                rolling: lift(still.rolling),
+                on_mate: [lift(zero); 3],
+            };
+            let [radial, across, moment] = on_element(&turned, rates);
+            let by = [radial.eps[0], across.eps[0], moment.eps[0]];
+            store_over_spin_angle(&at, frame, by, &mut self.memory.over_spin_angle, lane);
+            turning = Some((by, self.turning));
+        }
+        let by = chain(&at, frame, &own, (&warming, self.speeding, turning), columns, lane);
         if self.holds {
             on_mate(&at, frame, [own[0].re, own[1].re], by, columns, lane);
         }
@@ -311,15 +376,34 @@ const ANGLE: usize = PLACE + 2;
 const RADIAL_SPEED: usize = ContactColumns::RADIAL_SPEED;
 const VELOCITY: usize = ContactColumns::VELOCITY;
 
+/// Keeps the derivatives of the wrench on elements over their spin angles, in their axes, and what they make of that on the mate.
+#[inline(always)]
+fn store_over_spin_angle<S: Simd, const K: usize>(
+    at: &Beside<Pack<S, K>>,
+    frame: Frame<Pack<S, K>>,
+    [radial, across, moment]: [Pack<S, K>; 3],
+    out: &mut OverSpinAngles,
+    lane: usize,
+) {
+    let s = at.place();
+    let [y, z] = frame.to_global([radial, across]);
+    radial.store(&mut out.own[0][lane..]);
+    across.store(&mut out.own[1][lane..]);
+    moment.store(&mut out.own[2][lane..]);
+    (-y).store(&mut out.on_mate[0][lane..]);
+    (-z).store(&mut out.on_mate[1][lane..]);
+    (s[1] * radial - s[0] * across - moment).store(&mut out.on_mate[2][lane..]);
+}
+
 /// From derivatives over the five numbers to those over the coordinates of element and mate, of the wrench on elements, `own`,
-/// which changes at the rate `warming` by itself. Returns those in axes that do not turn with the element.
+/// which changes at the rate `warming` by itself, with the speed of the mate at the rate `speeding`, and where there are waves with its angle:
+/// derivatives over the spin angles, and the rate of the angle of the mate. Returns those in axes that do not turn with the element.
 #[inline(always)]
 fn chain<S: Simd, const K: usize>(
     at: &Beside<Pack<S, K>>,
     frame: Frame<Pack<S, K>>,
     own: &[Varied<Pack<S, K>>; 3],
-    warming: &[Pack<S, K>; 3],
-    speeding: f64,
+    (warming, speeding, turned): (&[Pack<S, K>; 3], f64, Option<([Pack<S, K>; 3], f64)>),
     out: &mut ContactColumns,
     lane: usize,
 ) -> Rows<S, K> {
@@ -348,6 +432,12 @@ fn chain<S: Simd, const K: usize>(
     }
     by[ANGLE][0] -= own[1].re;
     by[ANGLE][1] += own[0].re;
+    if let Some((over_spin_angle, rate)) = turned {
+        // The axes of the mate turn without the element.
+        for i in 0..3 {
+            by[ContactColumns::TIME][i] += (by[ANGLE][i] - over_spin_angle[i]) * rate;
+        }
+    }
     let mut seen = by;
     // The axes of the element turn with its travel.
     seen[TRAVEL][0] += own[1].re;

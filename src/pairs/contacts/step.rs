@@ -34,8 +34,8 @@ pub(crate) struct StepForces {
     pub(crate) powers: [Lanes; POWERS_OF_CONTACT],
     /// What the step has added to the wrenches on the mates, in global axes.
     pub(crate) reaction: WrenchLanes,
-    /// Moment of friction and rolling resistance on the mates, N m.
-    pub(crate) surface_moment: Lanes,
+    /// Moment on the mates, N m.
+    pub(crate) moment_on_mate: Lanes,
 }
 
 impl StepForces {
@@ -45,7 +45,7 @@ impl StepForces {
         friction: ZEROS,
         powers: [ZEROS; POWERS_OF_CONTACT],
         reaction: [ZEROS; OF_ELEMENT],
-        surface_moment: ZEROS,
+        moment_on_mate: ZEROS,
     };
 }
 
@@ -159,8 +159,9 @@ impl Columns for Step<'_> {
         (rolling_resistance * (motion.u1 + motion.u2)).store(&mut step.powers[2][at..]);
         let [_, reaction] = grip.wrenches(&change);
         store_on_mates(&mut step.reaction, at, frame.load(simd, at), &reaction);
-        let [_, l_t, l_r] = grip.on_mate;
-        (l_t * friction + l_r * rolling_resistance).store(&mut step.surface_moment[at..]);
+        let [l_n, l_t, l_r] = grip.on_mate;
+        (l_t * friction + l_r * rolling_resistance + l_n * (normal + change.normal))
+            .store(&mut step.moment_on_mate[at..]);
         *self.cut |= Pack::any(normal.at_most(0.0) & motion.delta.above(0.0));
     }
 }

@@ -7,8 +7,9 @@ mod waviness;
 
 pub(crate) use contact::{Contact, InGroove, OnBody};
 pub(crate) use geometry::{Fit, Groove, RingPlace, Side, Touch};
-pub(crate) use waviness::{Wave, Waviness};
+pub(crate) use waviness::Wave;
 
+use super::Waves;
 use super::line_laws::LawBuilder;
 use crate::error::Result;
 use crate::laws::elastic::line::effective_modulus;
@@ -28,7 +29,7 @@ pub(crate) struct Race {
     /// Angle of the contact at which a point would lie on the edge of the shoulder, rad.
     pub(crate) shoulder: Option<f64>,
     /// Waves around the ring.
-    pub(crate) waviness: Option<Waviness>,
+    pub(crate) waviness: Option<Waves>,
 }
 
 impl Race {
@@ -76,10 +77,20 @@ pub(crate) fn races(scene: &Scene, deviations: &[f64], viscosity: Option<f64>) -
     let (outer, inner) = (scene.outer_ring.as_ref(), scene.inner_ring.as_ref());
     let parts = [
         outer.map(|ring| {
-            (ring.groove_radius, ring.shoulder_height, ring.material.as_deref(), &*ring.waviness)
+            (
+                ring.groove_radius,
+                ring.shoulder_height,
+                ring.material.as_deref(),
+                (&*ring.waviness, ring.waviness_table.as_ref()),
+            )
         }),
         inner.map(|ring| {
-            (ring.groove_radius, ring.shoulder_height, ring.material.as_deref(), &*ring.waviness)
+            (
+                ring.groove_radius,
+                ring.shoulder_height,
+                ring.material.as_deref(),
+                (&*ring.waviness, ring.waviness_table.as_ref()),
+            )
         }),
     ];
     let race = |side: Side, ring: &str| {
@@ -112,7 +123,7 @@ pub(crate) fn races(scene: &Scene, deviations: &[f64], viscosity: Option<f64>) -
             elastic: deviations.iter().map(|deviation| point(*deviation)).collect::<Result<_>>()?,
             laws,
             shoulder: shoulder.map(|height| angle_of_drop(height / radius)),
-            waviness: Waviness::new(waves),
+            waviness: Waves::new(waves.0, waves.1),
         })
     };
     Ok(Some([race(Side::Outer, "outer_ring")?, race(Side::Inner, "inner_ring")?]))

@@ -169,6 +169,7 @@ impl<P: PocketShape> Kinematics for Pockets<P> {
         VariedContact {
             motion,
             edge_share: Some(edge_share),
+            over_spin_angle: None,
             grip: place.grip(offset, m.radius_excess, normal, lead),
         }
     }

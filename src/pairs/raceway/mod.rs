@@ -3,6 +3,7 @@
 mod cones;
 mod disc;
 mod kinematics;
+mod wavy;
 
 pub(crate) use cones::Cones;
 pub(crate) use disc::{Disc, OffAxis};
@@ -12,16 +13,20 @@ use crate::bodies::{
     ElementBlock, ElementMotion, Fault, ForceSource, INNER_RING, Motions, OUTER_RING, Power,
 };
 use crate::error::Result;
+use crate::laws::contact_pair::ContactMotion;
 use crate::laws::line_contact::LineContact;
-use crate::pairs::contacts::{self, Kinematics, Varied, VariedContact, add_slopes};
+use crate::pairs::contacts::{self, Kinematics, OverSpinAngle, Varied, VariedContact, add_slopes};
 use crate::pairs::line_laws::LawBuilder;
 use crate::pairs::{
-    Batch, ContactLaw, Cost, ElementPair, Found, Law, PairInfo, RelativeSlopes, Search, SlopeSums,
+    Ahead, Batch, ContactLaw, Cost, ElementPair, Found, Grip, Law, PairInfo, RelativeSlopes, Search,
+    SlopeSums,
 };
 use crate::scalar::{Base, Columns, Numeric, Pack, dispatch, place_of};
 use crate::scene::{Scene, needed};
 use pulp::Simd;
+use std::f64::consts::TAU;
 use std::ops::Range;
+use wavy::{Seen, Wave, Wavy};
 
 /// The contacts of all rollers with one ring.
 #[derive(Debug)]
@@ -31,6 +36,8 @@ struct Raceway {
     ring: &'static PairInfo,
     /// Whether it is that of an outer ring which is held in the centre.
     centred: bool,
+    /// Waves of raceway and rollers, if they have any.
+    wavy: Option<Wavy>,
 }
 
 static OUTER: PairInfo = PairInfo {
@@ -91,13 +98,15 @@ pub(crate) fn laws_of_scene(
 pub(super) fn outer(laws: &LawBuilder<'_>) -> Result<Option<Box<dyn ElementPair>>> {
     let Some((geometry, [law, _])) = laws_of(laws)? else { return Ok(None) };
     let centred = laws.scene().outer_motion().is_none();
-    Ok(Some(Box::new(Raceway { geometry, law, ring: &OUTER, centred })))
+    let wavy = Wavy::of(laws.scene(), OUTER_RING);
+    Ok(Some(Box::new(Raceway { geometry, law, ring: &OUTER, centred, wavy })))
 }
 
 /// That of the inner ring.
 pub(super) fn inner(laws: &LawBuilder<'_>) -> Result<Option<Box<dyn ElementPair>>> {
     let Some((geometry, [_, law])) = laws_of(laws)? else { return Ok(None) };
-    Ok(Some(Box::new(Raceway { geometry, law, ring: &INNER, centred: false })))
+    let wavy = Wavy::of(laws.scene(), INNER_RING);
+    Ok(Some(Box::new(Raceway { geometry, law, ring: &INNER, centred: false, wavy })))
 }
 
 impl ElementPair for Raceway {
@@ -117,6 +126,16 @@ impl ElementPair for Raceway {
             (true, _) => dispatch(instructions, Outer { motions, geometry, found }),
             (false, OUTER_RING) => dispatch(instructions, Beside::<OUTER_RING> { motions, geometry, found }),
             (false, _) => dispatch(instructions, Beside::<INNER_RING> { motions, geometry, found }),
+        }
+        if let Some(wavy) = &self.wavy {
+            for j in 0..motions.count {
+                let (block, lane) = place_of(j);
+                let Found { motion, grip, .. } = &mut found[block];
+                let (mut at, mut held) = (motion.of(lane), grip.of(lane));
+                wavy.put_on(geometry, motions, (self.ring.mate, j), (&mut at, &mut held));
+                motion.set(lane, &at);
+                grip.set(lane, &held);
+            }
         }
         for j in 0..motions.count {
             let (block, lane) = place_of(j);
@@ -139,6 +158,23 @@ impl ElementPair for Raceway {
         add_slopes(self, batch, contacts, motions, sums, memory);
     }
 
+    fn has_onset(&self) -> bool {
+        self.wavy.is_some()
+    }
+
+    /// A share of the shortest wave that passes a contact.
+    fn longest_step(&self, ahead: &Ahead<'_>) -> f64 {
+        let Some(wavy) = &self.wavy else { return f64::INFINITY };
+        let [of_raceway, of_rollers] = wavy.highest_orders();
+        let ring = ahead.shared[self.ring.mate].speed;
+        let rate = |j: usize| {
+            let [orbit, spin] = [ahead.layout.element(j) + 1, ahead.layout.spin(j)].map(|i| ahead.v[i]);
+            (of_raceway * (orbit - ring).abs()).max(of_rollers * (spin - orbit).abs())
+        };
+        let fastest = (0..ahead.layout.count).map(rate).fold(0.0, f64::max);
+        TAU / (fastest * ahead.tuning.steps_per_period)
+    }
+
     fn cost(&self) -> Cost {
         // Of one slice, as often as there are any; finding the contact is the smaller part.
         let slices = self.law.profile.map_or(1.0, |profile| profile.count() as f64);
@@ -147,6 +183,14 @@ impl ElementPair for Raceway {
 }
 
 impl Kinematics for Raceway {
+    fn waves(&self, motions: &Motions, j: usize) -> Option<[[f64; 2]; 2]> {
+        let wavy = self.wavy.as_ref()?;
+        Some(
+            wavy.under(&self.geometry, motions, self.ring.mate, j)
+                .map(|[_, slope, curvature]| [slope, curvature]),
+        )
+    }
+
     #[inline(always)]
     fn contact<B: Base>(&self, at: &contacts::Beside<B>) -> VariedContact<B> {
         let (m, r, mate) = (&at.element, at.radius, &at.mate);
@@ -168,7 +212,12 @@ impl Kinematics for Raceway {
             };
             let (motion, mut grip) = self.geometry.outer(&roller, Varied::lift(turning));
             grip.normal[1] = varied(zero, [zero, turn, zero, zero, zero]);
-            return VariedContact { motion, edge_share: None, grip };
+            let seen = Seen {
+                outwards: [varied(one, [zero; 5]), grip.normal[1]],
+                distance: roller.radial_offset + self.geometry.pitch_radius,
+                turning: roller.orbit_speed,
+            };
+            return self.on_waves(at, &seen, spin_speed, (motion, grip));
         }
         let roller = ElementMotion {
             radial_offset: Varied::lift(m.radial_offset),
@@ -192,7 +241,50 @@ impl Kinematics for Raceway {
             OUTER_RING => self.geometry.outer_beside(&roller, &ring),
             _ => self.geometry.inner(&roller, &ring),
         };
-        VariedContact { motion, edge_share: None, grip }
+        if at.waves.is_none() {
+            return VariedContact { motion, edge_share: None, over_spin_angle: None, grip };
+        }
+        self.on_waves(at, &Seen::new(&self.geometry, &roller, &ring), spin_speed, (motion, grip))
+    }
+}
+
+impl Raceway {
+    /// A contact of round bodies, on the waves that they have.
+    #[inline(always)]
+    fn on_waves<B: Base>(
+        &self,
+        at: &contacts::Beside<B>,
+        seen: &Seen<Varied<B>>,
+        spin: Varied<B>,
+        (mut motion, mut grip): (ContactMotion<Varied<B>>, Grip<Varied<B>>),
+    ) -> VariedContact<B> {
+        let Some([raceway, roller]) = at.waves else {
+            return VariedContact { motion, edge_share: None, over_spin_angle: None, grip };
+        };
+        let side = wavy::side(self.ring.mate);
+        let zero = at.radius.splat(0.0);
+        let [x, y] = seen.ahead();
+        let ahead = [x.re, y.re, zero, zero, zero];
+        let over_place = |[value, slope]: [B; 2]| Varied {
+            re: value,
+            eps: [slope * ahead[0], slope * ahead[1], zero, zero, zero],
+        };
+        let wave = Wave {
+            height: over_place([zero, raceway[0] + roller[0]]),
+            slopes: [over_place(raceway), over_place(roller)],
+        };
+        let tangent = grip.tangent();
+        seen.put_on(&wave, side, [Varied::lift(at.mate.speed), spin], &mut motion, &mut grip);
+        // A roller that turns moves its waves back under the contact.
+        let turned = -roller[1];
+        let steep = turned * side / seen.distance.re;
+        let over_spin_angle = OverSpinAngle {
+            delta: -roller[0],
+            delta_dot: turned * (seen.turning.re - spin.re),
+            normal: [steep * tangent[0].re, steep * tangent[1].re],
+            offset: turned,
+        };
+        VariedContact { motion, edge_share: None, over_spin_angle: Some(over_spin_angle), grip }
     }
 }
 

@@ -8,9 +8,6 @@ const DEEPEST: f64 = 1.0;
 const WIDEST_GROOVE: f64 = 2.0;
 pub(crate) const MOMENT: Range = range(-1e9, 1e9, "N m");
 const STIFFNESS: Range = range(0.0, 1e12, "N/m");
-/// Largest sum of the slopes of the waves of a race.
-const STEEPEST: f64 = 0.01;
-const WAVE: Range = range(-1e-4, 1e-4, "m");
 const CONTACT_ANGLE: Range = range(0.0, 1.5, "rad");
 
 impl Scene {
@@ -42,21 +39,6 @@ impl Scene {
             judge.optional(&format!("{ring}.shoulder_height"), shoulder, range(1e-6, *groove, "m"))?;
             let path = format!("{ring}.material");
             self.material_exists(judge, &path, material.as_ref().ok_or_else(|| missing(&path))?)?;
-        }
-        for (path, waves) in
-            [("outer_ring.waviness", &outer.waviness), ("inner_ring.waviness", &inner.waviness)]
-        {
-            let list = waves.iter().map(|wave| (wave.order, wave.amplitude, wave.phase));
-            harmonics(judge, path, list, (1, ""), WAVE)?;
-            let steepest: f64 = waves.iter().map(|wave| f64::from(wave.order) * wave.amplitude.abs()).sum();
-            let slope = steepest / balls.pitch_radius;
-            if slope > STEEPEST {
-                let text = format!(
-                    "slopes of {} at most, order times amplitude over the pitch radius, are too steep for waves whose normals are those of                      the round race; {STEEPEST} is allowed",
-                    shown(slope)
-                );
-                judge.refuse(path, text)?;
-            }
         }
         self.validate_fit(judge, balls, inner, grooves)?;
         for ((ring, shoulder), groove) in
@@ -122,8 +104,6 @@ impl Scene {
             ("outer_ring.shoulder_height", outer.is_some_and(|ring| ring.shoulder_height.is_some())),
             ("inner_ring.groove_radius", inner.is_some_and(|ring| ring.groove_radius.is_some())),
             ("inner_ring.shoulder_height", inner.is_some_and(|ring| ring.shoulder_height.is_some())),
-            ("outer_ring.waviness", outer.is_some_and(|ring| !ring.waviness.is_empty())),
-            ("inner_ring.waviness", inner.is_some_and(|ring| !ring.waviness.is_empty())),
             ("raceways.ellipse", self.raceways.as_ref().is_some_and(|raceways| raceways.ellipse.is_some())),
         ] {
             if present {

@@ -19,6 +19,7 @@ mod roller_space;
 mod series;
 mod sizes;
 mod spatial_cage;
+mod waves;
 
 pub(crate) use balls::MOMENT;
 pub(crate) use cage::{TORQUE, VELOCITY};
@@ -130,6 +131,7 @@ impl Scene {
             self.validate_kinematic(judge, elements)?;
         }
         self.grooves_need_balls(judge)?;
+        self.validate_waves(judge)?;
         if let Some(cage) = &self.cage {
             self.validate_cage(judge, cage)?;
         }

@@ -75,12 +75,6 @@ pub fn rows() -> Vec<Row> {
             "inner_ring.motion.space.inertia.polar",
             &["twice the transverse one"],
         ),
-        rollers().scene(
-            "waves of a race of rollers",
-            &[("outer_ring.waviness", wave(5, 1e-7))],
-            "outer_ring.waviness",
-            &["needs 'balls'"],
-        ),
         deep.scene(
             "drag without oil",
             &[("balls.drag", json!({"density": 40.0})), ("lubricant", Value::Null), ("raceways", json!({}))],

@@ -17,6 +17,7 @@ mod spatial_cage;
 mod start;
 mod syntax;
 pub mod table;
+mod waves;
 
 use crate::common::{example, example_text, read, set};
 use cagedyn::{Model, Status};
@@ -41,6 +42,7 @@ pub fn rows() -> Vec<Row> {
         profile::rows(),
         guide::rows(),
         start::rows(),
+        waves::rows(),
     ];
     parts.into_iter().flatten().collect()
 }

@@ -99,7 +99,7 @@ impl Plane {
                         out[place] = step.normal[lane];
                     }
                     if watch.torques {
-                        on[info.mate].moment += step.surface_moment[lane];
+                        on[info.mate].moment += step.moment_on_mate[lane];
                     }
                 }
             }
