@@ -175,11 +175,11 @@ class Equilibrium:
         )
         #: Reference life of rollers after ISO/TS 16281 and what it follows from, by name: life_turns, life_time (s), reference_load (N) and more; empty
         #: of balls and without load.
-        self.life: dict[str, float] = dict(zip(names("life_quantity"), values.tolist(), strict=True))
-        self.life_units: dict[str, str] = dict(zip(names("life_quantity"), names("life_quantity", "unit"), strict=True))
+        self.life: dict[str, float] = dict(zip(names("life_quantity"), values.tolist()))
+        self.life_units: dict[str, str] = dict(zip(names("life_quantity"), names("life_quantity", "unit")))
         #: SI units of what is known of elements and contacts.
-        self.element_units: dict[str, str] = dict(zip(names("element_quantity"), names("element_quantity", "unit"), strict=True))
-        self.contact_units: dict[str, str] = dict(zip(names("contact_quantity"), names("contact_quantity", "unit"), strict=True))
+        self.element_units: dict[str, str] = dict(zip(names("element_quantity"), names("element_quantity", "unit")))
+        self.contact_units: dict[str, str] = dict(zip(names("contact_quantity"), names("contact_quantity", "unit")))
         count = counted(lib.cagedyn_equilibrium_warning_count(handle))
         #: What is amiss without preventing the equilibrium, one line each.
         self.warnings: tuple[str, ...] = tuple(_names(count, lambda i: lib.cagedyn_equilibrium_warning(handle, i)))
@@ -242,7 +242,7 @@ class HeatBalance:
 
     def _by(self, names: list[str], call: Any) -> dict[str, float]:
         values = filled(len(names), lambda p, n: call(self._handle, p, n))
-        return dict(zip(names, values.tolist(), strict=True))
+        return dict(zip(names, values.tolist()))
 
     @property
     def temperatures(self) -> dict[str, float]:
@@ -332,7 +332,7 @@ def cage_motion(
     )
     kind, *numbers_of, comes_and_goes = x.tolist()
     names = _names(lib.cagedyn_motion_count(), lib.cagedyn_motion_name)[1:-1]
-    values: dict[str, float] = dict(zip(names, numbers_of, strict=True))
+    values: dict[str, float] = dict(zip(names, numbers_of))
     return Motion(motion=_MOTIONS[int(kind)], intermittent=bool(comes_and_goes), **values)
 
 
@@ -348,7 +348,7 @@ def over_orbit(angles: ArrayLike, values: ArrayLike, sectors: int) -> dict[str, 
     # A wrong number of sectors is refused by the library before it looks at the array.
     width = sectors if 0 < sectors <= 1 << 20 else 0
     out = filled(len(names) * width, lambda p, n: lib.cagedyn_over_orbit(at, of, count, sectors, p, n))
-    return dict(zip(names, out.reshape(len(names), width), strict=True))
+    return dict(zip(names, out.reshape(len(names), width)))
 
 
 def _one_length(lengths: list[int]) -> int:
