@@ -22,6 +22,8 @@
 # make header    writes include/cagedyn.h and schemas/ anew after a change
 # make abi       commits to the ABI of the header anew, after it grew: ctests/abi
 # make deb       a Debian package in out/
+# make wheels    a Python wheel for every CPython from 3.9 on, in out/wheels/
+# make wheels-test  the same, installed in empty environments without Rust, with the example of its page
 # make build     library and tool, for make install
 # make install   library, header, tool with manual and completions, scenes, schemas, licences and pkg-config file below
 #                $(DESTDIR)$(PREFIX); libraries in LIBDIR
@@ -38,7 +40,7 @@ CARGO ?= cargo
 PYTHON := $(abspath out/venv/bin/python)
 
 .PHONY: check test release-check tools python-env fmt lint doc shipped quick unit abi deb run cases example figures effects second-paper cage-in-space roller-space verify hard judge tuning ellipse-rules random statistics \
-	accuracy bench build-times header build install uninstall clean
+	accuracy bench build-times header wheels wheels-test build install uninstall clean
 
 # The same flags everywhere, so that nothing is built twice.
 FLAGS := --locked --workspace --all-features
@@ -68,8 +70,11 @@ tools:
 python-env: out/venv/ready
 
 out/venv/ready: python/requirements.txt
-	python3 -m venv out/venv
-	$(PYTHON) -m pip install -q --disable-pip-version-check -r python/requirements.txt
+out/wheels-venv/ready: python/requirements-wheels.txt
+
+out/%/ready:
+	python3 -m venv out/$*
+	out/$*/bin/python -m pip install -q --disable-pip-version-check -r $^
 	touch $@
 
 fmt:
@@ -189,6 +194,12 @@ abi:
 
 deb: build
 	BUILT=$(BUILT) VERSION=$(VERSION) tools/deb.sh out
+
+wheels: out/wheels-venv/ready
+	PYTHON=$(abspath out/wheels-venv/bin/python) tools/wheels.sh out/wheels
+
+wheels-test: wheels
+	tools/wheels_test.sh out/wheels
 
 # What install needs; `make` as a user, `sudo make install` builds nothing.
 build:
