@@ -74,6 +74,18 @@ class WhirlBranch:
     it, as KeyboardInterrupt, whose attribute `branch` has the points so far, or None.
     """
 
+    #: One record per point: parameter, whirl_speed (rad/s), eccentricity (m), lead (rad), leading_rate (1/s), leading_frequency
+    #: (rad/s), arcs; stable, fold, hopf and grazed are 1 or 0.
+    points: NDArray[np.void]
+    #: Amplitudes of the waves of an elastic cage from order 2 on, m; shape (points, waves).
+    amplitudes: Array
+    #: Rate in 1/s plus i times frequency in rad/s, the largest rate first; shape (points, eigenvalues).
+    eigenvalues: NDArray[np.complex128]
+    #: "range", "length", "lost", "cancelled" or "out of time".
+    end: str
+    #: Why it ends before its range does; empty where it does not.
+    why: str
+
     def __init__(
         self,
         model: Model,
@@ -103,22 +115,14 @@ class WhirlBranch:
         count = counted(lib.cagedyn_whirl_point_count(handle))
         columns = _names(lib.cagedyn_whirl_quantity_count(), lib.cagedyn_whirl_quantity_name)
         rows = [filled(len(columns), lambda p, n, i=i: lib.cagedyn_whirl_point(handle, i, p, n)) for i in range(count)]
-        #: One record per point: parameter, whirl_speed (rad/s), eccentricity (m), lead (rad), leading_rate (1/s), leading_frequency
-        #: (rad/s), arcs; stable, fold, hopf and grazed are 1 or 0.
-        self.points: NDArray[np.void] = np.array(
-            [tuple(row) for row in rows], dtype=[(name, np.float64) for name in columns]
-        )
+        self.points = np.array([tuple(row) for row in rows], dtype=[(name, np.float64) for name in columns])
         waves = counted(lib.cagedyn_whirl_wave_count(handle))
-        #: Amplitudes of the waves of an elastic cage from order 2 on, m; shape (points, waves).
-        self.amplitudes: Array = np.array(
+        self.amplitudes = np.array(
             [filled(waves, lambda p, n, i=i: lib.cagedyn_whirl_amplitudes(handle, i, p, n)) for i in range(count)]
         ).reshape(count, waves)
-        #: Rate in 1/s plus i times frequency in rad/s, the largest rate first; shape (points, eigenvalues).
-        self.eigenvalues: NDArray[np.complex128] = np.array([_eigenvalues(handle, i) for i in range(count)])
-        #: "range", "length", "lost", "cancelled" or "out of time".
-        self.end: str = text(lib.cagedyn_whirl_end(handle))
-        #: Why it ends before its range does; empty where it does not.
-        self.why: str = text(lib.cagedyn_whirl_why(handle))
+        self.eigenvalues = np.array([_eigenvalues(handle, i) for i in range(count)])
+        self.end = text(lib.cagedyn_whirl_end(handle))
+        self.why = text(lib.cagedyn_whirl_why(handle))
 
 
 class Equilibrium:
@@ -176,9 +180,11 @@ class Equilibrium:
         #: Reference life of rollers after ISO/TS 16281 and what it follows from, by name: life_turns, life_time (s), reference_load (N) and more; empty
         #: of balls and without load.
         self.life: dict[str, float] = dict(zip(names("life_quantity"), values.tolist()))
+        #: SI units of these.
         self.life_units: dict[str, str] = dict(zip(names("life_quantity"), names("life_quantity", "unit")))
-        #: SI units of what is known of elements and contacts.
+        #: SI units of what is known of elements.
         self.element_units: dict[str, str] = dict(zip(names("element_quantity"), names("element_quantity", "unit")))
+        #: SI units of what is known of contacts.
         self.contact_units: dict[str, str] = dict(zip(names("contact_quantity"), names("contact_quantity", "unit")))
         count = counted(lib.cagedyn_equilibrium_warning_count(handle))
         #: What is amiss without preventing the equilibrium, one line each.
