@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# One wheel for every CPython from 3.9 on, also on old distributions, without a container: zig links the library against an old C
+# One wheel for every CPython from 3.9 on, also on old distributions, without a container: zig links against an old C
 # library, auditwheel looks whether it needs nothing newer and gives it its tag.
 #
 #   PYTHON=out/wheels-venv/bin/python tools/wheels.sh out/wheels

@@ -13,7 +13,7 @@ sed -n '/^```python$/,/^```$/{/^```/d;p}' python/README.md > "$work/page.py"
 unset CAGEDYN_LIBRARY PYTHONPATH
 tried=0
 for python in python3.{9..15}; do
-    "$python" -c '' 2> /dev/null || continue
+    "$python" -c '' 2> /dev/null || { echo "$python is not there: not tested"; continue; }
     venv=$work/$python
     "$python" -m venv "$venv"
     begin=$(date +%s.%N)
