@@ -148,7 +148,7 @@ gallery: tools
 	cp $(GALLERY)/deep_groove_6206/equilibrium.svg docs/images/gallery_deep_groove_6206.svg
 
 # Warnings, among them every link that leads nowhere, are errors. All pages are read anew, for a page that is kept warns no more.
-site: out/site-venv/ready
+site: tools out/site-venv/ready
 	rm -rf out/site
 	out/site-venv/bin/python -m sphinx -q -W -E --keep-going -c docs/site -d out/site-pages . out/site
 
@@ -218,7 +218,7 @@ abi:
 deb: build
 	BUILT=$(BUILT) VERSION=$(VERSION) tools/deb.sh out
 
-wheels: out/wheels-venv/ready
+wheels: tools out/wheels-venv/ready
 	PYTHON=$(abspath out/wheels-venv/bin/python) tools/wheels.sh out/wheels
 
 wheels-test: wheels

@@ -1,7 +1,7 @@
 """The site: the pages of the repository where they are, the C header and the Python package, with one search.
 
-`make site` runs Sphinx over the repository with this file. Pages stay Markdown that a code host shows; what only the site needs, its
-tree of pages and links that lead into it, is added here while they are read.
+`make site` runs Sphinx over the repository with this file. Pages stay Markdown that a code host shows; what only the
+site needs, its tree of pages and links that lead into it, is added here while they are read.
 """
 
 import os
@@ -21,7 +21,7 @@ from sphinx.writers.html5 import HTML5Translator
 
 ROOT = Path(__file__).parents[2]
 sys.path[:0] = [str(Path(__file__).parent), str(ROOT / "python")]
-# The package is imported for its docstrings alone: cffi is replaced by a dummy, and this name of a library is never looked at.
+# The package is imported for its docstrings alone: cffi is replaced by a dummy that never looks at this name.
 os.environ["CAGEDYN_LIBRARY"] = "none"
 
 project = "cagedyn"
@@ -63,7 +63,14 @@ TREE = {
     "Hosts": ["docs/hosts", "python/README", "docs/reference/*", "docs/abi"],
     "Model": ["docs/model", "docs/guide", "docs/model/*"],
     "Results": ["docs/papers", "docs/results/*"],
-    "Development": ["ARCHITECTURE", "CONTRIBUTING", "docs/building", "docs/dependencies", "docs/design-space", "CHANGELOG"],
+    "Development": [
+        "ARCHITECTURE",
+        "CONTRIBUTING",
+        "docs/building",
+        "docs/dependencies",
+        "docs/design-space",
+        "CHANGELOG",
+    ],
 }
 
 
@@ -71,12 +78,15 @@ def for_the_site(app: Sphinx, page: str, source: list[str]) -> None:
     """Adds the tree of pages to the first one, and lets links to the header lead to its reference."""
     if page == root_doc:
         for title, pages in TREE.items():
-            source[0] += "\n".join(["", "", "```{toctree}", ":hidden:", ":titlesonly:", ":glob:", f":caption: {title}", "", *pages, "```"])
+            options = [":hidden:", ":titlesonly:", ":glob:", f":caption: {title}"]
+            source[0] += "\n".join(["", "", "```{toctree}", *options, "", *pages, "```"])
     elif page != "docs/reference/c":
         source[0] = re.sub(r"\]\([./]*include/cagedyn\.h\)", "](/docs/reference/c.md)", source[0])
 
 
-def public_name(app: Sphinx, env: BuildEnvironment, node: pending_xref, content: nodes.TextElement) -> nodes.reference | None:
+def public_name(
+    app: Sphinx, env: BuildEnvironment, node: pending_xref, content: nodes.TextElement
+) -> nodes.reference | None:
     """Leads from a type in a signature, which names the file that defines it, to the public name of that type."""
     name = re.sub(r"^cagedyn\._\w+\.", "cagedyn.", node.get("reftarget", ""))
     if node.get("refdomain") != "py" or name == node["reftarget"]:

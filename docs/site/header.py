@@ -1,17 +1,21 @@
 """The directive `c-header`: sections of all that a header of cbindgen declares, with the words of its comments."""
 
 import re
+from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
 from docutils import nodes
 from sphinx.application import Sphinx
+from sphinx.domains.c import CDomain
 from sphinx.util.docutils import SphinxDirective
 
 #: A comment and what it is about.
 ITEM = re.compile(r"^/\*(?P<words>(?:(?!\*/).)*)\*/\s*(?P<code>#define [^\n]+|[^#/;]+;)", re.DOTALL | re.MULTILINE)
 #: What else such a header has.
-REST = re.compile(r"#include <stdint\.h>|#(ifndef|define|endif)[^\n]* CAGEDYN_H\b[^\n]*|#ifdef __cplusplus.*?#endif[^\n]*", re.DOTALL)
+REST = re.compile(
+    r"#include <stdint\.h>|#(ifndef|define|endif)[^\n]* CAGEDYN_H\b[^\n]*|#ifdef __cplusplus.*?#endif[^\n]*", re.DOTALL
+)
 #: A convention at the top of the header: its subject and the first line about it.
 CONVENTION = re.compile(r"^(\w+)  +(\S.*)$")
 
@@ -30,7 +34,7 @@ SECTIONS = {
 
 
 class Item(NamedTuple):
-    """A constant, type or function: its name, its directive of Sphinx's C domain with what that shows, and its comment."""
+    """A constant, handle or function: its name, its directive of Sphinx's C domain, what that shows, its comment."""
 
     name: str
     directive: str
@@ -55,7 +59,7 @@ def item(match: re.Match[str]) -> Item:
 
 
 def items(header: str) -> list[Item]:
-    """All that a header declares, in its order. Raises ValueError if anything in it has no comment or is of no known kind."""
+    """All that a header declares, in its order. Raises ValueError for what has no comment or is of no known kind."""
     start = header.index("#ifndef CAGEDYN_H")
     found = [item(match) for match in ITEM.finditer(header, start)]
     left = REST.sub("", ITEM.sub("", header[start:])).strip()
@@ -92,7 +96,7 @@ def markdown(words: str, names: set[str]) -> str:
 def conventions(header: str, names: set[str]) -> str:
     """What opens the header, with the subjects in bold."""
     text = markdown(words_of(header[header.index("CONVENTIONS") + len("CONVENTIONS") : header.index("*/")]), names)
-    return "\n".join(CONVENTION.sub(r"**\1.** \2", line) if CONVENTION.match(line) else line.strip() for line in text.split("\n"))
+    return "\n".join(CONVENTION.sub(r"**\1.** \2", line.rstrip()).strip() for line in text.split("\n"))
 
 
 class Header(SphinxDirective):
@@ -122,6 +126,14 @@ class Header(SphinxDirective):
         return section
 
 
+class Declared(CDomain):
+    """What the search finds of C: all that is declared, but not the parameters, whose names are everywhere."""
+
+    def get_objects(self) -> Iterator[tuple[str, str, str, str, str, int]]:
+        return (found for found in super().get_objects() if found[2] != "functionParam")
+
+
 def setup(app: Sphinx) -> dict[str, bool]:
+    app.add_domain(Declared, override=True)
     app.add_directive("c-header", Header)
     return {"parallel_read_safe": True}
