@@ -5,6 +5,8 @@
 # make cases     the twelve NU2310 cases, its roller profiles, the grease guide over speed, its variants and without grease, results in out/cases/
 # make example   the C example, compiled and run, table in out/
 # make figures   the figures of both papers beside what the library gives: docs/papers.md
+# make gallery   pictures of the scenes: docs/gallery.md
+# make site      the pages of docs, the C header and the Python package as one site with search, in out/site/; a dead link is an error
 # make effects   cost of every effect and what it changes: docs/results/effects.md
 # make cage-in-space the cage of the second paper in space: docs/results/cage-in-space.md
 # make roller-space  the NU2310 with rollers in space beside those in the plane: docs/results/roller-space.md
@@ -23,6 +25,8 @@
 # make header    writes include/cagedyn.h and schemas/ anew after a change
 # make abi       commits to the ABI of the header anew, after it grew: ctests/abi
 # make deb       a Debian package in out/
+# make wheels    a Python wheel for every CPython from 3.9 on, in out/wheels/
+# make wheels-test  the same, installed in empty environments without Rust, with the example of its page
 # make build     library and tool, for make install
 # make install   library, header, tool with manual and completions, scenes, schemas, licences and pkg-config file below
 #                $(DESTDIR)$(PREFIX); libraries in LIBDIR
@@ -38,15 +42,15 @@ CARGO ?= cargo
 # Python with what tests of its package need.
 PYTHON := $(abspath out/venv/bin/python)
 
-.PHONY: check test release-check tools python-env fmt lint doc shipped quick unit abi deb run cases example figures effects second-paper cage-in-space roller-space waviness verify hard judge tuning ellipse-rules random statistics \
-	accuracy bench build-times header build install uninstall clean
+.PHONY: check test release-check tools python-env fmt lint doc shipped quick unit abi deb run cases example figures gallery site effects second-paper cage-in-space roller-space waviness verify hard judge tuning ellipse-rules random statistics \
+	accuracy bench build-times header wheels wheels-test build install uninstall clean
 
 # The same flags everywhere, so that nothing is built twice.
 FLAGS := --locked --workspace --all-features
 
 check: tools fmt lint quick
 
-test: tools python-env fmt lint doc shipped unit
+test: tools python-env fmt lint doc site shipped unit
 
 # A tool that is missing is an error there.
 release-check: tools python-env
@@ -69,8 +73,12 @@ tools:
 python-env: out/venv/ready
 
 out/venv/ready: python/requirements.txt
-	python3 -m venv out/venv
-	$(PYTHON) -m pip install -q --disable-pip-version-check -r python/requirements.txt
+out/wheels-venv/ready: python/requirements-wheels.txt
+out/site-venv/ready: docs/site/requirements.txt
+
+out/%/ready:
+	python3 -m venv out/$*
+	out/$*/bin/python -m pip install -q --disable-pip-version-check -r $^
 	touch $@
 
 fmt:
@@ -124,6 +132,26 @@ figures: tools
 	cp $(FIGURES)/nu2310_5um/roller_history.svg $(FIGURES)/nu2310_5um/contact_forces.svg $(FIGURES)/nu2310_5um/over_orbit.svg docs/images/
 	cp $(FIGURES)/fig9/cage_positions.svg $(FIGURES)/grease/whirl_history.svg $(FIGURES)/grease_speed/whirl_speed.svg docs/images/
 	cp $(FIGURES)/grease/cage_orbit.svg docs/images/whirl_orbit.svg
+
+GALLERY := out/gallery
+
+# Scenes with the picture of their run that shows them best.
+gallery: tools
+	set -e; for shown in nu2310_grease/cage_orbit nu2310_space/roller_skew full_complement/contact_forces tapered_32210/line_load_map \
+		angular_contact_70/contact_ellipse angular_contact_70_cage/cage_views grease_guide_elastic/cage_orbit; do \
+		scene=$${shown%/*}; \
+		$(TOOL) run scenes/$$scene.json --out $(GALLERY)/$$scene; \
+		cp $(GALLERY)/$$shown.svg docs/images/gallery_$$scene.svg; \
+	done
+	$(TOOL) heat scenes/nu2310_heat.json --out $(GALLERY)/nu2310_heat
+	cp $(GALLERY)/nu2310_heat/heat_flow.svg docs/images/gallery_nu2310_heat.svg
+	$(TOOL) equilibrium scenes/deep_groove_6206.json --out $(GALLERY)/deep_groove_6206
+	cp $(GALLERY)/deep_groove_6206/equilibrium.svg docs/images/gallery_deep_groove_6206.svg
+
+# Warnings, among them every link that leads nowhere, are errors. All pages are read anew, for a page that is kept warns no more.
+site: tools out/site-venv/ready
+	rm -rf out/site
+	out/site-venv/bin/python -m sphinx -q -W -E --keep-going -c docs/site -d out/site-pages . out/site
 
 example:
 	$(CARGO) build --release --locked
@@ -193,6 +221,12 @@ abi:
 
 deb: build
 	BUILT=$(BUILT) VERSION=$(VERSION) tools/deb.sh out
+
+wheels: tools out/wheels-venv/ready
+	PYTHON=$(abspath out/wheels-venv/bin/python) tools/wheels.sh out/wheels
+
+wheels-test: wheels
+	tools/wheels_test.sh out/wheels
 
 # What install needs; `make` as a user, `sudo make install` builds nothing.
 build:

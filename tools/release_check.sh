@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What a release needs beside `make test`. A tool that is missing is installed, or is an error. Steps may be named:
-# calls package python octave browser deb c-sanitizers sanitizers c-threads fuzz platforms; without names all are made.
+# calls package python wheels octave browser deb c-sanitizers sanitizers c-threads fuzz platforms; without names all are made.
 set -euo pipefail
 
 NIGHTLY=nightly-2026-10-30
@@ -36,16 +36,10 @@ python() {
     "$out/venv/bin/python" -m pytest -q -p no:cacheprovider python/tests
     sed -n '/^```python$/,/^```$/{/^```/d;p}' python/README.md > "$out/page.py"
     "$out/venv/bin/python" "$out/page.py"
-    # The same wheel in the other Pythons that are here.
-    local other
-    for other in python3.{10..15}; do
-        "$other" -c '' 2> /dev/null || continue
-        rm -rf "$out/other"
-        "$other" -m venv "$out/other"
-        "$out/other/bin/python" -m pip install -q --disable-pip-version-check "$wheel[test]"
-        "$out/other/bin/python" -m pytest -q -p no:cacheprovider python/tests
-    done
 }
+
+# The wheel that is released, with its tests, in all Pythons that are here.
+wheels() { TESTS=1 make wheels-test; }
 
 # Octave by way of the gateway for MATLAB, and what reads the tables of the tool.
 octave() {
@@ -188,7 +182,7 @@ platforms() {
     done
 }
 
-for step in ${*:-calls package python octave browser deb c-sanitizers sanitizers c-threads fuzz platforms}; do
+for step in ${*:-calls package python wheels octave browser deb c-sanitizers sanitizers c-threads fuzz platforms}; do
     echo "== $step"
     $step
 done

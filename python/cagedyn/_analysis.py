@@ -74,6 +74,18 @@ class WhirlBranch:
     it, as KeyboardInterrupt, whose attribute `branch` has the points so far, or None.
     """
 
+    #: One record per point: parameter, whirl_speed (rad/s), eccentricity (m), lead (rad), leading_rate (1/s), leading_frequency
+    #: (rad/s), arcs; stable, fold, hopf and grazed are 1 or 0.
+    points: NDArray[np.void]
+    #: Amplitudes of the waves of an elastic cage from order 2 on, m; shape (points, waves).
+    amplitudes: Array
+    #: Rate in 1/s plus i times frequency in rad/s, the largest rate first; shape (points, eigenvalues).
+    eigenvalues: NDArray[np.complex128]
+    #: "range", "length", "lost", "cancelled" or "out of time".
+    end: str
+    #: Why it ends before its range does; empty where it does not.
+    why: str
+
     def __init__(
         self,
         model: Model,
@@ -103,22 +115,14 @@ class WhirlBranch:
         count = counted(lib.cagedyn_whirl_point_count(handle))
         columns = _names(lib.cagedyn_whirl_quantity_count(), lib.cagedyn_whirl_quantity_name)
         rows = [filled(len(columns), lambda p, n, i=i: lib.cagedyn_whirl_point(handle, i, p, n)) for i in range(count)]
-        #: One record per point: parameter, whirl_speed (rad/s), eccentricity (m), lead (rad), leading_rate (1/s), leading_frequency
-        #: (rad/s), arcs; stable, fold, hopf and grazed are 1 or 0.
-        self.points: NDArray[np.void] = np.array(
-            [tuple(row) for row in rows], dtype=[(name, np.float64) for name in columns]
-        )
+        self.points = np.array([tuple(row) for row in rows], dtype=[(name, np.float64) for name in columns])
         waves = counted(lib.cagedyn_whirl_wave_count(handle))
-        #: Amplitudes of the waves of an elastic cage from order 2 on, m; shape (points, waves).
-        self.amplitudes: Array = np.array(
+        self.amplitudes = np.array(
             [filled(waves, lambda p, n, i=i: lib.cagedyn_whirl_amplitudes(handle, i, p, n)) for i in range(count)]
         ).reshape(count, waves)
-        #: Rate in 1/s plus i times frequency in rad/s, the largest rate first; shape (points, eigenvalues).
-        self.eigenvalues: NDArray[np.complex128] = np.array([_eigenvalues(handle, i) for i in range(count)])
-        #: "range", "length", "lost", "cancelled" or "out of time".
-        self.end: str = text(lib.cagedyn_whirl_end(handle))
-        #: Why it ends before its range does; empty where it does not.
-        self.why: str = text(lib.cagedyn_whirl_why(handle))
+        self.eigenvalues = np.array([_eigenvalues(handle, i) for i in range(count)])
+        self.end = text(lib.cagedyn_whirl_end(handle))
+        self.why = text(lib.cagedyn_whirl_why(handle))
 
 
 class Equilibrium:
@@ -175,11 +179,13 @@ class Equilibrium:
         )
         #: Reference life of rollers after ISO/TS 16281 and what it follows from, by name: life_turns, life_time (s), reference_load (N) and more; empty
         #: of balls and without load.
-        self.life: dict[str, float] = dict(zip(names("life_quantity"), values.tolist(), strict=True))
-        self.life_units: dict[str, str] = dict(zip(names("life_quantity"), names("life_quantity", "unit"), strict=True))
-        #: SI units of what is known of elements and contacts.
-        self.element_units: dict[str, str] = dict(zip(names("element_quantity"), names("element_quantity", "unit"), strict=True))
-        self.contact_units: dict[str, str] = dict(zip(names("contact_quantity"), names("contact_quantity", "unit"), strict=True))
+        self.life: dict[str, float] = dict(zip(names("life_quantity"), values.tolist()))
+        #: SI units of these.
+        self.life_units: dict[str, str] = dict(zip(names("life_quantity"), names("life_quantity", "unit")))
+        #: SI units of what is known of elements.
+        self.element_units: dict[str, str] = dict(zip(names("element_quantity"), names("element_quantity", "unit")))
+        #: SI units of what is known of contacts.
+        self.contact_units: dict[str, str] = dict(zip(names("contact_quantity"), names("contact_quantity", "unit")))
         count = counted(lib.cagedyn_equilibrium_warning_count(handle))
         #: What is amiss without preventing the equilibrium, one line each.
         self.warnings: tuple[str, ...] = tuple(_names(count, lambda i: lib.cagedyn_equilibrium_warning(handle, i)))
@@ -242,7 +248,7 @@ class HeatBalance:
 
     def _by(self, names: list[str], call: Any) -> dict[str, float]:
         values = filled(len(names), lambda p, n: call(self._handle, p, n))
-        return dict(zip(names, values.tolist(), strict=True))
+        return dict(zip(names, values.tolist()))
 
     @property
     def temperatures(self) -> dict[str, float]:
@@ -332,7 +338,7 @@ def cage_motion(
     )
     kind, *numbers_of, comes_and_goes = x.tolist()
     names = _names(lib.cagedyn_motion_count(), lib.cagedyn_motion_name)[1:-1]
-    values: dict[str, float] = dict(zip(names, numbers_of, strict=True))
+    values: dict[str, float] = dict(zip(names, numbers_of))
     return Motion(motion=_MOTIONS[int(kind)], intermittent=bool(comes_and_goes), **values)
 
 
@@ -348,7 +354,7 @@ def over_orbit(angles: ArrayLike, values: ArrayLike, sectors: int) -> dict[str, 
     # A wrong number of sectors is refused by the library before it looks at the array.
     width = sectors if 0 < sectors <= 1 << 20 else 0
     out = filled(len(names) * width, lambda p, n: lib.cagedyn_over_orbit(at, of, count, sectors, p, n))
-    return dict(zip(names, out.reshape(len(names), width), strict=True))
+    return dict(zip(names, out.reshape(len(names), width)))
 
 
 def _one_length(lengths: list[int]) -> int:

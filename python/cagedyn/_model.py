@@ -95,12 +95,15 @@ class Model:
         self.contact_quantities = Names(handle, "contact_quantity")
         #: Columns of the load along a roller.
         self.line_load_quantities = Names(handle, "line_load_quantity")
-        #: Blocks of body forces, their rows and columns.
+        #: Blocks of body forces.
         self.bodies = Names(handle, "body")
+        #: Their rows.
         self.force_sources = Names(handle, "force_source")
+        #: Their columns.
         self.force_components = Names(handle, "force_component")
-        #: Number of positions and of velocities in the state vector.
+        #: Number of positions in the state vector.
         self.position_count = counted(lib.cagedyn_model_position_count(handle))
+        #: Number of velocities in the state vector.
         self.velocity_count = counted(lib.cagedyn_model_velocity_count(handle))
 
     @classmethod

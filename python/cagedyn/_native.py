@@ -54,7 +54,7 @@ class Error(Exception):
 
     def __init__(self, status: int, message: str) -> None:
         super().__init__(message)
-        #: CAGEDYN_ERR_ code.
+        #: Its code, one of `CAGEDYN_ERR_...`.
         self.status = status
         #: Its name, for example "ERR_BAD_SCENE".
         self.name = text(lib.cagedyn_status_name(status))

@@ -26,8 +26,10 @@ pub(crate) struct Waves {
 const BEYOND: usize = 2;
 
 impl Waves {
-    /// Of these harmonics and this table, if there are any.
+    /// Of these harmonics and this table, if there are any. Tables that checks refuse are none.
     pub(crate) fn new(harmonics: &[WavinessHarmonic], table: Option<&WavinessTable>) -> Option<Self> {
+        let table =
+            table.filter(|table| table.angles.len() > BEYOND && table.heights.len() == table.angles.len());
         if harmonics.is_empty() && table.is_none() {
             return None;
         }

@@ -99,7 +99,10 @@ impl Wavy {
         let mut rollers = vec![None; given.count as usize];
         for group in &given.waviness {
             for roller in &group.rollers {
-                rollers[*roller as usize] = Waves::new(&group.harmonics, group.table.as_ref());
+                // Numbers of no roller are what checks refuse.
+                if let Some(waves) = rollers.get_mut(*roller as usize) {
+                    *waves = Waves::new(&group.harmonics, group.table.as_ref());
+                }
             }
         }
         let raceway = Waves::new(harmonics, table);
