@@ -159,6 +159,24 @@ static void check_sparse(const cagedyn_model *m)
     free(state), free(dense), free(values), free(starts), free(rows);
 }
 
+/* Every derivative that is not zero stands in the pattern; a load changes no output at once. */
+static void check_feedthrough(const cagedyn_model *m, const double *by_inputs, int64_t outputs, int64_t inputs, int64_t load)
+{
+    int64_t entries = cagedyn_model_feedthrough_entry_count(m), found = 0, of_inputs = 0;
+    int64_t *starts = (int64_t *)calloc((size_t)(inputs + 1), sizeof(int64_t));
+    int64_t *rows = (int64_t *)calloc((size_t)entries, sizeof(int64_t));
+    CHECK(entries > 0 && entries < outputs * inputs);
+    CHECK(cagedyn_model_feedthrough_pattern(m, starts, inputs + 1, rows, entries) == CAGEDYN_OK);
+    CHECK(starts[0] == 0 && starts[inputs] == entries && starts[load] == starts[load + 1]);
+    for (int64_t k = 0; k < inputs; k++)
+        for (int64_t i = starts[k]; i < starts[k + 1]; i++) found += by_inputs[rows[i] + k * outputs] != 0.0;
+    for (int64_t i = 0; i < outputs * inputs; i++) of_inputs += by_inputs[i] != 0.0;
+    CHECK(found == of_inputs && found > 0);
+    CHECK_FAILS(cagedyn_model_feedthrough_pattern(m, starts, inputs, rows, entries), CAGEDYN_ERR_WRONG_SIZE,
+                "column_starts");
+    free(starts), free(rows);
+}
+
 /* Derivatives over a load are those of the ring alone; an output that is a state has a one. */
 static void check_inputs_and_outputs(const cagedyn_model *m)
 {
@@ -176,6 +194,7 @@ static void check_inputs_and_outputs(const cagedyn_model *m)
           CAGEDYN_OK);
     CHECK(fabs(by_states[place + cage * outputs] - 1.0) < 1e-6);
     CHECK(cagedyn_sim_next_event(sim, 0.0, &event) == CAGEDYN_OK && event > 1e300);
+    check_feedthrough(m, by_inputs, outputs, inputs, load);
     CHECK_FAILS(cagedyn_sim_input_jacobian(sim, 0.0, state, n, over_inputs, n), CAGEDYN_ERR_WRONG_SIZE, "jacobian");
     CHECK_FAILS(cagedyn_sim_output_jacobian(sim, 0.0, state, n, by_states, n, by_inputs, inputs * outputs),
                 CAGEDYN_ERR_WRONG_SIZE, "over_states");

@@ -569,6 +569,18 @@ int32_t cagedyn_model_jacobian_pattern(const cagedyn_model *model,
                                        int64_t *rows,
                                        int64_t rows_length);
 
+/* Number of pairs of an output and an input that cagedyn_model_feedthrough_pattern() has. Negative status code on failure. */
+int64_t cagedyn_model_feedthrough_entry_count(const cagedyn_model *model);
+
+/* Writes which outputs may change at once with which inputs, direct feed-through, in compressed sparse columns counted from 0, the same for
+ * all states: `rows[i]` with i from `column_starts[k]` to `column_starts[k + 1] - 1` are the outputs of input k, ascending. The
+ * derivatives of all others over that input are zero. `starts_length` is one more than the number of inputs, `rows_length` the number of pairs. */
+int32_t cagedyn_model_feedthrough_pattern(const cagedyn_model *model,
+                                          int64_t *column_starts,
+                                          int64_t starts_length,
+                                          int64_t *rows,
+                                          int64_t rows_length);
+
 /* Writes what cagedyn_sim_jacobian() gives, without what is always zero, to `values`, in the order of
  * cagedyn_model_jacobian_pattern(). `length` is the length of the state, `values_length` the number of entries. The first
  * call takes memory. */

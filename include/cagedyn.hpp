@@ -265,17 +265,26 @@ public:
     }
     JacobianPattern jacobian_pattern() const
     {
-        JacobianPattern pattern;
-        std::int64_t entries = detail::counted(cagedyn_model_jacobian_entry_count(get()));
-        pattern.column_starts.resize(static_cast<std::size_t>(states().size() + 1));
-        pattern.rows.resize(static_cast<std::size_t>(entries > 0 ? entries : 0));
-        detail::check(cagedyn_model_jacobian_pattern(
-            get(), pattern.column_starts.data(), static_cast<std::int64_t>(pattern.column_starts.size()),
-            pattern.rows.data(), static_cast<std::int64_t>(pattern.rows.size())));
-        return pattern;
+        return pattern(states().size(), cagedyn_model_jacobian_entry_count(get()), cagedyn_model_jacobian_pattern);
+    }
+    // Which outputs (rows) may change at once with which inputs (columns).
+    JacobianPattern feedthrough_pattern() const
+    {
+        return pattern(inputs().size(), cagedyn_model_feedthrough_entry_count(get()), cagedyn_model_feedthrough_pattern);
     }
 
 private:
+    template <class Columns, class Write>
+    JacobianPattern pattern(Columns columns, std::int64_t entries, Write write) const
+    {
+        JacobianPattern pattern;
+        pattern.column_starts.resize(static_cast<std::size_t>(columns) + 1);
+        pattern.rows.resize(static_cast<std::size_t>(detail::counted(entries)));
+        detail::check(write(get(), pattern.column_starts.data(), static_cast<std::int64_t>(pattern.column_starts.size()),
+                            pattern.rows.data(), static_cast<std::int64_t>(pattern.rows.size())));
+        return pattern;
+    }
+
     std::unique_ptr<cagedyn_model, detail::Deleter<cagedyn_model_free>> handle_;
 };
 

@@ -189,6 +189,11 @@ classdef Cagedyn < handle
             over_inputs = both(:, numel(x) + 1:end);
         end
 
+        function matrix = feedthrough_pattern(b)
+            % Ones where an output (row) may change at once with an input (column).
+            matrix = cagedyn_mex('feedthrough_pattern', b.model);
+        end
+
         function values = contact_forces(b)
             % One row per contact, one column per contact quantity.
             values = cagedyn_mex('contact_forces', b.sim)';

@@ -196,6 +196,26 @@ static mxArray *jacobian(object *sim, const object *model, double t, const doubl
     return matrix;
 }
 
+/* Which outputs (rows) may change at once with which inputs (columns), as a sparse matrix of ones. */
+static mxArray *feedthrough(const object *model)
+{
+    cagedyn_model *m = (cagedyn_model *)model->pointer;
+    int64_t i, entries = cagedyn_model_feedthrough_entry_count(m), n = cagedyn_model_input_count(m);
+    int64_t *starts = (int64_t *)mxCalloc((size_t)n + 1, sizeof(int64_t));
+    int64_t *rows = (int64_t *)mxCalloc((size_t)entries + 1, sizeof(int64_t));
+    mxArray *matrix =
+        mxCreateSparse((mwSize)cagedyn_model_output_count(m), (mwSize)n, (mwSize)(entries > 0 ? entries : 1), mxREAL);
+    check(cagedyn_model_feedthrough_pattern(m, starts, n + 1, rows, entries));
+    for (i = 0; i <= n; i++) mxGetJc(matrix)[i] = (mwIndex)starts[i];
+    for (i = 0; i < entries; i++) {
+        mxGetIr(matrix)[i] = (mwIndex)rows[i];
+        mxGetPr(matrix)[i] = 1.0;
+    }
+    mxFree(starts);
+    mxFree(rows);
+    return matrix;
+}
+
 static void new_model(int nrhs, const mxArray **args, mxArray **out)
 {
     char *json = text_of(args[0]), *overrides = nrhs > 1 ? text_of(args[1]) : NULL;
@@ -502,6 +522,8 @@ void mexFunction(int nlhs, mxArray *plhs[], int nrhs, const mxArray *prhs[])
         plhs[0] = whirl((cagedyn_model *)object_of(prhs[1], MODEL)->pointer, nrhs - 2, prhs + 2);
     } else if (strcmp(command, "free_model") == 0) {
         release(object_of(prhs[1], MODEL));
+    } else if (strcmp(command, "feedthrough_pattern") == 0) {
+        plhs[0] = feedthrough(object_of(prhs[1], MODEL));
     } else if (strcmp(command, "free_sim") == 0) {
         release(object_of(prhs[1], SIM));
     } else if (strcmp(command, "free_batch") == 0) {

@@ -21,6 +21,7 @@ assert(isequal(rate(1:29), x(30:58)));
 assert(all(size(b.input_jacobian(1e-3, x)) == [n, numel(b.inputs)]));
 [over_states, over_inputs] = b.output_jacobian(1e-3, x);
 assert(abs(over_states(strcmp(b.outputs, 'cage.y'), 3) - 1) < 1e-6 && size(over_inputs, 2) == numel(b.inputs));
+assert(all(size(b.feedthrough_pattern()) == size(over_inputs)) && all(all(b.feedthrough_pattern() | over_inputs == 0)));
 assert(all(size(b.contact_forces()) == [numel(b.contacts), numel(b.contact_quantities)]));
 assert(all(size(b.body_forces()) == [numel(b.bodies), numel(b.force_sources), 3]));
 ours = b.output('cage.y_ratio');

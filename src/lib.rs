@@ -28,6 +28,8 @@ pub mod capi;
 mod check;
 pub mod equilibrium;
 mod error;
+#[doc(hidden)]
+pub mod fmi;
 pub mod heat;
 #[doc(hidden)]
 pub mod integrate;

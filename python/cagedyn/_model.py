@@ -172,12 +172,16 @@ class Model:
 
     def jacobian_pattern(self) -> SparsePattern:
         """Places of what `Sim.sparse_jacobian` gives, the same at all states."""
-        entries = counted(lib.cagedyn_model_jacobian_entry_count(self._handle))
-        indptr, indices = (np.zeros(n, dtype=np.int64) for n in (len(self.states) + 1, entries))
+        entries = lib.cagedyn_model_jacobian_entry_count(self._handle)
+        return self._pattern(len(self.states), entries, lib.cagedyn_model_jacobian_pattern)
+
+    def feedthrough_pattern(self) -> SparsePattern:
+        """Which outputs (rows) may change at once with which inputs (columns), whatever the state."""
+        entries = lib.cagedyn_model_feedthrough_entry_count(self._handle)
+        return self._pattern(len(self.inputs), entries, lib.cagedyn_model_feedthrough_pattern)
+
+    def _pattern(self, columns: int, entries: int, write: Any) -> SparsePattern:
+        indptr, indices = (np.zeros(n, dtype=np.int64) for n in (columns + 1, counted(entries)))
         pointers = [ffi.cast("int64_t *", array.ctypes.data) for array in (indptr, indices)]
-        check(
-            lib.cagedyn_model_jacobian_pattern(
-                self._handle, pointers[0], indptr.size, pointers[1], indices.size
-            )
-        )
+        check(write(self._handle, pointers[0], indptr.size, pointers[1], indices.size))
         return SparsePattern(indptr, indices)

@@ -7,6 +7,8 @@ use super::guard::{
 };
 use super::model::cagedyn_model;
 use super::sim::{cagedyn_sim, with};
+use crate::error::Result;
+use crate::sim::SparsePattern;
 use libc::c_char;
 use std::ffi::CStr;
 
@@ -202,14 +204,59 @@ pub unsafe extern "C" fn cagedyn_model_jacobian_pattern(
     status(|| {
         // SAFETY: see above.
         let pattern = unsafe { shared("model", model) }?.pattern();
-        let [starts, places] = [&pattern.column_starts, &pattern.rows]
-            .map(|list| list.iter().map(|i| *i as i64).collect::<Vec<i64>>());
-        check_array("column_starts", column_starts.is_null(), starts_length, starts.len())?;
         // SAFETY: see above.
-        unsafe {
-            write_array("rows", &places, rows, rows_length)?;
-            write_array("column_starts", &starts, column_starts, starts_length)
-        }
+        unsafe { write_pattern(pattern, (column_starts, starts_length), (rows, rows_length)) }
+    })
+}
+
+/// Writes a pattern to arrays with their lengths.
+///
+/// # Safety
+/// The arrays are NULL or hold as many numbers as their lengths say.
+unsafe fn write_pattern(
+    pattern: &SparsePattern,
+    (column_starts, starts_length): (*mut i64, i64),
+    (rows, rows_length): (*mut i64, i64),
+) -> Result<()> {
+    let [starts, places] = [&pattern.column_starts, &pattern.rows]
+        .map(|list| list.iter().map(|i| *i as i64).collect::<Vec<i64>>());
+    check_array("column_starts", column_starts.is_null(), starts_length, starts.len())?;
+    // SAFETY: see above.
+    unsafe {
+        write_array("rows", &places, rows, rows_length)?;
+        write_array("column_starts", &starts, column_starts, starts_length)
+    }
+}
+
+/// Number of pairs of an output and an input that cagedyn_model_feedthrough_pattern() has. Negative status code on failure.
+///
+/// # Safety
+/// `model` is NULL or a live handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_feedthrough_entry_count(model: *const cagedyn_model) -> i64 {
+    // SAFETY: see above.
+    count(|| Ok(unsafe { shared("model", model) }?.feedthrough().rows.len()))
+}
+
+/// Writes which outputs may change at once with which inputs, direct feed-through, in compressed sparse columns counted from 0, the same for
+/// all states: `rows[i]` with i from `column_starts[k]` to `column_starts[k + 1] - 1` are the outputs of input k, ascending. The
+/// derivatives of all others over that input are zero. `starts_length` is one more than the number of inputs, `rows_length` the number of pairs.
+///
+/// # Safety
+/// `model` is NULL or a live handle, the arrays are NULL or hold as many numbers as their lengths say.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cagedyn_model_feedthrough_pattern(
+    model: *const cagedyn_model,
+    column_starts: *mut i64,
+    starts_length: i64,
+    rows: *mut i64,
+    rows_length: i64,
+) -> i32 {
+    status(|| {
+        // SAFETY: see above.
+        let pattern = unsafe { shared("model", model) }?.feedthrough();
+        // SAFETY: see above.
+        unsafe { write_pattern(pattern, (column_starts, starts_length), (rows, rows_length)) }
     })
 }
 

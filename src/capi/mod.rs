@@ -7,6 +7,9 @@
 
 pub mod batch;
 pub mod equilibrium;
+/// cbindgen:ignore
+#[allow(non_snake_case, reason = "names of the standard")]
+pub mod fmi;
 pub mod forces;
 pub mod geometry;
 mod guard;

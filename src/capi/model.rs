@@ -27,6 +27,7 @@ pub struct cagedyn_model {
     pub(super) geometry_values: Vec<f64>,
     warnings: Vec<Item>,
     pattern: OnceLock<SparsePattern>,
+    feedthrough: OnceLock<SparsePattern>,
 }
 
 /// Texts of a named item.
@@ -74,6 +75,7 @@ impl cagedyn_model {
             geometry_values: geometry.iter().map(|(_, value)| *value).collect(),
             warnings: plain(model.scene().warnings()),
             pattern: OnceLock::new(),
+            feedthrough: OnceLock::new(),
             model: Arc::new(model),
         }
     }
@@ -83,6 +85,11 @@ impl cagedyn_model {
     /// Pattern of its Jacobian.
     pub(super) fn pattern(&self) -> &SparsePattern {
         self.pattern.get_or_init(|| self.model.jacobian_pattern())
+    }
+
+    /// Pattern of its direct feed-through.
+    pub(super) fn feedthrough(&self) -> &SparsePattern {
+        self.feedthrough.get_or_init(|| self.model.feedthrough_pattern())
     }
 }
 

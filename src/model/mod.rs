@@ -13,6 +13,7 @@
 mod bearing;
 mod conditions;
 mod faults;
+mod feedthrough;
 mod inputs;
 mod names;
 pub(crate) mod plane;

@@ -1,12 +1,23 @@
 //! What models tell of states, inputs, quantities and energies: names, SI units and meanings.
 
 use super::{plane, space};
+use crate::model::feedthrough::Sees;
 
 /// What a channel shows, by the bearing that it is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Source {
     Plane(plane::Source),
     Space(space::Source),
+}
+
+impl Source {
+    /// What it is made of.
+    pub(super) fn sees(self) -> Sees {
+        match self {
+            Self::Plane(source) => source.sees(),
+            Self::Space(source) => source.sees(),
+        }
+    }
 }
 
 /// Name, unit and meaning of a state or an input.

@@ -5,7 +5,7 @@ use super::errors::{check_time, wrong_size};
 use super::{Evaluated, Sim};
 use crate::error::Result;
 use crate::integrate::Observed;
-use crate::model::{Energy, Forces, POWERS, RATES};
+use crate::model::{Energy, Forces, HostInputs, POWERS, RATES};
 
 impl Sim {
     /// Rate of an arbitrary state at time `t` (s), for hosts with their own integrator. The simulation's own state
@@ -79,6 +79,45 @@ impl Sim {
         let mut powers = [0.0; POWERS.len()];
         powers.copy_from_slice(&rates[..POWERS.len()]);
         Ok(powers)
+    }
+
+    /// The inputs that a host holds.
+    pub(crate) fn host_inputs(&self) -> HostInputs {
+        *self.bearing.host()
+    }
+
+    /// Holds these inputs, as they were held before, for what is asked elsewhere.
+    pub(crate) fn set_host_inputs(&mut self, held: HostInputs) {
+        *self.bearing.host_mut() = held;
+        self.evaluated = Evaluated::Other;
+    }
+
+    /// Lets input `index` reach `value` at the second of two times (s), on a straight line from what it is at the first; the place of a
+    /// ring jumps there, and its rate is set for itself. For what is asked elsewhere: the run does not begin anew.
+    ///
+    /// # Errors
+    /// As [`Sim::set_input`].
+    pub(crate) fn hold_elsewhere(&mut self, index: usize, [since, t]: [f64; 2], value: f64) -> Result<()> {
+        let input = self.check_input(index)?;
+        self.model().check_input(input, value)?;
+        let (at, to) = if input.place().is_none() && t > since {
+            let before = self.model().inputs_at(since, self.bearing.host()).of(input);
+            (since, (before, Some((value - before) / (t - since))))
+        } else {
+            (t, (value, None))
+        };
+        self.bearing.set_input(at, input, Some(to));
+        self.evaluated = Evaluated::Other;
+        Ok(())
+    }
+
+    /// Value of input `index` at time `t` (s), as far as it is known.
+    ///
+    /// # Errors
+    /// As [`Sim::input`].
+    pub(crate) fn input_elsewhere(&self, index: usize, t: f64) -> Result<f64> {
+        let input = self.check_input(index)?;
+        Ok(self.model().inputs_at(t, self.bearing.host()).of(input))
     }
 
     /// Finds the accelerations there.

@@ -559,7 +559,7 @@ impl Sim {
         list.nth(index).ok_or_else(|| bad_index("input", index, self.model().input_count()))
     }
 
-    fn check_state(&self, state: &[f64]) -> Result<()> {
+    pub(crate) fn check_state(&self, state: &[f64]) -> Result<()> {
         if state.len() != self.state.len() {
             return Err(wrong_size("state", state.len(), self.state.len()));
         }

@@ -374,6 +374,12 @@ impl Host {
                     let rows = if self.one_of(10) { null_mut() } else { rows.as_mut_ptr() };
                     let status = cagedyn_model_jacobian_pattern(model, starts.as_mut_ptr(), a, rows, b);
                     self.check("pattern", status.into());
+                    let inputs = cagedyn_model_input_count(model);
+                    let entries = cagedyn_model_feedthrough_entry_count(model);
+                    assert!(inputs < 500 && entries < ROOM as i64);
+                    let (a, b) = (self.length(inputs + 1), self.length(entries));
+                    let status = cagedyn_model_feedthrough_pattern(model, starts.as_mut_ptr(), a, rows, b);
+                    self.check("feedthrough", status.into());
                 }
                 _ => {
                     let json = include_str!("../../scenes/nu2310.json");

@@ -70,6 +70,8 @@ fn every_function_is_documented_and_prefixed_and_declared_once() {
     }
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/capi");
     let sources = std::fs::read_dir(folder).expect("the C ABI").flatten();
+    // Functions of units have headers of their own.
+    let sources = sources.filter(|entry| entry.path().is_file());
     let sources = sources.map(|entry| std::fs::read_to_string(entry.path()).expect("a source"));
     let made: usize = sources.map(|text| text.matches("#[unsafe(no_mangle)]").count()).sum();
     assert_eq!(names.len(), made, "functions of the sources are missing in the header");

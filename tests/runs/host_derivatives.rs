@@ -2,6 +2,7 @@
 
 use crate::common::{example_with, read, with};
 use crate::machine::{input, prescribed, sim, state_place, support};
+use cagedyn::Sim;
 use serde_json::{Value, json};
 
 /// Scenes whose inputs are all there are.
@@ -78,6 +79,55 @@ fn derivatives_over_inputs_are_differences() {
     assert!(compared > 1000 && acting >= 18, "{compared} {acting}");
 }
 
+/// What depends on an input stands in the pattern.
+fn check_feedthrough(sim: &Sim, over_inputs: &[f64]) {
+    let (pattern, outputs) = (sim.model().feedthrough_pattern(), sim.channels().len());
+    let mut seen = 0;
+    for (k, column) in over_inputs.chunks(outputs).enumerate() {
+        let rows = &pattern.rows[pattern.column_starts[k]..pattern.column_starts[k + 1]];
+        for (i, value) in column.iter().enumerate() {
+            let name = || format!("{} over {}", sim.channels()[i].name, sim.model().input_infos()[k].name);
+            assert!(*value == 0.0 || rows.contains(&i), "{}", name());
+            seen += usize::from(*value != 0.0);
+        }
+    }
+    assert!(seen > 0, "nothing of {}", pattern.rows.len());
+}
+
+#[test]
+fn outputs_change_at_once_with_what_their_pattern_says() {
+    let prescribed = json!({"prescribed": {"y": {"constant": 1e-6}, "z": {"constant": -3e-5}}});
+    let oil = json!({"walther": {
+        "cold": {"temperature": 313.15, "kinematic_viscosity": 105e-6},
+        "hot": {"temperature": 373.15, "kinematic_viscosity": 12e-6},
+        "density": 880.0, "temperature": {"over_time": {"constant": 330.0}}
+    }});
+    let rollers = [
+        ("inner_ring.motion", prescribed),
+        ("outer_ring.speed", json!({"constant": 20.0})),
+        ("lubricant.viscosity", oil),
+    ];
+    let mut scenes = vec![example_with(&rollers)];
+    for name in [
+        "grease_guide",
+        "grease_guide_elastic",
+        "nu2310_space",
+        "deep_groove_6206",
+        "angular_contact_70_cage",
+    ] {
+        scenes.push(serde_json::from_str(&read(&format!("scenes/{name}.json"))).unwrap());
+    }
+    for scene in scenes {
+        let mut sim = sim(&scene);
+        sim.advance_to(2e-4).unwrap();
+        let (t, state) = (sim.time(), sim.state().to_vec());
+        let (n, outputs, inputs) = (state.len(), sim.channels().len(), sim.model().input_count());
+        let (mut over_states, mut over_inputs) = (vec![0.0; n * outputs], vec![0.0; inputs * outputs]);
+        sim.output_jacobian(t, &state, &mut over_states, &mut over_inputs).unwrap();
+        check_feedthrough(&sim, &over_inputs);
+    }
+}
+
 #[test]
 fn derivatives_of_outputs_have_the_forces_of_the_rates() {
     let load = json!({"y": {"constant": 0.0}, "z": {"constant": -4900.0}});
@@ -106,6 +156,7 @@ fn derivatives_of_outputs_have_the_forces_of_the_rates() {
     let [speed, load] = ["inner_ring.speed", "load.z"].map(|name| input(&sim, name));
     assert!(over_inputs[speed * outputs + place("inner_ring.drag_torque")].abs() > 1e-6);
     assert_eq!(over_inputs[load * outputs + force], 0.0);
+    check_feedthrough(&sim, &over_inputs);
     let text = sim.output_jacobian(t, &state, &mut over_states, &mut []).unwrap_err().message;
     assert!(text.starts_with("over_inputs"), "{text}");
     assert_eq!(sim.next_event(t), Ok(f64::INFINITY));

@@ -5,6 +5,7 @@ mod catalogue;
 mod check;
 mod effects;
 mod equilibrium;
+mod fmu;
 mod heat;
 mod info;
 mod init;
@@ -61,6 +62,8 @@ enum Command {
     Whirl(WhirlArgs),
     /// Equilibrium without time stepping: displacement of the inner ring, contact loads and angles, stiffness.
     Equilibrium(EquilibriumArgs),
+    /// Write a scene as a functional mock-up unit, FMI 2.0 or 3.0, for co-simulation and model exchange.
+    Fmu(FmuArgs),
     /// Show what a scene contains: bodies, states, effects, channels, geometry.
     Info(InfoArgs),
     /// List the materials and lubricants that scenes can name, or show the values and sources of one.
@@ -312,6 +315,27 @@ pub struct EquilibriumArgs {
     sets: Sets,
 }
 
+/// Arguments of `fmu`.
+#[derive(Args)]
+pub struct FmuArgs {
+    /// Scene file.
+    scene: PathBuf,
+    /// The unit.
+    #[arg(long, value_name = "FILE.fmu")]
+    out: PathBuf,
+    /// Version of the standard.
+    #[arg(long, value_enum, default_value = "3.0")]
+    fmi: fmu::Version,
+    /// Shared library for this machine, of the same build; that beside the tool or in ../lib unless given.
+    #[arg(long, value_name = "FILE")]
+    library: Option<PathBuf>,
+    /// Shared library for another platform, as in x86_64-windows=cagedyn.dll; may be repeated.
+    #[arg(long, value_name = "PLATFORM=FILE", value_parser = fmu::parse_binary)]
+    binary: Vec<fmu::Binary>,
+    #[command(flatten)]
+    sets: Sets,
+}
+
 /// Arguments of `schema`.
 #[derive(Args)]
 pub struct SchemaArgs {
@@ -392,6 +416,7 @@ fn dispatch(command: &Command) -> Result<ExitCode> {
         Command::Equilibrium(args) => equilibrium::command(args),
         Command::Check(args) => check::command(args),
         Command::Init(args) => init::command(args),
+        Command::Fmu(args) => fmu::command(args),
         Command::Info(args) => info::command(args),
         Command::Catalogue(args) => catalogue::command(args),
         Command::Schema(args) => schema::command(args),

@@ -7,6 +7,7 @@ use super::workspace::{Workspace, at_lane};
 use super::{RACES, Space};
 use crate::bodies::{FORCE_SOURCES, ForceSource, InputValues, MovingRing, OF_BALL};
 use crate::integrate::SemiImplicit;
+use crate::model::feedthrough::Sees;
 use crate::model::{Channel, Quantity, Source as AnySource, quantity};
 use crate::scalar::{math, place_of};
 use crate::space::solid::{dot, sum};
@@ -113,6 +114,18 @@ pub(crate) enum Source {
 }
 
 impl Source {
+    /// What it is made of.
+    pub(in crate::model) fn sees(self) -> Sees {
+        match self {
+            Self::Ring(_) => Sees::PLACES,
+            Self::OrbitAngle(_) | Self::Pitch(_) | Self::Yaw(_) => Sees::STATES,
+            Self::MeanOrbitRatio | Self::OrbitRatio(_) => Sees::SPEEDS,
+            Self::Viscosity => Sees::TEMPERATURE,
+            Self::Rollers(source) => source.sees(),
+            _ => Sees::FORCES,
+        }
+    }
+
     /// Whether it may peak between two records and is known in every step.
     fn can_be_watched(self) -> bool {
         match self {

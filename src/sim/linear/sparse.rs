@@ -5,10 +5,10 @@ use crate::error::Result;
 use crate::model::Model;
 use crate::sim::{Sim, wrong_size};
 
-/// Which derivatives of the rates of a state can be other than zero, in compressed sparse columns.
+/// Which derivatives can be other than zero, in compressed sparse columns.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SparsePattern {
-    /// Place among the rows where each column begins, and last the number of entries; one more than there are states.
+    /// Place among the rows where each column begins, and last the number of entries; one more than there are columns.
     pub column_starts: Vec<usize>,
     /// Row of every entry, ascending in each column.
     pub rows: Vec<usize>,
@@ -21,17 +21,22 @@ impl SparsePattern {
         let states = positions + slopes.over_time().len();
         let mut found: Vec<[usize; 2]> = Vec::new();
         slopes.for_each(positions, |(row, column, _)| found.push([column, row]));
+        Self::of(states, &found)
+    }
+
+    /// Of entries by column and row in any order, each there once.
+    fn of(columns: usize, found: &[[usize; 2]]) -> Self {
         let mut order: Vec<usize> = (0..found.len()).collect();
         order.sort_unstable_by_key(|i| found[*i]);
         let mut places = vec![0; found.len()];
         for (place, i) in order.iter().enumerate() {
             places[*i] = place;
         }
-        let mut column_starts = vec![0; states + 1];
-        for [column, _] in &found {
+        let mut column_starts = vec![0; columns + 1];
+        for [column, _] in found {
             column_starts[column + 1] += 1;
         }
-        for column in 0..states {
+        for column in 0..columns {
             column_starts[column + 1] += column_starts[column];
         }
         Self { column_starts, rows: order.iter().map(|i| found[*i][1]).collect(), places }
@@ -43,6 +48,17 @@ impl Model {
     /// the state.
     pub fn jacobian_pattern(&self) -> SparsePattern {
         SparsePattern::new(&AnySlopes::new(self), self.layout().positions())
+    }
+}
+
+impl Model {
+    /// Which outputs (rows) may change at once with which inputs (columns): direct feed-through, by what outputs are made of, whatever the
+    /// state. Loads accelerate bodies and change no output at once.
+    pub fn feedthrough_pattern(&self) -> SparsePattern {
+        let columns = self.feedthrough();
+        let entries =
+            columns.iter().enumerate().flat_map(|(input, rows)| rows.iter().map(move |row| [input, *row]));
+        SparsePattern::of(columns.len(), &entries.collect::<Vec<_>>())
     }
 }
 

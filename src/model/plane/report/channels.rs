@@ -2,6 +2,7 @@
 
 use crate::bodies::{ForceSource, INNER_RING, OUTER_RING, ROTOR};
 use crate::model::Channel;
+use crate::model::feedthrough::Sees;
 use crate::model::plane::Plane;
 use crate::pairs::ContactLaw;
 
@@ -69,6 +70,31 @@ pub(crate) enum GuidePart {
 }
 
 impl Source {
+    /// What it is made of.
+    pub(in crate::model) fn sees(self) -> Sees {
+        match self {
+            Self::CageY
+            | Self::CageZ
+            | Self::CageSpeed
+            | Self::CageAngle
+            | Self::Node(_)
+            | Self::OrbitAngle(_)
+            | Self::ModeAmplitude(_)
+            | Self::ModePhase(_)
+            | Self::ElasticEnergy => Sees::STATES,
+            Self::CageYRatio
+            | Self::CageZRatio
+            | Self::CageEccentricity
+            | Self::WhirlSpeed
+            | Self::WhirlRadius
+            | Self::Ring(..) => Sees::PLACES,
+            // Also by the direction of rotation, which they count along.
+            Self::CageSlip | Self::RollerSlip(_) | Self::PocketPosition(_) => Sees::SPEEDS,
+            Self::Viscosity => Sees::TEMPERATURE,
+            _ => Sees::FORCES,
+        }
+    }
+
     /// Whether it is a force, or something else that may peak between two records and is known in every step.
     fn can_be_watched(self) -> bool {
         matches!(

@@ -9,6 +9,7 @@ use super::{RollersOfScene, on_mate};
 use crate::bodies::{CAGE, ForceSource, SPIN};
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
 use crate::laws::line_contact::LineContact;
+use crate::model::feedthrough::Sees;
 use crate::model::{Channel, Condition, STATIC_LIMIT_OF_ROLLERS};
 use crate::scalar::math;
 use crate::space::solid::{Vector, cross, difference, dot, scaled, sum};
@@ -39,6 +40,20 @@ pub(crate) enum OfRollers {
 }
 
 impl OfRollers {
+    /// What it is made of.
+    pub(in super::super) fn sees(self) -> Sees {
+        match self {
+            Self::Slip(_) => Sees::SPEEDS,
+            Self::MeanSkew
+            | Self::SkewSpread
+            | Self::LargestSkew
+            | Self::Axial(_)
+            | Self::Skew(_)
+            | Self::Tilt(_) => Sees::STATES,
+            _ => Sees::FORCES,
+        }
+    }
+
     /// Whether it may peak between two records and is known in every step.
     pub(in super::super) fn can_be_watched(self) -> bool {
         matches!(self, Self::Force(..) | Self::LargestSkew | Self::Skew(_) | Self::Tilt(_) | Self::Axial(_))

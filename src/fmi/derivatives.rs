@@ -1,0 +1,112 @@
+//! Directional derivatives of rates and outputs over states and inputs.
+
+use super::instance::Instance;
+use super::variables::Kind;
+use crate::error::{Error, Result, Status};
+
+/// Derivatives at the present time, state and inputs, by columns: rates and outputs over states and over inputs.
+#[derive(Debug)]
+pub(super) struct Slopes {
+    rates: [Vec<f64>; 2],
+    outputs: [Vec<f64>; 2],
+}
+
+impl Instance {
+    /// Writes the derivatives of unknowns, outputs and rates, along a direction of knowns, inputs and states.
+    ///
+    /// # Errors
+    /// [`Status::BadIndex`]; [`Status::BadValue`] for other variables; as [`crate::Sim::output_jacobian`]. `out` is then unchanged.
+    pub fn directional_derivative(
+        &mut self,
+        unknowns: &[u32],
+        knowns: &[u32],
+        seed: &[f64],
+        out: &mut [f64],
+    ) -> Result<()> {
+        let found = self.along(unknowns, knowns, |entry, i, k| (i, entry * seed[k]))?;
+        out.copy_from_slice(&sums(unknowns.len(), found));
+        Ok(())
+    }
+
+    /// Writes what a seed over the unknowns is over each of the knowns: the same derivatives the other way round.
+    ///
+    /// # Errors
+    /// As [`Instance::directional_derivative`].
+    pub fn adjoint_derivative(
+        &mut self,
+        unknowns: &[u32],
+        knowns: &[u32],
+        seed: &[f64],
+        out: &mut [f64],
+    ) -> Result<()> {
+        let found = self.along(unknowns, knowns, |entry, i, k| (k, entry * seed[i]))?;
+        out.copy_from_slice(&sums(knowns.len(), found));
+        Ok(())
+    }
+
+    /// What `part` makes of every derivative, by the places of unknown and known.
+    fn along<T>(
+        &mut self,
+        unknowns: &[u32],
+        knowns: &[u32],
+        part: impl Fn(f64, usize, usize) -> T,
+    ) -> Result<Vec<T>> {
+        let kinds = |list: &[u32]| {
+            list.iter()
+                .map(|reference| Ok(self.unit.variable(*reference)?.kind))
+                .collect::<Result<Vec<Kind>>>()
+        };
+        let (unknowns, knowns) = (kinds(unknowns)?, kinds(knowns)?);
+        if self.found.slopes.is_none() {
+            let slopes = self.slopes()?;
+            self.found.slopes = Some(slopes);
+        }
+        let (states, outputs) = (self.state_count(), self.unit.model.channels().len());
+        let Some(slopes) = &self.found.slopes else { return Ok(Vec::new()) };
+        let mut found = Vec::with_capacity(unknowns.len() * knowns.len());
+        for (i, unknown) in unknowns.iter().enumerate() {
+            for (k, known) in knowns.iter().enumerate() {
+                let (over, column) = match known {
+                    Kind::State(place) => (0, *place),
+                    Kind::Input(place) => (1, *place),
+                    _ => return Err(refused("knowns", "states and inputs")),
+                };
+                let entry = match unknown {
+                    Kind::Rate(row) => slopes.rates[over][column * states + row],
+                    Kind::Output(row) => slopes.outputs[over][column * outputs + row],
+                    _ => return Err(refused("unknowns", "rates and outputs")),
+                };
+                found.push(part(entry, i, k));
+            }
+        }
+        Ok(found)
+    }
+
+    fn slopes(&mut self) -> Result<Slopes> {
+        let (t, state) = self.prepare()?;
+        let (n, inputs, outputs) =
+            (state.len(), self.unit.model.input_count(), self.unit.model.channels().len());
+        let sim = self.sim()?;
+        let mut slopes = Slopes {
+            rates: [vec![0.0; n * n], vec![0.0; n * inputs]],
+            outputs: [vec![0.0; outputs * n], vec![0.0; outputs * inputs]],
+        };
+        sim.jacobian(t, &state, &mut slopes.rates[0])?;
+        sim.input_jacobian(t, &state, &mut slopes.rates[1])?;
+        let [over_states, over_inputs] = &mut slopes.outputs;
+        sim.output_jacobian(t, &state, over_states, over_inputs)?;
+        Ok(slopes)
+    }
+}
+
+fn refused(argument: &str, allowed: &str) -> Error {
+    Error::new(Status::BadValue, format!("{argument}: derivatives are of {allowed} only"))
+}
+
+fn sums(length: usize, parts: Vec<(usize, f64)>) -> Vec<f64> {
+    let mut out = vec![0.0; length];
+    for (place, value) in parts {
+        out[place] += value;
+    }
+    out
+}
