@@ -26,7 +26,7 @@ def local(workers: int | None = None) -> Iterator[Any]:
     count = CPU_COUNT if workers is None else workers
     with (
         dask.config.set(_QUIET),
-        LocalCluster(n_workers=count, threads_per_worker=1, processes=True, dashboard_address=None) as cluster,  # type: ignore[no-untyped-call]
+        LocalCluster(n_workers=count, threads_per_worker=1, processes=True, dashboard_address="127.0.0.1:0") as cluster,  # type: ignore[no-untyped-call]
         Client(cluster, set_as_default=False) as client,  # type: ignore[no-untyped-call]
     ):
         yield client
@@ -50,6 +50,8 @@ def connected(client: Client | str | None, timeout: float) -> Iterator[Any]:
 
 
 def _at(address: str, timeout: float) -> Any:
+    if not address:
+        raise StudyError("client: '' is no address, such as 'tcp://host:8786'")
     try:
         return Client(address, timeout=timeout, set_as_default=False)  # type: ignore[no-untyped-call]
     except (OSError, TimeoutError):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time as clock
 import uuid
 from collections.abc import Mapping
@@ -24,11 +25,15 @@ def _same(job: Job) -> Job:
     return job
 
 
+class KilledPoint(Exception):
+    """A point that kills the worker that runs it."""
+
+
 class Flight:
     """Sends points to workers, some more than they have threads so that none waits for the next; a context."""
 
     def __init__(self, client: Any, job: Job) -> None:
-        self._client, self._job = client, job
+        self._client, self._job, self._address = client, job, client.scheduler.address
         self._name, self._sent = f"cagedyn-{uuid.uuid4().hex}", 0
         self._shared = self._submit(_same, job)
         self._flying: dict[Any, tuple[int, Mapping[str, Value]]] = {}
@@ -36,7 +41,7 @@ class Flight:
         #: Points at which a worker died, perhaps because of another point that it had.
         self._suspects: list[tuple[int, Mapping[str, Value]]] = []
         self._alone = False
-        self._most, self._asked = 0, -_PATIENCE
+        self._workers, self._asked = 0, -math.inf
 
     def __enter__(self) -> Flight:
         return self
@@ -53,13 +58,18 @@ class Flight:
     @property
     def full(self) -> bool:
         """Whether no more points should be sent now."""
+        return self._alone or len(self._flying) >= 2 * self.workers + 2
+
+    @property
+    def workers(self) -> int:
+        """Number of threads that run points."""
         if clock.monotonic() - self._asked >= _PATIENCE:
             try:
-                self._most = 2 * sum(self._client.nthreads().values()) + 2
-            except OSError as failure:
-                raise _lost(failure) from None
+                self._workers = sum(self._client.nthreads().values())
+            except OSError:
+                raise self._lost() from None
             self._asked = clock.monotonic()
-        return self._alone or len(self._flying) >= self._most
+        return self._workers
 
     def send(self, point: int, values: Mapping[str, Value]) -> None:
         """Gives a point to the workers."""
@@ -101,19 +111,14 @@ class Flight:
             deaths = failure.allowed_failures + 1
             return failed(KilledPoint(f"{deaths} workers died, one after another, that ran this point alone"))
         if isinstance(failure, CancelledError):
-            raise _lost(failure)
+            raise self._lost()
         if isinstance(failure, WrongBuild):
             raise StudyError(f"client: a worker {failure}")
         raise StudyError(f"client: a worker cannot run points: {type(failure).__name__}: {failure}")
 
+    def _lost(self) -> StudyError:
+        return StudyError(f"client: the scheduler at {self._address} is lost")
+
     def _submit(self, function: Any, *arguments: Any) -> Any:
         self._sent += 1
         return self._client.submit(function, *arguments, key=(self._name, self._sent), pure=False)
-
-
-class KilledPoint(Exception):
-    """A point that kills the worker that runs it."""
-
-
-def _lost(failure: BaseException) -> StudyError:
-    return StudyError(f"client: the scheduler is lost: {' '.join(str(failure).split())}")

@@ -20,13 +20,16 @@ class Progress:
     failed: int
     #: Points of this run per s of wall time, mean since its start.
     rate: float
+    #: Threads of workers that run them; 0 as long as there are none.
+    workers: int
 
 
 def line(progress: Progress) -> None:
     """Shows progress as one line on the terminal that is standard error; if it is none, nothing."""
     if sys.stderr.isatty():
         p = progress
-        sys.stderr.write(f"\r{p.done} of {p.points} points done, {p.failed} of them failed, {p.rate:.3g}/s\x1b[K")
+        text = f"{p.done} of {p.points} points done, {p.failed} of them failed, {p.rate:.3g}/s on {p.workers} workers"
+        sys.stderr.write(f"\r{text}\x1b[K")
         sys.stderr.flush()
 
 
@@ -36,7 +39,7 @@ class Teller:
     def __init__(self, tell: Callable[[Progress], object] | None) -> None:
         self._tell = line if tell is None else tell
         self._began = self._told = clock.monotonic()
-        self._earlier = self._done = self._failed = self._points = 0
+        self._earlier = self._done = self._failed = self._points = self._workers = 0
 
     def begin(self, points: int, done: int, failed: int) -> None:
         """Tells where the study starts from."""
@@ -44,9 +47,15 @@ class Teller:
         self._failed, self._points = failed, points
         self._now()
 
-    def arrived(self, points: int, failed: bool) -> None:
-        """Counts one more point that is done, of so many that are known."""
+    def connected(self, workers: int) -> None:
+        """Tells how many workers there are; the rate is from then on."""
+        self._began, self._workers = clock.monotonic(), workers
+        self._now()
+
+    def arrived(self, points: int, failed: bool, workers: int) -> None:
+        """Counts one more point that is done, of so many that are known, and tells if it is time."""
         self._done, self._failed, self._points = self._done + 1, self._failed + failed, points
+        self._workers = workers
         if clock.monotonic() - self._told >= _BETWEEN:
             self._now()
 
@@ -59,4 +68,5 @@ class Teller:
     def _now(self) -> None:
         self._told = clock.monotonic()
         took = max(self._told - self._began, 1e-9)
-        self._tell(Progress(self._points, self._done, self._failed, (self._done - self._earlier) / took))
+        rate = (self._done - self._earlier) / took
+        self._tell(Progress(self._points, self._done, self._failed, rate, self._workers))

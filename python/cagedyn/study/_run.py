@@ -195,6 +195,7 @@ def _drive(
     if item is not None:
         with connected(client, timeout) as connection, Flight(connection, job) as flight:
             try:
+                teller.connected(flight.workers)
                 while item is not None or flight.busy:
                     while item is not None and not flight.full:
                         flight.send(*item)
@@ -203,7 +204,7 @@ def _drive(
                     store.keep(landed)
                     for point, (_, row) in landed.items():
                         source.done(point, row)
-                        teller.arrived(source.known, row.error is not None)
+                        teller.arrived(source.known, row.error is not None, flight.workers)
                     item = item or source.next()
             except StudyError as failure:
                 kept = f"{len(store.rows)} of {source.known} points are kept, and the same call goes on with the others"
