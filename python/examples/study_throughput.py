@@ -43,11 +43,12 @@ def main() -> None:
     began = time.perf_counter()
     with study.local(2) as client:
         print(f"two workers start in {time.perf_counter() - began:.1f} s")
-        for number in range(rounds):
+        for _ in range(rounds):
             with tempfile.TemporaryDirectory() as folder:
                 swept = of_tool(tool, count, Path(folder, "sweep"))
                 studied = of_study(client, count, Path(folder, "study"))
-            print(f"{count} points: sweep {count / swept:.2f}/s, study {count / studied:.2f}/s, ratio {swept / studied:.3f}")
+            rates = f"sweep {count / swept:.2f}/s, study {count / studied:.2f}/s, ratio {swept / studied:.3f}"
+            print(f"{count} points: {rates}")
 
 
 if __name__ == "__main__":

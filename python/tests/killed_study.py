@@ -1,5 +1,5 @@
-"""A study whose program is killed twice, each time with SIGKILL, and goes on: nothing is lost, nothing is there twice, and all rows have
-the bits of a loop in one process.
+"""A study whose program is killed twice, each time with SIGKILL, and goes on: nothing is lost, nothing is there
+twice, and all rows have the bits of a loop in one process.
 
 python killed_study.py [POINTS]
 """

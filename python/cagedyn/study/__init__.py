@@ -1,14 +1,15 @@
-"""Parameter studies: a scene at many points, over the cores of this machine or the machines of a cluster, by `dask.distributed`.
+"""Parameter studies: a scene at many points, over the cores of this machine or the machines of a cluster, by
+`dask.distributed`.
 
-A point maps paths of the scene to values. What a study finds is kept in a folder as it arrives, so that the same call goes on
-where one before was stopped by anything.
+A point maps paths of the scene to values. What a study finds is kept in a folder as it arrives, so that the same
+call goes on where one before was stopped by anything.
 
 >>> points = grid({"inner_ring.speed.constant": [200.0, 300.0], "cage.mass": [0.012, 0.024]})
 >>> results = run("scenes/grease_guide.json", points, "out/speeds")
 >>> results.dataset["cage.eccentricity mean"]
 
-Needs what `pip install "cagedyn[study]"` brings. Workers are processes that import the script that starts them: what it does
-itself belongs below `if __name__ == "__main__":`.
+Needs what `pip install "cagedyn[study]"` brings. Workers are processes that import the script that starts them:
+what it does itself belongs below `if __name__ == "__main__":`.
 """
 
 from ._cluster import local

@@ -15,7 +15,8 @@ class WrongBuild(Exception):
 
 @functools.cache
 def build() -> str:
-    """Version and SHA-256 of the library that this process has loaded. Raises OSError where it was not loaded by the path of a file."""
+    """Version and SHA-256 of the library that this process has loaded. Raises OSError where it was not loaded by
+    the path of a file."""
     return f"{version()} {hashlib.sha256(Path(_path()).read_bytes()).hexdigest()}"
 
 

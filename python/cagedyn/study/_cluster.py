@@ -20,13 +20,16 @@ _QUIET = {"distributed.worker.profile.enabled": False, "distributed.admin.tick.i
 
 @contextlib.contextmanager
 def local(workers: int | None = None) -> Iterator[Any]:
-    """A client of so many processes of this machine, of one for each core by default, for several studies in turn; a context."""
+    """A client of so many processes of this machine, of one for each core by default, for several studies in turn;
+    a context."""
     if workers is not None and (isinstance(workers, bool) or not isinstance(workers, int) or workers < 1):
         raise StudyError(f"workers: {workers!r} is not a whole number from 1 on")
     count = CPU_COUNT if workers is None else workers
     with (
         dask.config.set(_QUIET),
-        LocalCluster(n_workers=count, threads_per_worker=1, processes=True, dashboard_address="127.0.0.1:0") as cluster,  # type: ignore[no-untyped-call]
+        LocalCluster(
+            n_workers=count, threads_per_worker=1, processes=True, dashboard_address="127.0.0.1:0"
+        ) as cluster,  # type: ignore[no-untyped-call]
         Client(cluster, set_as_default=False) as client,  # type: ignore[no-untyped-call]
     ):
         yield client
@@ -34,9 +37,11 @@ def local(workers: int | None = None) -> Iterator[Any]:
 
 @contextlib.contextmanager
 def connected(client: Client | str | None, timeout: float) -> Iterator[Any]:
-    """A client whose workers have the library of this process. What was made for it ends with it; what was given goes on.
+    """A client whose workers have the library of this process. What was made for it ends with it; what was given
+    goes on.
 
-    Raises StudyError where there is no scheduler within `timeout` in s, and for a worker with another build of the library.
+    Raises StudyError where there is no scheduler within `timeout` in s, and for a worker with another build of the
+    library.
     """
     with contextlib.ExitStack() as made:
         if client is None:
@@ -44,7 +49,9 @@ def connected(client: Client | str | None, timeout: float) -> Iterator[Any]:
         elif isinstance(client, str):
             client = made.enter_context(_at(client, timeout))
         elif not isinstance(client, Client) or client.asynchronous:
-            raise StudyError(f"client: {client!r} is no address, and no distributed.Client that is not asynchronous")
+            raise StudyError(
+                f"client: {client!r} is no address, and no distributed.Client that is not asynchronous"
+            )
         _check_builds(client)
         yield client
 
@@ -66,7 +73,9 @@ def _check_builds(client: Any) -> None:
     try:
         builds = client.run(_build.build)
     except Exception as failure:
-        raise StudyError(f"client: a worker cannot load cagedyn.study: {type(failure).__name__}: {failure}") from None
+        raise StudyError(
+            f"client: a worker cannot load cagedyn.study: {type(failure).__name__}: {failure}"
+        ) from None
     for worker, found in builds.items():
         if found != wanted:
             raise StudyError(f"client: the worker at {worker} {_build.differs(found, wanted)}")

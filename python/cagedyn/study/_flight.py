@@ -80,7 +80,8 @@ class Flight:
         self._landing.add(future)  # type: ignore[no-untyped-call]
 
     def landed(self) -> dict[int, tuple[list[Value], Row]]:
-        """Waits until points are done; values and rows of all that are. None may be, where a worker died and they are sent again.
+        """Waits until points are done; values and rows of all that are. None may be, where a worker died and they
+        are sent again.
 
         Raises StudyError where the scheduler is lost or a worker cannot run points at all.
         """

@@ -48,7 +48,8 @@ def grid(values: Mapping[str, Iterable[Value]]) -> Points:
 def listed(points: Iterable[Mapping[str, Value]]) -> Points:
     """The points of a list, each of which maps the same paths to values.
 
-    Raises StudyError for an empty list, for a point with other paths than the first, and for what is no value of a scene.
+    Raises StudyError for an empty list, for a point with other paths than the first, and for what is no value of a
+    scene.
     """
     rows: list[tuple[Value, ...]] = []
     paths: tuple[str, ...] = ()
@@ -67,8 +68,8 @@ def listed(points: Iterable[Mapping[str, Value]]) -> Points:
 def latin(ranges: Mapping[str, Any], count: int, seed: int = 0) -> Points:
     """`count` points of a Latin hypercube: of `count` layers of every range each holds one point.
 
-    A range is a tuple (from, to), or (from, to, "log") for layers of equal ratio; of a list every item is taken as often. The same
-    seed gives the same points.
+    A range is a tuple (from, to), or (from, to, "log") for layers of equal ratio; of a list every item is taken as
+    often. The same seed gives the same points.
 
     Raises StudyError for what is no range, and for a count below 1.
     """

@@ -28,7 +28,9 @@ def line(progress: Progress) -> None:
     """Shows progress as one line on the terminal that is standard error; if it is none, nothing."""
     if sys.stderr.isatty():
         p = progress
-        text = f"{p.done} of {p.points} points done, {p.failed} of them failed, {p.rate:.3g}/s on {p.workers} workers"
+        text = (
+            f"{p.done} of {p.points} points done, {p.failed} of them failed, {p.rate:.3g}/s on {p.workers} workers"
+        )
         sys.stderr.write(f"\r{text}\x1b[K")
         sys.stderr.flush()
 

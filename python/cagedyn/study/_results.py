@@ -30,15 +30,17 @@ class Results:
     paths: tuple[str, ...]
     #: Number of values of each path, of a grid; else None.
     shape: tuple[int, ...] | None
-    #: One row for each point, in order: its number, the varied values, results, and how the run ended. What is not known is null.
+    #: One row for each point, in order: its number, the varied values, results, and how the run ended. What is not
+    #: known is null.
     table: pa.Table
 
     @property
     def dataset(self) -> xr.Dataset:
-        """The same by dimensions: of a grid the paths that were varied, else `point` with the varied values as coordinates.
+        """The same by dimensions: of a grid the paths that were varied, else `point` with the varied values as
+        coordinates.
 
-        Names are without units, which are their attribute `units`. Where something is not known, numbers are NaN, texts empty and flags
-        false; so are those of points of a grid that are not done yet.
+        Names are without units, which are their attribute `units`. Where something is not known, numbers are NaN,
+        texts empty and flags false; so are those of points of a grid that are not done yet.
         """
         import xarray as xr
 
@@ -81,7 +83,8 @@ class Results:
         rows = json.loads((self.folder / STUDY).read_bytes())["points"]
         steps = [math.prod(shape[place + 1 :]) for place in range(len(shape))]
         axes = [
-            [row[place] for row in rows[: step * side : step]] for place, (step, side) in enumerate(zip(steps, shape))
+            [row[place] for row in rows[: step * side : step]]
+            for place, (step, side) in enumerate(zip(steps, shape))
         ]
         return [varied(axis).to_numpy(zero_copy_only=False) for axis in axes]
 

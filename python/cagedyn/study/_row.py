@@ -97,7 +97,9 @@ def _numbers(results: Any, values: Mapping[str, Value]) -> dict[str, float | str
         raise TypeError(f"the function of the study gave {results!r}, which is no mapping from names to numbers")
     for name, value in results.items():
         if not isinstance(name, str) or not isinstance(value, (int, float, np.integer, np.floating, np.bool_)):
-            raise TypeError(f"the function of the study gave {value!r} for {name!r}, which is no number for a name")
+            raise TypeError(
+                f"the function of the study gave {value!r} for {name!r}, which is no number for a name"
+            )
         if name in ("point", *values, *ENDING):
             raise ValueError(f"the function of the study gave {name!r}, which is a column of the table already")
     return {name: float(value) for name, value in results.items()}

@@ -46,20 +46,21 @@ def run(
 ) -> Results:
     """Runs a scene at every point that the folder does not have yet, and keeps each as it arrives.
 
-    At a point the scene, with its values and with `overrides`, is run to the end of its record: kept are mean, deviation, extremes and
-    percentiles of `outputs` over the averaging window, of all that are not of one element by default, and whether the run is to be
-    trusted. Instead `of_sim`, given a simulation at its start, or `of_model` gives numbers by name. It is known by its name and
-    source text: a folder whose results are of another is refused, but what it calls may change unseen.
+    At a point the scene, with its values and with `overrides`, is run to the end of its record: kept are mean,
+    deviation, extremes and percentiles of `outputs` over the averaging window, of all that are not of one element
+    by default, and whether the run is to be trusted. Instead `of_sim`, given a simulation at its start, or
+    `of_model` gives numbers by name. It is known by its name and source text: a folder whose results are of
+    another is refused, but what it calls may change unseen.
 
-    `client` is where points are run: a process for each core of this machine by default, the address of a scheduler as in
-    "tcp://host:8786", that must answer within `timeout` in s, or a client of one. `progress` is called ten times a second; by
-    default a line is shown on a terminal.
+    `client` is where points are run: a process for each core of this machine by default, the address of a
+    scheduler as in "tcp://host:8786", that must answer within `timeout` in s, or a client of one. `progress` is
+    called ten times a second; by default a line is shown on a terminal.
 
-    A point that fails, or kills its workers, is a row with the reason. What stops the study costs no point that was done: the same call
-    goes on. Results have the same bits on any number of workers.
+    A point that fails, or kills its workers, is a row with the reason. What stops the study costs no point that
+    was done: the same call goes on. Results have the same bits on any number of workers.
 
-    Raises StudyError for what cannot be run as a whole, Error for a path that the scene does not have and for a scene that is wrong
-    at all points, OSError for files.
+    Raises StudyError for what cannot be run as a whole, Error for a path that the scene does not have and for a
+    scene that is wrong at all points, OSError for files.
     """
     points = points if isinstance(points, Points) else listed(points)
     if not len(points):
@@ -88,9 +89,10 @@ def optimise(
 ) -> Results:
     """Runs a scene at points that an optimiser asks for, until there are `count` of them or it asks for no more.
 
-    It is asked when fewer than `ahead` points have not been told yet, and told in the order of points. With 1 that is point by point, or
-    list by list for one that asks for lists; one that can propose points before it knows those before keeps more workers busy with
-    more. To go on, give an optimiser that asks for the same points again: it is told what the folder has. `count` may then be larger.
+    It is asked when fewer than `ahead` points have not been told yet, and told in the order of points. With 1 that
+    is point by point, or list by list for one that asks for lists; one that can propose points before it knows
+    those before keeps more workers busy with more. To go on, give an optimiser that asks for the same points
+    again: it is told what the folder has. `count` may then be larger.
 
     Everything else is as in `run`.
     """
@@ -108,7 +110,11 @@ def optimise(
 
 def _job(scene: Scene, overrides: Any, outputs: Iterable[str] | None, of_sim: Any, of_model: Any) -> Job:
     """What is the same at all points. Raises StudyError for arguments that do not fit together."""
-    given = [name for name, what in (("outputs", outputs), ("of_sim", of_sim), ("of_model", of_model)) if what is not None]
+    given = [
+        name
+        for name, what in (("outputs", outputs), ("of_sim", of_sim), ("of_model", of_model))
+        if what is not None
+    ]
     if len(given) > 1:
         raise StudyError(f"{given[0]}: cannot be used with {given[1]}")
     text = json.dumps(scene) if isinstance(scene, Mapping) else Path(scene).read_text(encoding="utf-8-sig")
@@ -121,8 +127,8 @@ def _job(scene: Scene, overrides: Any, outputs: Iterable[str] | None, of_sim: An
 
 
 def _check(job: Job, points: Points) -> None:
-    """Refuses what no point can be run with: a path, a word or an output that the scene does not know. A value out of its range is told
-    in the row of its point, unless all are."""
+    """Refuses what no point can be run with: a path, a word or an output that the scene does not know. A value out
+    of its range is told in the row of its point, unless all are."""
     for path in points.paths:
         if path in job.overrides:
             raise StudyError(f"points: {path} is what overrides replace, too")
@@ -139,7 +145,9 @@ def _check(job: Job, points: Points) -> None:
             if failure.name != "ERR_BAD_SCENE":
                 raise
             text = ", ".join(f"{path} = {json.dumps(value)}" for path, value in point.items())
-            first = first or Error(failure.status, f"no point can be simulated; point {number} ({text}): {failure}")
+            first = first or Error(
+                failure.status, f"no point can be simulated; point {number} ({text}): {failure}"
+            )
     if model is None and first is not None:
         raise first
     if model is not None and job.outputs is not None:

@@ -19,7 +19,8 @@ class Optimiser(Protocol):
         """A point, or a list of points that are wanted together; None or an empty list at the end."""
 
     def tell(self, point: Any, result: dict[str, Any], /) -> object:
-        """Takes what came of a point that it asked for: results and ending by the names of columns, see `Results.table`."""
+        """Takes what came of a point that it asked for: results and ending by the names of columns, see
+        `Results.table`."""
 
 
 class Source(Protocol):
@@ -51,8 +52,8 @@ class Listed:
 
 
 class Asked:
-    """Points of an optimiser. It is asked and told in an order that does not depend on which point is done first, so that a study that
-    goes on has the same points as one that was never stopped."""
+    """Points of an optimiser. It is asked and told in an order that does not depend on which point is done first,
+    so that a study that goes on has the same points as one that was never stopped."""
 
     def __init__(self, optimiser: Optimiser, count: int, ahead: int) -> None:
         self._optimiser, self._count, self._ahead = optimiser, count, ahead

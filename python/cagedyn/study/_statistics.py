@@ -16,13 +16,15 @@ from .._sim import Sim
 #: Numbers of every output.
 PARTS = ("mean", "deviation", "min", "max", "5 %", "95 %")
 
-#: The window at the end of a run that statistics are over, where the scene has none: s, and its largest share of the run.
+#: The window at the end of a run that statistics are over, where the scene has none: s, and its largest share of
+#: the run.
 _WINDOW, _LARGEST_SHARE = 0.1, 1.0 / 3.0
 
 #: Share of the guide clearance below which the whirl speed says nothing.
 _SMALLEST_WHIRL_RADIUS = 1e-3
 
-#: Outputs that tell how a cage moves, in the order of `cage_motion`: about the centre of its guide, or of the bearing without one.
+#: Outputs that tell how a cage moves, in the order of `cage_motion`: about the centre of its guide, or of the
+#: bearing without one.
 _GUIDED = ("cage.y_ratio", "cage.z_ratio", "cage.whirl_speed", "cage.speed")
 _FREE = ("cage.y", "cage.z", "cage.whirl_speed", "cage.speed")
 _WHIRL_SPEED, _WHIRL_RADIUS = "cage.whirl_speed", "cage.whirl_radius"
@@ -39,8 +41,8 @@ def chosen_outputs(model: Model, outputs: list[str] | None) -> list[str]:
 
 
 def statistics(sim: Sim, outputs: list[str] | None) -> dict[str, float | str]:
-    """Runs to the end of the record of the scene. Statistics over its averaging window, of outputs in their units, and of the motion
-    of a cage where no outputs are named; NaN for what is not known."""
+    """Runs to the end of the record of the scene. Statistics over its averaging window, of outputs in their units,
+    and of the motion of a cage where no outputs are named; NaN for what is not known."""
     model, names = sim.model, chosen_outputs(sim.model, outputs)
     clearance = model.geometry.get("guide_clearance", 0.0)
     centre = _GUIDED if clearance else _FREE

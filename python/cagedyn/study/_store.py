@@ -1,4 +1,5 @@
-"""The folder of a study: what it is of, and its points that are done, each of which is kept from the moment that it arrives."""
+"""The folder of a study: what it is of, and its points that are done, each of which is kept from the moment that
+it arrives."""
 
 from __future__ import annotations
 
@@ -9,6 +10,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from ._build import short
 from ._error import StudyError
 from ._points import Value
 from ._row import Row
@@ -30,10 +32,11 @@ class Store:
     """The folder of a study that this program has for itself; a context."""
 
     def __init__(self, folder: str | os.PathLike[str], identity: Mapping[str, Any]) -> None:
-        """Makes the folder, or takes up a study that was stopped before its end. `identity` has all that results depend on.
+        """Makes the folder, or takes up a study that was stopped before its end. `identity` has all that results
+        depend on.
 
-        Raises StudyError for a folder that another program writes to, and for one of another study or of something else; OSError
-        for one that cannot be written.
+        Raises StudyError for a folder that another program writes to, and for one of another study or of something
+        else; OSError for one that cannot be written.
         """
         self.folder = Path(folder)
         self.folder.mkdir(parents=True, exist_ok=True)
@@ -127,6 +130,8 @@ def difference(was: Any, now: Mapping[str, Any]) -> str:
     before, after = was.get(name), now.get(name)
     if name in ("scene", "function"):
         return f"the {name} differs"
+    if name == "build":
+        return f"build was {short(str(before))}, is {short(str(after))}"
     if name == "points" and isinstance(before, list) and isinstance(after, list):
         if len(before) != len(after):
             return f"points: {len(before)} before, {len(after)} now"

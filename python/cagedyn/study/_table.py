@@ -14,11 +14,14 @@ from ._row import ENDING, ending
 from ._store import Kept
 
 #: Types of the columns behind the results.
-_KINDS = dict(zip(ENDING, (pa.float64(), pa.bool_(), pa.bool_(), pa.string(), pa.string(), pa.string()), strict=True))
+_KINDS = dict(
+    zip(ENDING, (pa.float64(), pa.bool_(), pa.bool_(), pa.string(), pa.string(), pa.string()), strict=True)
+)
 
 
 def table_of(paths: Sequence[str], rows: Mapping[int, Kept]) -> Any:
-    """Points that are done, in their order, as a `pyarrow.Table`: number, varied values, results, how the run ended."""
+    """Points that are done, in their order, as a `pyarrow.Table`: number, varied values, results, how the run
+    ended."""
     numbers = sorted(rows)
     values = [rows[number][0] for number in numbers]
     found = [rows[number][1] for number in numbers]
