@@ -227,11 +227,13 @@ class Sim:
         last = max(0, math.ceil((until - start) / interval - 1e-9))
         rows, row, done = np.empty((last + 1, len(chosen) + 1)), np.empty(len(self.model.outputs)), 0
         pointer, length, _keep = numbers(row)
+        time = ffi.new("double *")
         try:
             for i in range(last + 1):
                 self._advance(min(start + i * interval, until), tell)
                 check(lib.cagedyn_sim_get_outputs(self._handle, pointer, length))
-                rows[i, 0], rows[i, 1:], done = self.time, row[places], i + 1
+                check(lib.cagedyn_sim_time(self._handle, time))
+                rows[i, 0], rows[i, 1:], done = time[0], row[places], i + 1
                 tell()
             tell.arrived()
         except BaseException as failure:

@@ -41,14 +41,17 @@ def main() -> None:
     tool, *numbers = sys.argv[1:]
     count, rounds = (int(text) for text in (numbers + ["200", "3"][len(numbers) :]))
     began = time.perf_counter()
+    swept, studied = [], []
     with study.local(2) as client:
         print(f"two workers start in {time.perf_counter() - began:.1f} s")
         for _ in range(rounds):
             with tempfile.TemporaryDirectory() as folder:
-                swept = of_tool(tool, count, Path(folder, "sweep"))
-                studied = of_study(client, count, Path(folder, "study"))
-            rates = f"sweep {count / swept:.2f}/s, study {count / studied:.2f}/s, ratio {swept / studied:.3f}"
-            print(f"{count} points: {rates}")
+                swept.append(count / of_tool(tool, count, Path(folder, "sweep")))
+                studied.append(count / of_study(client, count, Path(folder, "study")))
+            ratio = studied[-1] / swept[-1]
+            print(f"{count} points: sweep {swept[-1]:.2f}/s, study {studied[-1]:.2f}/s, ratio {ratio:.3f}", flush=True)
+    best = max(studied) / max(swept)
+    print(f"best of {rounds}: sweep {max(swept):.2f}/s, study {max(studied):.2f}/s, ratio {best:.3f}")
 
 
 if __name__ == "__main__":

@@ -18,7 +18,7 @@ from cagedyn.study._build import build
 from cagedyn.study._row import Job, compute, flat
 
 SCENE = Path(__file__).parents[2] / "scenes" / "grease_guide.json"
-OVERRIDES = {"record.duration": 0.03}
+OVERRIDES = {"record.duration": 0.1}
 
 #: What a study that hangs fails by, s.
 LONG = 3600.0

@@ -215,7 +215,7 @@ def test_going_on(workers, tmp_path):
 
     points = study.grid({MASS: np.linspace(0.01, 0.02, 12)})
     with pytest.raises(Stop):
-        study.run(SCENE, points, tmp_path, overrides={"record.duration": 0.05}, client=workers, progress=stop)
+        study.run(SCENE, points, tmp_path, overrides={"record.duration": 0.25}, client=workers, progress=stop)
     some = stored(tmp_path)
     assert 3 <= len(some) < 12 and study.read(tmp_path).table["point"].to_pylist() == some
     assert study.read(tmp_path).dataset["complete"].values.sum() == len(some)
@@ -223,11 +223,11 @@ def test_going_on(workers, tmp_path):
         log.write('{"point": 11, "val')  # What a loss of power may leave.
     told = []
     again = study.run(
-        SCENE, points, tmp_path, overrides={"record.duration": 0.05}, client=workers, progress=told.append
+        SCENE, points, tmp_path, overrides={"record.duration": 0.25}, client=workers, progress=told.append
     )
     assert told[0].done == len(some) and stored(tmp_path) == list(range(12))
     # What is done needs no workers.
-    same = study.run(SCENE, points, tmp_path, overrides={"record.duration": 0.05}, client="tcp://127.0.0.1:1")
+    same = study.run(SCENE, points, tmp_path, overrides={"record.duration": 0.25}, client="tcp://127.0.0.1:1")
     assert same.table.equals(again.table)
 
 
@@ -334,10 +334,11 @@ def test_workers_with_another_build_are_refused(workers, tmp_path, monkeypatch):
         assert "\n" not in str(failure.value)
         # One that comes when the study runs already sees it itself.
         monkeypatch.setattr(_cluster, "_check_builds", lambda client: None)
+        workers.run(other, str(copy))
         with pytest.raises(study.StudyError, match="client: a worker has the library .* points are kept"):
             study.run(SCENE, points, tmp_path / "study", of_sim=end, client=workers)
     finally:
-        workers.run(other, library, workers=[address])
+        workers.run(other, library)
 
 
 def test_a_worker_that_dies_loses_nothing(workers, tmp_path):
@@ -376,5 +377,5 @@ def test_a_lost_scheduler_costs_nothing_that_was_done(tmp_path):
 
         points = study.grid({MASS: np.linspace(0.01, 0.02, 200)})
         with pytest.raises(study.StudyError, match="client: .* of 200 points are kept, and the same call goes on"):
-            study.run(SCENE, points, tmp_path, overrides={"record.duration": 0.03}, client=client, progress=close)
+            study.run(SCENE, points, tmp_path, overrides={"record.duration": 0.1}, client=client, progress=close)
     assert 2 <= len(stored(tmp_path)) < 200

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import inspect
+import itertools
 import json
 import os
 from collections.abc import Callable, Iterable, Mapping
@@ -198,25 +199,22 @@ def _drive(
     teller = Teller(progress)
     earlier = [row for _, row in store.rows.values()]
     teller.begin(source.known, len(earlier), sum(row.error is not None for row in earlier))
-    # What is done already needs no workers.
-    item = source.next()
-    if item is not None:
+    first = source.next()
+    if first is not None:  # What is done already needs no workers.
         with connected(client, timeout) as connection, Flight(connection, job) as flight:
             try:
                 teller.connected(flight.workers)
-                while item is not None or flight.busy:
-                    while item is not None and not flight.full:
-                        flight.send(*item)
-                        item = source.next()
+                flight.send(itertools.chain([first], iter(source.next, None)))
+                while flight.busy:
                     landed = flight.landed()
                     store.keep(landed)
                     for point, (_, row) in landed.items():
                         source.done(point, row)
                         teller.arrived(source.known, row.error is not None, flight.workers)
-                    item = item or source.next()
+                    flight.send(iter(source.next, None))
             except StudyError as failure:
-                kept = f"{len(store.rows)} of {source.known} points are kept, and the same call goes on with the others"
-                raise StudyError(f"{failure}; {kept}") from None
+                kept = f"{len(store.rows)} of {source.known} points are kept"
+                raise StudyError(f"{failure}; {kept}, and the same call goes on with the others") from None
             finally:
                 teller.end()
     else:

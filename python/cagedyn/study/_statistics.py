@@ -56,13 +56,15 @@ def statistics(sim: Sim, outputs: list[str] | None) -> dict[str, float | str]:
         results = _motion(records["time"], scale * y, scale * z, speeds, clearance)
         if "cage.x" in model.outputs:
             del results["velocity deviation [1]"]  # Its speed along the axis is not seen here.
-    for name in names:
-        values = np.ascontiguousarray(records[name])
-        if name == _WHIRL_SPEED:
-            radius = records[_WHIRL_RADIUS]
-            values = values[radius >= _SMALLEST_WHIRL_RADIUS * (clearance or radius.max())]
+    table = np.stack([records[name] for name in names], axis=1)
+    spreads = dict(zip(names, spread(table).T.tolist(), strict=True))
+    if _WHIRL_SPEED in spreads:
+        radius = records[_WHIRL_RADIUS]
+        known = radius >= _SMALLEST_WHIRL_RADIUS * (clearance or radius.max())
+        spreads[_WHIRL_SPEED] = spread(records[_WHIRL_SPEED][known][:, None])[:, 0].tolist()
+    for name, numbers in spreads.items():
         unit = model.outputs.units[model.outputs.index(name)]
-        results.update((f"{name} {part} [{unit}]", x) for part, x in zip(PARTS, spread(values)))
+        results.update((f"{name} {part} [{unit}]", x) for part, x in zip(PARTS, numbers, strict=True))
     return results
 
 
@@ -78,27 +80,30 @@ def _window(sim: Sim, names: list[str]) -> NDArray[np.void]:
     return sim.record(duration, interval, names)
 
 
-def spread(values: Array) -> list[float]:
-    """The numbers of `PARTS` of values, shape (records,); NaN if there are none."""
+def spread(values: Array) -> Array:
+    """The numbers of `PARTS` of each column of values, shape (records, columns); shape (parts, columns), NaN if
+    there are no records."""
     count = len(values)
     if count == 0:
-        return [math.nan] * len(PARTS)
+        return np.full((len(PARTS), values.shape[1]), np.nan)
 
     # Added up in their order: the bits of NumPy's own sums depend on the machine.
-    def mean(x: Array) -> float:
-        return float(np.cumsum(x)[-1]) / count
+    def mean(x: Array) -> Array:
+        total: Array = np.cumsum(x, axis=0)[-1]
+        return total / count
 
-    ordered = np.sort(values)
+    ordered = np.sort(values, axis=0)
 
-    def percentile(share: float) -> float:
+    def percentile(share: float) -> Array:
         place = share * (count - 1.0)
         low = int(place)
         high = min(low + 1, count - 1)
-        return float(ordered[low] + (place - low) * (ordered[high] - ordered[low]))
+        at: Array = ordered[low] + (place - low) * (ordered[high] - ordered[low])
+        return at
 
     centre = mean(values)
-    deviation = math.sqrt(mean((values - centre) * (values - centre)))
-    return [centre, deviation, float(ordered[0]), float(ordered[-1]), percentile(0.05), percentile(0.95)]
+    deviation = np.sqrt(mean((values - centre) * (values - centre)))
+    return np.stack([centre, deviation, ordered[0], ordered[-1], percentile(0.05), percentile(0.95)])
 
 
 def _motion(times: Any, y: Array, z: Array, speeds: list[Array], clearance: float) -> dict[str, float | str]:
