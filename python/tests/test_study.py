@@ -1,5 +1,6 @@
 """Parameter studies over several processes."""
 
+import importlib
 import json
 import math
 import os
@@ -147,6 +148,17 @@ def test_functions_of_models_and_their_failures(workers, tmp_path):
     assert rows[0]["mass"] == 0.01 and rows[0]["complete"] and rows[0]["trusted"] is None
     assert [row["error code"] for row in rows] == [None, "ZeroDivisionError", "TypeError"]
     assert "'heavy' for 'load'" in rows[2]["error"]
+
+
+def test_functions_that_workers_cannot_have_are_told(workers, tmp_path, monkeypatch):
+    (tmp_path / "of_the_driver.py").write_text("def f(sim):\n    return {}\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    f = importlib.import_module("of_the_driver").f
+    with pytest.raises(study.StudyError, match="a worker cannot run points: ModuleNotFoundError: .*of_the_driver"):
+        study.run(SCENE, [{MASS: 0.01}], tmp_path / "a", of_sim=f, client=workers)
+    lock = threading.Lock()
+    with pytest.raises(study.StudyError, match="the function of the study cannot be sent: TypeError: .*lock"):
+        study.run(SCENE, [{MASS: 0.01}], tmp_path / "b", of_sim=lambda sim: {"x": lock.locked()}, client=workers)
 
 
 def test_outputs_that_are_named(workers, tmp_path):

@@ -15,7 +15,7 @@ from distributed import KilledWorker, as_completed
 from ._build import WrongBuild
 from ._error import StudyError
 from ._points import Value
-from ._row import Job, Row, compute_all, failed
+from ._row import Job, Row, compute_all, failed, packed
 
 #: Wall time after which the number of workers is asked for again, s.
 _PATIENCE = 1.0
@@ -28,8 +28,8 @@ _TOGETHER, _MOST_TOGETHER = 0.25, 50
 Numbered = tuple[int, Mapping[str, Value]]
 
 
-def _same(job: Job) -> Job:
-    """Brings what is the same at all points to the workers once, again to those that come later or come back."""
+def _same(job: bytes) -> bytes:
+    """Brings what is the same at all points to each worker once, also to those that come later or come back."""
     return job
 
 
@@ -42,9 +42,16 @@ class Flight:
     points several at a time; a context."""
 
     def __init__(self, client: Any, job: Job) -> None:
-        self._client, self._job, self._address = client, job, client.scheduler.address
+        """Raises StudyError for a function that cannot be sent."""
+        self._client, self._address = client, client.scheduler.address
+        try:
+            self._job = packed(job)
+        except Exception as failure:
+            raise StudyError(
+                f"the function of the study cannot be sent: {type(failure).__name__}: {failure}"
+            ) from None
         self._name, self._sent = f"cagedyn-{uuid.uuid4().hex}", 0
-        self._shared = self._submit(_same, job)
+        self._shared = self._submit(_same, self._job)
         self._flying: dict[Any, Sequence[Numbered]] = {}
         self._landing = as_completed(loop=client.loop, with_results=True, raise_errors=False)  # type: ignore[no-untyped-call]
         #: Points at which a worker died, perhaps because of another point that it had.

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import functools
 import time as clock
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import cloudpickle  # type: ignore[import-untyped]
 import numpy as np
 
 from .._model import Model
@@ -68,10 +70,25 @@ def flat(row: Row) -> dict[str, Any]:
     return {**row.results, **dict(zip(ENDING, ending(row)))}
 
 
-def compute_all(job: Job, points: Sequence[Mapping[str, Value]]) -> tuple[list[Row], float]:
-    """Runs some points, one after the other; their rows, and the wall time of all, s. Raises WrongBuild as
-    `compute`."""
-    began = clock.perf_counter()
+def packed(job: Job) -> bytes:
+    """What is the same at all points as it is sent. Raises whatever a function that cannot be sent gives."""
+    content: bytes = cloudpickle.dumps(job)
+    return content
+
+
+@functools.lru_cache(maxsize=1)
+def _unpacked(content: bytes) -> Job:
+    job: Job = cloudpickle.loads(content)
+    return job
+
+
+def compute_all(content: bytes, points: Sequence[Mapping[str, Value]]) -> tuple[list[Row], float]:
+    """Runs some points, one after the other; their rows, and the wall time of all, s.
+
+    Raises WrongBuild as `compute`, and what a function gives that cannot be loaded here.
+    """
+    # Unpacked here and not by dask, which does not come back from what a worker cannot load.
+    job, began = _unpacked(content), clock.perf_counter()
     return [compute(job, values) for values in points], clock.perf_counter() - began
 
 
