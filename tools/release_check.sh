@@ -32,7 +32,7 @@ python() {
     "$out/venv/bin/python" -m pip wheel -q --disable-pip-version-check --no-deps -w "$out/wheel" ./python
     local wheel=("$out"/wheel/cagedyn-*-py3-none-*.whl)
     ! "$out/venv/bin/python" -m zipfile -l "$wheel" | grep cpython || { echo "$wheel has what is for one Python" >&2; exit 1; }
-    "$out/venv/bin/python" -m pip install -q --disable-pip-version-check "$wheel[test,examples]"
+    "$out/venv/bin/python" -m pip install -q --disable-pip-version-check "$wheel[test,examples,study]"
     "$out/venv/bin/python" -m pytest -q -p no:cacheprovider python/tests
     sed -n '/^```python$/,/^```$/{/^```/d;p}' python/README.md > "$out/page.py"
     "$out/venv/bin/python" "$out/page.py"

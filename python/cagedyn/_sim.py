@@ -223,17 +223,23 @@ class Sim:
         dtype = np.dtype([("time", float)] + [(name, float) for name in chosen])
         if not (interval > 0.0 and math.isfinite(until)):
             raise ValueError(f"until {until}, interval {interval}: must be a time and above zero")
-        start, rows, tell = self.time, [], _Teller(self, progress)
+        start, tell = self.time, _Teller(self, progress)
+        last = max(0, math.ceil((until - start) / interval - 1e-9))
+        rows, row, done = np.empty((last + 1, len(chosen) + 1)), np.empty(len(self.model.outputs)), 0
+        pointer, length, _keep = numbers(row)
+        time = ffi.new("double *")
         try:
-            for i in range(max(0, math.ceil((until - start) / interval - 1e-9)) + 1):
+            for i in range(last + 1):
                 self._advance(min(start + i * interval, until), tell)
-                rows.append((self.time, *self._outputs()[places].tolist()))
+                check(lib.cagedyn_sim_get_outputs(self._handle, pointer, length))
+                check(lib.cagedyn_sim_time(self._handle, time))
+                rows[i, 0], rows[i, 1:], done = time[0], row[places], i + 1
                 tell()
             tell.arrived()
         except BaseException as failure:
-            failure.records = np.array(rows, dtype=dtype)  # type: ignore[attr-defined]
+            failure.records = rows[:done].view(dtype)[:, 0]  # type: ignore[attr-defined]
             raise
-        return np.array(rows, dtype=dtype)
+        return rows.view(dtype)[:, 0]
 
     def begin_interval(self) -> None:
         """Begins the interval of `interval` now."""

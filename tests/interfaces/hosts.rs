@@ -33,7 +33,7 @@ fn python(library: &Path, modules: &str) -> Option<Command> {
 #[test]
 fn python_package() {
     let library = library();
-    if let Some(mut python) = python(library.path(), "numpy, cffi, pytest") {
+    if let Some(mut python) = python(library.path(), "numpy, cffi, pytest, distributed, pyarrow, xarray") {
         succeed(python.args(["-m", "pytest", "-q", "-p", "no:cacheprovider", "python/tests"]));
     }
 }
@@ -41,7 +41,7 @@ fn python_package() {
 #[test]
 fn python_types() {
     let library = library();
-    if let Some(mut python) = python(library.path(), "numpy, cffi, mypy") {
+    if let Some(mut python) = python(library.path(), "numpy, cffi, mypy, distributed, xarray") {
         let cache = library.path().join("mypy");
         succeed(python.args(["-m", "mypy", "--strict", "--cache-dir"]).arg(cache).arg("python/cagedyn"));
     }
@@ -59,6 +59,10 @@ fn python_examples() {
     if let Some(mut python) = python(library.path(), "numpy, cffi") {
         check("cage_in_space.txt", &succeed(python.arg("python/examples/cage_in_space.py")).stdout);
     }
+    if let Some(mut python) = python(library.path(), "numpy, cffi, distributed, pyarrow, xarray") {
+        let folder = library.path().join("study");
+        check("study.txt", &succeed(python.arg("python/examples/study.py").arg(folder)).stdout);
+    }
     if let Some(mut python) = python(library.path(), "numpy, cffi, matplotlib") {
         let picture = library.path().join("orbit.png");
         let output =
@@ -72,15 +76,18 @@ fn python_examples() {
 #[test]
 fn python_of_the_pages() {
     let library = library();
-    for (page, printed) in [
-        ("python/README.md", "leapfrog"),
-        ("docs/hosts.md", "-0.566"),
-        ("README.md", "cage centre y: -0.546 of the clearance"),
+    for (page, modules, printed) in [
+        ("python/README.md", "numpy, cffi", "leapfrog"),
+        ("docs/hosts.md", "numpy, cffi", "-0.566"),
+        ("docs/studies.md", "numpy, cffi, distributed, pyarrow, xarray", "134.2"),
+        ("README.md", "numpy, cffi", "cage centre y: -0.546 of the clearance"),
     ] {
         let text = std::fs::read_to_string(root().join(page)).expect("a page");
         let code = text.split("```python\n").nth(1).and_then(|rest| rest.split("```").next()).expect("code");
-        if let Some(mut python) = python(library.path(), "numpy, cffi") {
-            let output = succeed(python.args(["-c", code]));
+        // A study of an earlier build would be refused.
+        let code = code.replace("out/", &format!("{}/", library.path().display()));
+        if let Some(mut python) = python(library.path(), modules) {
+            let output = succeed(python.args(["-c", &code]));
             let text = String::from_utf8_lossy(&output.stdout);
             assert!(text.contains(printed), "{page}: {text}");
         }
