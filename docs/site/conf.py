@@ -47,7 +47,7 @@ myst_heading_anchors = 6
 
 # Docstrings have names between single backticks.
 default_role = "literal"
-autodoc_mock_imports = ["cffi"]
+autodoc_mock_imports = ["cffi", "cloudpickle", "dask", "distributed", "pandas", "pyarrow", "xarray"]
 autodoc_member_order = "bysource"
 autodoc_typehints_format = "short"
 # Arrays are shown as ndarray[float64] and the like.
@@ -55,12 +55,12 @@ numpy.typing.NDArray = numpy.ndarray
 autodoc_type_aliases = {"ArrayLike": "ArrayLike"}
 nitpicky = True
 # What others define; their sites are not fetched.
-nitpick_ignore_regex = [("py:.*", r"(numpy|collections|os)\..*|ArrayLike"), ("c:identifier", r"int(32|64)_t")]
+nitpick_ignore_regex = [("py:.*", r"(numpy|collections|os|pa|xr)\..*|ArrayLike|Path|Scene|Value|Client"), ("c:identifier", r"int(32|64)_t")]
 
 #: Titles of the parts of the tree with their pages.
 TREE = {
     "Use": ["docs/gallery", "docs/scene", "docs/scene/*", "docs/outputs"],
-    "Hosts": ["docs/hosts", "python/README", "docs/reference/*", "docs/abi"],
+    "Hosts": ["docs/hosts", "docs/fmi", "python/README", "docs/studies", "docs/reference/*", "docs/abi"],
     "Model": ["docs/model", "docs/guide", "docs/model/*"],
     "Results": ["docs/papers", "docs/results/*"],
     "Development": [

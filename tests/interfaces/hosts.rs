@@ -18,7 +18,7 @@ pub fn present(program: &Path, arguments: &[&str], switches: &[&str]) -> bool {
 }
 
 /// Python with what the package needs.
-fn python(library: &Path, modules: &str) -> Option<Command> {
+pub fn python(library: &Path, modules: &str) -> Option<Command> {
     let python = std::env::var_os("CAGEDYN_PYTHON").unwrap_or("python3".into());
     let switches = ["CAGEDYN_REQUIRE_HOSTS", "CAGEDYN_REQUIRE_ALL_HOSTS"];
     if !present(Path::new(&python), &["-c", &format!("import {modules}")], &switches) {

@@ -17,6 +17,7 @@ mod cli_files;
 mod cli_shell;
 mod docs;
 mod examples;
+mod fmu;
 mod formats;
 mod fuzzed;
 mod header;
