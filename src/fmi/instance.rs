@@ -343,6 +343,11 @@ impl Instance {
         Ok(self.time())
     }
 
+    /// Force evaluations of co-simulation until now.
+    pub fn evaluations(&self) -> u64 {
+        self.sim.as_ref().map_or(0, |sim| sim.statistics().evaluations)
+    }
+
     /// The next time of the importer at which an input of the scene jumps or has a kink, if there is one.
     ///
     /// # Errors

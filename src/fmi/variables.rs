@@ -110,6 +110,11 @@ impl Unit {
         &self.token
     }
 
+    /// Names of the variables, in the order of their value references.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.variables.iter().map(|variable| variable.name.as_str())
+    }
+
     /// The model.
     pub fn model(&self) -> &Model {
         &self.model

@@ -160,6 +160,7 @@ fn library_has_its_soname_and_exports_only_the_api() {
         symbols.lines().filter_map(|line| line.split_whitespace().last()).collect();
     // Those of functional mock-up units have headers of the standard.
     let of_units = include_str!("../fmu/functions.txt");
-    let declared: BTreeSet<&str> = crate::header::functions(&header).into_iter().chain(of_units.lines()).collect();
+    let declared: BTreeSet<&str> =
+        crate::header::functions(&header).into_iter().chain(of_units.lines()).collect();
     assert_eq!(exported, declared, "left: exported, right: in the header, and of units");
 }
