@@ -9,6 +9,7 @@
 # make cage-in-space the cage of the second paper in space: docs/results/cage-in-space.md
 # make roller-space  the NU2310 with rollers in space beside those in the plane: docs/results/roller-space.md
 # make second-paper  whirl of the second paper with elastic cage and heat balance: docs/results/second-paper.md
+# make rotor-ross a rotor of ROSS on two bearings, linear and in time: docs/results/rotor-ross.md
 # make verify    errors of the integration methods against CVODE: docs/results/verification.md
 # make hard     hard cases with every method and preset: docs/results/hard-cases.md
 # make judge     the presets on random scenes that nothing was tuned to, from SEED on, N of them
@@ -37,7 +38,7 @@ CARGO ?= cargo
 # Python with what tests of its package need.
 PYTHON := $(abspath out/venv/bin/python)
 
-.PHONY: check test release-check tools python-env fmt lint doc shipped quick unit abi deb run cases example figures effects second-paper cage-in-space roller-space verify hard judge tuning ellipse-rules random statistics \
+.PHONY: check test release-check tools python-env fmt lint doc shipped quick unit abi deb run cases example figures effects second-paper cage-in-space roller-space rotor-ross verify hard judge tuning ellipse-rules random statistics \
 	accuracy bench build-times header build install uninstall clean
 
 # The same flags everywhere, so that nothing is built twice.
@@ -70,6 +71,14 @@ python-env: out/venv/ready
 out/venv/ready: python/requirements.txt
 	python3 -m venv out/venv
 	$(PYTHON) -m pip install -q --disable-pip-version-check -r python/requirements.txt
+	touch $@
+
+# With ROSS, which brings many packages of its own.
+ROTOR_PYTHON := $(abspath out/rotor-venv/bin/python)
+
+out/rotor-venv/ready: python/requirements-rotor.txt
+	python3 -m venv out/rotor-venv
+	$(ROTOR_PYTHON) -m pip install -q --disable-pip-version-check -r python/requirements-rotor.txt
 	touch $@
 
 fmt:
@@ -140,6 +149,12 @@ cage-in-space: tools
 
 roller-space: tools
 	$(CARGO) run --release --locked --package cagedyn-studies --bin roller_space -- --docs
+
+# One thread of linear algebra, so that sums have the same order every time.
+rotor-ross: tools out/rotor-venv/ready
+	$(CARGO) build --release --locked --lib
+	CAGEDYN_LIBRARY=$(abspath $(BUILT)/libcagedyn.so) PYTHONPATH=python OPENBLAS_NUM_THREADS=1 \
+		$(ROTOR_PYTHON) python/examples/rotor_ross docs/results/rotor-ross.md
 
 effects: tools
 	$(CARGO) run --release --locked --package cagedyn-studies --bin effects -- --docs

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What a release needs beside `make test`. A tool that is missing is installed, or is an error. Steps may be named:
-# calls package python octave browser deb c-sanitizers sanitizers c-threads fuzz platforms; without names all are made.
+# calls package python rotor octave browser deb c-sanitizers sanitizers c-threads fuzz platforms; without names all are made.
 set -euo pipefail
 
 NIGHTLY=nightly-2026-10-30
@@ -45,6 +45,15 @@ python() {
         "$out/other/bin/python" -m pip install -q --disable-pip-version-check "$wheel[test]"
         "$out/other/bin/python" -m pytest -q -p no:cacheprovider python/tests
     done
+}
+
+# A rotor of ROSS on bearings.
+rotor() {
+    make out/rotor-venv/ready
+    $CARGO build --release --locked --lib
+    out/rotor-venv/bin/python -c "import ross"
+    CAGEDYN_LIBRARY=$PWD/target/release/libcagedyn.so PYTHONPATH=python \
+        out/rotor-venv/bin/python -m pytest -q -p no:cacheprovider python/tests/test_rotor_ross.py
 }
 
 # Octave by way of the gateway for MATLAB, and what reads the tables of the tool.
@@ -188,7 +197,7 @@ platforms() {
     done
 }
 
-for step in ${*:-calls package python octave browser deb c-sanitizers sanitizers c-threads fuzz platforms}; do
+for step in ${*:-calls package python rotor octave browser deb c-sanitizers sanitizers c-threads fuzz platforms}; do
     echo "== $step"
     $step
 done
