@@ -12,6 +12,7 @@
 # make roller-space  the NU2310 with rollers in space beside those in the plane: docs/results/roller-space.md
 # make waviness  orders of waves and passing of spalls beside those of textbooks: docs/results/waviness.md
 # make second-paper  whirl of the second paper with elastic cage and heat balance: docs/results/second-paper.md
+# make rotor-ross a rotor of ROSS on two bearings, linear and in time: docs/results/rotor-ross.md
 # make verify    errors of the integration methods against CVODE: docs/results/verification.md
 # make hard     hard cases with every method and preset: docs/results/hard-cases.md
 # make judge     the presets on random scenes that nothing was tuned to, from SEED on, N of them
@@ -42,7 +43,7 @@ CARGO ?= cargo
 # Python with what tests of its package need.
 PYTHON := $(abspath out/venv/bin/python)
 
-.PHONY: check test release-check tools python-env fmt lint doc shipped quick unit abi deb run cases example figures gallery site effects second-paper cage-in-space roller-space waviness verify hard judge tuning ellipse-rules random statistics \
+.PHONY: check test release-check tools python-env fmt lint doc shipped quick unit abi deb run cases example figures gallery site effects second-paper cage-in-space roller-space waviness rotor-ross verify hard judge tuning ellipse-rules random statistics \
 	accuracy bench build-times header wheels wheels-test build install uninstall clean
 
 # The same flags everywhere, so that nothing is built twice.
@@ -75,11 +76,15 @@ python-env: out/venv/ready
 out/venv/ready: python/requirements.txt
 out/wheels-venv/ready: python/requirements-wheels.txt
 out/site-venv/ready: docs/site/requirements.txt
+out/rotor-venv/ready: python/requirements-rotor.txt
 
 out/%/ready:
 	python3 -m venv out/$*
 	out/$*/bin/python -m pip install -q --disable-pip-version-check -r $^
 	touch $@
+
+# With ROSS, which brings many packages of its own.
+ROTOR_PYTHON := $(abspath out/rotor-venv/bin/python)
 
 fmt:
 	$(CARGO) fmt --check

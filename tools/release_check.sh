@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What a release needs beside `make test`. A tool that is missing is installed, or is an error. Steps may be named:
-# calls package python wheels octave browser deb c-sanitizers sanitizers c-threads fuzz platforms; without names all are made.
+# calls package python wheels rotor octave browser deb c-sanitizers sanitizers c-threads fuzz platforms; without names all are made.
 set -euo pipefail
 
 NIGHTLY=nightly-2026-10-30
@@ -40,6 +40,15 @@ python() {
 
 # The wheel that is released, with its tests, in all Pythons that are here.
 wheels() { TESTS=1 make wheels-test; }
+
+# A rotor of ROSS on bearings.
+rotor() {
+    make out/rotor-venv/ready
+    $CARGO build --release --locked --lib
+    out/rotor-venv/bin/python -c "import ross"
+    CAGEDYN_LIBRARY=$PWD/target/release/libcagedyn.so PYTHONPATH=python \
+        out/rotor-venv/bin/python -m pytest -q -p no:cacheprovider python/tests/test_rotor_ross.py
+}
 
 # Octave by way of the gateway for MATLAB, and what reads the tables of the tool.
 octave() {
@@ -182,7 +191,7 @@ platforms() {
     done
 }
 
-for step in ${*:-calls package python wheels octave browser deb c-sanitizers sanitizers c-threads fuzz platforms}; do
+for step in ${*:-calls package python wheels rotor octave browser deb c-sanitizers sanitizers c-threads fuzz platforms}; do
     echo "== $step"
     $step
 done
