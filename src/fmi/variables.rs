@@ -219,7 +219,9 @@ fn parameters(scene: &Value) -> Vec<(String, f64)> {
     let takes_halves = |path: &str| {
         let mut changed = scene.clone();
         let half = set_path(&mut changed, path, serde_json::json!(0.5));
-        half.is_ok() && serde_json::from_value::<Scene>(changed).is_ok()
+        // A value out of its range is told in another way.
+        let refused = half.and_then(|()| Scene::from_value(&changed).map(|_| ()));
+        refused.err().is_none_or(|e| e.status == Status::BadScene)
     };
     found.retain(|(path, _)| takes_halves(path));
     found

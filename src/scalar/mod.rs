@@ -10,7 +10,7 @@ pub mod math;
 mod pack;
 
 pub use dual::{Dual, Duals};
-pub use pack::{Columns, Lanes, Pack, WIDEST, ZEROS, blocks_for, dispatch, place_of};
+pub use pack::{Columns, Lanes, Pack, WIDEST, ZEROS, blocks_for, dispatch, one_by_one, place_of};
 
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Sub, SubAssign};
 

@@ -2,7 +2,7 @@
 
 use super::{Base, Numeric, ROOT_HALF, elementary};
 use pulp::bytemuck::cast;
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Arch, Scalar, Simd, WithSimd};
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Sub, SubAssign};
 
 /// Largest number of numbers in a group.
@@ -39,30 +39,39 @@ pub trait Columns {
     fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize);
 }
 
-/// Does `work` with these instructions.
-#[inline(always)]
-pub fn dispatch(instructions: Arch, work: impl Columns) {
-    struct Work<C>(C);
-    impl<C: Columns> WithSimd for Work<C> {
-        type Output = ();
-        #[inline(always)]
-        fn with_simd<S: Simd>(mut self, simd: S) {
-            let rows = self.0.rows();
-            let mut first = 0;
-            while first < rows {
-                let rest = rows - first;
-                if C::PAIRED && S::F64_LANES > 1 && rest > S::F64_LANES {
-                    self.0.group::<S, 2>(simd, first);
-                    first += 2 * S::F64_LANES;
-                } else {
-                    self.0.group::<S, 1>(simd, first);
-                    first += S::F64_LANES;
-                }
+struct Work<C>(C);
+
+impl<C: Columns> WithSimd for Work<C> {
+    type Output = ();
+    #[inline(always)]
+    fn with_simd<S: Simd>(mut self, simd: S) {
+        let rows = self.0.rows();
+        let mut first = 0;
+        while first < rows {
+            let rest = rows - first;
+            if C::PAIRED && S::F64_LANES > 1 && rest > S::F64_LANES {
+                self.0.group::<S, 2>(simd, first);
+                first += 2 * S::F64_LANES;
+            } else {
+                self.0.group::<S, 1>(simd, first);
+                first += S::F64_LANES;
             }
         }
     }
+}
+
+/// Does `work` with these instructions.
+#[inline(always)]
+pub fn dispatch(instructions: Arch, work: impl Columns) {
     if work.rows() > 0 {
         instructions.dispatch(Work(work));
+    }
+}
+
+/// Does `work` number by number, for what is rare: with every kind of instructions it would be as large again.
+pub fn one_by_one(work: impl Columns) {
+    if work.rows() > 0 {
+        Work(work).with_simd(Scalar::new());
     }
 }
 

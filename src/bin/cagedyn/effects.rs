@@ -23,6 +23,7 @@ pub fn effects(scene: &Scene) -> Vec<Effect> {
     );
     ring(scene, &mut list);
     profiles(scene, &mut list);
+    waves(scene, &mut list);
     if let Some(raceways) = &scene.raceways {
         contact(&raceways.contact, "raceways.contact", &mut list);
         let resistance = raceways.rolling_resistance.as_ref().map(|r| match r.extent {
@@ -115,6 +116,29 @@ fn profiles(scene: &Scene, list: &mut List) {
     ] {
         let text = |radius| format!("law: contacts in slices, raceway with a crown of radius {radius} m");
         list.add(format!("{ring}.raceway_crown_radius"), radius.map(text));
+    }
+}
+
+/// What is not round about its axis, where elements see it.
+fn waves(scene: &Scene, list: &mut List) {
+    let in_plane = scene.rollers.as_ref().filter(|rollers| rollers.space.is_none());
+    if in_plane.is_none() && scene.balls.is_none() {
+        return;
+    }
+    let outer = scene.outer_ring.as_ref().map(|ring| (ring.waviness.len(), &ring.waviness_table));
+    let inner = scene.inner_ring.as_ref().map(|ring| (ring.waviness.len(), &ring.waviness_table));
+    for (ring, waves) in [("outer_ring", outer), ("inner_ring", inner)] {
+        let Some((orders, table)) = waves else { continue };
+        let harmonics = (orders > 0).then(|| format!("shape: raceway with {orders} harmonics"));
+        list.add(format!("{ring}.waviness"), harmonics);
+        let heights =
+            table.as_ref().map(|table| format!("shape: raceway by {} heights", table.heights.len()));
+        list.add(format!("{ring}.waviness_table"), heights);
+    }
+    if let Some(rollers) = in_plane {
+        let count: usize = rollers.waviness.iter().map(|group| group.rollers.len()).sum();
+        let text = format!("shape: {count} rollers that are not round; states: spin angles of all");
+        list.add("rollers.waviness", (count > 0).then_some(text));
     }
 }
 

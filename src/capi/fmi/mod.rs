@@ -86,6 +86,21 @@ fn status_of(error: &Error) -> i32 {
 /// # Safety
 /// `handle` is NULL or came from an instantiation and was not freed.
 unsafe fn with(handle: *mut c_void, what: &str, entry: impl FnOnce(&mut Component) -> Result<()>) -> i32 {
+    let mut entry = Some(entry);
+    let mut once = |component: &mut Component| entry.take().map_or(Ok(()), |entry| entry(component));
+    // SAFETY: see above.
+    unsafe { with_component(handle, what, &mut once) }
+}
+
+/// The same for all entries in one place.
+///
+/// # Safety
+/// As [`with`].
+unsafe fn with_component(
+    handle: *mut c_void,
+    what: &str,
+    entry: &mut dyn FnMut(&mut Component) -> Result<()>,
+) -> i32 {
     let mut found = FATAL;
     let guarded = status(|| {
         // SAFETY: see above.
@@ -215,15 +230,25 @@ unsafe fn instantiate(wanted: &Wanted<'_>) -> *mut c_void {
     made
 }
 
-/// A saved state as a handle.
-fn to_handle(saved: Saved) -> *mut c_void {
-    Box::into_raw(Box::new(saved)).cast()
+/// Gives a saved state to the importer: in the place of the one that it has there, if it has.
+///
+/// # Safety
+/// `state` is NULL or a place for a handle; one that is there came from here and was not freed.
+unsafe fn give(state: *mut *mut c_void, new: Saved) -> Result<()> {
+    // SAFETY: see above.
+    let place = unsafe { places("FMUState", state, 1) }?;
+    // SAFETY: see above.
+    match unsafe { place[0].cast::<Saved>().as_mut() } {
+        Some(there) => *there = new,
+        None => place[0] = Box::into_raw(Box::new(new)).cast(),
+    }
+    Ok(())
 }
 
 /// What is behind such a handle.
 ///
 /// # Safety
-/// `state` is NULL or came from [`to_handle`] and was not freed.
+/// `state` is NULL or came from [`give`] and was not freed.
 unsafe fn saved<'a>(state: *mut c_void) -> Result<&'a Saved> {
     // SAFETY: see above.
     unsafe { state.cast::<Saved>().as_ref() }.ok_or_else(|| null("FMUState"))

@@ -1,8 +1,6 @@
 //! FMI 3.0: what units of the library use of it. Names, arguments and statuses are those of `fmi3FunctionTypes.h`.
 
-use super::{
-    Component, Handle, Logger, Wanted, instantiate, items, places, put, saved, sizes, to_handle, with,
-};
+use super::{Component, Handle, Logger, Wanted, give, instantiate, items, places, put, saved, sizes, with};
 use crate::capi::guard::{free, text};
 use crate::error::Result;
 use crate::fmi::{Interface, Mode, Saved};
@@ -183,12 +181,7 @@ pub unsafe extern "C" fn fmi3SetFloat64(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3GetFMUState(instance: *mut c_void, state: *mut *mut c_void) -> i32 {
     // SAFETY: see above.
-    unsafe {
-        with(instance, "fmi3GetFMUState", |c| {
-            // A state that is there already is given back by the importer itself.
-            put("FMUState", state, to_handle(c.instance.save()))
-        })
-    }
+    unsafe { with(instance, "fmi3GetFMUState", |c| give(state, c.instance.save())) }
 }
 
 /// # Safety
@@ -260,7 +253,7 @@ pub unsafe extern "C" fn fmi3DeserializeFMUState(
     unsafe {
         with(instance, "fmi3DeserializeFMUState", |_| {
             let found = Saved::from_bytes(items("serializedState", bytes, size)?)?;
-            put("FMUState", state, to_handle(found))
+            give(state, found)
         })
     }
 }

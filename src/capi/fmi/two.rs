@@ -1,8 +1,7 @@
 //! FMI 2.0. Names, arguments and statuses are those of `fmi2FunctionTypes.h`.
 
 use super::{
-    Component, Handle, Logger, Wanted, instantiate, items, none_of, places, put, saved, sizes, to_handle,
-    with,
+    Component, Handle, Logger, Wanted, give, instantiate, items, none_of, places, put, saved, sizes, with,
 };
 use crate::capi::guard::{free, text};
 use crate::error::{Error, Result, Status};
@@ -229,7 +228,7 @@ no_variables! {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetFMUstate(instance: *mut c_void, state: *mut *mut c_void) -> i32 {
     // SAFETY: see above.
-    unsafe { with(instance, "fmi2GetFMUstate", |c| put("FMUstate", state, to_handle(c.instance.save()))) }
+    unsafe { with(instance, "fmi2GetFMUstate", |c| give(state, c.instance.save())) }
 }
 
 /// # Safety
@@ -301,7 +300,7 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
     unsafe {
         with(instance, "fmi2DeSerializeFMUstate", |_| {
             let found = Saved::from_bytes(items("serializedState", bytes.cast::<u8>(), size)?)?;
-            put("FMUstate", state, to_handle(found))
+            give(state, found)
         })
     }
 }

@@ -18,7 +18,7 @@ use crate::bodies::{CAGE, ElementMotion, Motions};
 use crate::laws::contact_pair::ContactMotion;
 use crate::pairs::slope_sums::{ContactColumns, OverSpinAngles, SlopeSums};
 use crate::pairs::{ElementPair, Grip};
-use crate::scalar::{Base, Columns, Duals, Lanes, Numeric, Pack, ZEROS, dispatch, place_of};
+use crate::scalar::{Base, Columns, Duals, Lanes, Numeric, Pack, ZEROS, dispatch, one_by_one, place_of};
 use crate::space::{Frame, Motion};
 use pulp::Simd;
 use std::ops::Range;
@@ -89,7 +89,7 @@ pub(crate) struct RelativeSlopes {
     travel: Lanes,
     contact: Lanes,
     displaced: [[Lanes; 2]; 2],
-    waves: Option<[[Lanes; 2]; 2]>,
+    waves: [[Lanes; 2]; 2],
     columns: ContactColumns,
     over_spin_angle: OverSpinAngles,
 }
@@ -101,7 +101,7 @@ impl RelativeSlopes {
             travel: ZEROS,
             contact: ZEROS,
             displaced: [[ZEROS; 2]; 2],
-            waves: None,
+            waves: [[ZEROS; 2]; 2],
             columns: ContactColumns::ZERO,
             over_spin_angle: OverSpinAngles::ZERO,
         }
@@ -131,30 +131,38 @@ pub(in crate::pairs) fn add_slopes<P: Kinematics>(
     let changing = speeding != 0.0 || warming != 0.0 || moving || turning.is_some() || sums.layout.count == 0;
     let holds = sums.layout.shared(mate).is_some();
     let deforms = mate == CAGE && !motions.displaced.is_empty();
-    let work = Chain {
-        pair,
-        batch,
-        slopes,
-        contacts,
-        first,
-        mate,
-        holds,
-        deforms,
-        motions,
-        speeding,
-        warming,
-        turning: turning.unwrap_or(0.0),
-        changing,
-        sums,
-        memory,
-    };
-    dispatch(motions.instructions, work);
+    macro_rules! work {
+        ($wavy:literal) => {
+            Chain::<P, $wavy> {
+                pair,
+                batch,
+                slopes,
+                contacts,
+                first,
+                mate,
+                holds,
+                deforms,
+                motions,
+                speeding,
+                warming,
+                turning: turning.unwrap_or(0.0),
+                changing,
+                sums,
+                memory,
+            }
+        };
+    }
+    match turning {
+        None => dispatch(motions.instructions, work!(false)),
+        Some(_) => one_by_one(work!(true)),
+    }
 }
 
 /// Largest number of numbers in one register.
 const ALIGNED: usize = 8;
 
-struct Chain<'a, 'b, P> {
+/// Contacts of a pair, of bodies with waves or of round ones.
+struct Chain<'a, 'b, P, const WAVY: bool> {
     pair: &'a P,
     batch: &'a Batch,
     slopes: &'a LawSlopes,
@@ -177,7 +185,7 @@ struct Chain<'a, 'b, P> {
     memory: &'a mut RelativeSlopes,
 }
 
-impl<P: Kinematics> Columns for Chain<'_, '_, P> {
+impl<P: Kinematics, const WAVY: bool> Columns for Chain<'_, '_, P, WAVY> {
     /// Values with their derivatives fill the registers by themselves.
     const PAIRED: bool = false;
 
@@ -209,7 +217,7 @@ impl<P: Kinematics> Columns for Chain<'_, '_, P> {
                 sums.add_displaced(j, self.mate, [y[lane], z[lane]], self.motions, columns, lane);
             }
         }
-        if self.memory.waves.is_some() {
+        if WAVY {
             for i in here.clone() {
                 let (_, lane) = place_of(i);
                 let over = &self.memory.over_spin_angle;
@@ -225,12 +233,11 @@ impl<P: Kinematics> Columns for Chain<'_, '_, P> {
     }
 }
 
-impl<P: Kinematics> Chain<'_, '_, P> {
+impl<P: Kinematics, const WAVY: bool> Chain<'_, '_, P, WAVY> {
     /// Brings the elements of contacts to the places of these.
     #[inline(always)]
     fn gather(&mut self, contacts: Range<usize>) {
         let RelativeSlopes { element, travel, contact, displaced, waves, .. } = &mut *self.memory;
-        *waves = None;
         for i in contacts {
             let site = &self.batch.sites[i];
             let ((block, from), (_, lane)) = (place_of(site.element), place_of(i));
@@ -248,8 +255,9 @@ impl<P: Kinematics> Chain<'_, '_, P> {
                 }
             }
             contact[lane] = site.contact as f64;
-            if let Some(here) = self.pair.waves(self.motions, site.element) {
-                let columns = waves.get_or_insert([[ZEROS; 2]; 2]).iter_mut().flatten();
+            if WAVY {
+                let here = self.pair.waves(self.motions, site.element).unwrap_or_default();
+                let columns = waves.as_flattened_mut().iter_mut();
                 columns.zip(here.as_flattened()).for_each(|(column, x)| column[lane] = *x);
             }
         }
@@ -285,10 +293,8 @@ impl<P: Kinematics> Chain<'_, '_, P> {
             let [[outwards, ahead], [outwards_rate, ahead_rate]] = displaced;
             [[load(outwards), load(ahead)], [load(outwards_rate), load(ahead_rate)]]
         });
-        let waves = match &self.memory.waves {
-            Some([[a, b], [c, d]]) => Some([[load(a), load(b)], [load(c), load(d)]]),
-            None => None,
-        };
+        let [[a, b], [c, d]] = &self.memory.waves;
+        let waves = if WAVY { Some([[load(a), load(b)], [load(c), load(d)]]) } else { None };
         let at = Beside { element, radius, travel, contact, mate, displacement, waves };
         let VariedContact { motion, edge_share, over_spin_angle, grip } = self.pair.contact(&at);
 
