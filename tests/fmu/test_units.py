@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import json
+import os
 import random
 
 import cagedyn
@@ -279,3 +280,31 @@ def test_rotor_and_bearing_are_one(units: Units) -> None:
     print(f"rotor by unit and in one: {worst:.1e} m apart of {size:.1e} m")
     assert size > 1e-6
     assert worst < 1e-6 * size
+
+
+def test_nothing_is_no_instance(units: Units, capfd: pytest.CaptureFixture[str]) -> None:
+    """Every function of the standard is there, and NULL is an error, as instance and as array."""
+    library = ctypes.CDLL(os.environ["CAGEDYN_LIBRARY"])
+    names = (ROOT / "tests/fmu/functions.txt").read_text().split()
+    for name in names:
+        function = getattr(library, name)
+        if "Version" in name or "TypesPlatform" in name:
+            function.restype = ctypes.c_char_p
+            assert function() in (b"2.0", b"3.0", b"default")
+        elif "FreeInstance" in name:
+            function(None)
+        elif "Instantiate" in name:
+            function.restype = ctypes.c_void_p
+            assert function(*[None] * 12) is None
+        else:
+            assert function(*[None] * 12) == 3, name
+    with Unit(units.make("grease_guide", "3.0")) as unit:
+        instance = unit.fmu.component
+        for name in ["fmi3GetFloat64", "fmi3SetFloat64", "fmi3GetInt32"]:
+            assert getattr(library, name)(ctypes.c_void_p(instance), None, ctypes.c_size_t(1), None, ctypes.c_size_t(1)) == 3
+        for name in ["fmi3GetContinuousStates", "fmi3GetNominalsOfContinuousStates"]:
+            assert getattr(library, name)(ctypes.c_void_p(instance), None, ctypes.c_size_t(6)) == 3
+            assert getattr(library, name)(ctypes.c_void_p(instance), None, ctypes.c_size_t(5)) == 3
+        assert library.fmi3GetFMUState(ctypes.c_void_p(instance), None) == 3
+        assert library.fmi3SetFMUState(ctypes.c_void_p(instance), None) == 3
+    assert "is NULL" in "".join(capfd.readouterr())
