@@ -64,7 +64,7 @@ for file in scenes/*.json schemas/*.json; do put 644 "$file" "$share/$file"; don
 for file in matlab/cagedyn_mex.c matlab/Cagedyn*.m matlab/build_cagedyn.m; do put 644 "$file" "$share/$file"; done
 doc=$PREFIX/share/doc/cagedyn
 for file in LICENSE-MIT LICENSE-APACHE ./*.md docs/*.md docs/*/*.md docs/images/* docs/results/accuracy/* python/README.md \
-    python/examples/*.py python/examples/rotor_ross/*.py examples/*.c examples/*.h examples/*.cpp examples/*.py examples/*.m examples/*.jl; do
+    python/examples/*.py python/examples/rotor_ross/*.py python/notebooks/*.ipynb examples/*.c examples/*.h examples/*.cpp examples/*.py examples/*.m examples/*.jl; do
     put 644 "$file" "$doc/$file"
 done
 # Pages refer to these as in the source tree.

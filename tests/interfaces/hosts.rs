@@ -72,6 +72,17 @@ fn python_examples() {
     }
 }
 
+/// All cells of the notebooks, in kernels of Jupyter.
+#[test]
+fn python_notebooks() {
+    let library = library();
+    let modules =
+        "numpy, cffi, pytest, matplotlib, distributed, pyarrow, xarray, nbformat, nbclient, ipykernel";
+    if let Some(mut python) = python(library.path(), modules) {
+        succeed(python.args(["-m", "pytest", "-q", "-p", "no:cacheprovider", "python/notebooks"]));
+    }
+}
+
 /// The lines of Python of the pages.
 #[test]
 fn python_of_the_pages() {
