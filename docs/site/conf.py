@@ -60,7 +60,15 @@ nitpick_ignore_regex = [("py:.*", r"(numpy|collections|os|pa|xr)\..*|ArrayLike|P
 #: Titles of the parts of the tree with their pages.
 TREE = {
     "Use": ["docs/gallery", "docs/scene", "docs/scene/*", "docs/outputs"],
-    "Hosts": ["docs/hosts", "docs/fmi", "python/README", "docs/studies", "docs/reference/*", "docs/abi"],
+    "Hosts": [
+        "docs/hosts",
+        "docs/fmi",
+        "python/README",
+        "docs/studies",
+        "docs/studies-cli",
+        "docs/reference/*",
+        "docs/abi",
+    ],
     "Model": ["docs/model", "docs/guide", "docs/model/*"],
     "Results": ["docs/papers", "docs/results/*"],
     "Development": [

@@ -19,7 +19,10 @@ fn commands() -> Vec<String> {
 #[test]
 fn completions_know_every_command() {
     let commands = commands();
-    assert!(commands.len() >= 12 && commands.contains(&"check".to_owned()), "{commands:?}");
+    assert!(
+        ["check", "sweep", "merge"].iter().all(|name| commands.iter().any(|command| command == name)),
+        "{commands:?}"
+    );
     for shell in ["bash", "zsh", "fish"] {
         let output = run(&["completions", shell]);
         let script = text(&output.stdout);
@@ -27,7 +30,7 @@ fn completions_know_every_command() {
         for command in &commands {
             assert!(script.contains(command.as_str()), "{shell}: no {command}");
         }
-        for option in ["set", "max-wall-time", "warm-up"] {
+        for option in ["set", "max-wall-time", "warm-up", "part"] {
             assert!(script.contains(option), "{shell}: no {option}");
         }
     }
@@ -73,6 +76,7 @@ fn manual_pages_have_every_command() {
     }
     assert!(read("cagedyn.1").contains("cagedyn\\-run(1)"), "{}", read("cagedyn.1"));
     assert!(read("cagedyn-run.1").contains("max\\-wall\\-time"));
+    assert!(read("cagedyn-sweep.1").contains("\\-\\-part") && read("cagedyn-merge.1").contains("PART_DIR"));
 }
 
 #[test]

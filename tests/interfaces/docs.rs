@@ -37,7 +37,7 @@ fn scene_page() -> String {
 }
 
 /// Contents of the fenced blocks of one language.
-fn fenced(page: &str, language: &str) -> Vec<String> {
+pub fn fenced(page: &str, language: &str) -> Vec<String> {
     let mut blocks = Vec::new();
     let mut open: Option<(bool, String)> = None;
     for line in page.lines() {

@@ -27,3 +27,4 @@ mod pictures;
 mod report;
 mod spectra;
 mod sweep;
+mod sweep_parts;

@@ -29,6 +29,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use results::formats::TableFormat;
 use std::path::PathBuf;
 use std::process::ExitCode;
+use sweep::{MergeArgs, SweepArgs};
 
 /// Dynamics of cage, rolling elements and rings of a rolling bearing.
 #[derive(Parser)]
@@ -54,6 +55,8 @@ enum Command {
     Cases(CasesArgs),
     /// Run a scene over a grid or a Latin hypercube of its values; write one table, and a picture. What is done is kept.
     Sweep(SweepArgs),
+    /// Put the parts of a sweep, each run by `sweep --part`, together: the files of the whole sweep.
+    Merge(MergeArgs),
     /// Write a run as one HTML file to hand on: results, pictures, an animation, the scene.
     Report(ReportArgs),
     /// Temperatures of a scene with a heat balance: steady, or warming up; powers, flows, a picture of the network.
@@ -106,36 +109,6 @@ pub struct CasesArgs {
     out: PathBuf,
     #[command(flatten)]
     instead: Instead,
-}
-
-/// Arguments of `sweep`.
-#[derive(Args)]
-pub struct SweepArgs {
-    /// Scene file.
-    scene: PathBuf,
-    /// Folder for the results. Points that are done in it are not run again.
-    #[arg(long, value_name = "DIR")]
-    out: PathBuf,
-    /// Vary a value of the scene: N values from a number to another, `:log` behind them for equal ratios, or a list as in
-    /// solver.preset=draft,engineering. Several are combined.
-    #[arg(long, value_name = "PATH=FROM:TO:N", value_parser = sweep::parse_vary, required = true)]
-    vary: Vec<sweep::Vary>,
-    /// So many points of a Latin hypercube over the ranges PATH=FROM:TO instead of all combinations.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=sweep::MOST_POINTS as i64))]
-    latin: Option<u32>,
-    /// Another hypercube for every number.
-    #[arg(long, value_name = "S", default_value_t = 0, requires = "latin")]
-    seed: u64,
-    /// Simulated time in s, instead of the scene's.
-    #[arg(long, value_name = "T", allow_negative_numbers = true, value_parser = parse_time)]
-    until: Option<f64>,
-    #[arg(long, value_parser = parse_preset, value_name = "PRESET", help = preset_help())]
-    preset: Option<Preset>,
-    /// Simulate so many points at the same time; as many as there are cores unless given. Results do not depend on it.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    jobs: Option<u16>,
-    #[command(flatten)]
-    sets: Sets,
 }
 
 /// Arguments of `report`.
@@ -410,6 +383,7 @@ fn dispatch(command: &Command) -> Result<ExitCode> {
         Command::Run(args) => run::command(args),
         Command::Cases(args) => cases::command(args),
         Command::Sweep(args) => sweep::command(args),
+        Command::Merge(args) => sweep::merge::command(args),
         Command::Report(args) => report::command(args),
         Command::Heat(args) => heat::command(args),
         Command::Whirl(args) => whirl::command(args),

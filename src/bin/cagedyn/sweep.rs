@@ -1,17 +1,20 @@
 //! The command `sweep`.
 
+mod args;
 mod grid;
+pub mod merge;
 mod pictures;
+mod portion;
 mod store;
 mod table;
 
-pub use grid::{MOST_POINTS, Vary, parse_vary, points};
+pub use args::{MergeArgs, SweepArgs};
+pub use grid::{Vary, parse_vary, points};
 
-use crate::SweepArgs;
 use crate::points::Row;
 use crate::points::spectrum::Spectrum;
 use crate::results::facts;
-use crate::results::files::{write_csv, write_text, write_with};
+use crate::results::files::{to_json, write_csv, write_text, write_with};
 use crate::results::finished::Notes;
 use crate::results::formats::parquet;
 use crate::results::summary::Summary;
@@ -25,6 +28,7 @@ use grid::Values;
 use serde_json::{Value, json};
 use std::collections::HashSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;
 use store::Store;
@@ -32,6 +36,13 @@ use table::Table;
 
 /// Of more points than this the longest do not come first: what the last of them costs is little beside all.
 const ORDERED: usize = 1000;
+
+/// What `sweep.json` has of the program that wrote it.
+const PROGRAM: [(&str, &str); 3] =
+    [("schema", "cagedyn.sweep/2"), ("version", env!("CARGO_PKG_VERSION")), ("build", env!("CAGEDYN_BUILD"))];
+/// What it has of a part beside what all parts have: which one it is, and the name of the scene file, which titles have.
+const PART: &str = "part";
+const SCENE_FILE: &str = "scene_file";
 
 /// A sweep that can be run.
 struct Sweep<'a> {
@@ -47,50 +58,17 @@ struct Sweep<'a> {
 /// # Errors
 /// A scene, values or a folder that cannot be used; points and tables that cannot be written. A point that fails is a row.
 pub fn command(args: &SweepArgs) -> Result<ExitCode> {
-    let sweep = Sweep::new(args)?;
+    let sweep = Sweep::new(args, run::read(&args.scene)?)?;
     terminal::listen_for_interrupt()?;
-    let store = Store::open(&args.out, &sweep.identity()?)?;
-    let stored = sweep.points.iter().enumerate().filter_map(|(i, values)| Some((i, store.row(i, values)?)));
-    let mut rows: Vec<(usize, Row)> = stored.collect();
-    let all = sweep.points.len();
-    terminal::print(&format!("{} points, {} of them done\n", all, rows.len()))?;
-    let written = sweep.run(&store, &mut rows);
-    rows.sort_by_key(|(i, _)| *i);
-    let goes_on =
-        format!("{} of {all} points are kept, and the same command goes on with the others", rows.len());
-    written.map_err(|e| Error::new(e.status, format!("{e}; {goes_on}")))?;
-    let table = Table::new(&args.vary, &rows);
-    if rows.len() < all {
-        write_csv(&args.out.join(store::UNFINISHED), table.csv())?;
-        terminal::print(&format!("interrupted: {goes_on}\ntable so far: {}\n", store::UNFINISHED))?;
-        return Ok(ExitCode::from(INTERRUPTED));
-    }
-    let files = sweep.write(&table, &rows)?;
-    let failed: Vec<&(usize, Row)> = rows.iter().filter(|(_, row)| row.error.is_some()).collect();
-    let untrusted = rows.iter().filter(|(_, row)| row.trusted == Some(false)).count();
-    terminal::print(&format!(
-        "{} complete, {} failed, {untrusted} not to be trusted\nfiles: {}: {}\n",
-        all - failed.len(),
-        failed.len(),
-        args.out.display(),
-        files.join(", ")
-    ))?;
-    if let Some((point, row)) = failed.first() {
-        let (_, why) = row.error.clone().unwrap_or_default();
-        let text = format!(
-            "{} of {all} points failed; point {point} ({}): {why}",
-            failed.len(),
-            sweep.in_words(*point)
-        );
-        terminal::complain(&in_file(&args.scene, Error::new(Status::BadScene, text)));
-        return Ok(ExitCode::FAILURE);
-    }
-    Ok(if untrusted > 0 { ExitCode::from(run::UNTRUSTED) } else { ExitCode::SUCCESS })
+    let store = Store::open(&args.out, &to_json(&sweep.identity()?)?)?;
+    let stored = sweep.own().filter_map(|point| Some((point, store.row(point, &sweep.points[point])?)));
+    let rows = stored.collect();
+    sweep.complete(&store, rows)
 }
 
 impl<'a> Sweep<'a> {
     /// Checks that every varied value is one of the scene, and that some point can be simulated.
-    fn new(args: &'a SweepArgs) -> Result<Self> {
+    fn new(args: &'a SweepArgs, text: String) -> Result<Self> {
         let varied = |path: &str| args.vary.iter().any(|one| one.path == path);
         let doubled = |given: bool, path: &str, option: &str| {
             let text = format!("--vary: {path} is what {option} replaces, too");
@@ -100,7 +78,11 @@ impl<'a> Sweep<'a> {
         doubled(args.preset.is_some(), "solver.preset", "--preset")?;
         args.sets.pairs().try_for_each(|(path, _)| doubled(true, path, "--set"))?;
         let points = points(&args.vary, args.latin, args.seed)?;
-        let sweep = Self { args, text: run::read(&args.scene)?, points };
+        if let Some(part) = args.part.filter(|part| part.count > points.len()) {
+            let text = format!("--part: {part} of {} points; at most as many parts as points", points.len());
+            return Err(Error::new(Status::BadValue, text));
+        }
+        let sweep = Self { args, text, points };
         let (mut first, mut valid, mut listed) = (None, false, HashSet::new());
         for (point, values) in sweep.points.iter().enumerate() {
             // What is no value of the scene is one of a list; it is told before the first run.
@@ -120,6 +102,57 @@ impl<'a> Sweep<'a> {
         Err(in_file(&args.scene, Error::new(e.status, text)))
     }
 
+    /// Runs what is not among these rows, and writes the table of all.
+    fn complete(&self, store: &Store, mut rows: Vec<(usize, Row)>) -> Result<ExitCode> {
+        let all = self.own().count();
+        let part = self.args.part.map_or(String::new(), |part| format!("part {part}: "));
+        terminal::print(&format!("{part}{all} points, {} of them done\n", rows.len()))?;
+        let written = self.run(store, &mut rows);
+        rows.sort_by_key(|(i, _)| *i);
+        let goes_on =
+            format!("{} of {all} points are kept, and the same command goes on with the others", rows.len());
+        written.map_err(|e| Error::new(e.status, format!("{e}; {goes_on}")))?;
+        let table = Table::new(&self.args.vary, &rows);
+        if rows.len() < all {
+            write_csv(&self.args.out.join(store::UNFINISHED), table.csv())?;
+            terminal::print(&format!("interrupted: {goes_on}\ntable so far: {}\n", store::UNFINISHED))?;
+            return Ok(ExitCode::from(INTERRUPTED));
+        }
+        let files = self.write(&table, &rows)?;
+        self.tell(&rows, &files)
+    }
+
+    /// Prints how the points ended, and which files there are.
+    fn tell(&self, rows: &[(usize, Row)], files: &[&str]) -> Result<ExitCode> {
+        let all = rows.len();
+        let failed: Vec<&(usize, Row)> = rows.iter().filter(|(_, row)| row.error.is_some()).collect();
+        let untrusted = rows.iter().filter(|(_, row)| row.trusted == Some(false)).count();
+        terminal::print(&format!(
+            "{} complete, {} failed, {untrusted} not to be trusted\nfiles: {}: {}\n",
+            all - failed.len(),
+            failed.len(),
+            self.args.out.display(),
+            files.join(", ")
+        ))?;
+        if let Some((point, row)) = failed.first() {
+            let (_, why) = row.error.clone().unwrap_or_default();
+            let text = format!(
+                "{} of {all} points failed; point {point} ({}): {why}",
+                failed.len(),
+                self.in_words(*point)
+            );
+            terminal::complain(&in_file(&self.args.scene, Error::new(Status::BadScene, text)));
+            return Ok(ExitCode::FAILURE);
+        }
+        Ok(if untrusted > 0 { ExitCode::from(run::UNTRUSTED) } else { ExitCode::SUCCESS })
+    }
+
+    /// The points that are run here: those of the part, or all.
+    fn own(&self) -> impl Iterator<Item = usize> {
+        let part = self.args.part;
+        (0..self.points.len()).filter(move |point| part.is_none_or(|part| part.has(*point)))
+    }
+
     /// The scene of a point.
     fn scene(&self, values: &[String]) -> Result<Scene> {
         let until = self.args.until.map(|until| format!("{until:?}"));
@@ -132,14 +165,15 @@ impl<'a> Sweep<'a> {
         Ok(scene)
     }
 
-    /// All that the results depend on.
+    /// All that the results depend on, and which part of them is made.
     fn identity(&self) -> Result<Value> {
         let scene: Value = serde_json::from_str(self.text.trim_start_matches('\u{feff}'))
             .map_err(|e| in_file(&self.args.scene, Error::new(Status::BadJson, e.to_string())))?;
-        Ok(json!({
-            "schema": "cagedyn.sweep/2",
-            "version": env!("CARGO_PKG_VERSION"),
-            "build": env!("CAGEDYN_BUILD"),
+        let [schema, version, build] = PROGRAM.map(|(_, value)| value);
+        let mut identity = json!({
+            "schema": schema,
+            "version": version,
+            "build": build,
             "scene": scene,
             "set": self.sets(),
             "vary": self.args.vary.iter().map(|one| &one.given).collect::<Vec<_>>(),
@@ -147,7 +181,12 @@ impl<'a> Sweep<'a> {
             "seed": self.args.latin.map(|_| self.args.seed),
             "until": self.args.until,
             "preset": self.args.preset.map(|preset| preset.name()),
-        }))
+        });
+        if let Some(part) = self.args.part {
+            identity[PART] = json!(part.to_string());
+            identity[SCENE_FILE] = json!(self.args.scene.file_name().map(|name| name.to_string_lossy()));
+        }
+        Ok(identity)
     }
 
     fn sets(&self) -> Vec<String> {
@@ -164,7 +203,7 @@ impl<'a> Sweep<'a> {
     fn run(&self, store: &Store, rows: &mut Vec<(usize, Row)>) -> Result<()> {
         let order = self.order(rows);
         let failed = rows.iter().filter(|(_, row)| row.error.is_some()).count();
-        let together = Together::new(self.points.len(), rows.len(), failed);
+        let together = Together::new(self.own().count(), rows.len(), failed);
         let work = |point: usize| {
             if terminal::stop_requested() {
                 return None;
@@ -191,7 +230,7 @@ impl<'a> Sweep<'a> {
     fn order(&self, rows: &[(usize, Row)]) -> Vec<usize> {
         let mut done = vec![false; self.points.len()];
         rows.iter().for_each(|(point, _)| done[*point] = true);
-        let left: Vec<usize> = (0..done.len()).filter(|point| !done[*point]).collect();
+        let left: Vec<usize> = self.own().filter(|point| !done[*point]).collect();
         if left.len() > ORDERED {
             return left;
         }
@@ -247,9 +286,20 @@ impl<'a> Sweep<'a> {
         matches!(&self.args.vary[..], [one] if one.values.numeric())
     }
 
-    /// Writes tables and pictures; names of the files.
+    /// Writes tables and pictures, of a part its table alone; names of the files.
     fn write(&self, table: &Table, rows: &[(usize, Row)]) -> Result<Vec<&'static str>> {
         let folder = &self.args.out;
+        let files = match self.args.part {
+            Some(_) => {
+                write_csv(&folder.join(store::PART_TABLE), table.csv()).map(|()| vec![store::PART_TABLE])
+            }
+            None => self.write_all(folder, table, rows),
+        }?;
+        std::fs::remove_file(folder.join(store::UNFINISHED)).ok();
+        Ok(files)
+    }
+
+    fn write_all(&self, folder: &Path, table: &Table, rows: &[(usize, Row)]) -> Result<Vec<&'static str>> {
         write_csv(&folder.join(store::TABLE), table.csv())?;
         let columns = table.parquet();
         write_with(&folder.join(store::PARQUET), |file| parquet::write(file, table.length(), &columns))?;
@@ -268,7 +318,6 @@ impl<'a> Sweep<'a> {
             write_text(&folder.join(store::WATERFALL), &pictures::waterfall(&title, self.args, rows)?)?;
             files.extend([store::SPECTRA, store::WATERFALL]);
         }
-        std::fs::remove_file(folder.join(store::UNFINISHED)).ok();
         Ok(files)
     }
 }

@@ -10,11 +10,11 @@ use std::path::{Path, PathBuf};
 /// Name of the file that a program holds while it adds records.
 const LOCK: &str = "lock";
 
-/// The records that this program has for itself.
+/// The records, which this program has for itself if it adds some.
 pub struct Records {
     folder: PathBuf,
     /// Held as long as this lives.
-    _lock: File,
+    _lock: Option<File>,
 }
 
 impl Records {
@@ -30,7 +30,12 @@ impl Records {
             let outside = folder.parent().unwrap_or(folder);
             return Err(file_error(outside, format!("another {of} is writing to this folder")));
         }
-        Ok(Self { folder: folder.to_owned(), _lock: file })
+        Ok(Self { folder: folder.to_owned(), _lock: Some(file) })
+    }
+
+    /// The records of a folder that others may add to, and that may have none.
+    pub fn read(folder: &Path) -> Self {
+        Self { folder: folder.to_owned(), _lock: None }
     }
 
     fn path(&self, name: &str) -> PathBuf {

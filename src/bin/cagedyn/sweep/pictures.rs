@@ -1,7 +1,7 @@
 //! What the pictures of a sweep show: curves and spectra over one value, maps over two.
 
+use super::args::SweepArgs;
 use super::grid::plain_text;
-use crate::SweepArgs;
 use crate::plots::sweep::{self, Abscissa, Cell, Curves, Map, Mark, Spectra, lines, maps};
 use crate::points::Row;
 use crate::points::columns::whirls;
