@@ -325,7 +325,8 @@ impl Instance {
     pub fn do_step(&mut self, current: f64, step: f64) -> Result<f64> {
         self.in_mode(&[Mode::Step])?;
         let here = self.time();
-        if !((current - here).abs() <= SAME_TIME * (1.0 + here.abs())) {
+        let same = (current - here).abs() <= SAME_TIME * (1.0 + here.abs());
+        if !same {
             let text = format!(
                 "currentCommunicationPoint: {current:?} s is not the time {here:?} s of the instance"
             );

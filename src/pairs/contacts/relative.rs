@@ -125,7 +125,6 @@ pub(in crate::pairs) fn add_slopes<P: Kinematics>(
     let mate = pair.info().mate;
     let speeding = sums.speeding(mate);
     let warming = sums.ln_viscosity_rate;
-    let slopes = &batch.slopes;
     let moving = sums.moving(mate) != [[0.0; 2]; 2];
     let turning = sums.rates.angles.get(mate).copied().filter(|_| pair.waves(motions, 0).is_some());
     let changing = speeding != 0.0 || warming != 0.0 || moving || turning.is_some() || sums.layout.count == 0;
@@ -136,7 +135,7 @@ pub(in crate::pairs) fn add_slopes<P: Kinematics>(
             Chain::<P, $wavy> {
                 pair,
                 batch,
-                slopes,
+                slopes: &batch.slopes,
                 contacts,
                 first,
                 mate,
@@ -372,6 +371,8 @@ fn on_element<T: Numeric>(grip: &Grip<T>, forces: [T; FORCES]) -> [T; 3] {
 
 /// Derivatives of a wrench over the coordinates of element and mate, which are seen in the axes of the element, and over time.
 type Rows<S, const K: usize> = [[Pack<S, K>; 3]; ContactColumns::COUNT];
+/// Derivatives over the spin angles of elements, and the rate of the angle of their mate, rad/s.
+type Turned<S, const K: usize> = ([Pack<S, K>; 3], f64);
 /// Columns of the radial offset, and of the place of the mate.
 const OFFSET: usize = ContactColumns::OFFSET;
 const PLACE: usize = ContactColumns::PLACE;
@@ -409,7 +410,7 @@ fn chain<S: Simd, const K: usize>(
     at: &Beside<Pack<S, K>>,
     frame: Frame<Pack<S, K>>,
     own: &[Varied<Pack<S, K>>; 3],
-    (warming, speeding, turned): (&[Pack<S, K>; 3], f64, Option<([Pack<S, K>; 3], f64)>),
+    (warming, speeding, turned): (&[Pack<S, K>; 3], f64, Option<Turned<S, K>>),
     out: &mut ContactColumns,
     lane: usize,
 ) -> Rows<S, K> {

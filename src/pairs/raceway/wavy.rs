@@ -77,7 +77,7 @@ impl<T: Numeric> Seen<T> {
         grip: &mut Grip<T>,
     ) {
         let [of_raceway, of_roller] = wave.slopes;
-        motion.delta = motion.delta + wave.height;
+        motion.delta += wave.height;
         motion.delta_dot =
             motion.delta_dot + of_raceway * (self.turning - ring) + of_roller * (self.turning - roller);
         let (steep, tangent) = ((of_raceway + of_roller) * side / self.distance, grip.tangent());
