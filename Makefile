@@ -178,6 +178,11 @@ roller-space: tools
 waviness: tools
 	$(CARGO) run --release --locked --package cagedyn-studies --bin waviness -- --docs
 
+rotor-ross: tools out/rotor-venv/ready
+	$(CARGO) build --release --locked --lib
+	CAGEDYN_LIBRARY=$(abspath $(BUILT)/libcagedyn.so) PYTHONPATH=python OPENBLAS_NUM_THREADS=1 \
+		$(ROTOR_PYTHON) python/examples/rotor_ross docs/results/rotor-ross.md
+
 effects: tools
 	$(CARGO) run --release --locked --package cagedyn-studies --bin effects -- --docs
 
