@@ -12,45 +12,34 @@ pub(super) struct Slopes {
 }
 
 impl Instance {
-    /// Writes the derivatives of unknowns, outputs and rates, along a direction of knowns, inputs and states.
+    /// Writes derivatives of unknowns, outputs and rates, over knowns, inputs and states: along a direction of the knowns, or if `adjoint`
+    /// what a seed over the unknowns is over each of the knowns.
     ///
     /// # Errors
     /// [`Status::BadIndex`]; [`Status::BadValue`] for other variables; as [`crate::Sim::output_jacobian`]. `out` is then unchanged.
-    pub fn directional_derivative(
+    pub fn derivative_along(
         &mut self,
-        unknowns: &[u32],
-        knowns: &[u32],
+        [unknowns, knowns]: [&[u32]; 2],
         seed: &[f64],
+        adjoint: bool,
         out: &mut [f64],
     ) -> Result<()> {
-        let found = self.along(unknowns, knowns, |entry, i, k| (i, entry * seed[k]))?;
-        out.copy_from_slice(&sums(unknowns.len(), found));
+        let mut sums = vec![0.0; out.len()];
+        self.each_derivative(unknowns, knowns, |entry, i, k| {
+            let (to, from) = if adjoint { (k, i) } else { (i, k) };
+            sums[to] += entry * seed[from];
+        })?;
+        out.copy_from_slice(&sums);
         Ok(())
     }
 
-    /// Writes what a seed over the unknowns is over each of the knowns: the same derivatives the other way round.
-    ///
-    /// # Errors
-    /// As [`Instance::directional_derivative`].
-    pub fn adjoint_derivative(
+    /// Tells every derivative by the places of unknown and known.
+    fn each_derivative(
         &mut self,
         unknowns: &[u32],
         knowns: &[u32],
-        seed: &[f64],
-        out: &mut [f64],
+        mut tell: impl FnMut(f64, usize, usize),
     ) -> Result<()> {
-        let found = self.along(unknowns, knowns, |entry, i, k| (k, entry * seed[i]))?;
-        out.copy_from_slice(&sums(knowns.len(), found));
-        Ok(())
-    }
-
-    /// What `part` makes of every derivative, by the places of unknown and known.
-    fn along<T>(
-        &mut self,
-        unknowns: &[u32],
-        knowns: &[u32],
-        part: impl Fn(f64, usize, usize) -> T,
-    ) -> Result<Vec<T>> {
         let kinds = |list: &[u32]| {
             list.iter()
                 .map(|reference| Ok(self.unit.variable(*reference)?.kind))
@@ -62,8 +51,7 @@ impl Instance {
             self.found.slopes = Some(slopes);
         }
         let (states, outputs) = (self.state_count(), self.unit.model.channels().len());
-        let Some(slopes) = &self.found.slopes else { return Ok(Vec::new()) };
-        let mut found = Vec::with_capacity(unknowns.len() * knowns.len());
+        let Some(slopes) = &self.found.slopes else { return Ok(()) };
         for (i, unknown) in unknowns.iter().enumerate() {
             for (k, known) in knowns.iter().enumerate() {
                 let (over, column) = match known {
@@ -76,10 +64,10 @@ impl Instance {
                     Kind::Output(row) => slopes.outputs[over][column * outputs + row],
                     _ => return Err(refused("unknowns", "rates and outputs")),
                 };
-                found.push(part(entry, i, k));
+                tell(entry, i, k);
             }
         }
-        Ok(found)
+        Ok(())
     }
 
     fn slopes(&mut self) -> Result<Slopes> {
@@ -101,12 +89,4 @@ impl Instance {
 
 fn refused(argument: &str, allowed: &str) -> Error {
     Error::new(Status::BadValue, format!("{argument}: derivatives are of {allowed} only"))
-}
-
-fn sums(length: usize, parts: Vec<(usize, f64)>) -> Vec<f64> {
-    let mut out = vec![0.0; length];
-    for (place, value) in parts {
-        out[place] += value;
-    }
-    out
 }

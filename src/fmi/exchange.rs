@@ -98,11 +98,8 @@ impl Instance {
         match self.interface {
             Interface::CoSimulation => self.sim()?.input(k),
             Interface::ModelExchange => {
-                self.sim()?;
-                self.hold_inputs()?;
-                let time = self.exchange.time;
-                let sim = self.sim()?;
-                sim.input_elsewhere(k, time)
+                let (time, _) = self.prepare()?;
+                self.sim()?.input_elsewhere(k, time)
             }
         }
     }

@@ -127,21 +127,24 @@ impl Instance {
     /// Goes from one mode to another.
     ///
     /// # Errors
-    /// [`Status::BadValue`] in another mode.
+    /// [`Status::BadValue`] from a mode that does not lead there, or for a mode that this interface has not.
     pub fn enter(&mut self, mode: Mode) -> Result<()> {
-        let (here, allowed) = match (self.interface, mode) {
-            (Interface::CoSimulation, Mode::Event) => (mode, &[Mode::Step, Mode::Event][..]),
-            (Interface::CoSimulation, Mode::Step) => (mode, &[Mode::Step, Mode::Event][..]),
-            (Interface::ModelExchange, Mode::Event) => (mode, &[Mode::Continuous, Mode::Event][..]),
-            (Interface::ModelExchange, Mode::Continuous) => (mode, &[Mode::Event][..]),
-            (_, Mode::Terminated) => (mode, &[Mode::Step, Mode::Event, Mode::Continuous][..]),
-            _ => (self.mode, &[][..]),
-        };
-        self.in_mode(allowed)?;
-        if self.interface == Interface::ModelExchange && mode != Mode::Terminated {
+        use Mode::{Continuous, Event, Step, Terminated};
+        let exchange = self.interface == Interface::ModelExchange;
+        self.in_mode(match (exchange, mode) {
+            (false, Event | Step) => &[Step, Event],
+            (true, Event) => &[Continuous, Event],
+            (true, Continuous) => &[Event],
+            (_, Terminated) => &[Step, Event, Continuous],
+            _ => {
+                let text = format!("{:?} has no mode {mode:?}", self.interface);
+                return Err(Error::new(Status::BadValue, text));
+            }
+        })?;
+        if exchange && mode != Terminated {
             self.commit()?;
         }
-        self.mode = here;
+        self.mode = mode;
         Ok(())
     }
 

@@ -13,7 +13,6 @@ use crate::error::{Error, Result, Status};
 use crate::model::{HostInputs, Model};
 use crate::scene::{Scene, set_path};
 use serde_json::Value;
-use std::collections::HashSet;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::Path;
 use std::sync::Arc;
@@ -144,17 +143,14 @@ impl Unit {
             add(Kind::Parameter(k), format!("scene.{path}"), "", "number of the scene", Some(*value));
         }
         let at_start = self.model.inputs_at(0.0, &HostInputs::default());
-        let mut names = HashSet::new();
-        for (k, (info, input)) in
-            self.model.input_infos().into_iter().zip(self.model.input_list()).enumerate()
-        {
+        let inputs = self.model.input_infos();
+        for (k, (info, input)) in inputs.iter().zip(self.model.input_list()).enumerate() {
             let start = Some(at_start.of(input));
             add(Kind::Input(k), info.name.clone(), info.unit, info.description, start);
-            names.insert(info.name);
         }
         for (k, channel) in self.model.channels().iter().enumerate() {
             // The place of a ring that the host moves is an input already.
-            if !names.contains(&channel.name) {
+            if inputs.iter().all(|input| input.name != channel.name) {
                 add(Kind::Output(k), channel.name.clone(), channel.unit, channel.description, None);
             }
         }

@@ -167,10 +167,10 @@ pub fn move_rings(scene: &mut Value, parts: Parts, i: usize) {
     }
 }
 
-/// Gives raceways and single rollers of a scene waves, one after the other, as often as not none.
-pub fn roughen(scene: &mut Value, parts: Parts, i: usize) {
+/// Gives raceways and single rollers of a scene waves, one after the other, as often as not none; whether it has any.
+pub fn roughen(scene: &mut Value, parts: Parts, i: usize) -> bool {
     if !parts.rollers {
-        return;
+        return false;
     }
     let waves = json!([{"order": 2, "amplitude": 4e-6, "phase": 0.7}, {"order": 13, "amplitude": -6e-7, "phase": -0.2}]);
     let table =
@@ -192,8 +192,9 @@ pub fn roughen(scene: &mut Value, parts: Parts, i: usize) {
             scene["inner_ring"]["waviness"] = waves;
             scene["rollers"]["waviness"] = rollers;
         }
-        _ => {}
+        _ => return false,
     }
+    true
 }
 
 /// Sixteen rollers in the place of the cage, with half a micrometre between neighbours.

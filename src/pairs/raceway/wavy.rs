@@ -118,13 +118,19 @@ impl Wavy {
         mate: usize,
         j: usize,
     ) -> [[f64; 3]; 2] {
-        let (seen, of_ring, of_roller) =
-            (place(geometry, motions, mate, j).0, motions.shared[mate].angle, motions.spin_angle(j));
+        self.seen_under(&place(geometry, motions, mate, j).0, motions, mate, j)
+    }
+
+    /// The same with the roller as it is seen from the ring.
+    fn seen_under(&self, seen: &Seen<f64>, motions: &Motions, mate: usize, j: usize) -> [[f64; 3]; 2] {
         let [x, y] = seen.outwards;
         let phi = motions.azimuth(j) + math::atan2(y, x);
         let alpha = if mate == OUTER_RING { phi } else { phi + PI };
         let at = |waves: &Option<Waves>, angle: f64| waves.as_ref().map_or([0.0; 3], |waves| waves.at(angle));
-        [at(&self.raceway, phi - of_ring), at(&self.rollers[j], alpha - of_roller)]
+        [
+            at(&self.raceway, phi - motions.shared[mate].angle),
+            at(&self.rollers[j], alpha - motions.spin_angle(j)),
+        ]
     }
 
     /// Puts the contact of roller `j` with the raceway of `mate` on its waves.
@@ -135,9 +141,9 @@ impl Wavy {
         (mate, j): (usize, usize),
         (motion, grip): (&mut ContactMotion<f64>, &mut Grip<f64>),
     ) {
-        let [raceway, roller] = self.under(geometry, motions, mate, j);
-        let wave = Wave { height: raceway[0] + roller[0], slopes: [raceway[1], roller[1]] };
         let (seen, spin) = place(geometry, motions, mate, j);
+        let [raceway, roller] = self.seen_under(&seen, motions, mate, j);
+        let wave = Wave { height: raceway[0] + roller[0], slopes: [raceway[1], roller[1]] };
         seen.put_on(&wave, side(mate), [motions.shared[mate].speed, spin], motion, grip);
     }
 

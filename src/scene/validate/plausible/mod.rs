@@ -17,7 +17,8 @@ use serde_json::Value;
 impl Scene {
     /// Values that are legal and unlikely, one line for each: JSON path, value, why, and the unit that may have been meant.
     pub fn warnings(&self) -> Vec<String> {
-        let Ok(value) = serde_json::to_value(self) else { return Vec::new() };
+        // By way of the text: a second writer of scenes would be as large as the first.
+        let Ok(value) = serde_json::from_str(&self.to_json()) else { return Vec::new() };
         let mut told: Vec<(String, String)> = Vec::new();
         for (pattern, usual) in NUMBERS {
             at(&value, pattern, String::new(), &mut |path, number| {
