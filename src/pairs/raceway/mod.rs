@@ -241,9 +241,6 @@ impl Kinematics for Raceway {
             OUTER_RING => self.geometry.outer_beside(&roller, &ring),
             _ => self.geometry.inner(&roller, &ring),
         };
-        if at.waves.is_none() {
-            return VariedContact { motion, edge_share: None, over_spin_angle: None, grip };
-        }
         self.on_waves(at, &Seen::new(&self.geometry, &roller, &ring), spin_speed, (motion, grip))
     }
 }
