@@ -14,6 +14,12 @@ pub use pack::{Columns, Lanes, Pack, WIDEST, ZEROS, blocks_for, dispatch, one_by
 
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Sub, SubAssign};
 
+/// Whether all numbers are finite. It looks at all of them, so that several are looked at at once.
+#[inline]
+pub fn all_finite(numbers: &[f64]) -> bool {
+    numbers.iter().fold(true, |finite, x| finite & x.is_finite())
+}
+
 /// One real number or several side by side, with or without derivatives.
 ///
 /// Comparisons look at values, not at derivatives.

@@ -490,6 +490,9 @@ impl Observed for Bearing {
         let stored = self.start_energy?;
         let work = |power: Power| before[power as usize] + last[power as usize];
         let given = work(Power::GuideFilm);
+        if given <= stored {
+            return None;
+        }
         let came = Power::ALL.into_iter().filter(|power| !power.is_lost()).map(|power| work(power).max(0.0));
         let available = stored + came.sum::<f64>();
         (given > available).then_some(Fault::EnergyCreated { given, available })

@@ -79,7 +79,8 @@ impl RunLimits {
         if self.canceller.0.load(Ordering::Relaxed) {
             return Some(Interruption::Cancelled);
         }
-        (Instant::now() >= self.deadline?).then_some(Interruption::OutOfTime)
+        let deadline = self.deadline?;
+        (Instant::now() >= deadline).then_some(Interruption::OutOfTime)
     }
 
     /// Whether to stop before the next attempted step. A request is spent with that.

@@ -72,16 +72,10 @@ pub(crate) struct Element {
 }
 
 impl Element {
-    /// Speeds in the local frame, m/s and rad/s, that are these rates of the coordinates: radial, across, spin.
-    #[inline]
-    pub(crate) fn local_speeds(&self, [radial, orbit, spin]: [f64; OF_ELEMENT]) -> [f64; OF_ELEMENT] {
-        [radial, self.radius * orbit, spin]
-    }
-
     /// Power of a wrench in the local frame, W.
     pub(crate) fn power(&self, wrench: &Wrench<f64>) -> f64 {
         let m = &self.motion;
-        let speeds = self.local_speeds([m.radial_speed, m.orbit_speed, m.spin_speed]);
+        let speeds = [m.radial_speed, self.radius * m.orbit_speed, m.spin_speed];
         wrench.components().iter().zip(speeds).map(|(force, speed)| force * speed).sum()
     }
 }
@@ -204,6 +198,13 @@ impl Motions {
     pub(crate) fn frame(&self, j: usize) -> Frame<f64> {
         let (block, lane) = place_of(j);
         self.blocks[block].frame.of(lane)
+    }
+
+    /// Distance of element `j` from the centre, m.
+    #[inline(always)]
+    pub(crate) fn radius(&self, j: usize) -> f64 {
+        let (block, lane) = place_of(j);
+        self.pitch_radius + self.blocks[block].motion.radial_offset[lane]
     }
 
     /// Element `j`.

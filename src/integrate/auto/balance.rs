@@ -8,12 +8,11 @@ use crate::stored::stored;
 
 /// Energy that passed through a system, J: all that came in by work, or was stored before and is no longer.
 pub fn throughput(works: impl IntoIterator<Item = f64>, gains: impl IntoIterator<Item = f64>) -> f64 {
-    let sources = works.into_iter().chain(gains.into_iter().map(|x| -x));
-    let [came, went] = sources.fold(
-        [0.0, 0.0],
-        |[came, went]: [f64; 2], x| if x > 0.0 { [came + x, went] } else { [came, went - x] },
-    );
-    came.max(went)
+    let [mut came, mut went] = [0.0, 0.0];
+    let mut add = |x: f64| (came, went) = (came + x.max(0.0), went - x.min(0.0));
+    works.into_iter().for_each(&mut add);
+    gains.into_iter().for_each(|gain| add(-gain));
+    f64::max(came, went)
 }
 
 /// Works and gains of stored energy over some time, J.

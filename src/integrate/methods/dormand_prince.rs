@@ -85,14 +85,20 @@ impl DormandPrince {
         state: &[f64],
         a: &mut [f64],
         rate: &mut [f64],
-        powers: &mut [f64],
     ) -> Result<(), S::Fault> {
         let (q, v) = state.split_at(positions);
         system.accelerations(t, q, v, a)?;
         rate[..positions].copy_from_slice(&v[..positions]);
         rate[positions..].copy_from_slice(a);
-        system.powers(q, v, None, powers);
         Ok(())
+    }
+}
+
+/// Sums of vectors with these weights, element by element.
+fn weigh(vectors: &[Vec<f64>], weights: &[f64], out: &mut [f64]) {
+    out.fill(0.0);
+    for (x, weight) in vectors.iter().zip(weights) {
+        add_weighted(out, *weight, x);
     }
 }
 
@@ -116,20 +122,26 @@ impl<S: Observed> Stepper<S> for DormandPrince {
 
     fn refresh(&mut self, system: &mut S, t: f64) -> Result<(), S::Fault> {
         let Self { positions, state, a, k, powers, .. } = self;
-        Self::rate(system, t, *positions, state, a, &mut k[0], &mut powers[0])
+        Self::rate(system, t, *positions, state, a, &mut k[0])?;
+        let (q, v) = state.split_at(*positions);
+        system.powers(q, v, None, &mut powers[0]);
+        Ok(())
     }
 
     fn attempt(&mut self, system: &mut S, t: f64, h: f64, t_last: f64) -> Result<Option<Estimate>, S::Fault> {
-        let n = self.state.len();
         for stage in 1..7 {
             let (done, rest) = self.k.split_at_mut(stage);
-            for i in 0..n {
-                let sum: f64 = done.iter().zip(&A[stage]).map(|(k, a)| a * k[i]).sum();
-                self.trial[i] = self.state[i] + h * sum;
+            weigh(done, &A[stage], &mut self.trial);
+            for (trial, start) in self.trial.iter_mut().zip(&self.state) {
+                *trial = start + h * *trial;
             }
             let time = (t + C[stage] * h).min(t_last);
-            let (a, powers) = (&mut self.a, &mut self.powers[stage]);
-            Self::rate(system, time, self.positions, &self.trial, a, &mut rest[0], powers)?;
+            Self::rate(system, time, self.positions, &self.trial, &mut self.a, &mut rest[0])?;
+            // Those of the last stage are the first ones of the next step.
+            if stage == 6 || A[6][stage] != 0.0 {
+                let (q, v) = self.trial.split_at(self.positions);
+                system.powers(q, v, None, &mut self.powers[stage]);
+            }
             if let Some(place) = SAMPLED.iter().position(|s| *s == stage)
                 && let Some(row) = self.samples.row(place)
             {
@@ -142,17 +154,18 @@ impl<S: Observed> Stepper<S> for DormandPrince {
         for (x, weight) in self.powers.iter().zip(A[6]) {
             add_weighted(&mut self.works, h * weight, x);
         }
-        for i in 0..n {
-            let weighted = |w: &[f64; 7]| -> f64 { self.k.iter().zip(w).map(|(k, w)| w * k[i]).sum() };
+        let [d2, d3, d4] = &mut self.trial_dense;
+        // The room of the last one holds the error first.
+        weigh(&self.k, &E, d4);
+        let estimate = self.norm.of(|i| h * d4[i]);
+        weigh(&self.k, &D, d4);
+        for i in 0..self.state.len() {
             let change = self.trial[i] - self.state[i];
-            let bend = h * self.k[0][i] - change;
-            let [d2, d3, d4] = &mut self.trial_dense;
-            d2[i] = bend;
-            d3[i] = change - h * self.k[6][i] - bend;
-            d4[i] = h * weighted(&D);
+            d2[i] = h * self.k[0][i] - change;
+            d3[i] = change - h * self.k[6][i] - d2[i];
+            d4[i] *= h;
         }
-        let k = &self.k;
-        Ok(Some(self.norm.of(|i| h * k.iter().zip(&E).map(|(k, w)| w * k[i]).sum::<f64>())))
+        Ok(Some(estimate))
     }
 
     fn accept(&mut self) {

@@ -22,7 +22,7 @@ use crate::integrate::methods::damping::{VectorLanes, zero_vectors};
 use crate::integrate::{
     Applied, GroupDamping, Kept, Observed, Samples, SemiImplicit, Split, Stepper, Structure, zero_works,
 };
-use crate::scalar::WIDEST;
+use crate::scalar::{WIDEST, all_finite};
 use crate::stored::stored;
 use pulp::Arch;
 
@@ -111,6 +111,22 @@ fn interpolate(positions: usize, h: f64, start: &[f64], end: &[f64], theta: f64,
     }
 }
 
+/// Velocities at the end of a step of `h` s with these mean accelerations, and their mean.
+fn step_on(v: &[f64], a: &[f64], h: f64, end: &mut [f64], mean: &mut [f64]) {
+    for (((v, a), end), mean) in v.iter().zip(a).zip(end).zip(mean) {
+        *end = v + h * a;
+        *mean = v + 0.5 * h * a;
+    }
+}
+
+/// The fault of an acceleration that is not finite, if there is one.
+fn check_finite<S: Split<N>, const N: usize>(system: &S, a: &[f64]) -> Result<(), S::Fault> {
+    if all_finite(a) {
+        return Ok(());
+    }
+    Err(system.not_finite(a.iter().position(|a| !a.is_finite()).unwrap_or_default()))
+}
+
 impl<S: Split<N> + Observed, const N: usize> Stepper<S> for Leapfrog<N> {
     fn set_state(&mut self, state: &[f64]) {
         self.start.copy_from_slice(state);
@@ -152,28 +168,17 @@ impl<S: Split<N> + Observed, const N: usize> Stepper<S> for Leapfrog<N> {
             }
         }
         self.damping.solve_spokes(h, ahead, known, self.instructions);
-        let mut end_of = |i: usize, a: f64| {
-            self.trial_a[i] = a;
-            v_trial[i] = v[i] + h * a;
-            self.mean_v[i] = v[i] + half * a;
-        };
-        // Zero, or NaN if one is not finite.
-        let mut nothing = 0.0;
+        self.trial_a.copy_from_slice(&self.a);
         for (spokes, known) in self.structure.spokes.chunks(WIDEST).zip(known.iter()) {
             for (lane, at) in spokes.iter().enumerate().take(WIDEST) {
                 for (k, &i) in at.iter().enumerate() {
-                    end_of(i, known[k][lane]);
-                    nothing += 0.0 * known[k][lane];
+                    self.trial_a[i] = known[k][lane];
                 }
             }
         }
+        step_on(v, &self.trial_a, h, v_trial, &mut self.mean_v);
+        check_finite(system, &self.trial_a)?;
         let Structure { hub, bodies, .. } = &self.structure;
-        hub.iter().for_each(|i| end_of(*i, self.a[*i]));
-        if nothing != 0.0 {
-            let places = self.structure.spokes.iter().flatten();
-            let found = places.copied().find(|i| !self.trial_a[*i].is_finite());
-            return Err(system.not_finite(found.unwrap_or_default()));
-        }
         let step = SemiImplicit { mean: &self.mean_v, end: v_trial, h };
         if !self.structure.spokes.is_empty() {
             system.react(q_trial, &self.predicted, &step, &mut self.a);
@@ -187,14 +192,11 @@ impl<S: Split<N> + Observed, const N: usize> Stepper<S> for Leapfrog<N> {
             }
             self.damping.solve_body(body, h, ahead, right);
             for (&a, &i) in right.iter().zip(at) {
-                if !a.is_finite() {
-                    return Err(system.not_finite(i));
-                }
                 self.trial_a[i] = a;
-                v_trial[i] = v[i] + h * a;
-                self.mean_v[i] = v[i] + half * a;
             }
         }
+        step_on(v, &self.trial_a, h, v_trial, &mut self.mean_v);
+        check_finite(system, &self.trial_a)?;
         system.admit(v_trial)?;
         let step = SemiImplicit { mean: &self.mean_v, end: v_trial, h };
         system.powers(q_trial, &self.predicted, Some(&step), &mut self.works);

@@ -10,7 +10,7 @@ use crate::bodies::{
 };
 use crate::laws::contact_pair::ContactForce;
 use crate::pairs::{ContactBlock, Law};
-use crate::scalar::{ZEROS, math};
+use crate::scalar::{ZEROS, all_finite, math};
 use crate::space::{Motion, Wrench};
 
 impl Plane {
@@ -48,7 +48,7 @@ impl Plane {
         self.apply_laws(ws)?;
         self.assemble(ws, a);
         self.find_node_rates(v, ws, a);
-        if a.iter().all(|x| x.is_finite()) { Ok(()) } else { Err(self.not_finite(a, ws)) }
+        if all_finite(a) { Ok(()) } else { Err(self.not_finite(a, ws)) }
     }
 
     /// The first acceleration that is not finite.

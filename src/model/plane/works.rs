@@ -17,7 +17,7 @@ use crate::bodies::{CAGE, INNER_RING, OUTER_RING, Power, SharedBody};
 use crate::integrate::SemiImplicit;
 use crate::model::Condition;
 use crate::model::Energy;
-use crate::pairs::{Batch, ContactBlock, Loaded};
+use crate::pairs::{Batch, ContactBlock, Loaded, Site};
 use crate::space::Wrench;
 
 /// The rings, and the powers of what turns them.
@@ -130,10 +130,10 @@ impl Plane {
 
     /// Power of contact forces on elements whose motion is prescribed, W.
     fn power_on_elements(&self, ws: &Workspace) -> f64 {
-        let on_element = |contact: Loaded<'_>| {
-            ws.motions.element(contact.site.element).power(&contact.grip.wrenches(&contact.force)[0])
+        let on_element = |(site, [radial, across, moment]): (&Site, [f64; 3])| {
+            ws.motions.element(site.element).power(&Wrench { force: [radial, across], moment })
         };
-        ws.contacts.iter().map(on_element).sum()
+        ws.contacts.on_elements().map(on_element).sum()
     }
 
     /// Whether a law of contact `i` is at a floor.

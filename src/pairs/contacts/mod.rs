@@ -375,6 +375,17 @@ impl Contacts {
         (self.place[pair][0], self.ranges[pair].clone())
     }
 
+    /// The touching contacts, with their wrenches on the elements in the frames of these, N and N m.
+    #[inline]
+    pub(crate) fn on_elements(&self) -> impl Iterator<Item = (&Site, [f64; OF_ELEMENT])> {
+        self.batches.iter().flat_map(|batch| {
+            batch.sites.iter().enumerate().map(|(i, site)| {
+                let (block, lane) = batch.at(i);
+                (site, block.on_elements.each_ref().map(|column| column[lane]))
+            })
+        })
+    }
+
     /// All touching contacts.
     #[inline]
     pub(crate) fn iter(&self) -> impl Iterator<Item = Loaded<'_>> {

@@ -42,8 +42,20 @@ impl AnySlopes {
     }
 
     /// Tells row, column and value of every derivative of the rates that is not always zero.
-    pub(super) fn for_each(&self, positions: usize, tell: impl FnMut((usize, usize, f64))) {
-        any!(self, slopes => slopes.of_rates(positions).for_each(tell));
+    pub(super) fn for_each(&self, positions: usize, mut tell: impl FnMut(usize, usize, f64)) {
+        (0..positions).for_each(|i| tell(i, positions + i, 1.0));
+        any!(self, slopes => {
+            let Linearization { over_positions, over_velocities, .. } = &slopes.linearization;
+            for_each(&slopes.structure, over_positions, |row, column, value| {
+                // Spins have no position; what stands in their place is zero.
+                if column < positions {
+                    tell(positions + row, column, value);
+                }
+            });
+            for_each(&slopes.structure, over_velocities, |row, column, value| {
+                tell(positions + row, positions + column, value);
+            });
+        });
     }
 
     /// Derivatives of the accelerations over time.
@@ -67,50 +79,46 @@ impl<const N: usize> Slopes<N> {
             if part.blocks().into_iter().all(finite) {
                 continue;
             }
-            if let Some((velocity, ..)) = entries(&self.structure, part).find(|(.., x)| !x.is_finite()) {
-                return Err(Fault::NoSlope { velocity });
-            }
+            let mut first = None;
+            for_each(&self.structure, part, |velocity, _, x| {
+                first = first.or((!x.is_finite()).then_some(Fault::NoSlope { velocity }));
+            });
+            first.map_or(Ok(()), Err)?;
         }
         Ok(())
     }
-
-    /// Row, column and value of every derivative of these rates that is not always zero.
-    fn of_rates(&self, positions: usize) -> impl Iterator<Item = (usize, usize, f64)> {
-        let Linearization { over_positions, over_velocities, .. } = &self.linearization;
-        let rates = (0..positions).map(move |i| (i, positions + i, 1.0));
-        // Spins have no position; what stands in their place is zero.
-        let of_positions = entries(&self.structure, over_positions)
-            .filter(move |(_, column, _)| *column < positions)
-            .map(move |(row, column, value)| (positions + row, column, value));
-        let of_velocities = entries(&self.structure, over_velocities)
-            .map(move |(row, column, value)| (positions + row, positions + column, value));
-        rates.chain(of_positions).chain(of_velocities)
-    }
 }
 
-/// Row, column (both as velocities) and value of every entry of a matrix of this structure.
-fn entries<'a, const N: usize>(
-    structure: &'a Structure<N>,
-    matrix: &'a Arrowhead<f64, N>,
-) -> impl Iterator<Item = (usize, usize, f64)> + 'a {
-    let hub = || structure.hub.iter().copied().enumerate();
-    let within_hub =
-        hub().flat_map(move |(i, row)| hub().map(move |(k, column)| (row, column, matrix.hub[(i, k)])));
-    let with_spokes = structure.spokes.iter().enumerate().flat_map(move |(j, places)| {
-        let (own, from_hub, to_hub) = (matrix.own_of(j), matrix.from_hub_of(j), matrix.to_hub_of(j));
-        places.iter().enumerate().flat_map(move |(i, &row)| {
-            let within = places.iter().enumerate().map(move |(k, &column)| (row, column, own[k][i]));
-            let across = hub().flat_map(move |(k, shared)| {
-                [(row, shared, from_hub[k][i]), (shared, row, to_hub[i * matrix.width() + k])]
-            });
-            let beside = matrix.rim_of(j).flat_map(move |(other, columns)| {
-                let neighbour = structure.spokes[other].iter().zip(columns);
-                neighbour.map(move |(&column, slopes)| (row, column, slopes[i]))
-            });
-            within.chain(across).chain(beside)
-        })
-    });
-    within_hub.chain(with_spokes)
+/// Tells row, column (both as velocities) and value of every entry of a matrix of this structure.
+fn for_each<const N: usize>(
+    structure: &Structure<N>,
+    matrix: &Arrowhead<f64, N>,
+    mut tell: impl FnMut(usize, usize, f64),
+) {
+    let Structure { hub, spokes, .. } = structure;
+    for (i, &row) in hub.iter().enumerate() {
+        for (k, &column) in hub.iter().enumerate() {
+            tell(row, column, matrix.hub[(i, k)]);
+        }
+    }
+    for (j, places) in spokes.iter().enumerate() {
+        let (own, from_hub) = (matrix.own_of(j), matrix.from_hub_of(j));
+        let to_hub = matrix.to_hub_of(j).chunks_exact(hub.len().max(1));
+        for (&column, slopes) in places.iter().zip(own) {
+            places.iter().zip(slopes).for_each(|(&row, slope)| tell(row, column, *slope));
+        }
+        for (&column, slopes) in hub.iter().zip(from_hub) {
+            places.iter().zip(slopes).for_each(|(&row, slope)| tell(row, column, *slope));
+        }
+        for (&column, slopes) in places.iter().zip(to_hub) {
+            hub.iter().zip(slopes).for_each(|(&row, slope)| tell(row, column, *slope));
+        }
+        for (other, columns) in matrix.rim_of(j) {
+            for (&column, slopes) in spokes[other].iter().zip(columns) {
+                places.iter().zip(slopes).for_each(|(&row, slope)| tell(row, column, *slope));
+            }
+        }
+    }
 }
 
 impl Sim {
@@ -134,7 +142,7 @@ impl Sim {
         let positions = self.model().layout().positions();
         let slopes = self.slopes_at(t, state)?;
         out.fill(0.0);
-        slopes.for_each(positions, |(row, column, value)| out[column * state.len() + row] = value);
+        slopes.for_each(positions, |row, column, value| out[column * state.len() + row] = value);
         Ok(())
     }
 

@@ -20,7 +20,7 @@ impl SparsePattern {
     fn new(slopes: &AnySlopes, positions: usize) -> Self {
         let states = positions + slopes.over_time().len();
         let mut found: Vec<[usize; 2]> = Vec::new();
-        slopes.for_each(positions, |(row, column, _)| found.push([column, row]));
+        slopes.for_each(positions, |row, column, _| found.push([column, row]));
         Self::of(states, &found)
     }
 
@@ -83,7 +83,7 @@ impl Sim {
         }
         let slopes = self.slopes_at(t, state)?;
         let mut places = pattern.places.iter();
-        slopes.for_each(positions, |(.., value)| {
+        slopes.for_each(positions, |_, _, value| {
             if let Some(place) = places.next() {
                 out[*place] = value;
             }

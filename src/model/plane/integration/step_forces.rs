@@ -94,10 +94,10 @@ impl Plane {
         if let Some(step) = step {
             for j in 0..self.layout.count {
                 let (block, lane) = place_of(j);
-                let ([a, b, c], element) = (self.layout.of_element(j), motions.element(j));
-                for (changes, to) in of_elements[block].iter_mut().zip([step.mean, step.end]) {
-                    let local = element.local_speeds([to[a] - v[a], to[b] - v[b], to[c] - v[c]]);
-                    [changes[0][lane], changes[1][lane], changes[2][lane]] = local;
+                let ([a, b, c], radius) = (self.layout.of_element(j), motions.radius(j));
+                for ([radial, across, spin], to) in of_elements[block].iter_mut().zip([step.mean, step.end]) {
+                    (radial[lane], spin[lane]) = (to[a] - v[a], to[c] - v[c]);
+                    across[lane] = radius * (to[b] - v[b]);
                 }
             }
         }
