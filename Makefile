@@ -22,6 +22,7 @@
 # make statistics  long runs of all methods in their statistics: docs/results/statistics.md
 # make accuracy  what accuracy costs in time, beside other solvers: docs/results/accuracy.md
 # make bench     time of a force evaluation and of a step, cost of roundness, throughput of cases
+# make profile   what a run spends its instructions on, counted by Valgrind: docs/results/profile.md
 # make build-times  what building and testing takes: docs/building.md; half an hour
 # make header    writes include/cagedyn.h and schemas/ anew after a change
 # make abi       commits to the ABI of the header anew, after it grew: ctests/abi
@@ -44,7 +45,7 @@ CARGO ?= cargo
 PYTHON := $(abspath out/venv/bin/python)
 
 .PHONY: check test release-check tools python-env fmt lint doc shipped quick unit abi deb run cases example figures gallery site effects second-paper cage-in-space roller-space waviness rotor-ross verify hard judge tuning ellipse-rules random statistics \
-	accuracy bench build-times header wheels wheels-test build install uninstall clean
+	accuracy bench profile build-times header wheels wheels-test build install uninstall clean
 
 # The same flags everywhere, so that nothing is built twice.
 FLAGS := --locked --workspace --all-features
@@ -209,6 +210,10 @@ tuning: tools
 # Twenty times as many random scenes as every test run has; about an hour.
 random: tools
 	PROPTEST_CASES=20000 $(CARGO) test --release --locked --test random_scenes scenes_run_or -- --nocapture
+
+# Valgrind needs to know where inlined code comes from.
+profile: tools
+	$(CARGO) run --locked --profile profiling --package cagedyn-studies --bin profile -- --docs
 
 statistics: tools
 	$(CARGO) run --release --locked --package cagedyn-studies --bin statistics -- --docs

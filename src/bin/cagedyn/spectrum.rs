@@ -154,8 +154,8 @@ impl Spectrum {
         let mut found: Vec<Peak> = Vec::new();
         for peak in all {
             let leaked = found.iter().map(|higher| self.leaked(higher, peak.frequency)).fold(0.0, f64::max);
-            let floor = (least * self.floor(peak.frequency)).max(ABOVE_LEAKAGE * leaked);
-            if peak.amplitude > floor {
+            // Cheaply told first.
+            if peak.amplitude > ABOVE_LEAKAGE * leaked && peak.amplitude > least * self.floor(peak.frequency) {
                 found.push(peak);
             }
         }
@@ -182,8 +182,8 @@ impl Spectrum {
         let zero = self.frequencies.partition_point(|f| *f <= 0.5 * self.resolution);
         let median = |from: usize, to: usize| {
             let mut side = self.amplitudes.get(from..to).unwrap_or_default().to_vec();
-            side.sort_by(f64::total_cmp);
-            side.get(side.len() / 2).copied().unwrap_or(0.0)
+            let middle = side.len() / 2;
+            if side.is_empty() { 0.0 } else { *side.select_nth_unstable_by(middle, f64::total_cmp).1 }
         };
         let sides =
             |wide: f64| [median(place(-wide).max(zero), place(-1.0)), median(place(1.0), place(wide))];

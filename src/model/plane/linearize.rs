@@ -102,7 +102,7 @@ impl Plane {
         }
         for j in 0..self.layout.count {
             let (block, lane) = place_of(j);
-            let [radial, across, moment] = ws.on_elements[block].map(|column| column[lane]);
+            let [radial, across, moment] = ws.on_elements[block].each_ref().map(|column| column[lane]);
             let on_element = &Wrench { force: [radial, across], moment };
             let element = ws.motions.element(j);
             let [k, d] = [&mut *over_positions, &mut *over_velocities].map(|part| {

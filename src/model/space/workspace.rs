@@ -84,8 +84,9 @@ pub(super) fn store<S: Simd, const K: usize, const N: usize>(
 }
 
 /// Numbers at one place of the columns.
+#[inline]
 pub(super) fn at_lane<const N: usize>(columns: &[Lanes; N], lane: usize) -> [f64; N] {
-    columns.map(|column| column[lane])
+    columns.each_ref().map(|column| column[lane])
 }
 
 impl ContactLanes {

@@ -74,7 +74,7 @@ impl LawSlopes {
     /// Derivatives of the forces of contact `i`.
     pub(in crate::pairs) fn of(&self, i: usize) -> [[f64; DIRECTIONS]; FORCES] {
         let (block, lane) = place_of(i);
-        self.0[block].map(|row| row.map(|column| column[lane]))
+        self.0[block].each_ref().map(|row| row.each_ref().map(|column| column[lane]))
     }
 }
 
