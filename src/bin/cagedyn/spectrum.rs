@@ -155,7 +155,8 @@ impl Spectrum {
         for peak in all {
             let leaked = found.iter().map(|higher| self.leaked(higher, peak.frequency)).fold(0.0, f64::max);
             // Cheaply told first.
-            if peak.amplitude > ABOVE_LEAKAGE * leaked && peak.amplitude > least * self.floor(peak.frequency) {
+            if peak.amplitude > ABOVE_LEAKAGE * leaked && peak.amplitude > least * self.floor(peak.frequency)
+            {
                 found.push(peak);
             }
         }

@@ -182,7 +182,9 @@ impl Motions {
     #[inline]
     pub(crate) fn displacement(&self, j: usize) -> [[f64; 2]; 2] {
         let (block, lane) = place_of(j);
-        self.displaced.get(block).map_or([[0.0; 2]; 2], |block| block.each_ref().map(|part| part.each_ref().map(|x| x[lane])))
+        self.displaced
+            .get(block)
+            .map_or([[0.0; 2]; 2], |block| block.each_ref().map(|part| part.each_ref().map(|x| x[lane])))
     }
 
     /// Axes of the pocket of element `j`, which turn with the cage.

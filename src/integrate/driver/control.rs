@@ -167,3 +167,27 @@ impl Controller {
         FAULT_SHRINK
     }
 }
+
+/// A step size (s), its end and the last time that it may look at, and whether something cut it.
+pub struct Plan {
+    pub h: f64,
+    pub end: f64,
+    pub t_last: f64,
+    pub cut: bool,
+    /// Whether it ends on an event.
+    pub on_event: bool,
+}
+
+impl Plan {
+    /// A step of `h` where one of `wanted` was, from time `t` (s): never across an `event`, and not leaving a tiny rest before it.
+    pub fn of(t: f64, h: f64, wanted: f64, event: f64) -> Self {
+        let (rest, t_last) = (event - t, event.next_down());
+        if rest <= h {
+            Self { h: rest, end: event, t_last, cut: true, on_event: true }
+        } else if rest < 2.0 * h {
+            Self { h: 0.5 * rest, end: t + 0.5 * rest, t_last, cut: true, on_event: false }
+        } else {
+            Self { h, end: t + h, t_last, cut: h < wanted, on_event: false }
+        }
+    }
+}

@@ -18,7 +18,7 @@ pub use outcome::{Failure, Limits, Statistics};
 use crate::integrate::auto::Choice;
 use crate::integrate::{Applied, Observed, Stepper, Stretch, Total, Vibration, add_weighted, throughput};
 use crate::stored::{Reader, Stored, stored};
-use control::{Controller, Estimate, RECOVERY_GROWTH};
+use control::{Controller, Estimate, Plan, RECOVERY_GROWTH};
 use trail::Trail;
 use watch::Tally;
 
@@ -60,15 +60,6 @@ pub struct Driver<S: Observed> {
     unfinished: bool,
     /// All of this before the stretch.
     mark: Vec<f64>,
-}
-
-/// A step size, and whether an event cut it.
-struct Plan {
-    h: f64,
-    end: f64,
-    t_last: f64,
-    cut: bool,
-    on_event: bool,
 }
 
 impl<S: Observed> Driver<S> {
@@ -379,7 +370,8 @@ impl<S: Observed> Driver<S> {
             }
             let (q, v) = self.stepper.state().split_at(system.positions());
             let longest = system.longest_step(self.to, q, v, self.next_step);
-            let plan = self.plan(event, longest);
+            let h = self.next_step.min(longest.max(self.limits.min_step));
+            let plan = Plan::of(self.to, h, self.next_step, event);
             if plan.end <= self.to {
                 // The step is lost in the round-off of the time.
                 return Err(Failure::StepTooSmall {
@@ -445,21 +437,6 @@ impl<S: Observed> Driver<S> {
         }
         let overdrawn = system.overdrawn(self.works.each_ref().map(Vec::as_slice));
         overdrawn.map_or(Ok(()), |fault| Err(Failure::Overdrawn { time: self.to, fault }))
-    }
-
-    /// The next step: never across an event or longer than the system can see, and not leaving a tiny rest before an event.
-    fn plan(&self, event: f64, longest: f64) -> Plan {
-        let rest = event - self.to;
-        let h = self.next_step.min(longest.max(self.limits.min_step));
-        if rest <= h {
-            Plan { h: rest, end: event, t_last: event.next_down(), cut: true, on_event: true }
-        } else if rest < 2.0 * h {
-            let h = 0.5 * rest;
-            Plan { h, end: self.to + h, t_last: event.next_down(), cut: true, on_event: false }
-        } else {
-            let cut = h < self.next_step;
-            Plan { h, end: self.to + h, t_last: event.next_down(), cut, on_event: false }
-        }
     }
 
     /// Appends everything that the next steps depend on, as it was before the last stretch: after [`Stored::load`] the stretch

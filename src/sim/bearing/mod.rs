@@ -1,21 +1,14 @@
 //! The model as the integrator sees it: with its workspace, inputs and counts.
 
-use super::limits::RunLimits;
-use super::linear::jacobian::AnySlopes;
-use crate::bodies::Power;
-use crate::integrate::{
-    Applied, GroupDamping, Interruption, Linearization, Linearized, Observed, SemiImplicit, Split, Structure,
-    Structured, System, Tuning, Vibration,
-};
+use crate::integrate::{Applied, SemiImplicit, Tuning};
 use crate::model::space::{self, Space};
 use crate::model::{
-    Energy, Fault, FaultCounts, Forces, HostInputs, Input, InputValues, LawCounts, LineLoad, Model, OF_BALL,
-    OF_ELEMENT, POWERS, PartTimes, Plane, RATES, Reading, Workspace, plane,
+    Energy, Fault, FaultCounts, Forces, HostInputs, Input, InputValues, LawCounts, LineLoad, Model,
+    PartTimes, Plane, Reading, Workspace, plane,
 };
+use crate::sim::limits::RunLimits;
+use crate::sim::linear::jacobian::AnySlopes;
 use std::sync::Arc;
-
-/// Why a method never asks a bearing for spokes of another width.
-const WRONG_SPOKES: &str = "methods are made for the spokes of their bearing";
 
 /// A bearing with its memory, by the space in which it moves.
 enum Moving {
@@ -39,7 +32,9 @@ macro_rules! of_moving {
     };
 }
 
-pub(super) struct Bearing {
+mod system;
+
+pub(in crate::sim) struct Bearing {
     model: Arc<Model>,
     moving: Moving,
     host: HostInputs,
@@ -66,7 +61,7 @@ struct StepMemory {
 }
 
 impl Bearing {
-    pub(super) fn new(model: Arc<Model>, tuning: Tuning) -> crate::Result<Self> {
+    pub(in crate::sim) fn new(model: Arc<Model>, tuning: Tuning) -> crate::Result<Self> {
         let moving = match model.space() {
             Some(space) => Moving::Space(space.clone(), Box::new(space::Workspace::new(space))),
             None => {
@@ -100,84 +95,84 @@ impl Bearing {
         })
     }
 
-    pub(super) fn model(&self) -> &Arc<Model> {
+    pub(in crate::sim) fn model(&self) -> &Arc<Model> {
         &self.model
     }
 
-    pub(super) fn describe(&self, fault: Fault) -> String {
+    pub(in crate::sim) fn describe(&self, fault: Fault) -> String {
         self.model.describe(fault)
     }
 
-    pub(super) fn tuning(&self) -> Tuning {
+    pub(in crate::sim) fn tuning(&self) -> Tuning {
         self.tuning
     }
 
-    pub(super) fn host(&self) -> &HostInputs {
+    pub(in crate::sim) fn host(&self) -> &HostInputs {
         &self.host
     }
 
-    pub(super) fn host_mut(&mut self) -> &mut HostInputs {
+    pub(in crate::sim) fn host_mut(&mut self) -> &mut HostInputs {
         &mut self.host
     }
 
     /// Sets an input at time `t` in s, to a value and a slope, or releases it.
-    pub(super) fn set_input(&mut self, t: f64, input: Input, to: Option<(f64, Option<f64>)>) {
+    pub(in crate::sim) fn set_input(&mut self, t: f64, input: Input, to: Option<(f64, Option<f64>)>) {
         self.model.set_input(&mut self.host, t, input, to);
     }
 
-    pub(super) fn evaluations(&self) -> u64 {
+    pub(in crate::sim) fn evaluations(&self) -> u64 {
         self.evaluations
     }
 
-    pub(super) fn law_counts(&self) -> LawCounts {
+    pub(in crate::sim) fn law_counts(&self) -> LawCounts {
         of_moving!(ref self, _bearing, workspace => workspace.law_counts())
     }
 
-    pub(super) fn jacobians(&self) -> u64 {
+    pub(in crate::sim) fn jacobians(&self) -> u64 {
         self.jacobians
     }
 
-    pub(super) fn set_counts(&mut self, [evaluations, jacobians]: [u64; 2], law_counts: LawCounts) {
+    pub(in crate::sim) fn set_counts(&mut self, [evaluations, jacobians]: [u64; 2], law_counts: LawCounts) {
         (self.evaluations, self.jacobians) = (evaluations, jacobians);
         of_moving!(self, _bearing, workspace => workspace.set_law_counts(law_counts));
     }
 
-    pub(super) fn fault_counts(&self) -> &FaultCounts {
+    pub(in crate::sim) fn fault_counts(&self) -> &FaultCounts {
         &self.fault_counts
     }
 
-    pub(super) fn set_fault_counts(&mut self, counts: FaultCounts) {
+    pub(in crate::sim) fn set_fault_counts(&mut self, counts: FaultCounts) {
         self.fault_counts = counts;
         self.last_fault = None;
     }
 
     /// The last failed attempt since creation, reset or restoring: time in s and cause.
-    pub(super) fn last_fault(&self) -> Option<(f64, Fault)> {
+    pub(in crate::sim) fn last_fault(&self) -> Option<(f64, Fault)> {
         self.last_fault
     }
 
     /// Steps rejected because of each group.
-    pub(super) fn rejections_mut(&mut self) -> &mut [u64] {
+    pub(in crate::sim) fn rejections_mut(&mut self) -> &mut [u64] {
         &mut self.rejections
     }
 
-    pub(super) fn rejections(&self) -> &[u64] {
+    pub(in crate::sim) fn rejections(&self) -> &[u64] {
         &self.rejections
     }
 
     /// The body because of which most steps were rejected, and how many.
-    pub(super) fn most_rejections(&self) -> Option<(String, u64)> {
+    pub(in crate::sim) fn most_rejections(&self) -> Option<(String, u64)> {
         let most = self.rejections.iter().copied().max().filter(|n| *n > 0)?;
         let group = self.rejections.iter().position(|n| *n == most)?;
         Some((self.group_name(group)?, most))
     }
 
     /// Name of the body of a group.
-    pub(super) fn group_name(&self, group: usize) -> Option<String> {
+    pub(in crate::sim) fn group_name(&self, group: usize) -> Option<String> {
         of_moving!(ref self, bearing, _workspace => bearing.group_name(group))
     }
 
-    pub(super) fn reset(&mut self) {
+    pub(in crate::sim) fn reset(&mut self) {
         self.host = HostInputs::default();
         self.set_counts([0; 2], LawCounts::default());
         self.set_fault_counts(FaultCounts::default());
@@ -185,7 +180,12 @@ impl Bearing {
     }
 
     /// Accelerations of a state vector; not counted as an evaluation of the integration.
-    pub(super) fn accelerations_at(&mut self, t: f64, state: &[f64], a: &mut [f64]) -> Result<(), Fault> {
+    pub(in crate::sim) fn accelerations_at(
+        &mut self,
+        t: f64,
+        state: &[f64],
+        a: &mut [f64],
+    ) -> Result<(), Fault> {
         let (q, v) = state.split_at(self.model.layout().positions());
         of_moving!(self, bearing, workspace => {
             workspace.set_counting(false);
@@ -197,7 +197,7 @@ impl Bearing {
     }
 
     /// Accelerations of a state vector and their derivatives; not counted as an evaluation of the integration.
-    pub(super) fn linearize_at(
+    pub(in crate::sim) fn linearize_at(
         &mut self,
         t: f64,
         state: &[f64],
@@ -214,7 +214,7 @@ impl Bearing {
     }
 
     /// Derivatives at the last evaluated state, with inputs that change at these rates.
-    pub(super) fn linearize_along(&mut self, rates: &InputValues, slopes: &mut AnySlopes) {
+    pub(in crate::sim) fn linearize_along(&mut self, rates: &InputValues, slopes: &mut AnySlopes) {
         match (&mut self.moving, slopes) {
             (Moving::Plane(plane, workspace), AnySlopes::Plane(slopes)) => {
                 plane.linearize(workspace, rates, &mut slopes.linearization);
@@ -227,7 +227,7 @@ impl Bearing {
     }
 
     /// Writes the output channels of a state vector at these inputs; not counted.
-    pub(super) fn outputs_with(
+    pub(in crate::sim) fn outputs_with(
         &mut self,
         inputs: &InputValues,
         state: &[f64],
@@ -258,7 +258,7 @@ impl Bearing {
     }
 
     /// Memory for derivatives of the accelerations.
-    pub(super) fn new_slopes(&self) -> AnySlopes {
+    pub(in crate::sim) fn new_slopes(&self) -> AnySlopes {
         AnySlopes::new(&self.model)
     }
 
@@ -270,30 +270,35 @@ impl Bearing {
     }
 
     /// Energy of the last evaluated state.
-    pub(super) fn energy(&self) -> Energy {
+    pub(in crate::sim) fn energy(&self) -> Energy {
         of_moving!(ref self, bearing, workspace => bearing.energy(workspace))
     }
 
     /// Says what was stored when the works of the run began, J.
-    pub(super) fn begin_works(&mut self, energy: &Energy) {
+    pub(in crate::sim) fn begin_works(&mut self, energy: &Energy) {
         let stored = energy.kinetic + energy.elastic + energy.potential.abs();
         self.start_energy = self.start_energy.map(|_| stored);
     }
 
-    pub(super) fn limits(&self) -> &RunLimits {
+    pub(in crate::sim) fn limits(&self) -> &RunLimits {
         &self.limits
     }
 
-    pub(super) fn limits_mut(&mut self) -> &mut RunLimits {
+    pub(in crate::sim) fn limits_mut(&mut self) -> &mut RunLimits {
         &mut self.limits
     }
 
-    pub(super) fn set_vector_instructions(&mut self, vector: bool) {
+    pub(in crate::sim) fn set_vector_instructions(&mut self, vector: bool) {
         of_moving!(self, _bearing, workspace => workspace.set_vector_instructions(vector));
     }
 
     /// Wall time of each part of an evaluation at a state, s; not counted.
-    pub(super) fn time_parts(&mut self, t: f64, state: &[f64], repeats: u32) -> Result<PartTimes, Fault> {
+    pub(in crate::sim) fn time_parts(
+        &mut self,
+        t: f64,
+        state: &[f64],
+        repeats: u32,
+    ) -> Result<PartTimes, Fault> {
         let state = state.split_at(self.model.layout().positions());
         let inputs = self.model.inputs_at(t, &self.host);
         of_moving!(self, bearing, workspace => {
@@ -304,7 +309,7 @@ impl Bearing {
         })
     }
 
-    pub(super) fn report(&self, state: &[f64], a: &[f64], out: &mut Forces) {
+    pub(in crate::sim) fn report(&self, state: &[f64], a: &[f64], out: &mut Forces) {
         let (q, v) = state.split_at(self.model.layout().positions());
         match &self.moving {
             Moving::Plane(plane, workspace) => plane.report(q, v, workspace, a, out),
@@ -317,7 +322,7 @@ impl Bearing {
     }
 
     /// How a contact of rollers in space is loaded along its length at the last evaluated state; nothing of others.
-    pub(super) fn line_loads(&self, contact: usize) -> Vec<LineLoad> {
+    pub(in crate::sim) fn line_loads(&self, contact: usize) -> Vec<LineLoad> {
         match &self.moving {
             Moving::Plane(..) => Vec::new(),
             Moving::Space(space, workspace) => space.line_loads(workspace, contact),
@@ -325,7 +330,7 @@ impl Bearing {
     }
 
     /// Writes the forces of a step that began at time `t` (s) into `out`, with the bodies at `state`.
-    pub(super) fn report_step(
+    pub(in crate::sim) fn report_step(
         &mut self,
         t: f64,
         step: &Applied<'_>,
@@ -353,7 +358,7 @@ impl Bearing {
     }
 
     /// The state at time `t` (s) with `forces` that were found last.
-    pub(super) fn reading<'a>(&'a self, t: f64, state: &'a [f64], forces: &'a Forces) -> Reading<'a> {
+    pub(in crate::sim) fn reading<'a>(&'a self, t: f64, state: &'a [f64], forces: &'a Forces) -> Reading<'a> {
         self.reading_with(self.model.inputs_at(t, &self.host), state, forces)
     }
 
@@ -367,174 +372,6 @@ impl Bearing {
                 let (space, ws, forces) = (&**space, workspace, &forces.space);
                 Reading::Space(space::Reading { space, ws, inputs, q, v, forces })
             }
-        }
-    }
-}
-
-impl System for Bearing {
-    type Fault = Fault;
-
-    fn positions(&self) -> usize {
-        self.model.layout().positions()
-    }
-
-    fn velocities(&self) -> usize {
-        self.model.layout().velocities()
-    }
-
-    fn accelerations(&mut self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> Result<(), Fault> {
-        self.evaluations += 1;
-        of_moving!(self, bearing, workspace => {
-            self.model.find_inputs(t, &self.host, workspace.inputs_mut());
-            bearing.evaluate(q, v, workspace, a)
-        })
-    }
-
-    fn not_finite(&self, velocity: usize) -> Fault {
-        Fault::NotFinite { velocity, contact: None }
-    }
-
-    fn next_event(&self, t: f64) -> f64 {
-        self.model.next_event(t, &self.host)
-    }
-
-    fn longest_step(&self, t: f64, q: &[f64], v: &[f64], wanted: f64) -> f64 {
-        match &self.moving {
-            Moving::Plane(plane, _) => plane.longest_step(t, [q, v], &self.host, wanted, &self.tuning),
-            Moving::Space(space, _) => space.longest_step(t, [q, v], &self.host, &self.tuning),
-        }
-    }
-
-    /// Elements, then the ring, the cage and nodes, whichever exist.
-    fn groups(&self) -> Vec<Vec<usize>> {
-        of_moving!(ref self, bearing, _workspace => bearing.structure().groups())
-    }
-}
-
-/// What methods ask beside accelerations, with spokes as wide as an element has speeds. A method has those of its bearing.
-macro_rules! with_spokes {
-    ($spoke:expr, $moving:ident) => {
-        impl Structured<{ $spoke }> for Bearing {
-            fn structure(&self) -> Structure<{ $spoke }> {
-                match &self.moving {
-                    Moving::$moving(bearing, _) => bearing.structure(),
-                    _ => unreachable!("{WRONG_SPOKES}"),
-                }
-            }
-        }
-
-        impl Linearized<{ $spoke }> for Bearing {
-            fn linearize(
-                &mut self,
-                t: f64,
-                q: &[f64],
-                v: &[f64],
-                a: &mut [f64],
-                out: &mut Linearization<{ $spoke }>,
-            ) -> Result<(), Fault> {
-                self.set_differentiating(true);
-                let evaluated = self.accelerations(t, q, v, a);
-                self.set_differentiating(false);
-                evaluated?;
-                self.jacobians += 1;
-                let rates = self.model.input_rates_at(t, &self.host);
-                match &mut self.moving {
-                    Moving::$moving(bearing, workspace) => bearing.linearize(workspace, &rates, out),
-                    _ => unreachable!("{WRONG_SPOKES}"),
-                }
-                Ok(())
-            }
-
-            fn linearization_cost(&self) -> f64 {
-                of_moving!(ref self, bearing, _workspace => bearing.jacobian_cost())
-            }
-        }
-
-        impl Split<{ $spoke }> for Bearing {
-            fn accelerations_to_split(
-                &mut self,
-                t: f64,
-                q: &[f64],
-                v: &[f64],
-                a: &mut [f64],
-            ) -> Result<(), Fault> {
-                self.set_splitting(true);
-                let evaluated = self.accelerations(t, q, v, a);
-                self.set_splitting(false);
-                evaluated
-            }
-
-            fn damping(&mut self, h: f64, _q: &[f64], _v: &[f64], out: &mut GroupDamping<{ $spoke }>) {
-                match &mut self.moving {
-                    Moving::$moving(bearing, workspace) => bearing.damping(h, workspace, out),
-                    _ => unreachable!("{WRONG_SPOKES}"),
-                }
-            }
-
-            fn react(&mut self, _q: &[f64], v: &[f64], step: &SemiImplicit<'_>, a: &mut [f64]) {
-                of_moving!(self, bearing, workspace => bearing.react(v, step, workspace, a));
-            }
-
-            fn admit(&self, v: &[f64]) -> Result<(), Fault> {
-                of_moving!(ref self, bearing, _workspace => bearing.admit(v))
-            }
-        }
-    };
-}
-
-with_spokes!(OF_ELEMENT, Plane);
-with_spokes!(OF_BALL, Space);
-
-impl Observed for Bearing {
-    fn overdrawn(&self, [before, last]: [&[f64]; 2]) -> Option<Fault> {
-        let stored = self.start_energy?;
-        let work = |power: Power| before[power as usize] + last[power as usize];
-        let given = work(Power::GuideFilm);
-        if given <= stored {
-            return None;
-        }
-        let came = Power::ALL.into_iter().filter(|power| !power.is_lost()).map(|power| work(power).max(0.0));
-        let available = stored + came.sum::<f64>();
-        (given > available).then_some(Fault::EnergyCreated { given, available })
-    }
-
-    fn vibration(&self) -> Vibration {
-        of_moving!(ref self, _bearing, workspace => workspace.vibration())
-    }
-
-    fn power_count(&self) -> [usize; 2] {
-        [POWERS.len(), RATES - POWERS.len()]
-    }
-
-    fn powers(&mut self, _q: &[f64], v: &[f64], step: Option<&SemiImplicit<'_>>, out: &mut [f64]) {
-        of_moving!(self, bearing, workspace => bearing.powers(v, step, workspace, out));
-    }
-
-    fn energy(&self, _q: &[f64], _v: &[f64]) -> [f64; 3] {
-        let Energy { kinetic, elastic, potential } = Bearing::energy(self);
-        [kinetic, elastic, potential]
-    }
-
-    fn watched(&self) -> usize {
-        self.model.watched().len()
-    }
-
-    fn watch(&mut self, _q: &[f64], v: &[f64], step: Option<&SemiImplicit<'_>>, out: &mut [f64]) {
-        of_moving!(self, bearing, workspace => bearing.watch(v, step, workspace, out));
-    }
-
-    fn interruption(&mut self) -> Option<Interruption> {
-        self.limits.interruption()
-    }
-
-    fn failed(&mut self, t: f64, fault: Fault) {
-        self.fault_counts[fault.kind()] += 1;
-        self.last_fault = Some((t, fault));
-    }
-
-    fn rejected(&mut self, group: usize) {
-        if let Some(count) = self.rejections.get_mut(group) {
-            *count += 1;
         }
     }
 }
@@ -556,7 +393,7 @@ mod tests {
         for load in ["-4900", "-40e3"] {
             let sets: Vec<_> =
                 free.into_iter().chain([("inner_ring.motion.free.load.z.constant", load)]).collect();
-            let text = include_str!("../../scenes/nu2310.json");
+            let text = include_str!("../../../scenes/nu2310.json");
             let model = Arc::new(Model::new(Scene::from_json_with(text, sets).unwrap()).unwrap());
             let mut sim = Sim::new(model.clone()).unwrap();
             let (ring, cage) = (model.layout().ring().unwrap(), model.layout().cage().unwrap());
