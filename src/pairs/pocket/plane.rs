@@ -86,23 +86,26 @@ fn longest_step(shape: &PlanePocket, law: &ContactLaw, ahead: &Ahead<'_>) -> f64
     // Position and velocity of the cage in its own axes.
     let (place, speed) = (rotate(cage.position, -sin, cos), rotate(cage.velocity, -sin, cos));
     let set = ahead.elements.set();
-    let prescribed = [ahead.inputs.orbit_travel(), ahead.inputs.of(Input::OrbitSpeed)];
     let free = ahead.elements.mass().is_some();
-    let pitch = set.pitch_radius;
+    let rigid = ahead.modes()[0].is_empty();
+    let ahead_by = |angle: f64, orbit: f64| {
+        [set.pitch_radius * (angle - cage.angle), set.pitch_radius * (orbit - cage.speed)]
+    };
+    let prescribed = ahead_by(ahead.inputs.orbit_travel(), ahead.inputs.of(Input::OrbitSpeed));
     let pass = Passage::of(contact, ahead.lightest(CAGE), ahead.tuning);
     let mut longest = f64::INFINITY;
     let [sines, cosines] = &set.directions;
-    for (j, (x, y)) in cosines.iter().zip(sines).take(set.count).enumerate() {
-        let [angle, orbit] = if free {
+    for (j, ((x, y), excess)) in cosines.iter().zip(sines).zip(&set.radius_excess).enumerate() {
+        let [lead, leading] = if free {
             let i = ahead.layout.element(j) + 1;
-            [ahead.q[i], ahead.v[i]]
+            ahead_by(ahead.q[i], ahead.v[i])
         } else {
             prescribed
         };
-        let [[_, moved], [_, moving]] = ahead.displacement(j);
-        let offset = pitch * (angle - cage.angle) - (place[1] * x - place[0] * y) - moved;
-        let approach = pitch * (orbit - cage.speed) - (speed[1] * x - speed[0] * y) - moving;
-        let rest = shape.clearance - set.radius_excess[j] - offset * approach.signum();
+        let [[_, moved], [_, moving]] = if rigid { [[0.0; 2]; 2] } else { ahead.displacement(j) };
+        let offset = lead - (place[1] * x - place[0] * y) - moved;
+        let approach = leading - (speed[1] * x - speed[0] * y) - moving;
+        let rest = shape.clearance - excess - offset * 1f64.copysign(approach);
         if rest > 0.0 && rest <= approach.abs() * ahead.wanted {
             longest = longest.min(rest / approach.abs() + pass.time(approach.abs()));
         }

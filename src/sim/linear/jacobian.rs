@@ -4,6 +4,7 @@ use crate::error::Result;
 use crate::integrate::linear::Arrowhead;
 use crate::integrate::{Linearization, Structure};
 use crate::model::{Fault, Model, OF_BALL, OF_ELEMENT};
+use crate::scalar::all_finite;
 use crate::sim::{Evaluated, Sim, check_time, wrong_size};
 
 /// Memory for derivatives of the accelerations.
@@ -75,8 +76,7 @@ impl<const N: usize> Slopes<N> {
     pub(in crate::sim) fn check(&self) -> std::result::Result<(), Fault> {
         let Linearization { over_positions, over_velocities, .. } = &self.linearization;
         for part in [over_positions, over_velocities] {
-            let finite = |block: &[f64]| block.iter().fold(true, |finite, x| finite & x.is_finite());
-            if part.blocks().into_iter().all(finite) {
+            if part.blocks().into_iter().all(all_finite) {
                 continue;
             }
             let mut first = None;
