@@ -98,7 +98,7 @@ impl Split<3> for Oscillator {
         let rates = [2.0 * self.zeta, 0.0, self.rate].map(|rate| rate * self.known);
         let full = DMatrix::from_diagonal(&rates.to_vec().into());
         let share = implicit_share(h * rates[0].max(rates[2]));
-        damping.bodies[0].implicit = &full * share;
+        damping.bodies[0].share = share;
         damping.bodies[0].full = full;
     }
 }

@@ -12,20 +12,17 @@ use pulp::{Arch, Simd};
 pub struct DampingBlock {
     /// D, all of it.
     pub full: DMatrix<f64>,
-    /// D_i, the share of it that acts on the change of the step: half for the trapezoidal rule, all where rates exceed 1/h by
+    /// How much of it, D_i, acts on the change of the step: half for the trapezoidal rule, all where rates exceed 1/h by
     /// far, and up to twice as much where two bodies damp each other. See [`implicit_share`].
-    pub implicit: DMatrix<f64>,
+    pub share: f64,
 }
 
 impl DampingBlock {
     /// Finds the implicit share of it for a step of size `h` (s) from its largest diagonal entry, times `factor`.
     pub fn split(&mut self, h: f64, factor: f64) {
-        let n = self.full.nrows();
-        let largest = (0..n).fold(0.0, |largest: f64, i| largest.max(self.full[(i, i)].abs()));
-        let share = implicit_share(h * largest) * factor;
-        for (implicit, full) in self.implicit.as_mut_slice().iter_mut().zip(self.full.as_slice()) {
-            *implicit = full * share;
-        }
+        let diagonal = self.full.as_slice().iter().step_by(self.full.nrows() + 1);
+        let largest = diagonal.fold(0.0, |largest: f64, x| largest.max(x.abs()));
+        self.share = implicit_share(h * largest) * factor;
     }
 }
 
@@ -86,7 +83,7 @@ impl<const N: usize> GroupDamping<N> {
     pub fn new(structure: &Structure<N>) -> Self {
         let count = structure.spokes.len();
         let zero = SpokeDamping { full: [[ZEROS; N]; N], implicit: [[ZEROS; N]; N] };
-        let block = |n: usize| DampingBlock { full: DMatrix::zeros(n, n), implicit: DMatrix::zeros(n, n) };
+        let block = |n: usize| DampingBlock { full: DMatrix::zeros(n, n), share: 0.0 };
         let widest = structure.bodies.iter().map(ExactSizeIterator::len).max().unwrap_or(0);
         let (column, square) = (vec![0.0; widest], vec![0.0; widest * widest]);
         Self {
@@ -108,7 +105,7 @@ impl<const N: usize> GroupDamping<N> {
     /// # Panics
     /// If there is no such body.
     pub(crate) fn solve_body(&mut self, body: usize, h: f64, p: &[f64], y: &mut [f64]) {
-        let DampingBlock { full, implicit } = &self.bodies[body];
+        let DampingBlock { full, share } = &self.bodies[body];
         let n = full.nrows();
         match n {
             2 => return step_closed::<2>(&self.bodies[body], h, p, y),
@@ -119,7 +116,7 @@ impl<const N: usize> GroupDamping<N> {
         for i in 0..n {
             order[i] = i;
             for k in 0..n {
-                matrix[i * n + k] = implicit[(i, k)] * h + f64::from(u8::from(i == k));
+                matrix[i * n + k] = full[(i, k)] * share * h + f64::from(u8::from(i == k));
                 size[i * n + k] = matrix[i * n + k].abs();
                 y[i] += full[(i, k)] * p[k];
             }
@@ -150,17 +147,15 @@ impl<const N: usize> GroupDamping<N> {
 
 /// The step of a body of M velocities, at most three, by the closed form.
 fn step_closed<const M: usize>(block: &DampingBlock, h: f64, p: &[f64], y: &mut [f64]) {
-    let (mut implicit, mut full) = ([[0.0; 3]; 3], [[0.0; 3]; 3]);
-    for (rows, matrix) in [(&mut implicit, &block.implicit), (&mut full, &block.full)] {
-        for (k, column) in matrix.as_slice().as_chunks::<M>().0.iter().enumerate().take(M) {
-            for i in 0..M {
-                rows[i][k] = column[i];
-            }
+    let (mut full, mut ahead, mut right) = ([[0.0; 3]; 3], [0.0; 3], [0.0; 3]);
+    for (k, column) in block.full.as_slice().as_chunks::<M>().0.iter().enumerate().take(M) {
+        for i in 0..M {
+            full[i][k] = column[i];
         }
     }
-    let (mut ahead, mut right) = ([0.0; 3], [0.0; 3]);
     ahead[..M].copy_from_slice(&p[..M]);
     right[..M].copy_from_slice(&y[..M]);
+    let implicit = full.map(|row| row.map(|x| x * block.share));
     y[..M].copy_from_slice(&solve(&implicit, &full, h, ahead, right)[..M]);
 }
 
@@ -279,11 +274,12 @@ mod tests {
             seed += 1;
             let full =
                 DMatrix::from_fn(n, n, |i, k| number(9 * seed + 3 * i + k) + if i == k { 9.0 } else { 0.0 });
-            let implicit = &full * 0.7;
+            let share = 0.7;
+            let implicit = &full * share;
             let [known, ahead] =
                 [0, 5].map(|s| nalgebra::DVector::from_fn(n, |k, _| number(4 * seed + k + s)));
             let x = (DMatrix::identity(n, n) + &implicit * h).lu().solve(&(&known + &full * &ahead)).unwrap();
-            (DampingBlock { full, implicit }, known, ahead, x)
+            (DampingBlock { full, share }, known, ahead, x)
         };
         let (mut p, mut y) = (zero_vectors::<N>(n), zero_vectors::<N>(n));
         let mut expected = Vec::new();
@@ -294,7 +290,7 @@ mod tests {
                 (p[b][i][lane], y[b][i][lane]) = (ahead[i], known[i]);
                 for k in 0..N {
                     damping.spokes[b].full[i][k][lane] = block.full[(i, k)];
-                    damping.spokes[b].implicit[i][k][lane] = block.implicit[(i, k)];
+                    damping.spokes[b].implicit[i][k][lane] = block.full[(i, k)] * block.share;
                 }
             }
             expected.push(x);
