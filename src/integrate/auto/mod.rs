@@ -305,7 +305,7 @@ impl<const N: usize> Auto<N> {
         }
         let event = std::mem::take(&mut self.event);
         if event || stretch_over && self.wait == 0 {
-            self.hold = if event { self.aim.tuning.start } else { 0 };
+            self.hold = if event { self.aim.tuning.transient } else { 0 };
             return self.control_errors(Reason::Affordable, system, t);
         }
         let eased = self.hold == 0 || self.balance.has_reserve(self.aim.tuning.reserve);
@@ -405,7 +405,7 @@ impl<const N: usize> Auto<N> {
         t: f64,
     ) -> Option<f64> {
         if std::mem::take(&mut self.event) {
-            self.hold = self.hold.max(self.aim.tuning.start);
+            self.hold = self.hold.max(self.aim.tuning.transient);
         }
         if std::mem::take(&mut self.judged)
             && let Some(step) = self.ease(system, t)

@@ -78,9 +78,10 @@ tuning! {
     stricter: f64 = 10.0, "1";
     /// How many times it does; then a stretch counts as it is.
     strictest: u64 = 5, "times";
-    /// Stretches of error control at the start and after a jump or kink of an input, of 1, 2, 4, ... steps: where bodies are set
-    /// down is rarely where they rest.
+    /// Stretches of error control at the start, of 1, 2, 4, ... steps: where bodies are set down is rarely where they rest.
     start: u64 = 5, "stretches";
+    /// The same after a jump or kink of an input.
+    transient: u64 = 8, "stretches";
     /// Stretches of the leapfrog until it is tried whether error control costs little, as where nothing vibrates. Twice as many after
     /// each trial in vain. Also those between two events that are followed so, as inputs from tables have kinks all the time.
     first_pause: u64 = 256, "stretches";
