@@ -343,6 +343,7 @@ fn judge_scenes(numbers: std::ops::Range<u64>, presets: &[&str], means: bool) ->
         means,
         presets,
         wall_time: 600.0,
+        most_evaluations: u64::MAX,
         tuning: Tuning::default(),
     };
     let outcomes = judge::run::judge_all(numbers, &options, |outcome| {

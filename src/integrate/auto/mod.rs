@@ -1,11 +1,11 @@
 //! Chooses among the other methods, from what is known about a system and from what it does.
 //!
 //! - A system that vibrates most of the time is followed in its statistics: the leapfrog, monitored by [`StabilityMonitor`]. When
-//!   it fails, or would need steps that cost as much as error control, the Rosenbrock method takes over until probes
+//!   it fails, or would need steps that cost as much as error control, the Radau method takes over until probes
 //!   say that the leapfrog would do again, or until it is seen that finer steps of the leapfrog advance further per evaluation. It
 //!   also has the phases in which so little happens that it costs no more.
 //! - Any other system, or with a tolerance that was asked for, is followed in its trajectory: Dormand-Prince or the
-//!   Rosenbrock method, whichever advances further per evaluation.
+//!   Radau method, whichever advances further per evaluation.
 //!
 //! Every stretch of steps is judged by the energy that it misses. A wrong one is made again: those of the leapfrog with error
 //! control or finer steps, those of error control with a tenth of the tolerance.
@@ -16,14 +16,14 @@ macro_rules! active {
         match $self.active {
             Kind::Leapfrog => Stepper::<$system>::$method(&mut $self.leapfrog, $($argument),*),
             Kind::DormandPrince => Stepper::<$system>::$method(&mut $self.explicit, $($argument),*),
-            Kind::Rosenbrock => Stepper::<$system>::$method(&mut $self.implicit, $($argument),*),
+            Kind::Radau => Stepper::<$system>::$method(&mut $self.implicit, $($argument),*),
         }
     };
     ($self:ident, ref $system:ty, $method:ident($($argument:expr),*)) => {
         match $self.active {
             Kind::Leapfrog => Stepper::<$system>::$method(&$self.leapfrog, $($argument),*),
             Kind::DormandPrince => Stepper::<$system>::$method(&$self.explicit, $($argument),*),
-            Kind::Rosenbrock => Stepper::<$system>::$method(&$self.implicit, $($argument),*),
+            Kind::Radau => Stepper::<$system>::$method(&$self.implicit, $($argument),*),
         }
     };
 }
@@ -35,7 +35,7 @@ pub mod stability;
 mod stepper;
 pub mod tuning;
 
-use crate::integrate::{DormandPrince, Leapfrog, Linearized, Observed, Rosenbrock, Split, Stepper, Tuning};
+use crate::integrate::{DormandPrince, Leapfrog, Linearized, Observed, Radau, Split, Stepper, Tuning};
 use balance::Balance;
 use selection::Selection;
 use stability::{Expectation, StabilityMonitor, Verdict};
@@ -77,12 +77,12 @@ pub enum Kind {
     Leapfrog,
     /// [`DormandPrince`].
     DormandPrince,
-    /// [`Rosenbrock`].
-    Rosenbrock,
+    /// [`Radau`].
+    Radau,
 }
 
 /// The methods, by their numbers.
-const KINDS: [Kind; 3] = [Kind::Leapfrog, Kind::DormandPrince, Kind::Rosenbrock];
+const KINDS: [Kind; 3] = [Kind::Leapfrog, Kind::DormandPrince, Kind::Radau];
 
 /// Why a method was chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -153,7 +153,7 @@ pub struct Auto<const N: usize> {
     aim: Aim,
     leapfrog: Leapfrog<N>,
     explicit: DormandPrince,
-    implicit: Rosenbrock<N>,
+    implicit: Radau<N>,
     monitor: StabilityMonitor<N>,
     selection: Selection,
     balance: Balance,
@@ -163,9 +163,8 @@ pub struct Auto<const N: usize> {
     last_steps: [f64; 2],
     /// Size of the last attempt, s.
     h: f64,
-    /// Attempts since the last change or accepted step, and changes because of them.
+    /// Attempts since the last change or accepted step.
     attempts: u64,
-    gave_way: u64,
     /// Whether a stretch has just been judged.
     judged: bool,
     /// That stretch; not taken back with it.
@@ -203,7 +202,7 @@ impl<const N: usize> Auto<N> {
         let mut auto = Self {
             leapfrog: Leapfrog::new(system),
             explicit: DormandPrince::new(system, &tolerance),
-            implicit: Rosenbrock::new(system, &tolerance),
+            implicit: Radau::new(system, &tolerance),
             monitor: StabilityMonitor::new(system, aim.expected, &aim.units, aim.tuning),
             selection: Selection::new(EXPLICIT, aim.tuning),
             balance: Balance::new(system, aim.missing_energy, aim.tuning),
@@ -212,7 +211,6 @@ impl<const N: usize> Auto<N> {
             last_steps: [aim.first_step; 2],
             h: aim.first_step,
             attempts: 0,
-            gave_way: 0,
             judged: false,
             wrong: Wrong { method: Kind::Leapfrog, refinement: 0, missed: 0.0 },
             advanced: 0.0,
@@ -240,14 +238,13 @@ impl<const N: usize> Auto<N> {
         self.monitor.forget();
         self.balance.forget();
         self.last_steps = [self.aim.first_step; 2];
-        (self.attempts, self.gave_way) = (0, 0);
-        (self.judged, self.advanced, self.cost) = (false, 0.0, 0.0);
+        (self.attempts, self.judged, self.advanced, self.cost) = (0, false, 0.0, 0.0);
         (self.strictness, self.hold, self.next_hold, self.right) =
             (0, self.aim.tuning.start, self.aim.tuning.first_hold, 0);
         (self.wait, self.pause) = (0, self.aim.tuning.first_pause);
         (self.event_wait, self.event) = (0, false);
         (self.active, self.reason) = match self.aim.statistics {
-            true => (Kind::Rosenbrock, Reason::Affordable),
+            true => (Kind::Radau, Reason::Affordable),
             false => (Kind::DormandPrince, Reason::Trajectory),
         };
         self.selection =
@@ -279,7 +276,7 @@ impl<const N: usize> Auto<N> {
         Some(match kind {
             Kind::Leapfrog => self.monitor.step(),
             Kind::DormandPrince => self.last_steps[EXPLICIT],
-            Kind::Rosenbrock => self.last_steps[IMPLICIT],
+            Kind::Radau => self.last_steps[IMPLICIT],
         })
     }
 
@@ -292,7 +289,7 @@ impl<const N: usize> Auto<N> {
     ) -> Option<f64> {
         self.selection = Selection::new(IMPLICIT, self.aim.tuning);
         self.last_steps = [self.monitor.step(); 2];
-        self.change_to(Kind::Rosenbrock, reason, system, t)
+        self.change_to(Kind::Radau, reason, system, t)
     }
 
     fn review_leapfrog<S: Linearized<N> + Split<N> + Observed>(
@@ -321,7 +318,7 @@ impl<const N: usize> Auto<N> {
             }
         }
         let reason = match self.monitor.look(system, &self.leapfrog, t) {
-            _ if self.attempts >= self.aim.tuning.patience => Reason::Failures,
+            _ if self.attempts > 0 => Reason::Failures,
             Verdict::TooFast => Reason::Cost,
             Verdict::Keep => return coarser.then(|| self.monitor.step()),
             Verdict::Change => {
@@ -362,7 +359,7 @@ impl<const N: usize> Auto<N> {
                 self.hold = self.aim.tuning.first_hold;
                 return None;
             }
-            (self.wait, self.pause) = (self.pause, (2 * self.pause).min(self.aim.tuning.longest_pause));
+            (self.wait, self.pause) = (self.pause, self.pause.saturating_mul(2));
         } else if !self.may_leapfrog(system, t) {
             return None;
         }
@@ -418,10 +415,8 @@ impl<const N: usize> Auto<N> {
                 _ => Some(step),
             };
         }
-        let stuck =
-            self.attempts >= self.aim.tuning.long_patience && self.gave_way < self.aim.tuning.most_changes;
+        let stuck = self.attempts >= self.aim.tuning.patience;
         if stuck {
-            self.gave_way += 1;
             self.last_steps[self.selection.active()] = self.h;
             self.selection.give_up();
         }
@@ -434,7 +429,7 @@ impl<const N: usize> Auto<N> {
         if !changed {
             return None;
         }
-        let kind = if self.selection.active() == EXPLICIT { Kind::DormandPrince } else { Kind::Rosenbrock };
+        let kind = if self.selection.active() == EXPLICIT { Kind::DormandPrince } else { Kind::Radau };
         let reason = match self.selection.on_trial() {
             _ if stuck => Reason::Failures,
             true => Reason::Trial,

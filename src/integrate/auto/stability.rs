@@ -62,7 +62,7 @@ pub struct StabilityMonitor<const N: usize> {
     damped: bool,
     /// Whether a step that rested on them missed too much energy.
     careful: bool,
-    /// How many times the step is divided by [`Tuning::finer`] for what no frequency tells, such as the onset of damping.
+    /// How many times the step is halved for what no frequency tells, such as the onset of damping.
     refinement: u64,
     /// What error control advanced per evaluation when it was seen last, s; zero before.
     rival: f64,
@@ -126,7 +126,7 @@ impl<const N: usize> StabilityMonitor<N> {
     fn refined_step(&self, refinement: u64) -> f64 {
         let Expectation { share, careful_share, .. } = self.expected;
         let share = if self.careful { careful_share } else { share };
-        self.expected.step_at(share, self.frequency, self.damped) / self.tuning.finer.powi(refinement as i32)
+        self.expected.step_at(share, self.frequency, self.damped) * 0.5f64.powi(refinement as i32)
     }
 
     /// Error control advanced by so many s with so many evaluations.

@@ -3,11 +3,13 @@
 use super::balance::Judgement;
 use super::{Auto, Choice, EXPLICIT, IMPLICIT, KINDS, Kind, REASONS, Reason, Wrong};
 use crate::integrate::driver::control::{Estimate, Law};
-use crate::integrate::{Applied, Kept, Linearized, Observed, Samples, Split, Stepper, Stretch};
+use crate::integrate::{
+    Applied, DormandPrince, Kept, Linearized, Observed, Samples, Split, Stepper, Stretch,
+};
 use crate::stored::{stored, stored_choice};
 
 /// Most numbers that a method keeps of a step, per state.
-const MOST_KEPT: usize = 3;
+const MOST_KEPT: usize = 4;
 
 impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto<N> {
     fn set_state(&mut self, state: &[f64]) {
@@ -18,7 +20,7 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
 
     fn refresh(&mut self, system: &mut S, t: f64) -> Result<(), S::Fault> {
         if !std::mem::take(&mut self.placed) && self.aim.statistics && self.event_wait == 0 {
-            (self.event, self.event_wait) = (true, self.aim.tuning.event_interval);
+            (self.event, self.event_wait) = (true, self.aim.tuning.first_pause);
         }
         active!(self, S, refresh(system, t))
     }
@@ -30,7 +32,7 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
         }
         match self.active {
             Kind::Leapfrog => self.review_leapfrog(system, t),
-            Kind::DormandPrince | Kind::Rosenbrock => self.review_error_control(system, t),
+            Kind::DormandPrince | Kind::Radau => self.review_error_control(system, t),
         }
     }
 
@@ -49,8 +51,8 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
         self.attempts += 1;
         match self.active {
             Kind::Leapfrog => return result,
-            Kind::DormandPrince => self.note_cost(self.aim.tuning.explicit_cost),
-            Kind::Rosenbrock => self.note_cost(self.aim.tuning.implicit_cost),
+            Kind::DormandPrince => self.note_cost(DormandPrince::EVALUATIONS),
+            Kind::Radau => self.note_cost(self.implicit.evaluations().into()),
         }
         let stricter = self.aim.tuning.stricter.powi(self.strictness as i32);
         result.map(|estimate| {
@@ -62,7 +64,7 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
         self.balance.add(active!(self, ref S, works()));
         active!(self, S, accept());
         self.steps[self.active as usize] += 1;
-        (self.attempts, self.gave_way) = (0, 0);
+        self.attempts = 0;
         match self.active {
             Kind::Leapfrog => self.monitor.count_step(),
             Kind::DormandPrince => {
@@ -70,11 +72,11 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
                 self.selection.note_advance(self.h);
                 self.advanced += self.h;
             }
-            Kind::Rosenbrock => {
+            Kind::Radau => {
                 self.last_steps[IMPLICIT] = self.h;
                 self.selection.note_advance(self.h);
                 self.advanced += self.h;
-                self.note_cost(self.aim.tuning.start_cost + self.linearization_cost);
+                self.note_cost(1.0 + self.linearization_cost);
             }
         }
     }
@@ -134,7 +136,7 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
         match KINDS[*kind as usize] {
             Kind::Leapfrog => Stepper::<S>::recall(&self.leapfrog, &kept, theta, out),
             Kind::DormandPrince => Stepper::<S>::recall(&self.explicit, &kept, theta, out),
-            Kind::Rosenbrock => Stepper::<S>::recall(&self.implicit, &kept, theta, out),
+            Kind::Radau => Stepper::<S>::recall(&self.implicit, &kept, theta, out),
         }
     }
 
@@ -142,7 +144,7 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
         let (kind, rest) = kept.rest.split_first()?;
         match KINDS[*kind as usize] {
             Kind::Leapfrog => Stepper::<S>::applied_in(&self.leapfrog, Kept { rest, ..kept }),
-            Kind::DormandPrince | Kind::Rosenbrock => None,
+            Kind::DormandPrince | Kind::Radau => None,
         }
     }
 
@@ -196,7 +198,7 @@ impl<const N: usize> Auto<N> {
 // All methods are saved, so that the length is always the same.
 stored! {
     impl[const N: usize] Auto<N> {
-        active, reason, last_steps, h, advanced, cost, placed, judged, event, attempts, gave_way, strictness, hold, next_hold,
+        active, reason, last_steps, h, advanced, cost, placed, judged, event, attempts, strictness, hold, next_hold,
         right, wait, pause, event_wait, steps, changes, monitor, selection, balance, leapfrog, explicit, implicit
     }
     if Self::is_sound

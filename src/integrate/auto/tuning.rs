@@ -82,31 +82,15 @@ tuning! {
     start: u64 = 5, "stretches";
     /// The same after a jump or kink of an input.
     transient: u64 = 8, "stretches";
-    /// Stretches between two such transients, as inputs from tables have kinks all the time.
-    event_interval: u64 = 256, "stretches";
     /// Stretches of the leapfrog until it is tried whether error control costs little, as where nothing vibrates. Twice as many after
-    /// each trial in vain.
+    /// each trial in vain. Also those between two events that are followed so, as inputs from tables have kinks all the time.
     first_pause: u64 = 256, "stretches";
-    /// The most of these.
-    longest_pause: u64 = 16384, "stretches";
-    /// Failed attempts in a row after which the leapfrog gives way.
-    patience: u64 = 3, "attempts";
     /// Failed or rejected attempts in a row after which one method with error control gives way to the other.
-    long_patience: u64 = 12, "attempts";
-    /// At most so many changes between them before a step succeeds.
-    most_changes: u64 = 4, "changes";
-    /// Force evaluations of an attempt of Dormand-Prince.
-    explicit_cost: f64 = 6.0, "evaluations";
-    /// Those of an attempt of the Rosenbrock method.
-    implicit_cost: f64 = 5.0, "evaluations";
-    /// Those at its new state, beside the derivatives, whose cost is counted from the model: one with the derivatives, one for the
-    /// integrals.
-    start_cost: f64 = 2.0, "evaluations";
-    /// Evaluations after which the advance of a method with error control is taken.
+    patience: u64 = 12, "attempts";
+    /// Evaluations after which the advance of a method with error control is taken, and the other one is tried; twice as many
+    /// windows after each trial in vain.
     window: f64 = 400.0, "evaluations";
-    /// Windows until the other one is tried; twice as many after each trial in vain.
-    first_trial: f64 = 2.0, "windows";
-    /// The most of these.
+    /// The most of these windows.
     longest_trial: f64 = 64.0, "windows";
     /// The other one takes over when it advances this many times as far.
     clear_lead: f64 = 1.2, "1";
@@ -120,10 +104,8 @@ tuning! {
     highest_frequency: f64 = 2.0, "1";
     /// Where derivatives cost so many evaluations, finer steps of the leapfrog are weighed against error control.
     dear_derivatives: f64 = 8.0, "evaluations";
-    /// The step of the leapfrog is divided by this after a stretch that missed energy, where error control advances less per
-    /// evaluation than such steps, and again after the next.
-    finer: f64 = 2.0, "1";
-    /// Such steps must advance this many times as far: they may still miss energy, and error control soon take longer ones.
+    /// Halved steps of the leapfrog must advance this many times as far per evaluation as error control: they may still miss energy,
+    /// and error control soon take longer ones.
     finer_lead: f64 = 2.0, "1";
     /// Stretches of finer steps until it is tried whether error control costs less by now.
     finer_pause: u64 = 64, "stretches";

@@ -58,6 +58,9 @@ pub struct DormandPrince {
 }
 
 impl DormandPrince {
+    /// Evaluations of an attempt.
+    pub const EVALUATIONS: f64 = 6.0;
+
     /// Memory for a system with an absolute tolerance for every state.
     pub fn new<S: Observed>(system: &S, tolerance: &[f64]) -> Self {
         let n = system.positions() + system.velocities();

@@ -48,6 +48,8 @@ pub struct Options {
     pub presets: Vec<String>,
     /// Limit of the wall time of a run, s.
     pub wall_time: f64,
+    /// Evaluations after which a run is stopped at its next record.
+    pub most_evaluations: u64,
     /// Constants of `auto`.
     pub tuning: Tuning,
 }
@@ -112,7 +114,6 @@ pub enum Verdict {
         /// Missing energy as a share of what passed through.
         residual: f64,
         trusted: bool,
-        evaluations: u64,
         apart: Option<Apart>,
         /// Results that no bearing can have.
         impossible: Vec<String>,
@@ -125,6 +126,8 @@ pub struct Outcome {
     pub number: u64,
     pub preset: &'static str,
     pub promise: f64,
+    /// Evaluations of its run, to where it ended.
+    pub evaluations: u64,
     pub verdict: Verdict,
 }
 
@@ -165,12 +168,12 @@ pub fn judge(number: u64, options: &Options) -> Vec<Outcome> {
     let run = |preset, shift| run(&scene, preset, shift, options);
     let mut references = options.means.then(|| [0.0, CLOSE].map(|shift| run("reference", shift)));
     let means = match &references {
-        Some([Ok((_, a)), Ok((_, b))]) => Some([*a, *b]),
+        Some([(_, Ok((_, a))), (_, Ok((_, b)))]) => Some([*a, *b]),
         _ => None,
     };
     let list = options.chosen();
     list.map(|(preset, promise)| {
-        let ran = match references.take() {
+        let (evaluations, ran) = match references.take() {
             Some([reference, _]) if preset == "reference" => reference,
             others => {
                 references = others;
@@ -188,7 +191,7 @@ pub fn judge(number: u64, options: &Options) -> Vec<Outcome> {
                         && apart.ratio > 1.0
                     {
                         let of = |preset| {
-                            starts(|shift| run(preset, shift).ok().map(|(_, means)| means), apart.channel)
+                            starts(|shift| run(preset, shift).1.ok().map(|(_, means)| means), apart.channel)
                         };
                         apart.in_mean = differ(of(preset), of("reference"));
                     }
@@ -196,7 +199,7 @@ pub fn judge(number: u64, options: &Options) -> Vec<Outcome> {
                 verdict
             }
         };
-        Outcome { number, preset, promise, verdict }
+        Outcome { number, preset, promise, evaluations, verdict }
     })
     .collect()
 }
@@ -233,10 +236,9 @@ pub fn over_starts(number: u64, count: u32, options: &Options) -> Result<Vec<Ove
     for (preset, _) in options.chosen() {
         let (mut columns, mut evaluations) = ([const { Vec::new() }; CHANNELS.len()], 0.0);
         for k in 1..=count {
-            let (verdict, means) = run(&scene, preset, FURTHER * f64::from(k), options)?;
-            if let Verdict::Ran { evaluations: of_run, .. } = verdict {
-                evaluations += of_run as f64 / f64::from(count);
-            }
+            let (of_run, ran) = run(&scene, preset, FURTHER * f64::from(k), options);
+            let (_, means) = ran?;
+            evaluations += of_run as f64 / f64::from(count);
             columns
                 .iter_mut()
                 .zip(means)
@@ -259,10 +261,24 @@ fn differ(here: Option<Sample>, there: Option<Sample>) -> bool {
 
 type Means = [Option<Sample>; CHANNELS.len()];
 
-fn run(scene: &Value, preset: &str, shift: f64, options: &Options) -> Result<(Verdict, Means), Error> {
+/// Evaluations of a run, and what it came to.
+type Ran = (u64, Result<(Verdict, Means), Error>);
+
+fn run(scene: &Value, preset: &str, shift: f64, options: &Options) -> Ran {
     let mut scene = scene.clone();
     scene["solver"] = json!({"preset": preset});
-    let mut sim = Sim::with_tuning(Arc::new(Model::from_json(&scene.to_string())?), options.tuning)?;
+    let sim = Model::from_json(&scene.to_string())
+        .and_then(|model| Sim::with_tuning(Arc::new(model), options.tuning));
+    match sim {
+        Ok(mut sim) => {
+            let ran = follow(&mut sim, &scene, shift, options);
+            (sim.statistics().evaluations, ran)
+        }
+        Err(e) => (0, Err(e)),
+    }
+}
+
+fn follow(sim: &mut Sim, scene: &Value, shift: f64, options: &Options) -> Result<(Verdict, Means), Error> {
     sim.set_wall_time_limit(options.wall_time)?;
     if shift > 0.0 {
         let mut state = sim.state().to_vec();
@@ -272,10 +288,15 @@ fn run(scene: &Value, preset: &str, shift: f64, options: &Options) -> Result<(Ve
     }
     let names: Vec<String> = sim.channels().iter().map(|channel| channel.name.clone()).collect();
     let places = CHANNELS.map(|name| names.iter().position(|n| n == name));
-    let mut watch = Watch::new(&scene, &names);
+    let mut watch = Watch::new(scene, &names);
     let (mut out, mut columns) = (vec![0.0; names.len()], [const { Vec::new() }; CHANNELS.len()]);
     for i in 1..=RECORDS {
         sim.advance_to(options.duration * f64::from(i) / f64::from(RECORDS))?;
+        if sim.statistics().evaluations > options.most_evaluations {
+            let message =
+                format!("more than {} evaluations at t = {} s", options.most_evaluations, sim.time());
+            return Err(Error::new(Status::TooManySteps, message));
+        }
         sim.outputs(&mut out)?;
         watch.see(&out);
         if 2 * i > RECORDS {
@@ -291,7 +312,6 @@ fn run(scene: &Value, preset: &str, shift: f64, options: &Options) -> Result<(Ve
     let verdict = Verdict::Ran {
         residual: sim.power_balance()?.relative_residual(),
         trusted: doubts.is_empty(),
-        evaluations: sim.statistics().evaluations,
         apart: None,
         impossible: watch.list(scene["outer_ring"]["speed"] != Value::Null),
         report: sim.report(),

@@ -2,6 +2,9 @@
 
 use super::run::{Apart, CHANNELS, Outcome, OverStarts, PRESETS, Verdict};
 
+/// A run that takes more than so many times the evaluations of the median one is dear.
+const DEAR: u64 = 50;
+
 /// Whether more is missing than promised, or what is no number.
 fn breaks(residual: f64, promise: f64) -> bool {
     residual.is_nan() || residual.abs() > promise
@@ -9,10 +12,10 @@ fn breaks(residual: f64, promise: f64) -> bool {
 
 /// A line about a run that is not as it should be.
 pub fn line(outcome: &Outcome) -> Option<String> {
-    let Outcome { number, preset, promise, verdict } = outcome;
+    let Outcome { number, preset, promise, evaluations, verdict } = outcome;
     let text = match verdict {
         Verdict::Refused(e) => format!("refused: {e}"),
-        Verdict::Failed(e) => format!("failed: {e}"),
+        Verdict::Failed(e) => format!("failed after {evaluations} evaluations: {e}"),
         Verdict::MadeEnergy(report) => format!("its film made energy: {report}"),
         Verdict::Ran { impossible, trusted, report, .. } if !impossible.is_empty() => {
             let trusted = if *trusted { "trusted" } else { "not trusted" };
@@ -21,7 +24,7 @@ pub fn line(outcome: &Outcome) -> Option<String> {
         Verdict::Ran { trusted: false, report, residual, .. } => {
             format!("not trusted, residual {residual:.1e}: {report}")
         }
-        Verdict::Ran { residual, report, evaluations, .. } if breaks(*residual, *promise) => {
+        Verdict::Ran { residual, report, .. } if breaks(*residual, *promise) => {
             format!("residual {residual:.1e}, {evaluations} evaluations: {report}")
         }
         Verdict::Ran { apart: Some(apart), report, residual, .. } if apart.ratio > 1.0 => {
@@ -61,9 +64,10 @@ fn apart(verdict: &Verdict) -> Option<Apart> {
 
 /// Counts by preset.
 pub fn table(outcomes: &[Outcome]) -> String {
-    let mut text = "\n| preset | scenes | refused | failed | film made energy, and told | impossible | not trusted | trusted, balance broken | trusted, means of one run apart | of eight starts | \
-                    largest missing share of the trusted | median evaluations per run | most, of scene |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n"
-        .to_owned();
+    let mut text = format!(
+        "\n| preset | scenes | refused | failed | film made energy, and told | impossible | not trusted | trusted, balance broken | trusted, means of one run apart | of eight starts | \
+                    largest missing share of the trusted | median evaluations per run | more than {DEAR} times as many | most, of scene |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n"
+    );
     for (preset, promise) in PRESETS {
         let list: Vec<&Outcome> = outcomes.iter().filter(|o| o.preset == preset).collect();
         if list.is_empty() {
@@ -72,20 +76,20 @@ pub fn table(outcomes: &[Outcome]) -> String {
         let count = |f: &dyn Fn(&Verdict) -> bool| list.iter().filter(|o| f(&o.verdict)).count();
         let mut evaluations: Vec<(u64, u64)> = list
             .iter()
-            .filter_map(|o| match o.verdict {
-                Verdict::Ran { evaluations, .. } => Some((evaluations, o.number)),
-                _ => None,
-            })
+            .filter(|o| matches!(o.verdict, Verdict::Ran { .. }))
+            .map(|o| (o.evaluations, o.number))
             .collect();
         evaluations.sort_unstable();
         let (median, _) = evaluations.get(evaluations.len() / 2).copied().unwrap_or_default();
+        // Also of those that failed or were stopped: they took at least as many.
+        let dear = list.iter().filter(|o| o.evaluations > DEAR * median).count();
         let (most, scene) = evaluations.last().copied().unwrap_or_default();
         let largest = list.iter().fold(0.0f64, |most, o| match o.verdict {
             Verdict::Ran { residual, trusted: true, .. } => most.max(residual.abs()),
             _ => most,
         });
         text += &format!(
-            "| {preset} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {largest:.1e} | {median} | {most}, {scene} |\n",
+            "| {preset} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {largest:.1e} | {median} | {dear} | {most}, {scene} |\n",
             list.len(),
             count(&|v| matches!(v, Verdict::Refused(_))),
             count(&|v| matches!(v, Verdict::Failed(_))),

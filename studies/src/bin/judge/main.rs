@@ -52,12 +52,21 @@ struct Arguments {
     /// Print the means of the first scene over so many starts instead.
     #[arg(long)]
     starts: Option<u32>,
+    /// Also print the evaluations of every run.
+    #[arg(long)]
+    evaluations: bool,
     /// Print the scene instead of running it.
     #[arg(long)]
     print: bool,
     /// Limit of the wall time of a run, s.
     #[arg(long, default_value_t = 600.0)]
     wall_time: f64,
+    /// Stop runs at the first record after so many evaluations.
+    #[arg(long, default_value_t = u64::MAX)]
+    most_evaluations: u64,
+    /// A constant of `auto` that is not as it is by default, as NAME=VALUE.
+    #[arg(long)]
+    set: Vec<String>,
 }
 
 fn main() -> ExitCode {
@@ -76,8 +85,18 @@ fn main() -> ExitCode {
         println!("{:#}", kind.scene(arguments.seed, arguments.duration));
         return ExitCode::SUCCESS;
     }
-    let Arguments { seed, n, duration, means, preset: presets, wall_time, .. } = arguments;
-    let options = run::Options { kind, duration, means, presets, wall_time, tuning: Tuning::default() };
+    let Arguments {
+        seed, n, duration, means, preset: presets, wall_time, evaluations, most_evaluations, ..
+    } = arguments;
+    let mut tuning = Tuning::default();
+    for text in &arguments.set {
+        let value = text.split_once('=').and_then(|(name, value)| Some((name, value.parse().ok()?)));
+        if !value.is_some_and(|(name, value)| tuning.set(name, value)) {
+            eprintln!("{text}: no constant of auto, or no value");
+            return ExitCode::FAILURE;
+        }
+    }
+    let options = run::Options { kind, duration, means, presets, wall_time, most_evaluations, tuning };
     if arguments.tuning {
         print!("{}", tuning::page(seed..seed + n, &options));
         return ExitCode::SUCCESS;
@@ -97,6 +116,9 @@ fn main() -> ExitCode {
     let outcomes = run::judge_all(seed..seed + n, &options, |outcome| {
         if let Some(line) = summary::line(outcome) {
             println!("{line}");
+        }
+        if evaluations {
+            println!("{} {}: {} evaluations", outcome.number, outcome.preset, outcome.evaluations);
         }
     });
     println!("{}", summary::table(&outcomes));

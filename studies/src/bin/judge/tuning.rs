@@ -22,8 +22,8 @@ fn total(numbers: Range<u64>, options: &Options, tuning: Tuning) -> Total {
     for outcome in outcomes {
         match outcome.verdict {
             Verdict::Refused(_) => {}
-            Verdict::Ran { trusted, residual, evaluations, .. } => {
-                total.evaluations.push(evaluations as f64);
+            Verdict::Ran { trusted, residual, .. } => {
+                total.evaluations.push(outcome.evaluations as f64);
                 total.bad += usize::from(!trusted);
                 total.missing = if trusted { total.missing.max(residual.abs()) } else { total.missing };
             }
