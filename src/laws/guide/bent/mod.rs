@@ -25,19 +25,19 @@ mod surface;
 use crate::laws::elastic::solid::SolidContact;
 use crate::laws::fluid::Fluid;
 use crate::laws::guide::circumference::Film;
-use crate::laws::guide::circumference::breaks::{Aims, Search};
+use crate::laws::guide::circumference::breaks::Search;
 use crate::laws::guide::circumference::gap::{Gap, Harmonics, Lobe};
 use crate::laws::guide::circumference::panels::Panels;
 use crate::laws::guide::circumference::samples::{Memory, Row, Table, with_memory};
+use crate::laws::guide::circumference::stretch::Aims;
 use crate::laws::guide::journal::{Harmonic, NoFilm};
 use crate::laws::guide::{GuideFilm, GuideForce, GuideLaw, GuideSolid};
 use crate::scalar::{Dual, Real, math};
-use moments::Shape;
 use nalgebra::{DMatrix, DVector};
 use pulp::Arch;
 use std::f64::consts::TAU;
 use sums::Sums;
-use surface::{FilmSurface, SolidSurface};
+use surface::{FilmSurface, Shape, SolidSurface};
 
 /// Coordinates of the motion of the whole cage in front of those of its waves: place (y, z) and angle.
 pub const OF_MOTION: usize = 3;

@@ -1,26 +1,10 @@
 //! From Fourier coefficients to forces over the coordinates of a bent cage, and to their derivatives.
 
 use super::sums::{Found, Of, Sums};
-use super::{BentMotion, BentSurface, OF_MOTION, Wanted};
+use super::surface::Shape;
+use super::{OF_MOTION, Wanted};
 use crate::scalar::math;
 use nalgebra::{DMatrix, DVector, DVectorViewMut};
-
-/// A bent surface as it moves.
-#[derive(Clone, Copy)]
-pub(super) struct Shape<'a> {
-    pub surface: &'a BentSurface,
-    pub motion: &'a BentMotion<'a>,
-    /// R, m.
-    pub radius: f64,
-    /// Factor of dh/dt in G.
-    pub squeeze: f64,
-    /// w_1 + w_2 in G, rad/s.
-    pub turning: f64,
-    /// Whether they are in it at all.
-    pub wedge: bool,
-    /// Whether the moment sees how the surfaces slide, and not only how they turn.
-    pub slides: bool,
-}
 
 /// A wave as a coordinate: order, tau, and whether it is the sine.
 #[derive(Clone, Copy)]
@@ -51,16 +35,6 @@ impl Coordinate {
 }
 
 impl Shape<'_> {
-    /// s.
-    fn sign(&self) -> f64 {
-        self.surface.sign()
-    }
-
-    /// Whether pressure on the waves turns the journal.
-    pub(super) fn turns_waves(&self) -> bool {
-        self.surface.on_journal
-    }
-
     /// The place of the cage and its waves.
     fn coordinates(&self) -> impl Iterator<Item = Coordinate> + '_ {
         let centre = std::iter::once((0, 1, -1.0));

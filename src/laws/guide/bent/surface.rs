@@ -1,12 +1,41 @@
-//! What a film and a solid contact do at each place of a bent surface.
+//! A bent surface as it moves, and what a film and a solid contact do at each place of it.
 
-use super::moments::Shape;
+use super::{BentMotion, BentSurface};
 use crate::laws::contact_pair::ContactMotion;
 use crate::laws::elastic::solid::SolidContact;
 use crate::laws::guide::circumference::gap::Place;
 use crate::laws::guide::circumference::land::Land;
 use crate::scalar::{Base, Duals, Numeric, Pack};
 use pulp::Simd;
+
+/// A bent surface as it moves.
+#[derive(Clone, Copy)]
+pub(super) struct Shape<'a> {
+    pub surface: &'a BentSurface,
+    pub motion: &'a BentMotion<'a>,
+    /// R, m.
+    pub radius: f64,
+    /// Factor of dh/dt in G.
+    pub squeeze: f64,
+    /// w_1 + w_2 in G, rad/s.
+    pub turning: f64,
+    /// Whether they are in it at all.
+    pub wedge: bool,
+    /// Whether the moment sees how the surfaces slide, and not only how they turn.
+    pub slides: bool,
+}
+
+impl Shape<'_> {
+    /// s.
+    pub(super) fn sign(&self) -> f64 {
+        self.surface.sign()
+    }
+
+    /// Whether pressure on the waves turns the journal.
+    pub(super) fn turns_waves(&self) -> bool {
+        self.surface.on_journal
+    }
+}
 
 /// What a surface does at one place, per angle.
 #[derive(Clone, Copy)]
