@@ -6,11 +6,10 @@
 //! towards zero in between, the place where it turns is found first: that tells whether there are two. So nothing is
 //! missed but what a function does by turning twice within one step.
 
-use super::gap::{Gap, Place};
+use super::gap::Gap;
 use super::roots::{Aim, Bracket, Brackets};
 use super::samples::{GROUP, Memory, Sample, Samples, Signs, with_memory};
-use super::stretch::{Break, DRY, EXCESS, FUNCTIONS, MOST_DRY, OPENING, Stretch};
-use crate::scalar::Base;
+use super::stretch::{Aims, Break, DRY, EXCESS, FUNCTIONS, Functions, MOST_DRY, OPENING, Stretch};
 use pulp::Arch;
 
 /// A drop of the film between two points by this share of it is looked at.
@@ -18,24 +17,6 @@ const THIN: f64 = 0.25;
 
 /// Share of a rise that slopes which do not change evenly may add to it: in 16 steps per period it is below 0.02.
 const UNEVEN: f64 = 0.05;
-
-/// What is looked for on a circle.
-#[derive(Clone, Copy, PartialEq)]
-pub(in crate::laws::guide) enum Aims {
-    /// The smallest film.
-    Minima,
-    /// Where h = h_L and where G = 0.
-    Edges,
-    /// Where K = 0, too, with this c, 1/(m^2 s).
-    EdgesAndExcess(f64),
-}
-
-/// K and its slope.
-#[inline(always)]
-pub(super) fn excess<B: Base>(c: f64, [h, h1]: [B; 2], [g, g1]: [B; 2]) -> [B; 2] {
-    let square = h * h;
-    [g + square * h * c, g1 + square * h1 * (3.0 * c)]
-}
 
 /// What a search sees of one step.
 struct Step<'a> {
@@ -48,18 +29,16 @@ struct Step<'a> {
 
 /// Search over the circle, stretch by stretch.
 pub(in crate::laws::guide) struct Search<'a> {
-    pub gap: &'a Gap<'a>,
-    /// h_L, m; infinite where everything is wet.
-    layer: f64,
-    aims: Aims,
-    pub(super) instructions: Arch,
+    functions: Functions<'a>,
+    instructions: Arch,
     samples: Samples<'a>,
 }
 
 impl<'a> Search<'a> {
     /// Of a gap in a layer of this thickness, m, infinite where everything is wet.
     pub fn new(gap: &'a Gap<'a>, layer: f64, aims: Aims, instructions: Arch, memory: Memory<'a>) -> Self {
-        Self { gap, layer, aims, instructions, samples: Samples::new(gap.order(), memory) }
+        let functions = Functions { gap, layer, aims };
+        Self { functions, instructions, samples: Samples::new(gap.order(), memory) }
     }
 
     /// Smallest film at the ends of steps, m, once a stretch was found; of bent surfaces only. Between them none is thinner by
@@ -80,7 +59,7 @@ impl<'a> Search<'a> {
         let mut known = None;
         (out.last_step, out.to) = (steps, self.samples.angle(steps));
         'groups: for group in start / GROUP..steps / GROUP {
-            self.samples.reach(group, self.gap, self.layer, self.aims, self.instructions);
+            self.samples.reach(group, &self.functions, self.instructions);
             let (here, after) = (self.samples.group(group), self.samples.group(group + 1));
             let signs = here.signs();
             let next = signs.shifted(after.signs());
@@ -164,7 +143,8 @@ impl<'a> Search<'a> {
         if !crosses && !turns {
             return;
         }
-        let ([a, da], [b, db]) = (self.function_at(of, samples[0]), self.function_at(of, samples[1]));
+        let at = |sample: Sample<'_>| self.functions.of_values(of, sample.film(), sample.opening());
+        let ([a, da], [b, db]) = (at(samples[0]), at(samples[1]));
         let (negative, rises) = (signs[0].values(of) & 1 == 1, signs[0].slopes(of) & 1 == 1);
         let bracket =
             |rises: bool, aim: Aim| Bracket { ends, values: [a, b], slopes: [da, db], rises, of, aim };
@@ -192,7 +172,7 @@ impl<'a> Search<'a> {
     /// Whether a film that seems to drop by this between these places (m) has to be known better. Forces only ask
     /// whether there is one.
     fn may_be_thinnest(&self, [a, b]: [Sample<'_>; 2], drop: f64) -> bool {
-        self.aims == Aims::Minima || drop > THIN * a.film()[0].min(b.film()[0])
+        self.functions.aims == Aims::Minima || drop > THIN * a.film()[0].min(b.film()[0])
     }
 
     /// Tells every part of the circle where the film is thinner than the layer, cut where G changes its sign, rad.
@@ -230,7 +210,7 @@ impl<'a> Search<'a> {
     /// Finds the places in these brackets; where functions turned back beyond zero, there are more.
     fn refine(&self, brackets: &mut Brackets, out: &mut Stretch) {
         let count = brackets.count;
-        brackets.find(self);
+        brackets.find(&self.functions, self.instructions);
         let mut more = None;
         for i in 0..count {
             let (angle, of) = (brackets.angle[i], brackets.of[i] as usize);
@@ -256,45 +236,6 @@ impl<'a> Search<'a> {
         if let Some(more) = &mut more {
             self.refine(more, out);
         }
-    }
-
-    /// Functions with their derivatives at a place.
-    #[inline(always)]
-    fn functions<B: Base>(&self, p: &Place<B>) -> [[B; 4]; FUNCTIONS] {
-        let ([h, h1, h2, h3], [g, g1, g2, g3]) = (p.film, p.opening);
-        let excess = match self.aims {
-            Aims::Minima | Aims::Edges => p.opening,
-            Aims::EdgesAndExcess(c) => {
-                let [value, slope] = excess(c, [h, h1], [g, g1]);
-                let square = h1 * h1 * 2.0;
-                let second = g2 + h * (square + h * h2) * (3.0 * c);
-                [value, slope, second, g3 + (h1 * (square + h * h2 * 6.0) + h * h * h3) * (3.0 * c)]
-            }
-        };
-        [[h - self.layer, h1, h2, h3], p.opening, excess]
-    }
-
-    /// The function of this number and its slope at a sampled place.
-    #[inline(always)]
-    fn function_at(&self, of: usize, sample: Sample<'_>) -> [f64; 2] {
-        match (of, self.aims) {
-            (DRY, _) => {
-                let [film, slope] = sample.film();
-                [film - self.layer, slope]
-            }
-            (EXCESS, Aims::EdgesAndExcess(c)) => excess(c, sample.film(), sample.opening()),
-            _ => sample.opening(),
-        }
-    }
-
-    /// The function of this number at each place.
-    #[inline(always)]
-    pub(super) fn function<B: Base>(&self, of: B, p: &Place<B>) -> [B; 4] {
-        let [mut out, opening, excess] = self.functions(p);
-        for k in 0..4 {
-            out[k] = B::select(of.above(0.5), B::select(of.above(1.5), excess[k], opening[k]), out[k]);
-        }
-        out
     }
 }
 

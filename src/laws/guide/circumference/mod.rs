@@ -17,14 +17,14 @@ pub(super) mod stretch;
 use crate::laws::fluid::grease::Thickening;
 use crate::laws::guide::journal::{FilmForce, Harmonic, JournalMotion, NoFilm};
 use crate::scalar::{Real, ZEROS, math};
-use breaks::{Aims, Search};
+use breaks::Search;
 use gap::{Gap, Lobe};
 use land::{Land, OUTPUTS, VARIABLES, VELOCITIES};
 use panels::{PanelSums, Panels, Sums, totals};
 use pulp::Arch;
 use samples::{Memory, with_memory};
 use std::f64::consts::{PI, TAU};
-use stretch::{Break, DRY, EXCESS, FUNCTIONS, OPENING, Stretch};
+use stretch::{Aims, Break, DRY, EXCESS, FUNCTIONS, OPENING, Stretch};
 
 /// Most lobes of a gap; there is room for a few of them at no cost.
 const MOST_LOBES: usize = 64;

@@ -4,10 +4,9 @@
 //! x <- x - r (1 + r (k + r (2 k^2 - t)))  with  r = f/f',  k = f''/2f',  t = f'''/6f',
 //! whose error falls with its fourth power, or with its third where a function turns back; a step that leaves the bracket halves it.
 
-use super::breaks::Search;
-use super::stretch::FUNCTIONS;
+use super::stretch::{FUNCTIONS, Functions};
 use crate::scalar::{Base, Columns, Lanes, Numeric, Pack, WIDEST, ZEROS, dispatch};
-use pulp::Simd;
+use pulp::{Arch, Simd};
 
 /// Largest number of brackets that one step needs.
 const MOST_OF_STEP: usize = FUNCTIONS + 1;
@@ -105,9 +104,9 @@ impl Brackets {
     }
 
     /// Finds the places.
-    pub fn find(&mut self, search: &Search<'_>) {
-        let order = f64::from(search.gap.order());
-        dispatch(search.instructions, Roots { search, brackets: self, order });
+    pub fn find(&mut self, functions: &Functions<'_>, instructions: Arch) {
+        let order = f64::from(functions.gap.order());
+        dispatch(instructions, Roots { functions, brackets: self, order });
     }
 }
 
@@ -123,14 +122,14 @@ fn load<S: Simd, const K: usize>(simd: S, ends: &[Lanes; 2], first: usize) -> [P
     [Pack::load(simd, &ends[0][first..]), Pack::load(simd, &ends[1][first..])]
 }
 
-struct Roots<'a, 's> {
-    search: &'a Search<'s>,
+struct Roots<'a> {
+    functions: &'a Functions<'a>,
     brackets: &'a mut Brackets,
     /// Highest order of the gap.
     order: f64,
 }
 
-impl Roots<'_, '_> {
+impl Roots<'_> {
     /// The place where the cubic of each bracket is zero or turns back.
     #[inline(always)]
     fn guess<S: Simd, const K: usize>(&self, simd: S, first: usize, turns: &Mask<S, K>) -> Pack<S, K> {
@@ -159,7 +158,7 @@ impl Roots<'_, '_> {
 
 type Mask<S, const K: usize> = <Pack<S, K> as Numeric>::Mask;
 
-impl Columns for Roots<'_, '_> {
+impl Columns for Roots<'_> {
     fn rows(&self) -> usize {
         self.brackets.count
     }
@@ -175,8 +174,8 @@ impl Columns for Roots<'_, '_> {
         let mut searching = x.like(1.0);
         let (mut kept, mut film) = (x, x);
         for _ in 0..MOST_STEPS {
-            let place = self.search.gap.at(x);
-            let [value, slope, curvature, third] = self.search.function(of, &place);
+            let place = self.functions.gap.at(x);
+            let [value, slope, curvature, third] = self.functions.at(of, &place);
             let active = searching.above(0.5);
             let (f, df) = (Pack::select(turns, slope, value), Pack::select(turns, curvature, slope));
             let bend = Pack::select(turns, third, curvature);

@@ -50,10 +50,10 @@ pub(in crate::laws::guide) fn circle(gap: &Gap<'_>, layer: f64) -> Circle {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laws::guide::circumference::breaks::{Aims, Search};
+    use crate::laws::guide::circumference::breaks::Search;
     use crate::laws::guide::circumference::gap::Lobe;
     use crate::laws::guide::circumference::samples::with_memory;
-    use crate::laws::guide::circumference::stretch::Stretch;
+    use crate::laws::guide::circumference::stretch::{Aims, Stretch};
     use crate::laws::guide::journal::tests::motion;
     use pulp::Arch;
 

@@ -4,9 +4,8 @@
 //! sine but for signs. Over a quarter of the circle, sums over even and over odd orders give all four quarters. The waves of a
 //! bent surface are tabulated there. A gap with orders too high for memory on the stack is found place by place, in parts.
 
-use super::breaks::Aims;
-use super::gap::{Gap, Harmonics};
-use super::stretch::{DRY, EXCESS, FUNCTIONS, OPENING};
+use super::gap::Harmonics;
+use super::stretch::{Aims, DRY, EXCESS, FUNCTIONS, Functions, OPENING, excess};
 use crate::scalar::{Base, Columns, Numeric, Pack, dispatch, elementary, math};
 use pulp::Simd;
 use std::f64::consts::{PI, TAU};
@@ -221,20 +220,23 @@ impl<'m> Samples<'m> {
     }
 
     /// Finds the gap in this group and the next, if it is not there yet.
-    pub fn reach(&mut self, group: usize, gap: &Gap<'_>, layer: f64, aims: Aims, instructions: pulp::Arch) {
+    pub fn reach(&mut self, group: usize, functions: &Functions<'_>, instructions: pulp::Arch) {
         let there = self.first.is_some_and(|first| {
             self.whole() || (group >= first && group + 1 < first + GROUPS * self.memory.rows.len())
         });
         if there {
             return;
         }
-        debug_assert!(gap.harmonics.is_empty() || self.memory.table.is_some(), "a bent surface has a table");
+        debug_assert!(
+            functions.gap.harmonics.is_empty() || self.memory.table.is_some(),
+            "a bent surface has a table"
+        );
         let first = if self.whole() { 0 } else { group };
         self.first = Some(first);
         let (step, rows) = (self.step, &mut *self.memory.rows);
         let whole = rows.len() == self.rows;
         let table = self.memory.table;
-        let fill = Fill { gap, layer, aims, rows, table, whole, step, first: first * GROUP };
+        let fill = Fill { functions, rows, table, whole, step, first: first * GROUP };
         dispatch(instructions, fill);
     }
 
@@ -283,9 +285,7 @@ const COUNTED: Eight = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
 
 /// Finds the gap at the places of rows.
 struct Fill<'a> {
-    gap: &'a Gap<'a>,
-    layer: f64,
-    aims: Aims,
+    functions: &'a Functions<'a>,
     rows: &'a mut [Row],
     table: Option<&'a Table>,
     /// Whether these are the rows of the whole circle, or neighbours from the `first` place on.
@@ -308,14 +308,15 @@ impl Fill<'_> {
         film: WithSlope<S, K>,
         opening: WithSlope<S, K>,
     ) {
+        let Functions { layer, aims, .. } = *self.functions;
         let ([h, h1], [g, g1]) = (film, opening);
         let bits = Pack::<S, K>::load(simd, &BITS[usize::from(descends)][i..]);
-        let mut signs = signs_of(bits, DRY, [h - self.layer, h1]);
-        if self.aims != Aims::Minima {
+        let mut signs = signs_of(bits, DRY, [h - layer, h1]);
+        if aims != Aims::Minima {
             signs += signs_of(bits, OPENING, opening);
         }
-        if let Aims::EdgesAndExcess(c) = self.aims {
-            signs += signs_of(bits, EXCESS, super::breaks::excess(c, film, opening));
+        if let Aims::EdgesAndExcess(c) = aims {
+            signs += signs_of(bits, EXCESS, excess(c, film, opening));
         }
         let row = &mut self.rows[row];
         let before = if i == 0 { 0.0 } else { row.signs[group] };
@@ -341,11 +342,12 @@ impl Columns for Fill<'_> {
     #[inline(always)]
     fn group<S: Simd, const K: usize>(&mut self, simd: S, first: usize) {
         let (row, i) = (first / GROUP, first % GROUP);
+        let gap = self.functions.gap;
         if !self.whole {
             for group in 0..GROUPS {
                 let start = self.first + (GROUPS * row + group) * GROUP;
                 let k = Pack::<S, K>::load(simd, &COUNTED[i..]) + start as f64;
-                let place = self.gap.at(angle(k, self.step));
+                let place = gap.at(angle(k, self.step));
                 let ([h, h1, ..], [g, g1, ..]) = (place.film, place.opening);
                 self.keep(simd, [row, group, i], false, [h, h1], [g, g1]);
             }
@@ -356,7 +358,7 @@ impl Columns for Fill<'_> {
         let (mut odd, mut even) = ([[zero; 2]; 4], [[zero; 2]; 4]);
         if let Some(table) = self.table {
             let waves = &table.waves[row * table.order..][..table.order];
-            let harmonics = &self.gap.harmonics[..table.order];
+            let harmonics = &gap.harmonics[..table.order];
             let mut n = 1;
             while n <= table.order {
                 add(&mut odd, n as f64, load(simd, &waves[n - 1], i), &harmonics[n - 1]);
@@ -368,9 +370,9 @@ impl Columns for Fill<'_> {
         } else {
             let k = Pack::<S, K>::load(simd, &COUNTED[i..]) + (row * GROUP) as f64;
             let (sin, cos) = elementary::sin_cos((k + 0.5) * self.step);
-            add(&mut odd, 1.0, [cos, sin], &self.gap.first_harmonic());
+            add(&mut odd, 1.0, [cos, sin], &gap.first_harmonic());
             let (mut n, mut wave) = (1, [cos, sin]);
-            for lobe in self.gap.lobes {
+            for lobe in gap.lobes {
                 if lobe.order < n {
                     (n, wave) = (1, [cos, sin]);
                 }
@@ -379,10 +381,10 @@ impl Columns for Fill<'_> {
                     (n, wave) = (n + 1, [c * cos - s * sin, s * cos + c * sin]);
                 }
                 let parts = if n % 2 == 1 { &mut odd } else { &mut even };
-                add(parts, f64::from(n), wave, &self.gap.harmonic_of(lobe));
+                add(parts, f64::from(n), wave, &gap.harmonic_of(lobe));
             }
         }
-        let mean = self.gap.mean();
+        let mean = gap.mean();
         for group in 0..GROUPS {
             // d - pi, -d, d, pi - d
             let mut functions = [zero; 4];

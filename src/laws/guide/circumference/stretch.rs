@@ -1,6 +1,7 @@
-//! Parts of the circle between places where the integrand of a film has a kink.
+//! Functions of the gap at whose zeros the integrand of a film has a kink, and parts of the circle between such places.
 
-use crate::scalar::WIDEST;
+use super::gap::{Gap, Place};
+use crate::scalar::{Base, WIDEST};
 use std::f64::consts::PI;
 
 /// h - h_L.
@@ -11,6 +12,71 @@ pub(in crate::laws::guide) const OPENING: usize = 1;
 pub(in crate::laws::guide) const EXCESS: usize = 2;
 /// Functions that change their sign at breaks.
 pub(in crate::laws::guide) const FUNCTIONS: usize = 3;
+
+/// What is looked for on a circle.
+#[derive(Clone, Copy, PartialEq)]
+pub(in crate::laws::guide) enum Aims {
+    /// The smallest film.
+    Minima,
+    /// Where h = h_L and where G = 0.
+    Edges,
+    /// Where K = 0, too, with this c, 1/(m^2 s).
+    EdgesAndExcess(f64),
+}
+
+/// K and its slope.
+#[inline(always)]
+pub(super) fn excess<B: Base>(c: f64, [h, h1]: [B; 2], [g, g1]: [B; 2]) -> [B; 2] {
+    let square = h * h;
+    [g + square * h * c, g1 + square * h1 * (3.0 * c)]
+}
+
+/// Functions of a gap whose signs are looked at.
+#[derive(Clone, Copy)]
+pub(super) struct Functions<'a> {
+    pub gap: &'a Gap<'a>,
+    /// h_L, m; infinite where everything is wet.
+    pub layer: f64,
+    pub aims: Aims,
+}
+
+impl Functions<'_> {
+    /// Functions with their derivatives at a place.
+    #[inline(always)]
+    fn all<B: Base>(&self, p: &Place<B>) -> [[B; 4]; FUNCTIONS] {
+        let ([h, h1, h2, h3], [g, g1, g2, g3]) = (p.film, p.opening);
+        let excess = match self.aims {
+            Aims::Minima | Aims::Edges => p.opening,
+            Aims::EdgesAndExcess(c) => {
+                let [value, slope] = excess(c, [h, h1], [g, g1]);
+                let square = h1 * h1 * 2.0;
+                let second = g2 + h * (square + h * h2) * (3.0 * c);
+                [value, slope, second, g3 + (h1 * (square + h * h2 * 6.0) + h * h * h3) * (3.0 * c)]
+            }
+        };
+        [[h - self.layer, h1, h2, h3], p.opening, excess]
+    }
+
+    /// The function of this number and its slope where h (m) and G (m/s) and their slopes are these.
+    #[inline(always)]
+    pub(super) fn of_values(&self, of: usize, [h, h1]: [f64; 2], opening: [f64; 2]) -> [f64; 2] {
+        match (of, self.aims) {
+            (DRY, _) => [h - self.layer, h1],
+            (EXCESS, Aims::EdgesAndExcess(c)) => excess(c, [h, h1], opening),
+            _ => opening,
+        }
+    }
+
+    /// The function of this number at each place.
+    #[inline(always)]
+    pub(super) fn at<B: Base>(&self, of: B, p: &Place<B>) -> [B; 4] {
+        let [mut out, opening, excess] = self.all(p);
+        for k in 0..4 {
+            out[k] = B::select(of.above(0.5), B::select(of.above(1.5), excess[k], opening[k]), out[k]);
+        }
+        out
+    }
+}
 
 /// Most of those breaks that stand for what changed in dry parts.
 pub(super) const MOST_DRY: usize = WIDEST;

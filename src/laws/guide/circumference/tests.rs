@@ -1,9 +1,9 @@
-use super::breaks::{Aims, Search};
+use super::breaks::Search;
 use super::gap::{Gap, Harmonics, Lobe};
 use super::panels::{Panel, Piece};
 use super::rule::{SIXTEEN, TWICE_EIGHT};
 use super::samples::{Memory, Samples, Table, with_memory};
-use super::stretch::{DRY, OPENING, Stretch};
+use super::stretch::{Aims, DRY, Functions, OPENING, Stretch};
 use crate::laws::guide::journal::tests::motion;
 use crate::scalar::{Lanes, WIDEST};
 use pulp::Arch;
@@ -46,7 +46,8 @@ fn a_table_has_the_gap_of_each_place() {
         let table = Table::new(order);
         let mut rows = table.rows();
         let mut samples = Samples::new(order, Memory { rows: &mut rows, table: Some(&table) });
-        samples.reach(0, &gap, LAYER, Aims::Edges, Arch::new());
+        let functions = Functions { gap: &gap, layer: LAYER, aims: Aims::Edges };
+        samples.reach(0, &functions, Arch::new());
         let mut lowest = f64::INFINITY;
         for k in 0..=samples.count() {
             let (place, group) = (gap.at(samples.angle(k)), samples.group(k / 8));
