@@ -1,13 +1,14 @@
 //! Memory of a force evaluation: motion of the bodies, touching contacts, and all forces.
 
-use super::integration::step_forces::StepMemory;
 use super::inverse_inertia::InverseInertia;
 use super::{InputValues, Plane};
 use crate::bodies::{BodyState, CAGE, Motions, OF_ELEMENT, SHARED, WrenchLanes};
 use crate::integrate::Vibration;
 use crate::laws::fluid::Fluid;
 use crate::model::RATES;
-use crate::pairs::{Contacts, LAWS, LAWS_OF_PAIR, Law, LawCounts, PairInfo, RelativeSlopes, SharedForce};
+use crate::pairs::{
+    Contacts, LAWS, LAWS_OF_PAIR, Law, LawCounts, PairInfo, RelativeSlopes, SharedForce, SpeedChanges,
+};
 use crate::scalar::{ZEROS, blocks_for};
 use crate::space::Wrench;
 use std::ops::Range;
@@ -155,5 +156,32 @@ impl Workspace {
     pub fn set_law_counts(&mut self, counts: LawCounts) {
         self.counts = counts;
         self.touched.fill([0; LAWS_OF_PAIR]);
+    }
+}
+
+/// What is known of the step from the last evaluated state.
+#[derive(Clone, Debug)]
+pub(super) struct StepMemory {
+    pub(super) of_elements: Vec<SpeedChanges>,
+    /// What it has added to the forces over the coordinates of the cage behind those of its motion.
+    pub(super) on_modes: Vec<f64>,
+    /// Step whose forces the contacts have, s; zero where they have those of the state itself.
+    pub(super) found: Option<f64>,
+}
+
+impl StepMemory {
+    /// Memory for these elements and a cage with so many modes.
+    pub(super) fn new(elements: usize, modes: usize) -> Self {
+        Self {
+            of_elements: vec![[[ZEROS; OF_ELEMENT]; 2]; blocks_for(elements)],
+            on_modes: vec![0.0; modes],
+            found: None,
+        }
+    }
+
+    /// Forgets it, as another state is evaluated.
+    #[inline]
+    pub(super) fn forget(&mut self) {
+        self.found = None;
     }
 }

@@ -1,40 +1,13 @@
 //! Forces of a semi-implicit step, which differ from those of its evaluation: of all contacts by `pairs/contacts/step`, found
 //! once for all that ask.
 
-use crate::bodies::{CAGE, CAGE_MOTION, OF_ELEMENT, SHARED};
+use crate::bodies::{CAGE, CAGE_MOTION, SHARED};
 use crate::integrate::SemiImplicit;
 use crate::model::plane::Plane;
-use crate::model::plane::workspace::Workspace;
-use crate::pairs::{ContactBlock, SpeedChanges};
-use crate::scalar::{ZEROS, blocks_for, place_of};
+use crate::model::plane::workspace::{StepMemory, Workspace};
+use crate::pairs::ContactBlock;
+use crate::scalar::place_of;
 use crate::space::Wrench;
-
-/// What is known of the step from the last evaluated state.
-#[derive(Clone, Debug)]
-pub(in crate::model::plane) struct StepMemory {
-    of_elements: Vec<SpeedChanges>,
-    /// What it has added to the forces over the coordinates of the cage behind those of its motion.
-    on_modes: Vec<f64>,
-    /// Step whose forces the contacts have, s; zero where they have those of the state itself.
-    found: Option<f64>,
-}
-
-impl StepMemory {
-    /// Memory for these elements and a cage with so many modes.
-    pub(in crate::model::plane) fn new(elements: usize, modes: usize) -> Self {
-        Self {
-            of_elements: vec![[[ZEROS; OF_ELEMENT]; 2]; blocks_for(elements)],
-            on_modes: vec![0.0; modes],
-            found: None,
-        }
-    }
-
-    /// Forgets it, as another state is evaluated.
-    #[inline]
-    pub(in crate::model::plane) fn forget(&mut self) {
-        self.found = None;
-    }
-}
 
 impl Plane {
     /// Adds to the accelerations `a` of the shared bodies what the forces on them have become in the step of the elements.
