@@ -193,7 +193,7 @@ impl Scene {
     /// Everything that is wrong with a scene. `more` checks what the scene itself cannot, of a scene that has NaN for what is
     /// unknown; it is told whether nothing of that kind is left.
     pub(crate) fn problems(value: &Value, more: &dyn Fn(&Scene, bool) -> Result<()>) -> Vec<Found> {
-        let (value, unknown_oil) = catalogue::filled_and_found(value);
+        let (value, refused_oil) = catalogue::filled_and_refused(value);
         let value = value.as_ref();
         let found = all(value, &|doubts: &Doubts, pick| {
             Self::refuse_other_formats(value)?;
@@ -212,7 +212,8 @@ impl Scene {
             }
             Ok(())
         });
-        unknown_oil.into_iter().chain(found).collect()
+        let path = || catalogue::PATH.split('.').map(str::to_owned).collect();
+        refused_oil.map(|text| Found { path: path(), text }).into_iter().chain(found).collect()
     }
 }
 

@@ -3,7 +3,6 @@
 //!
 //! An entry is one object in `materials.json` or `lubricants.json`: title, values as in scenes, and sources by the same names.
 
-use super::problems::Found;
 use crate::error::{Error, Result, Status};
 use serde_json::{Map, Value, json};
 use std::borrow::Cow;
@@ -15,7 +14,7 @@ const TEXTS: [(&str, &str); 2] =
 /// An oil with all values.
 const COMPLETE: &str = "fva_3";
 /// Where a scene names an oil.
-const PATH: &str = "lubricant.catalogue";
+pub(super) const PATH: &str = "lubricant.catalogue";
 /// Blocks whose `material` names one.
 const BODIES: [&str; 6] = ["rollers", "balls", "kinematic_elements", "outer_ring", "inner_ring", "cage"];
 
@@ -65,13 +64,7 @@ pub(super) fn filled(scene: &Value) -> Result<Cow<'_, Value>> {
 }
 
 /// The same for a list of all that is wrong: what is wrong with the name of the oil is told, and nothing that follows from it.
-pub(super) fn filled_and_found(scene: &Value) -> (Cow<'_, Value>, Option<Found>) {
-    let (full, refused) = filled_and_refused(scene);
-    let path = || PATH.split('.').map(str::to_owned).collect();
-    (full, refused.map(|text| Found { path: path(), text }))
-}
-
-fn filled_and_refused(scene: &Value) -> (Cow<'_, Value>, Option<String>) {
+pub(super) fn filled_and_refused(scene: &Value) -> (Cow<'_, Value>, Option<String>) {
     let named = scene.get("lubricant").and_then(|block| block.get("catalogue"));
     let materials: Map<String, Value> =
         named_materials(scene).map(|(name, values)| (name.to_owned(), values.clone())).collect();
