@@ -1,6 +1,7 @@
 //! From JSON text to typed data and back: `parse` reads the text, `typed` makes the data, both with the path of what is
 //! wrong.
 
+mod complaints;
 mod lines;
 mod overrides;
 mod parse;
@@ -8,10 +9,11 @@ mod schema;
 mod typed;
 mod unknown;
 
+pub use complaints::Complaint;
 pub(crate) use lines::line_of;
 pub use overrides::{parse_override, set_path};
 pub use parse::{parse, parse_located};
-pub use typed::{Complaint, PICKS, UNKNOWN_TEXT, typed, typed_beside};
+pub use typed::{PICKS, UNKNOWN_TEXT, typed, typed_beside};
 pub use unknown::Unknown;
 pub(crate) use unknown::nearest;
 

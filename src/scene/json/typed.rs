@@ -1,21 +1,17 @@
 //! Typed data from parsed JSON: objects for blocks, words for choices, nothing left over. Stricter than serde_json, which
 //! takes arrays for blocks and objects for words.
 
+use super::complaint;
+use super::complaints::Complaint;
 use super::unknown::Unknown;
-use super::{complaint, shortened};
 use crate::error::Result;
 use serde::de::value::StrDeserializer;
 use serde::de::{
-    self, DeserializeOwned, DeserializeSeed, EnumAccess, IntoDeserializer, MapAccess, SeqAccess, Unexpected,
+    self, DeserializeOwned, DeserializeSeed, EnumAccess, IntoDeserializer, MapAccess, SeqAccess,
     VariantAccess, Visitor,
 };
 use serde::forward_to_deserialize_any;
 use serde_json::{Map, Value, map};
-use std::fmt;
-use std::ops::Deref;
-
-/// Longest piece of the text that a message repeats, characters.
-const LONGEST_QUOTE: usize = 60;
 
 /// Makes typed data of a JSON value.
 ///
@@ -50,112 +46,6 @@ pub const PICKS: usize = 4;
 
 /// Whole numbers up to this are doubles without loss.
 const LARGEST_WHOLE: f64 = 9_007_199_254_740_992.0;
-
-/// What is wrong: one pointer, so that what reads a value hands little over.
-#[derive(Debug)]
-pub struct Complaint(Box<Wrong>);
-
-/// What is wrong, and the keys that lead there, the last one first.
-#[derive(Debug)]
-pub struct Wrong {
-    path: Vec<String>,
-    /// In words, without the path.
-    pub text: String,
-    /// Of what kind it is.
-    pub kind: Kind,
-}
-
-/// Kind of a mistake in the text.
-#[derive(Debug)]
-pub enum Kind {
-    /// A value of the wrong type.
-    Value,
-    /// A field of this name is missing.
-    Missing(&'static str),
-    /// The last key of the path is none of these.
-    Field(&'static [&'static str]),
-    /// A choice is none of the others.
-    Choice(String, &'static [&'static str]),
-}
-
-impl Deref for Complaint {
-    type Target = Wrong;
-
-    fn deref(&self) -> &Wrong {
-        &self.0
-    }
-}
-
-impl Complaint {
-    fn new(text: String, kind: Kind) -> Self {
-        Self(Box::new(Wrong { path: Vec::new(), text, kind }))
-    }
-
-    fn expected(what: &str, found: &Value) -> Self {
-        let found = shortened(found.to_string(), LONGEST_QUOTE);
-        de::Error::custom(format!("expected {what}, found {found}"))
-    }
-
-    #[cold]
-    #[inline(never)]
-    fn below(mut self, key: &str) -> Self {
-        self.0.path.push(key.to_owned());
-        self
-    }
-
-    /// The keys that lead there, the first one first.
-    pub fn path(&self) -> Vec<String> {
-        self.path.iter().rev().cloned().collect()
-    }
-}
-
-/// "expected `a` or `b`" as serde has it; `none` where nothing is.
-fn one_of(names: &[&str], none: &str) -> String {
-    match names {
-        [] => none.to_owned(),
-        [one] => format!("expected `{one}`"),
-        [one, other] => format!("expected `{one}` or `{other}`"),
-        _ => format!("expected one of `{}`", names.join("`, `")),
-    }
-}
-
-impl de::Error for Complaint {
-    fn custom<T: fmt::Display>(text: T) -> Self {
-        Self::new(text.to_string(), Kind::Value)
-    }
-
-    fn missing_field(field: &'static str) -> Self {
-        Self::new(format!("missing field `{field}`"), Kind::Missing(field))
-    }
-
-    fn unknown_field(field: &str, expected: &'static [&'static str]) -> Self {
-        let text = format!("unknown field `{field}`, {}", one_of(expected, "there are no fields"));
-        Self::new(text, Kind::Field(expected))
-    }
-
-    fn unknown_variant(choice: &str, expected: &'static [&'static str]) -> Self {
-        let text = format!("unknown variant `{choice}`, {}", one_of(expected, "there are no variants"));
-        Self::new(text, Kind::Choice(choice.to_owned(), expected))
-    }
-
-    /// Of numbers only, which [`Reader`] lets the field's own type judge.
-    fn invalid_value(found: Unexpected<'_>, _: &dyn de::Expected) -> Self {
-        let found = match found {
-            Unexpected::Unsigned(number) => number.to_string(),
-            Unexpected::Signed(number) => number.to_string(),
-            other => other.to_string(),
-        };
-        Self::custom(format!("{found} is out of range"))
-    }
-}
-
-impl fmt::Display for Complaint {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.text)
-    }
-}
-
-impl std::error::Error for Complaint {}
 
 type Read<T> = std::result::Result<T, Complaint>;
 

@@ -1,6 +1,6 @@
 //! Values of a text that are not to be relied on, because something was found wrong with them.
 
-use super::typed::{Complaint, Kind};
+use super::complaints::{Complaint, Kind};
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 
