@@ -1,15 +1,8 @@
 //! Directional derivatives of rates and outputs over states and inputs.
 
-use super::instance::Instance;
+use super::instance::{Instance, Slopes};
 use super::variables::Kind;
 use crate::error::{Error, Result, Status};
-
-/// Derivatives at the present time, state and inputs, by columns: rates and outputs over states and over inputs.
-#[derive(Debug)]
-pub(super) struct Slopes {
-    rates: [Vec<f64>; 2],
-    outputs: [Vec<f64>; 2],
-}
 
 impl Instance {
     /// Writes derivatives of unknowns, outputs and rates, over knowns, inputs and states: along a direction of the knowns, or if `adjoint`

@@ -3,27 +3,8 @@
 //! What a step of the importer ends with is committed. From there on inputs go straight to the values of a trial, so that angles, which
 //! are integrals of speeds, belong to a trial and not to those before it.
 
-use super::instance::{Found, Instance, Interface, Mode};
+use super::instance::{Exchange, Found, Instance, Interface, Mode};
 use crate::error::{Error, Result, Status};
-use crate::model::HostInputs;
-use crate::sim::Sim;
-
-/// Time and state of a trial, and the inputs that were committed.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Exchange {
-    /// s from the start of the run.
-    pub(super) time: f64,
-    pub(super) state: Vec<f64>,
-    /// Inputs at the time that was committed, s.
-    pub(super) held: HostInputs,
-    pub(super) since: f64,
-}
-
-impl Exchange {
-    pub(super) fn at_start_of(sim: &Sim) -> Self {
-        Self { time: sim.time(), state: sim.state().to_vec(), held: sim.host_inputs(), since: sim.time() }
-    }
-}
 
 impl Instance {
     fn exchanges(&self) -> Result<()> {

@@ -1,9 +1,8 @@
 //! An instance of a unit: modes, values of variables, co-simulation.
 
-use super::derivatives::Slopes;
-use super::exchange::Exchange;
 use super::variables::{Kind, Unit};
 use crate::error::{Error, Result, Status};
+use crate::model::HostInputs;
 use crate::sim::Sim;
 use std::sync::Arc;
 
@@ -42,6 +41,30 @@ pub(super) struct Found {
     outputs: Option<Vec<f64>>,
     rates: Option<Vec<f64>>,
     pub(super) slopes: Option<Slopes>,
+}
+
+/// Derivatives at the present time, state and inputs, by columns: rates and outputs over states and over inputs.
+#[derive(Debug)]
+pub(super) struct Slopes {
+    pub(super) rates: [Vec<f64>; 2],
+    pub(super) outputs: [Vec<f64>; 2],
+}
+
+/// Time and state of a trial, and the inputs that were committed.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Exchange {
+    /// s from the start of the run.
+    pub(super) time: f64,
+    pub(super) state: Vec<f64>,
+    /// Inputs at the time that was committed, s.
+    pub(super) held: HostInputs,
+    pub(super) since: f64,
+}
+
+impl Exchange {
+    fn at_start_of(sim: &Sim) -> Self {
+        Self { time: sim.time(), state: sim.state().to_vec(), held: sim.host_inputs(), since: sim.time() }
+    }
 }
 
 /// An instance.
@@ -290,10 +313,8 @@ impl Instance {
                 None => sim.set_input(k, value),
             };
             set.map_err(|e| unit.input_named(k, e))?;
-        } else {
-            if let Some(input) = unit.model.input_list().nth(k) {
-                unit.model.check_input(input, value).map_err(|e| unit.input_named(k, e))?;
-            }
+        } else if let Some(input) = unit.model.input_list().nth(k) {
+            unit.model.check_input(input, value).map_err(|e| unit.input_named(k, e))?;
         }
         self.inputs[k] = Some(value);
         self.found = Found::default();

@@ -1,7 +1,6 @@
 //! All that an instance knows, to come back to it: in memory, and as bytes.
 
-use super::exchange::Exchange;
-use super::instance::{Found, Instance, Mode};
+use super::instance::{Exchange, Found, Instance, Mode};
 use crate::error::{Error, Result, Status};
 use crate::stored::{Reader, Stored};
 
