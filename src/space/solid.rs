@@ -39,6 +39,18 @@ pub fn mapped<T, U>([a, b, c]: Vector<T>, f: impl Fn(T) -> U) -> Vector<U> {
     [f(a), f(b), f(c)]
 }
 
+/// A vector in the axes of the azimuth with this cosine and sine.
+#[inline(always)]
+pub fn to_local<T: Numeric>([x, y, z]: Vector<f64>, [cos, sin]: [T; 2]) -> Vector<T> {
+    [cos.like(x), cos * y + sin * z, cos * z - sin * y]
+}
+
+/// A vector in the axes of the bearing.
+#[inline(always)]
+pub fn to_global<T: Numeric>([x, r, t]: Vector<T>, [cos, sin]: [T; 2]) -> Vector<T> {
+    [x, cos * r - sin * t, sin * r + cos * t]
+}
+
 /// Largest tilt that the series are for, rad: a bearing that tilts so far is none.
 pub const LARGEST_TILT: f64 = 0.3;
 
@@ -46,6 +58,12 @@ pub const LARGEST_TILT: f64 = 0.3;
 #[inline(always)]
 pub fn sum<T: Numeric>(a: Vector<T>, b: Vector<T>) -> Vector<T> {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+/// Force and moment of two together.
+#[inline(always)]
+pub fn added<T: Numeric>(a: [Vector<T>; 2], b: [Vector<T>; 2]) -> [Vector<T>; 2] {
+    [sum(a[0], b[0]), sum(a[1], b[1])]
 }
 
 /// a - b.

@@ -11,9 +11,9 @@
 use super::AXIAL_OFFSET;
 use crate::bodies::elements::RADIAL_OFFSET;
 use crate::bodies::{Coordinate, ElementSet, Moves};
-use crate::scalar::{Base, Of};
+use crate::scalar::{Base, Numeric, Of};
 use crate::scene::Scene;
-use crate::space::solid::Vector;
+use crate::space::solid::{Moving, Vector};
 
 /// Balls with states of their own.
 #[derive(Debug)]
@@ -51,6 +51,12 @@ const COORDINATES: [Coordinate; OF_BALL] = [
 ];
 
 impl Balls {
+    /// Motion of one with these speeds in the axes of its azimuth, at the distance `r` (m) from the axis of the bearing.
+    #[inline(always)]
+    pub(crate) fn moving<T: Numeric>([x, rho, orbit, wx, wr, wt]: [T; OF_BALL], r: T) -> Moving<T> {
+        Moving { velocity: [x, rho, r * orbit], turning: [wx, wr, wt] }
+    }
+
     /// Those of a scene, or its elements of prescribed motion, which have no mass.
     pub(crate) fn new(scene: &Scene, set: &ElementSet) -> Self {
         let mass = scene.balls.as_ref().map_or(0.0, |balls| balls.mass);

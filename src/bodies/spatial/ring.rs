@@ -15,7 +15,7 @@ use crate::bodies::{BodyEnergy, CENTRE, Coordinate, Input, InputValues, PLACES};
 use crate::error::Result;
 use crate::scalar::Numeric;
 use crate::scene::{Preload, RingCoordinate, RingMotion, Scene, SpatialRing, bad_scene};
-use crate::space::solid::{Moving, Tilt, Vector, mapped, scaled, sum};
+use crate::space::solid::{Moving, Tilt, Vector, mapped, scaled, sum, to_local};
 
 /// Coordinates of a ring in space.
 pub(crate) const RING_COORDINATES: [Coordinate; OF_RING] = [ALONG, CENTRE[0], CENTRE[1], TILTS[0], TILTS[1]];
@@ -71,6 +71,20 @@ impl<T> MovingRing<T> {
             axis: mapped(axis, f),
             moving: moving.map(f),
             speed: f(speed),
+        }
+    }
+}
+
+impl MovingRing<f64> {
+    /// As it is seen in the axes of the azimuth with this cosine and sine.
+    #[inline(always)]
+    pub(crate) fn beside<T: Numeric>(&self, direction: [T; 2]) -> MovingRing<T> {
+        let Moving { velocity, turning } = self.moving;
+        MovingRing {
+            centre: to_local(self.centre, direction),
+            axis: to_local(self.axis, direction),
+            moving: Moving { velocity: to_local(velocity, direction), turning: to_local(turning, direction) },
+            speed: direction[0].like(self.speed),
         }
     }
 }

@@ -3,49 +3,16 @@
 use super::workspace::{BallBlock, WRENCH, Workspace, at_lane, load, store};
 use super::{RACES, Space};
 use crate::bodies::{Balls, Fault, INNER_RING, Input, Moves, MovingRing, OF_BALL, SOUND};
-use crate::pairs::Law;
-use crate::pairs::Waves;
 use crate::pairs::groove::{InGroove, Race};
+use crate::pairs::{Law, Waves};
 use crate::scalar::{Columns, Numeric, Pack, dispatch, math, place_of};
-use crate::space::solid::{LARGEST_TILT, Moving, Tilt, Vector, dot, scaled, sum};
+use crate::space::solid::{LARGEST_TILT, Moving, Tilt, Vector, added, dot, scaled, to_global, to_local};
 use pulp::Simd;
 
 /// Which way the normal of a contact with outer and inner race points from the axis of the ring.
 pub(super) const OUTWARDS: [f64; 2] = [1.0, -1.0];
 /// Outward part of the normal below which a ball is behind its groove, 135 degrees from the middle of that.
 const BEHIND: f64 = -std::f64::consts::FRAC_1_SQRT_2;
-
-/// A vector in the axes of the azimuth with this cosine and sine.
-#[inline(always)]
-pub(super) fn to_local<T: Numeric>([x, y, z]: Vector<f64>, [cos, sin]: [T; 2]) -> Vector<T> {
-    [cos.like(x), cos * y + sin * z, cos * z - sin * y]
-}
-
-/// A vector in the axes of the bearing.
-#[inline(always)]
-pub(super) fn to_global<T: Numeric>([x, r, t]: Vector<T>, [cos, sin]: [T; 2]) -> Vector<T> {
-    [x, cos * r - sin * t, sin * r + cos * t]
-}
-
-/// A ring as it is seen in the axes of an azimuth.
-#[inline(always)]
-pub(super) fn beside<T: Numeric>(ring: &MovingRing<f64>, direction: [T; 2]) -> MovingRing<T> {
-    MovingRing {
-        centre: to_local(ring.centre, direction),
-        axis: to_local(ring.axis, direction),
-        moving: Moving {
-            velocity: to_local(ring.moving.velocity, direction),
-            turning: to_local(ring.moving.turning, direction),
-        },
-        speed: direction[0].like(ring.speed),
-    }
-}
-
-/// Motion of a ball in the axes of its azimuth, at the distance `r` (m) from the axis of the bearing.
-#[inline(always)]
-pub(super) fn moving<T: Numeric>([x, rho, orbit, wx, wr, wt]: [T; OF_BALL], r: T) -> Moving<T> {
-    Moving { velocity: [x, rho, r * orbit], turning: [wx, wr, wt] }
-}
 
 impl Space {
     /// Accelerations `a` (m/s^2 or rad/s^2) at positions `q`, velocities `v` and the inputs that `ws` holds.
@@ -180,7 +147,7 @@ impl Space {
             let (block, lane) = place_of(j);
             let direction = at_lane(&ws.blocks[block].direction, lane);
             let still = Moving { velocity: [0.0; 3], turning: [0.0; 3] };
-            let ring = beside(&ws.rings[k], direction);
+            let ring = ws.rings[k].beside(direction);
             let touch = self.in_groove(ws, k, j, &still).touch(&ring);
             let tilt = if k == 0 { [0.0; 2] } else { [ws.ring.position[3], ws.ring.position[4]] };
             let [_, outwards, along] = to_local([0.0, tilt[0], tilt[1]], direction);
@@ -273,7 +240,7 @@ impl Space {
         if let Some(cage) = &self.cage {
             for (land, force) in cage.lands.iter().zip(&ws.cage.lands) {
                 let on_ring = &mut ws.on_rings[land.ring];
-                *on_ring = [0, 1].map(|k| sum(on_ring[k], force.on[1][k]));
+                *on_ring = added(*on_ring, force.on[1]);
             }
         }
         self.accelerate_ring(ws, ws.on_rings[1], a);
@@ -286,8 +253,8 @@ impl Space {
             let [gy, gz] = self.gravity;
             let (r, speeds) = (self.set.pitch_radius + block.at[1][lane], at_lane(&block.speeds, lane));
             let mut on_ball = halves(at_lane(&block.on_ball, lane));
-            if let Some(drag) = self.drag_on(j, &moving(speeds, r), ws.fluid.ln_viscosity) {
-                on_ball = [0, 1].map(|k| sum(on_ball[k], drag[k]));
+            if let Some(drag) = self.drag_on(j, &Balls::moving(speeds, r), ws.fluid.ln_viscosity) {
+                on_ball = added(on_ball, drag);
             }
             let accelerations = Balls::accelerations(
                 at_lane(&block.inertia, lane),
@@ -390,12 +357,12 @@ impl Columns for Apply<'_> {
         let at: [Pack<S, K>; 2] = load(simd, &block.at, lane);
         let direction = load(simd, &block.direction, lane);
         let groove = self.race.groove.map(&mut |x| Pack::all(simd, *x));
-        let moving = &moving(load(simd, &block.speeds, lane), at[1] + groove.pitch_radius);
+        let moving = &Balls::moving(load(simd, &block.speeds, lane), at[1] + groove.pitch_radius);
         let excess = Pack::load(simd, &block.excess[lane..]);
         let contact = &mut block.contacts[self.place];
         let elastic = &contact.elastic(simd, &self.race.elastic[0], lane);
         let ball = InGroove { groove: &groove, elastic, at, excess, moving };
-        let ring = beside(self.ring, direction);
+        let ring = self.ring.beside(direction);
         let wave = contact.wave(simd, self.race, lane);
         let found = ball.contact(&self.race.laws, &ring, wave, Pack::all(simd, self.ln_viscosity));
         store(found.motion.numbers(), &mut contact.motion, lane);

@@ -3,22 +3,16 @@
 //! The laws of all contacts are differentiated in lanes over what they see ([`PointMotion`] and the viscosity), geometry and wrenches ball
 //! by ball over how ball and ring lie and move to each other in the axes of the azimuth; both are chained with the coordinates.
 
-use super::evaluate::{beside, moving, to_local};
-use super::workspace::{BallBlock, Workspace, at_lane, load};
+use super::workspace::{BallBlock, BlockSlopes, FORCES, SEEN, Workspace, at_lane, load};
 use super::{RACES, Space};
 use crate::bodies::{Balls, Input, InputValues, MovingRing, OF_BALL, OF_RING, RingState};
 use crate::integrate::{Linearization, Structure};
 use crate::laws::elastic::normal::NormalForce;
 use crate::laws::point_contact::{POINT_FORCE, POINT_MOTION, PointForce, PointMotion};
 use crate::pairs::groove::{InGroove, OnBody, Race, Wave};
-use crate::scalar::{Columns, Dual, Duals, Lanes, Numeric, Pack, ZEROS, dispatch, place_of};
-use crate::space::solid::{Moving, Tilt, scaled, sum};
+use crate::scalar::{Columns, Dual, Duals, Numeric, Pack, ZEROS, dispatch, place_of};
+use crate::space::solid::{Moving, Tilt, added, scaled, sum, to_local};
 use pulp::{Simd, WithSimd};
-
-/// What a law sees: Q, u_1, u_2, D_l, w_t, w_l, w_n, and the logarithm of the viscosity. The slip along the race is u_1 - u_2.
-const SEEN: usize = 8;
-/// Forces with derivatives: F_t, F_l, M_t, M_l, M_n, F_R.
-const FORCES: usize = 6;
 
 /// How ball and ring lie and move to each other: x and rho of the ball, centre and tilt of the ring outwards and along the orbit,
 /// velocity and spin of the ball, rates of the tilt, time at a ball that stands still, angle of the contact in the waves of the ring.
@@ -38,9 +32,6 @@ pub(super) type RingSlopes = [Dual<{ OF_TIME + 1 }>; OF_RING];
 
 /// What a ball's own motion follows: rho, azimuth, speeds, logarithm of the viscosity.
 const OF_OWN: usize = 3 + OF_BALL;
-
-/// Derivatives of the forces of a block of contacts with both races.
-pub(super) type BlockSlopes = [[[Lanes; SEEN]; FORCES]; 2];
 
 /// Derivatives of force and moment.
 type Row = [f64; RELATIVE];
@@ -218,8 +209,8 @@ impl Space {
         let [fx, fr, ft, mx, my, mz] = at_lane(&block.on_ball, lane).map(constant);
         let mut on_ball = [[fx, fr, ft], [mx, my, mz]];
         let ln_viscosity = variable(ws.fluid.ln_viscosity, OF_OWN - 1);
-        if let Some(drag) = self.drag_on(j, &moving(speeds, r), ln_viscosity) {
-            on_ball = [0, 1].map(|k| sum(on_ball[k], drag[k]));
+        if let Some(drag) = self.drag_on(j, &Balls::moving(speeds, r), ln_viscosity) {
+            on_ball = added(on_ball, drag);
         }
         Balls::accelerations(at_lane(&block.inertia, lane), r, speeds, on_ball, gravity)
     }
@@ -240,14 +231,14 @@ impl Space {
             x
         };
         let in_time = |x: f64, rate: f64| timed(constant(x), rate);
-        let own = moving(at_lane(&block.speeds, lane), r);
+        let own = Balls::moving(at_lane(&block.speeds, lane), r);
         let of_ball = Moving {
             velocity: std::array::from_fn(|i| variable(own.velocity[i], VELOCITY + i)),
             turning: std::array::from_fn(|i| variable(own.turning[i], VELOCITY + 3 + i)),
         };
         let race = &self.races[k];
         let (ring, tilt) = if k == 0 {
-            let ring: MovingRing<f64> = beside(&ws.rings[0], direction);
+            let ring: MovingRing<f64> = ws.rings[0].beside(direction);
             let speed = in_time(ring.speed, rates.of(Input::OuterRingSpeed));
             let axis = ring.axis.map(constant);
             let ring = MovingRing {

@@ -44,7 +44,7 @@ use crate::pairs::ball_pocket::{BallPockets, WALLS};
 use crate::pairs::groove::{Fit, Race, angle_of_drop, fit, races};
 use crate::pairs::guide::land::Land;
 use crate::scene::{BallDrag, Scene, needed};
-use cage::CageOfScene;
+use cage::memory::CageOfScene;
 use rollers::RollersOfScene;
 use std::f64::consts::TAU;
 use std::sync::Arc;

@@ -1,16 +1,15 @@
 //! What a bearing in space tells of a state: forces of every contact and on every body, output channels, what is followed in every step.
 
 use super::cage::OfCage;
-use super::evaluate::{moving, to_global};
 use super::rollers::OfRollers;
 use super::workspace::{Workspace, at_lane};
 use super::{RACES, Space};
-use crate::bodies::{FORCE_SOURCES, ForceSource, InputValues, MovingRing, OF_BALL};
+use crate::bodies::{Balls, FORCE_SOURCES, ForceSource, InputValues, MovingRing, OF_BALL};
 use crate::integrate::SemiImplicit;
 use crate::model::feedthrough::Sees;
 use crate::model::{Channel, Quantity, Source as AnySource, quantity};
 use crate::scalar::{math, place_of};
-use crate::space::solid::{dot, sum};
+use crate::space::solid::{dot, sum, to_global};
 
 /// What is reported of a contact in space. t points along the race, in a pocket outwards; l across, and n from the ball to the contact;
 /// (t, l, n) is right-handed. Friction and couple act on the ball, at the contact; the opposite on ring or cage.
@@ -341,10 +340,10 @@ impl Space {
         let direction = at_lane(&block.direction, lane);
         let at = at_lane(&block.at, lane);
         let r = self.set.pitch_radius + at[1];
-        let speeds = moving(at_lane(&block.speeds, lane), r);
+        let speeds = Balls::moving(at_lane(&block.speeds, lane), r);
         let wave = block.contacts[k].wave_of(&self.races[k], lane);
         let ball = self.in_groove(ws, k, j, &speeds);
-        let touch = ball.touch(&super::evaluate::beside(&ws.rings[k], direction)).on(wave);
+        let touch = ball.touch(&ws.rings[k].beside(direction)).on(wave);
         let side = if k == 0 { 1.0 } else { -1.0 };
         let angle = math::atan2(side * touch.in_meridian[0], side * touch.in_meridian[1]);
         let radius = self.set.radius + block.excess[lane];
@@ -394,10 +393,10 @@ impl Space {
         let block = &ws.blocks[place];
         let direction = at_lane(&block.direction, lane);
         let at = at_lane(&block.at, lane);
-        let speeds = moving(at_lane(&block.speeds, lane), self.set.pitch_radius + at[1]);
+        let speeds = Balls::moving(at_lane(&block.speeds, lane), self.set.pitch_radius + at[1]);
         let wave = block.contacts[k].wave_of(&self.races[k], lane);
         let ball = self.in_groove(ws, k, j, &speeds);
-        let touch = ball.touch(&super::evaluate::beside(&ws.rings[k], direction)).on(wave);
+        let touch = ball.touch(&ws.rings[k].beside(direction)).on(wave);
         ball.wrenches(&touch, &block.contacts[k].force_of(lane)).map(|on| {
             let [[a, b, c], [d, e, f]] = [on.force, on.moment].map(|v| to_global(v, direction));
             [a, b, c, d, e, f]
@@ -430,7 +429,7 @@ impl Space {
             let block = &ws.blocks[block];
             let r = self.set.pitch_radius + block.at[1][lane];
             let direction = at_lane(&block.direction, lane);
-            let of_ball = moving(at_lane(&block.speeds, lane), r);
+            let of_ball = Balls::moving(at_lane(&block.speeds, lane), r);
             if let Some(drag) = self.drag_on(j, &of_ball, ws.fluid.ln_viscosity) {
                 let [[a, b, c], [d, e, f]] = drag.map(|v| to_global(v, direction));
                 out.bodies[body][ForceSource::Drag as usize] = [a, b, c, d, e, f];

@@ -9,15 +9,15 @@
 //! Rows of J are those of the rigid-body slip of a ball, so a step loses by friction what its forces say.
 
 use super::Space;
-use super::evaluate::{OUTWARDS, beside, moving, to_global};
+use super::evaluate::OUTWARDS;
 use super::workspace::{BallBlock, WRENCH, Workspace, at_lane, load, store};
-use crate::bodies::{CAGE, Fault, MovingRing, OF_BALL, Power, SOUND};
+use crate::bodies::{Balls, CAGE, Fault, MovingRing, OF_BALL, Power, SOUND};
 use crate::integrate::{GroupDamping, SemiImplicit, SpokeDamping, implicit_share};
 use crate::laws::point_contact::{PointForce, PointMotion};
 use crate::model::{Condition, Energy, RATES, STATIC_LIMIT};
 use crate::pairs::groove::{Fit, InGroove, Race, fit};
 use crate::scalar::{Columns, Lanes, Numeric, Pack, dispatch, math, place_of};
-use crate::space::solid::{dot, scaled, sum};
+use crate::space::solid::{added, dot, scaled, sum, to_global};
 use pulp::Simd;
 
 /// How far the grooves of a bearing with a contact angle are used on the side of the low shoulder, over that angle (assumed).
@@ -57,7 +57,7 @@ impl Space {
     pub(crate) fn react(&self, v: &[f64], step: &SemiImplicit<'_>, ws: &mut Workspace, a: &mut [f64]) {
         self.find_step(v, Some(step), ws);
         let by_rollers = self.reaction_of_rollers(ws, 1);
-        let [mut force, mut moment] = [0, 1].map(|k| sum(ws.on_rings[1][k], by_rollers[k]));
+        let [mut force, mut moment] = added(ws.on_rings[1], by_rollers);
         for (contact, lane) in ws.contacts(1) {
             for k in 0..3 {
                 force[k] += contact.reaction[k][lane];
@@ -141,7 +141,7 @@ impl Space {
             let (block, lane) = place_of(j);
             let block = &ws.blocks[block];
             let r = self.set.pitch_radius + block.at[1][lane];
-            let moving = moving(at_lane(&block.speeds, lane), r);
+            let moving = Balls::moving(at_lane(&block.speeds, lane), r);
             if let Some([force, moment]) = self.drag_on(j, &moving, ws.fluid.ln_viscosity) {
                 p[Power::Drag as usize] += dot(force, moving.velocity) + dot(moment, moving.turning);
             }
@@ -276,13 +276,13 @@ impl Columns for Damp<'_> {
         let direction = load(simd, &block.direction, lane);
         let groove = race.groove.map(&mut |x| Pack::all(simd, *x));
         let r = at[1] + groove.pitch_radius;
-        let moving = &moving(load(simd, &block.speeds, lane), r);
+        let moving = &Balls::moving(load(simd, &block.speeds, lane), r);
         let excess = Pack::load(simd, &block.excess[lane..]);
         let radius = groove.ball_radius + excess;
         let elastic = &block.contacts[k].elastic(simd, &race.elastic[0], lane);
         let wave = block.contacts[k].wave(simd, race, lane);
         let ball = InGroove { groove: &groove, elastic, at, excess, moving };
-        let touch = ball.touch(&beside(self.ring, direction)).on(wave);
+        let touch = ball.touch(&self.ring.beside(direction)).on(wave);
         let force = PointForce::of_numbers(load(simd, &block.contacts[k].force, lane));
         let [mass, inertia] = load(simd, &block.inertia, lane);
         let [of_normal, of_friction] =
@@ -367,8 +367,8 @@ impl Columns for Step<'_> {
             let to_mean: [Pack<S, K>; OF_BALL] = load(simd, to_mean, lane);
             let to_end: [Pack<S, K>; OF_BALL] = load(simd, to_end, lane);
             let inertia = load(simd, &block.inertia, lane);
-            let ring = beside(self.ring, direction);
-            let unmoved = &moving(speeds, r);
+            let ring = self.ring.beside(direction);
+            let unmoved = &Balls::moving(speeds, r);
             let ball = InGroove { groove: &groove, elastic, at, excess, moving: unmoved };
             let touch = ball.touch(&ring).on(contact.wave(simd, race, lane));
             let shares = decays(&force, inertia, radius).map(|rate| implicit_share(rate * self.h));
@@ -379,7 +379,7 @@ impl Columns for Step<'_> {
                 for i in 0..OF_BALL {
                     of_ball[i] += to_mean[i] * (-(share * 2.0) + 2.0) + to_end[i] * (share * 2.0 - 1.0);
                 }
-                moved[part] = InGroove { moving: &moving(of_ball, r), ..ball }.motion(&touch, &ring);
+                moved[part] = InGroove { moving: &Balls::moving(of_ball, r), ..ball }.motion(&touch, &ring);
             }
             let [mean, pressed, rubbed] = moved;
             let mut change = force;

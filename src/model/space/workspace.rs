@@ -1,8 +1,8 @@
 //! Memory of a force evaluation in space: balls and their contacts in columns, motion of both rings and the cage, all forces.
 
 use super::Space;
-use super::cage::CageMemory;
-use super::rollers::RollerMemory;
+use super::cage::memory::CageMemory;
+use super::rollers::contacts::RollerMemory;
 use crate::bodies::{InputValues, MovingRing, OF_BALL, OF_RING, RingState};
 use crate::integrate::Vibration;
 use crate::laws::elastic::point::ElasticPoint;
@@ -18,6 +18,14 @@ use pulp::{Arch, Simd};
 const ELASTIC: usize = 7;
 /// Force and moment.
 pub(super) const WRENCH: usize = 6;
+
+/// What a law sees: Q, u_1, u_2, D_l, w_t, w_l, w_n, and the logarithm of the viscosity. The slip along the race is u_1 - u_2.
+pub(super) const SEEN: usize = 8;
+/// Forces with derivatives: F_t, F_l, M_t, M_l, M_n, F_R.
+pub(super) const FORCES: usize = 6;
+
+/// Derivatives of the forces of a block of contacts with both races.
+pub(super) type BlockSlopes = [[[Lanes; SEEN]; FORCES]; 2];
 
 /// Contacts of a block of balls with one race.
 #[derive(Clone, Debug)]
@@ -185,7 +193,7 @@ pub struct Workspace {
     pub(super) temperature: f64,
     pub(super) fluid: Fluid,
     /// Derivatives of the contacts, once they were asked for.
-    pub(super) slopes: Vec<super::linearize::BlockSlopes>,
+    pub(super) slopes: Vec<BlockSlopes>,
 }
 
 impl Workspace {

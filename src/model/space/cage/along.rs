@@ -4,8 +4,9 @@
 use super::super::Space;
 use super::super::linearize::RingSlopes;
 use super::super::workspace::Workspace;
+use super::memory::CageOfScene;
 use super::slopes::{WARMING, numbers, timed};
-use super::{CageOfScene, turning_outer};
+use super::turning_outer;
 use crate::bodies::{
     CAGE, CageState, INNER_RING, Input, InputValues, MOST_MODES, MovingRing, OF_BALL, OF_CAGE, RingState,
 };

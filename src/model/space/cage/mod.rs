@@ -1,6 +1,7 @@
 //! The cage among balls and rings: its pockets and lands at a state, in a semi-implicit step, and how they oppose velocities.
 
 mod along;
+pub(super) mod memory;
 mod report;
 mod slopes;
 mod step;
@@ -8,136 +9,18 @@ mod step;
 pub(crate) use report::OfCage;
 
 use super::Space;
-use super::evaluate::{moving, to_global};
 use super::workspace::{Workspace, at_lane};
 use crate::bodies::{
-    CAGE, CageInSpace, CageState, Fault, Input, InputValues, MovingCage, MovingRing, OF_CAGE, Power,
-    displaced, tilt_of,
+    Balls, CAGE, CageState, Fault, Input, InputValues, MovingRing, OF_CAGE, Power, displaced, tilt_of,
 };
 use crate::integrate::Tuning;
 use crate::laws::guide::bent::Wanted;
 use crate::pairs::Law;
-use crate::pairs::ball_pocket::{BallAt, BallPockets, PocketContact, WALLS};
-use crate::pairs::guide::land::{BentLandForces, Land, LandForce};
-use crate::scalar::{Dual, Numeric, Real, math, place_of};
-use crate::space::solid::{LARGEST_TILT, Moving, Vector, dot, scaled, sum};
-use nalgebra::DMatrix;
-
-/// A cage with its pairs.
-#[derive(Debug)]
-pub(super) struct CageOfScene {
-    pub(super) body: CageInSpace,
-    pub(super) pockets: Option<BallPockets>,
-    pub(super) lands: Vec<Land>,
-}
-
-/// A ball that touches a wall of its pocket.
-#[derive(Clone, Debug)]
-pub(super) struct Touching {
-    pub(super) ball: usize,
-    pub(super) wall: usize,
-    pub(super) contact: PocketContact<f64>,
-    /// In the step from the last evaluated state: change of force and moment on the cage in axes of the bearing, normal force, friction on the
-    /// ball in the axes of its azimuth, and powers of damping and friction, W.
-    pub(super) reaction: [Vector<f64>; 2],
-    pub(super) normal: f64,
-    pub(super) friction: Vector<f64>,
-    powers: [f64; 2],
-    /// Power on the ball, W.
-    on_ball: f64,
-    /// The change of what acts on the displacement of the pocket of a cage that bends, N.
-    on_bending: [f64; 2],
-}
-
-/// Room for derivatives of a cage that bends along one direction: amplitudes and rates of its modes, forces over them, also of one land,
-/// their accelerations.
-#[derive(Clone, Debug, Default)]
-struct AlongOne {
-    of_modes: [Vec<Dual<1>>; 2],
-    on_modes: Vec<Dual<1>>,
-    by_land: Vec<Dual<1>>,
-    out: Vec<Dual<1>>,
-}
-
-impl AlongOne {
-    fn new(modes: usize) -> Self {
-        let zeros = || vec![Dual::lift(0.0); modes];
-        Self { of_modes: [zeros(), zeros()], on_modes: zeros(), by_land: zeros(), out: zeros() }
-    }
-
-    /// Takes these amplitudes and rates as constants.
-    fn hold(&mut self, of_modes: [&[f64]; 2]) {
-        for (to, from) in self.of_modes.iter_mut().zip(of_modes) {
-            to.iter_mut().zip(from).for_each(|(to, x)| *to = Dual::lift(*x));
-        }
-    }
-}
-
-/// What is known of the cage at the last evaluated state.
-#[derive(Clone, Debug)]
-pub(super) struct CageMemory {
-    pub(super) state: CageState<f64>,
-    pub(super) moving: MovingCage<f64>,
-    pub(super) touching: Vec<Touching>,
-    pub(super) lands: Vec<LandForce<f64>>,
-    /// Of a cage that bends: amplitudes of its modes, m, and their rates, m/s, forces over them, N, also those of a step, and each land.
-    pub(super) of_modes: [Vec<f64>; 2],
-    on_modes: [Vec<f64>; 2],
-    bent: Vec<BentLandForces>,
-    along: AlongOne,
-    /// Accelerations over forces: force and moment, those over the modes.
-    by_forces: DMatrix<f64>,
-    pub(super) load: [Vector<f64>; 2],
-    /// Of pockets alone.
-    pub(super) by_pockets: [Vector<f64>; 2],
-    /// Of all but its weight.
-    pub(super) on_cage: [Vector<f64>; 2],
-}
-
-impl CageMemory {
-    /// For a cage with so many balls.
-    pub(super) fn new(balls: usize, cage: Option<&CageOfScene>) -> Self {
-        let state = CageState { position: [0.0; OF_CAGE], rate: [0.0; OF_CAGE] };
-        let modes = || vec![0.0; cage.map_or(0, |cage| cage.body.bending())];
-        let lands = cage.map_or(&[][..], |cage| &cage.lands);
-        Self {
-            state,
-            moving: state.motion(),
-            touching: Vec::with_capacity(WALLS * balls),
-            lands: vec![LandForce::default(); lands.len()],
-            of_modes: [modes(), modes()],
-            on_modes: [modes(), modes()],
-            bent: lands.iter().filter_map(Land::memory).collect(),
-            along: AlongOne::new(modes().len()),
-            by_forces: DMatrix::zeros(OF_CAGE + modes().len(), OF_CAGE + modes().len()),
-            load: [[0.0; 3]; 2],
-            by_pockets: [[0.0; 3]; 2],
-            on_cage: [[0.0; 3]; 2],
-        }
-    }
-}
-
-impl CageMemory {
-    /// Forces over the modes at the state, N.
-    pub(super) fn on_modes_mut(&mut self) -> &mut [f64] {
-        &mut self.on_modes[0]
-    }
-
-    /// Accelerations over forces, after those of the cage were differentiated: force and moment, those over the modes.
-    pub(super) fn by_forces(&self) -> &DMatrix<f64> {
-        &self.by_forces
-    }
-
-    /// Amplitudes and rates of the modes.
-    pub(super) fn bending(&self) -> [&[f64]; 2] {
-        self.of_modes.each_ref().map(Vec::as_slice)
-    }
-}
-
-/// Forces and moments together.
-fn added<T: Numeric>(a: [Vector<T>; 2], b: [Vector<T>; 2]) -> [Vector<T>; 2] {
-    [sum(a[0], b[0]), sum(a[1], b[1])]
-}
+use crate::pairs::ball_pocket::{BallAt, BallPockets, WALLS};
+use crate::pairs::guide::land::Land;
+use crate::scalar::{Numeric, Real, math, place_of};
+use crate::space::solid::{LARGEST_TILT, Moving, Vector, added, dot, scaled, to_global};
+use memory::{CageMemory, Touching};
 
 fn power([force, moment]: [Vector<f64>; 2], body: &Moving<f64>) -> f64 {
     dot(force, body.velocity) + dot(moment, body.turning)
@@ -173,7 +56,7 @@ impl Space {
             at,
             direction: at_lane(&block.direction, lane),
             lead: block.travel[lane] - ws.cage.moving.angle,
-            moving: moving(at_lane(&block.speeds, lane), self.set.pitch_radius + at[1]),
+            moving: Balls::moving(at_lane(&block.speeds, lane), self.set.pitch_radius + at[1]),
             excess: block.excess[lane],
             bent: self.displaced_pocket(ws, j),
         }

@@ -1,15 +1,14 @@
 //! What is told of a cage in space: its channels, contacts in its pockets, forces on it and on the rings that guide it.
 
-use super::super::evaluate::{moving, to_global};
 use super::super::report::{SpatialBodyForces, SpatialContact, channel};
 use super::super::workspace::{Workspace, at_lane};
 use super::super::{Reading, Source, Space};
-use super::Touching;
-use crate::bodies::{CAGE, ForceSource};
+use super::memory::Touching;
+use crate::bodies::{Balls, CAGE, ForceSource};
 use crate::model::Channel;
 use crate::pairs::guide::land::Land;
 use crate::scalar::{math, place_of};
-use crate::space::solid::{Vector, cross, difference, dot, scaled, sum};
+use crate::space::solid::{Vector, added, cross, difference, dot, scaled, sum, to_global};
 
 /// What a channel shows of a cage in space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -326,7 +325,7 @@ impl Space {
         let t = scaled(outwards, 1.0 / dot(outwards, outwards).sqrt().max(f64::MIN_POSITIVE));
         let l = cross(normal, t);
         let in_wall = |v: Vector<f64>| [dot(v, t), dot(v, l), dot(v, normal)];
-        let of_ball = moving(at_lane(&block.speeds, lane), r).turning;
+        let of_ball = Balls::moving(at_lane(&block.speeds, lane), r).turning;
         let of_cage = ws.cage.moving.moving.turning;
         let [cos, sin] = direction;
         let of_cage = [of_cage[0], cos * of_cage[1] + sin * of_cage[2], cos * of_cage[2] - sin * of_cage[1]];
@@ -390,8 +389,8 @@ impl Space {
         if ws.step.is_none_or(|h| h == 0.0) {
             return ws.cage.by_pockets;
         }
-        let sum = ws.cage.touching.iter().fold(ws.cage.by_pockets, |sum, of| super::added(sum, of.reaction));
-        super::added(sum, self.reaction_of_rollers(ws, CAGE))
+        let sum = ws.cage.touching.iter().fold(ws.cage.by_pockets, |sum, of| added(sum, of.reaction));
+        added(sum, self.reaction_of_rollers(ws, CAGE))
     }
 
     /// Force of element `j` on the cage in the axes of its azimuth, N.

@@ -1,19 +1,18 @@
 //! Derivatives of what pockets and lands do, by dual numbers over the coordinates of all that they are between.
 
 use super::super::Space;
-use super::super::evaluate::{moving, to_global};
 use super::super::linearize::RingSlopes;
 use super::super::rollers::{AT_ONCE, Pass, Varied};
 use super::super::workspace::{Workspace, at_lane};
 use super::turning_outer;
 use crate::bodies::{
-    CAGE, CageState, INNER_RING, Input, InputValues, MovingRing, OF_BALL, OF_CAGE, OF_RING, RingState,
+    Balls, CAGE, CageState, INNER_RING, Input, InputValues, MovingRing, OF_BALL, OF_CAGE, OF_RING, RingState,
 };
 use crate::integrate::Linearization;
 use crate::pairs::ball_pocket::{BallAt, BallPockets};
 use crate::pairs::guide::land::Land;
 use crate::scalar::{Dual, Numeric, place_of};
-use crate::space::solid::Vector;
+use crate::space::solid::{Vector, to_global};
 use nalgebra::DMatrix;
 
 /// What a pocket sees: x, rho and azimuth of a ball, its six speeds, coordinates of the cage, their rates, displacement of the pocket by
@@ -216,7 +215,7 @@ impl Space {
             at: [variable(x, 0), rho],
             direction,
             lead: timed(lead, orbit),
-            moving: moving(of_ball, rho + self.set.pitch_radius),
+            moving: Balls::moving(of_ball, rho + self.set.pitch_radius),
             excess: block.excess[lane],
             bent: self.displaced_pocket(ws, j).map(|bent| {
                 let at = |i: usize, k: usize| variable(bent[i][k], BENT_IN_POCKET + 2 * i + k);

@@ -1,16 +1,16 @@
 //! Pockets and lands in a semi-implicit step: how they oppose the velocities of balls and cage, and their forces there.
 
 use super::super::Space;
-use super::super::evaluate::{moving, to_global, to_local};
 use super::super::workspace::{Workspace, at_lane};
-use super::{CageMemory, CageOfScene, Touching, add_to_modes, added, lifted, power};
-use crate::bodies::{CageState, MovingCage, OF_BALL, OF_CAGE};
+use super::memory::{CageMemory, CageOfScene, Touching};
+use super::{add_to_modes, lifted, power};
+use crate::bodies::{Balls, CageState, MovingCage, OF_BALL, OF_CAGE};
 use crate::integrate::{DampingBlock, GroupDamping, SemiImplicit, implicit_share};
 use crate::laws::guide::bent::Wanted;
 use crate::pairs::ball_pocket::PocketContact;
 use crate::pairs::guide::land::OfMode;
 use crate::scalar::{Dual, Numeric, place_of};
-use crate::space::solid::{Moving, Vector, cross, difference, dot, scaled, sum};
+use crate::space::solid::{Moving, Vector, added, cross, difference, dot, scaled, sum, to_global, to_local};
 
 impl Space {
     /// Writes those by what the forces on it have become in the step of the balls.
@@ -91,7 +91,7 @@ impl Space {
             let speeds = at_lane(&block.speeds, lane);
             let (mut force, mut friction) = (contact.force, scaled(contact.slip, -contact.secant));
             let mut rates = (contact.depth_rate, contact.slip);
-            let mut of_ball = moving(speeds, r);
+            let mut of_ball = Balls::moving(speeds, r);
             (touching.reaction, touching.on_bending) = ([[0.0; 3]; 2], [0.0; 2]);
             if let Some(step) = step.filter(|_| self.free) {
                 let places = self.layout.of_element::<OF_BALL>(touching.ball);
@@ -102,7 +102,7 @@ impl Space {
                         (step.mean[i] - v[i]) * (2.0 - 2.0 * share)
                             + (step.end[i] - v[i]) * (2.0 * share - 1.0)
                     });
-                    let moved = moving(change, r);
+                    let moved = Balls::moving(change, r);
                     let passing = sum(moved.velocity, cross(moved.turning, to_wall));
                     let nearer = dot(passing, contact.normal);
                     (nearer, difference(passing, scaled(contact.normal, nearer)), moved)

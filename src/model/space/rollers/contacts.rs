@@ -1,11 +1,10 @@
 //! Touching places of rollers at a state, and their sums.
 
-use super::{added, on_mate};
 use crate::bodies::{CAGE, ForceSource, Inclination, OF_ROLLER, Power, RollerState};
 use crate::laws::elastic::loaded::Loaded;
 use crate::laws::elastic::tilted::Slice;
 use crate::pairs::roller::{SliceLaws, Spot, SpotForces, SpotLaw, UnitWrench};
-use crate::space::solid::{Moving, Vector, dot, sum};
+use crate::space::solid::{Moving, Vector, added, cross, dot, scaled, sum, to_global};
 use pulp::Arch;
 
 /// Parts of what a contact does: normal force, friction, rolling resistance.
@@ -55,6 +54,16 @@ impl Place {
             Self::End(..) => ForceSource::Rib,
         }
     }
+}
+
+/// What a force and moment about the centre of a roller do to a mate whose centre is away from that by `-from_mate`, in the axes of the bearing.
+pub(super) fn on_mate(
+    [force, moment]: [Vector<f64>; 2],
+    from_mate: Vector<f64>,
+    direction: [f64; 2],
+) -> [Vector<f64>; 2] {
+    let about = sum(moment, cross(from_mate, force));
+    [to_global(scaled(force, -1.0), direction), to_global(scaled(about, -1.0), direction)]
 }
 
 /// A roller at the last evaluated state.

@@ -4,7 +4,7 @@
 //! roller is kept over its speeds, so that damping, forces of a step, powers and derivatives follow by the same code; what they do to the mate is
 //! the opposite, moved to its centre.
 
-mod contacts;
+pub(super) mod contacts;
 mod line_loads;
 mod raceways;
 mod report;
@@ -13,14 +13,12 @@ mod start;
 mod step;
 mod varied;
 
-pub(super) use contacts::{Contact, Place, RollerMemory};
 pub use line_loads::{LINE_LOAD_QUANTITIES, LineLoad};
 pub(crate) use report::OfRollers;
 pub(super) use varied::{AT_ONCE, Pass, Varied};
 
 use super::Space;
 use super::cage::add_to_modes;
-use super::evaluate::{beside, to_global, to_local};
 use super::workspace::Workspace;
 use crate::bodies::{
     CAGE, Fault, MovingCage, MovingRing, OF_ROLLER, RollerState, RollersInSpace, SOUND, Spacing,
@@ -35,7 +33,8 @@ use crate::pairs::raceway::RacewayGeometry;
 use crate::pairs::roller::{Bars, EndPair, Shapes, SpotLaw};
 use crate::scalar::{Numeric, math};
 use crate::scene::{Scene, SlicesOn};
-use crate::space::solid::{LARGEST_TILT, Vector, cross, scaled, sum};
+use crate::space::solid::{LARGEST_TILT, added, to_local};
+use contacts::{Contact, Place, RollerMemory};
 
 /// Names of the contacts with raceways.
 const RACEWAYS: [&str; 2] = ["outer_raceway", "inner_raceway"];
@@ -113,11 +112,6 @@ impl RollersOfScene {
     fn most_slices(&self) -> usize {
         self.slices.max(SLICES_OF_BAR) + 1
     }
-}
-
-/// Force and moment together.
-fn added(a: [Vector<f64>; 2], b: [Vector<f64>; 2]) -> [Vector<f64>; 2] {
-    [sum(a[0], b[0]), sum(a[1], b[1])]
 }
 
 impl Space {
@@ -254,7 +248,7 @@ impl Space {
             let of_mate = if end.mate == CAGE { as_ring(&cage.moving) } else { rings[end.mate] };
             for j in 0..self.layout.count {
                 let of = &memory.rollers[j];
-                let ring = beside(&of_mate, of.direction);
+                let ring = of_mate.beside(of.direction);
                 let roller = of.state.motion();
                 let longer = rollers.shapes.longer(j);
                 if end.geometry.apart(&roller, &ring, longer) {
@@ -283,7 +277,7 @@ impl Space {
         if cage.body.bending() > 0 {
             for contact in rollers.contacts.iter().filter(|contact| contact.place.mate() == CAGE) {
                 let by = contact.over_bending(contact.on_roller()[0]);
-                add_to_modes(memory.on_modes_mut(), cage.body.displacements(contact.roller), by);
+                add_to_modes(&mut memory.on_modes[0], cage.body.displacements(contact.roller), by);
             }
         }
     }
@@ -389,14 +383,4 @@ impl RollersOfScene {
 /// A cage as a ring.
 pub(super) fn as_ring<T: Numeric>(cage: &MovingCage<T>) -> MovingRing<T> {
     MovingRing { centre: cage.centre, axis: cage.tilt.axis, moving: cage.moving, speed: cage.speed }
-}
-
-/// What a force and moment about the centre of a roller do to a mate whose centre is away from that by `-from_mate`, in the axes of the bearing.
-fn on_mate(
-    [force, moment]: [Vector<f64>; 2],
-    from_mate: Vector<f64>,
-    direction: [f64; 2],
-) -> [Vector<f64>; 2] {
-    let about = sum(moment, cross(from_mate, force));
-    [to_global(scaled(force, -1.0), direction), to_global(scaled(about, -1.0), direction)]
 }

@@ -1,7 +1,6 @@
 //! Where rollers are loaded by a raceway: the places along one roller side by side in lanes.
 
 use super::super::Space;
-use super::super::evaluate::beside;
 use super::super::workspace::Workspace;
 use super::RollersOfScene;
 use super::contacts::{Contact, Place, RollerMemory};
@@ -44,7 +43,7 @@ impl WithSimd for TouchRaceway<'_> {
         for (j, excess) in excess.iter().enumerate() {
             let (a, profile) = (rollers.shapes.half_length(j), rollers.shapes.surface(side, j));
             let of = &memory.rollers[j];
-            let (ring, roller) = (beside(&ring, of.direction), of.state.motion());
+            let (ring, roller) = (ring.beside(of.direction), of.state.motion());
             let on = OnRaceway { geometry, profile, side, ring, roller, excess: *excess };
             let in_lanes = on.map(OneByOne(profile), |x| Pack::<S, 1>::all(simd, x));
             let mut ends = ZEROS;

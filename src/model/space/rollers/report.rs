@@ -1,18 +1,17 @@
 //! What is told of rollers that skew and tilt: their channels, contacts, and the forces on bodies.
 
-use super::super::evaluate::{to_global, to_local};
 use super::super::report::{SpatialBodyForces, SpatialContact, channel};
 use super::super::workspace::Workspace;
 use super::super::{Source, Space};
-use super::contacts::{Contact, Node, Place};
-use super::{RollersOfScene, on_mate};
+use super::RollersOfScene;
+use super::contacts::{Contact, Node, Place, on_mate};
 use crate::bodies::{CAGE, ForceSource, SPIN};
 use crate::laws::contact_pair::{ContactForce, ContactMotion};
 use crate::laws::line_contact::LineContact;
 use crate::model::feedthrough::Sees;
 use crate::model::{Channel, Condition, STATIC_LIMIT_OF_ROLLERS};
 use crate::scalar::math;
-use crate::space::solid::{Vector, cross, difference, dot, scaled, sum};
+use crate::space::solid::{Vector, cross, difference, dot, scaled, sum, to_global, to_local};
 use std::f64::consts::PI;
 
 /// What a channel shows of a roller, or of all.

@@ -100,7 +100,7 @@ impl Space {
                 self.find_slopes(rollers, ws, &contact, pass, (rates, ln_rate), &mut slopes);
             }
             self.add_to_roller(rollers, ws, &contact, &slopes.on_roller, out);
-            self.add_to_mate(&contact, &slopes.on_mate, (ring, ws.cage.by_forces()), out);
+            self.add_to_mate(&contact, &slopes.on_mate, (ring, &ws.cage.by_forces), out);
         }
     }
 

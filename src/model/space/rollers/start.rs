@@ -1,7 +1,6 @@
 //! Rollers at the start of a run, speeds without slip, and frequencies.
 
 use super::super::Space;
-use super::super::evaluate::beside;
 use super::super::rest::rollers::{Rollers, SettledRollers};
 use super::RollersOfScene;
 use crate::bodies::{INNER_RING, Input, InputValues, OF_ROLLER, ORBIT, OUTER_RING, RingInSpace, SPIN};
@@ -110,7 +109,7 @@ impl Space {
         for j in 0..self.layout.count {
             let [x, rho, _, skew, ..] = self.layout.of_element::<OF_ROLLER>(j);
             let (sin, cos) = math::sin_cos(self.set.reference_angles[j]);
-            let ring = beside(&ring, [cos, sin]);
+            let ring = ring.beside([cos, sin]);
             let ([along, outward, ahead], [cx, cr, ct]) = (ring.axis, ring.centre);
             let r = self.set.pitch_radius;
             q[x] = cx - ((r + q[rho] - cr) * outward - ct * ahead) / along;

@@ -9,13 +9,13 @@
 use super::super::Space;
 use super::super::cage::add_to_modes;
 use super::super::workspace::Workspace;
-use super::contacts::{Contact, FRICTION, NORMAL, Node, ROLLING, add_scaled};
-use super::{RollersOfScene, added, on_mate};
+use super::RollersOfScene;
+use super::contacts::{Contact, FRICTION, NORMAL, Node, ROLLING, add_scaled, on_mate};
 use crate::bodies::{CAGE, OF_ROLLER, ORBIT, RollerState, SPIN};
 use crate::integrate::{GroupDamping, SemiImplicit, implicit_share};
 use crate::pairs::roller::UnitWrench;
 use crate::scalar::place_of;
-use crate::space::solid::{Moving, Vector, difference, dot, scaled, sum};
+use crate::space::solid::{Moving, Vector, added, difference, dot, scaled, sum};
 
 type Matrix = [[f64; OF_ROLLER]; OF_ROLLER];
 
