@@ -3,11 +3,12 @@
 //! `CAGEDYN_CALLS` sets another number of calls.
 #![allow(unsafe_code)]
 
+mod models;
+mod sims;
 mod steady;
 
 use cagedyn::capi::batch::*;
 use cagedyn::capi::forces::*;
-use cagedyn::capi::geometry::*;
 use cagedyn::capi::heat::*;
 use cagedyn::capi::integrator::*;
 use cagedyn::capi::interval::*;
@@ -19,7 +20,7 @@ use cagedyn::capi::statistics::*;
 use cagedyn::capi::whirl::*;
 use cagedyn::capi::*;
 use fastrand::Rng;
-use std::ffi::{CStr, CString, c_char};
+use std::ffi::{CStr, CString};
 use std::ptr::{null, null_mut};
 
 const CALLS: u64 = 100_000;
@@ -29,107 +30,6 @@ const ROOM: usize = 1 << 15;
 const UNTOUCHED: f64 = -1.2345e67;
 /// Wall time of one call that advances, s.
 const PATIENCE: f64 = 2e-3;
-
-type Texts = unsafe extern "C" fn(*const cagedyn_model, i64) -> *const c_char;
-type Counts = unsafe extern "C" fn(*const cagedyn_model) -> i64;
-type Finds = unsafe extern "C" fn(*const cagedyn_model, *const c_char) -> i64;
-type Writes = unsafe extern "C" fn(*mut cagedyn_sim, *mut f64, i64) -> i32;
-type Reads = unsafe extern "C" fn(*const cagedyn_sim, *mut f64, i64) -> i32;
-type Anywhere = unsafe extern "C" fn(*mut cagedyn_sim, f64, *const f64, i64, *mut f64, i64) -> i32;
-type Names = unsafe extern "C" fn(*const c_char) -> i64;
-type Rates = unsafe extern "C" fn(*mut cagedyn_sim, f64, *const f64, *mut f64, i64) -> i32;
-
-const TEXTS: [Texts; 26] = [
-    cagedyn_model_state_name,
-    cagedyn_model_state_unit,
-    cagedyn_model_state_description,
-    cagedyn_model_input_name,
-    cagedyn_model_input_unit,
-    cagedyn_model_input_description,
-    cagedyn_model_output_name,
-    cagedyn_model_output_unit,
-    cagedyn_model_output_description,
-    cagedyn_model_contact_name,
-    cagedyn_model_contact_quantity_name,
-    cagedyn_model_contact_quantity_unit,
-    cagedyn_model_contact_quantity_description,
-    cagedyn_model_line_load_quantity_name,
-    cagedyn_model_line_load_quantity_unit,
-    cagedyn_model_line_load_quantity_description,
-    cagedyn_model_body_name,
-    cagedyn_model_force_source_name,
-    cagedyn_model_force_component_name,
-    cagedyn_model_force_component_unit,
-    cagedyn_model_force_component_description,
-    cagedyn_model_geometry_name,
-    cagedyn_model_geometry_unit,
-    cagedyn_model_geometry_description,
-    cagedyn_model_warning,
-    scene_json,
-];
-
-unsafe extern "C" fn scene_json(model: *const cagedyn_model, _: i64) -> *const c_char {
-    // SAFETY: as the caller's.
-    unsafe { cagedyn_model_scene_json(model) }
-}
-
-const COUNTS: [Counts; 15] = [
-    cagedyn_model_state_count,
-    cagedyn_model_position_count,
-    cagedyn_model_velocity_count,
-    cagedyn_model_input_count,
-    cagedyn_model_output_count,
-    cagedyn_model_contact_count,
-    cagedyn_model_contact_quantity_count,
-    cagedyn_model_line_load_quantity_count,
-    cagedyn_model_body_count,
-    cagedyn_model_force_source_count,
-    cagedyn_model_force_component_count,
-    cagedyn_model_geometry_count,
-    cagedyn_model_warning_count,
-    cagedyn_model_watched_count,
-    cagedyn_model_jacobian_entry_count,
-];
-
-const FINDS: [Finds; 10] = [
-    cagedyn_model_find_state,
-    cagedyn_model_find_input,
-    cagedyn_model_find_output,
-    cagedyn_model_find_contact,
-    cagedyn_model_find_contact_quantity,
-    cagedyn_model_find_line_load_quantity,
-    cagedyn_model_find_body,
-    cagedyn_model_find_force_source,
-    cagedyn_model_find_force_component,
-    cagedyn_model_find_geometry,
-];
-
-const NAMES: [Names; 3] = [cagedyn_find_statistic, cagedyn_find_law, cagedyn_find_balance];
-
-const WRITES: [(Writes, usize); 6] = [
-    (cagedyn_sim_accelerations, VELOCITIES),
-    (cagedyn_sim_contact_forces, CONTACTS),
-    (cagedyn_sim_body_forces, BODIES),
-    (cagedyn_sim_get_outputs, OUTPUTS),
-    (cagedyn_sim_power_balance, BALANCE),
-    (cagedyn_sim_solve, STATES),
-];
-const READS: [(Reads, usize); 4] = [
-    (cagedyn_sim_get_state, STATES),
-    (cagedyn_sim_save, SAVE),
-    (cagedyn_sim_statistics, STATISTICS),
-    (cagedyn_sim_law_evaluations, LAWS),
-];
-const ANYWHERE: [(Anywhere, usize); 7] = [
-    (cagedyn_sim_contact_forces_at, CONTACTS),
-    (cagedyn_sim_body_forces_at, BODIES),
-    (cagedyn_sim_outputs_at, OUTPUTS),
-    (cagedyn_sim_energies_at, ENERGIES),
-    (cagedyn_sim_jacobian, JACOBIAN),
-    (cagedyn_sim_sparse_jacobian, SPARSE),
-    (cagedyn_sim_input_jacobian, INPUT_JACOBIAN),
-];
-const RATES: [Rates; 2] = [cagedyn_sim_derivative, cagedyn_sim_time_derivative];
 
 // Lengths of the arrays of a simulation.
 const STATES: usize = 0;
@@ -332,194 +232,6 @@ impl Host {
         }
         if self.buffer[0].to_bits() != UNTOUCHED.to_bits() || !failed {
             self.buffer.fill(UNTOUCHED);
-        }
-    }
-
-    fn about_models(&mut self) {
-        let model = self.model();
-        let places = self.index(50);
-        let text = self.text();
-        let text = text.as_ref().map_or(null(), |text| text.as_ptr());
-        // SAFETY: live handles or NULL, texts that end with NUL or NULL, buffers as long as they say.
-        unsafe {
-            match self.rng.u32(0..8) {
-                0..3 => {
-                    let call = TEXTS[self.rng.usize(0..TEXTS.len())];
-                    assert!(!call(model, places).is_null());
-                }
-                3 => {
-                    let call = COUNTS[self.rng.usize(0..COUNTS.len())];
-                    let count = call(model);
-                    self.check("count", count);
-                }
-                4 => {
-                    let found = if self.one_of(4) {
-                        NAMES[self.rng.usize(0..NAMES.len())](text)
-                    } else {
-                        FINDS[self.rng.usize(0..FINDS.len())](model, text)
-                    };
-                    self.check("find", found);
-                }
-                5 => {
-                    let out = self.out();
-                    let status = cagedyn_model_get_geometry(model, places, out);
-                    self.check("geometry", status.into());
-                }
-                6 => {
-                    let states = cagedyn_model_state_count(model);
-                    let entries = cagedyn_model_jacobian_entry_count(model);
-                    let (mut starts, mut rows) = (vec![0i64; 500], vec![0i64; ROOM]);
-                    assert!(states < 500 && entries < ROOM as i64);
-                    let (a, b) = (self.length(states + 1), self.length(entries));
-                    let rows = if self.one_of(10) { null_mut() } else { rows.as_mut_ptr() };
-                    let status = cagedyn_model_jacobian_pattern(model, starts.as_mut_ptr(), a, rows, b);
-                    self.check("pattern", status.into());
-                    let inputs = cagedyn_model_input_count(model);
-                    let entries = cagedyn_model_feedthrough_entry_count(model);
-                    assert!(inputs < 500 && entries < ROOM as i64);
-                    let (a, b) = (self.length(inputs + 1), self.length(entries));
-                    let status = cagedyn_model_feedthrough_pattern(model, starts.as_mut_ptr(), a, rows, b);
-                    self.check("feedthrough", status.into());
-                }
-                _ => {
-                    let json = include_str!("../../scenes/nu2310.json");
-                    let json = CString::new(json).expect("no NUL");
-                    let made = match self.rng.u32(0..20) {
-                        0 => cagedyn_model_from_json_with(json.as_ptr(), text),
-                        1 => cagedyn_model_from_file(text),
-                        _ => cagedyn_model_from_json(text),
-                    };
-                    assert_eq!(made.is_null(), cagedyn_error_status() != CAGEDYN_OK);
-                    cagedyn_model_free(made);
-                    let _ = cagedyn_model_watched_output(model, places);
-                }
-            }
-        }
-    }
-
-    fn about_sims(&mut self) {
-        let s = self.sim();
-        let (t, out) = (self.number(), self.out());
-        // SAFETY: as above; lengths that are right are those of the arrays.
-        unsafe {
-            match self.rng.u32(0..16) {
-                0 => {
-                    let (call, k) = WRITES[self.rng.usize(0..WRITES.len())];
-                    let n = self.length(s.lengths[k]);
-                    if !out.is_null() && k == STATES {
-                        self.buffer.fill(UNTOUCHED);
-                    }
-                    let status = call(s.sim, out, n);
-                    self.check("write", status.into());
-                }
-                1 => {
-                    let (call, k) = READS[self.rng.usize(0..READS.len())];
-                    let n = self.length(s.lengths[k]);
-                    let status = call(s.sim, out, n);
-                    self.check("read", status.into());
-                }
-                2 | 3 => {
-                    let (call, k) = ANYWHERE[self.rng.usize(0..ANYWHERE.len())];
-                    let ((state, a), b) = (self.state(s), self.length(s.lengths[k]));
-                    let from = if self.one_of(12) { null() } else { state.as_ptr() };
-                    let status = call(s.sim, t, from, a, out, b);
-                    self.check("anywhere", status.into());
-                }
-                4 => {
-                    let call = RATES[self.rng.usize(0..RATES.len())];
-                    let (state, n) = self.state(s);
-                    let status = call(s.sim, t, state.as_ptr(), out, n);
-                    self.check("rate", status.into());
-                }
-                5 => {
-                    let (state, n) = self.state(s);
-                    let status = match self.rng.u32(0..3) {
-                        0 => cagedyn_sim_set_state(s.sim, t, state.as_ptr(), n),
-                        1 => cagedyn_sim_linearize(s.sim, t, state.as_ptr(), n),
-                        _ => cagedyn_sim_factorize(s.sim, t),
-                    };
-                    self.check("state", status.into());
-                }
-                6 | 7 => {
-                    let _ = cagedyn_sim_set_wall_time_limit(s.sim, PATIENCE);
-                    let mut now = 0.0;
-                    let _ = cagedyn_sim_time(s.sim, &mut now);
-                    let step = self.one_of(2);
-                    let status = if step {
-                        cagedyn_sim_step(s.sim, t)
-                    } else {
-                        cagedyn_sim_advance_to(s.sim, now + t)
-                    };
-                    self.check("advance", status.into());
-                }
-                8 => {
-                    let (input, value) = (self.index(3), self.number());
-                    let status = match self.rng.u32(0..4) {
-                        0 => cagedyn_sim_set_input(s.sim, input, value),
-                        1 => cagedyn_sim_get_input(s.sim, input, out),
-                        2 => cagedyn_sim_set_input_slope(s.sim, input, value, self.number()),
-                        _ => cagedyn_sim_release_input(s.sim, input),
-                    };
-                    self.check("input", status.into());
-                }
-                9 => {
-                    let output = self.index(s.lengths[OUTPUTS]);
-                    let n = self.length(cagedyn_interval_count());
-                    let status = match self.rng.u32(0..3) {
-                        0 => cagedyn_sim_get_output(s.sim, output, out),
-                        1 => cagedyn_sim_begin_interval(s.sim),
-                        _ => cagedyn_sim_get_interval(s.sim, output, out, n),
-                    };
-                    self.check("output", status.into());
-                }
-                10 => {
-                    let n = s.lengths[SAVE];
-                    let mut saved = vec![0.0; n as usize];
-                    let _ = cagedyn_sim_save(s.sim, saved.as_mut_ptr(), n);
-                    for _ in 0..self.rng.usize(0..3) {
-                        let place = self.rng.usize(0..saved.len());
-                        saved[place] = self.number();
-                    }
-                    let length = self.length(n);
-                    let status = cagedyn_sim_restore(s.sim, saved.as_ptr(), length);
-                    self.check("restore", status.into());
-                }
-                11 => {
-                    let status = cagedyn_sim_trust(s.sim);
-                    self.check("trust", status.into());
-                    assert!(!cagedyn_sim_report(s.sim).is_null());
-                }
-                12 => {
-                    let canceller = cagedyn_canceller_new(s.sim);
-                    let status = cagedyn_canceller_cancel(canceller);
-                    self.check("cancel", status.into());
-                    cagedyn_canceller_free(canceller);
-                }
-                13 => {
-                    let contact = self.index(s.lengths[CONTACT]);
-                    let rows = cagedyn_sim_line_load_count(s.sim, contact);
-                    self.check("line load count", rows);
-                    let n = self.length(rows.max(0) * s.lengths[LINE_LOAD]);
-                    let status = cagedyn_sim_line_loads(s.sim, contact, out, n);
-                    self.check("line loads", status.into());
-                }
-                14 => {
-                    let status = if self.one_of(3) {
-                        cagedyn_sim_reset(s.sim)
-                    } else {
-                        cagedyn_sim_set_wall_time_limit(s.sim, t)
-                    };
-                    self.check("reset", status.into());
-                }
-                _ => {
-                    if self.sims.len() < 4 {
-                        self.add_sim();
-                    } else if self.one_of(20) {
-                        let gone = self.sims.swap_remove(self.rng.usize(0..self.sims.len()));
-                        cagedyn_sim_free(gone.sim);
-                    }
-                }
-            }
         }
     }
 
