@@ -3,6 +3,7 @@
 mod groups;
 mod numbers;
 mod pockets;
+mod scales;
 
 use crate::error::Error;
 use crate::scene::check::{Range, shown, slip_hint};

@@ -1,6 +1,7 @@
 //! Usual ranges of numbers of round pockets, which both kinds of them share.
 
-use super::groups::{Group, SIZE, SOFT, UNUSUAL, WEAK, damping, group};
+use super::groups::{Group, SIZE, SOFT, UNUSUAL, WEAK, group};
+use super::scales::damping;
 use crate::scene::check::range;
 use crate::scene::*;
 
