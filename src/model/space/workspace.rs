@@ -28,7 +28,7 @@ pub(super) const FORCES: usize = 6;
 pub(super) type BlockSlopes = [[[Lanes; SEEN]; FORCES]; 2];
 
 /// Contacts of a block of balls with one race.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct ContactLanes {
     pub(super) elastic: [Lanes; ELASTIC],
     /// Height of the waves of the race there, m, its slope, m/rad, and the slope of that, m/rad^2; zero on a round race.
@@ -108,17 +108,7 @@ impl ContactLanes {
                 }
             });
         }
-        Self {
-            elastic: columns,
-            wave: [ZEROS; 3],
-            motion: [ZEROS; POINT_MOTION],
-            force: [ZEROS; POINT_FORCE],
-            in_meridian: [ZEROS; 2],
-            on_ring: [ZEROS; WRENCH],
-            reaction: [ZEROS; WRENCH],
-            normal: ZEROS,
-            powers: [ZEROS; 3],
-        }
+        Self { elastic: columns, ..Self::default() }
     }
 
     /// Elastic constants from this place of the lanes on, with the shape of `like`.

@@ -19,6 +19,7 @@
 //! touches at the depth d is pushed back by k d. d is an assumption. The share of the film follows from the smallest gap.
 
 mod moments;
+mod points;
 mod sums;
 mod surface;
 

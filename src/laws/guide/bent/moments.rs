@@ -1,6 +1,7 @@
 //! From Fourier coefficients to forces over the coordinates of a bent cage, and to their derivatives.
 
-use super::sums::{Found, Of, Sums};
+use super::points::Of;
+use super::sums::{Found, Sums};
 use super::surface::Shape;
 use super::{OF_MOTION, Wanted};
 use crate::scalar::math;

@@ -54,7 +54,7 @@ impl<'a> Search<'a> {
             return false;
         }
         out.go_on();
-        let mut brackets = Brackets::none();
+        let mut brackets = Brackets::default();
         let start = out.last_step;
         let mut known = None;
         (out.last_step, out.to) = (steps, self.samples.angle(steps));
@@ -226,7 +226,7 @@ impl<'a> Search<'a> {
             let Aim::Turn { negative } = aim else { continue };
             let beyond = if negative { brackets.value[i] > 0.0 } else { brackets.value[i] < 0.0 };
             if beyond && a < angle && angle < b {
-                let more = more.get_or_insert_with(Brackets::none);
+                let more = more.get_or_insert_with(Brackets::default);
                 for (ends, rises) in [([a, angle], negative), ([angle, b], !negative)] {
                     let (values, slopes, aim) = ([0.0; 2], [0.0; 2], Aim::Zero);
                     more.add(Bracket { ends, values, slopes, rises, of, aim });

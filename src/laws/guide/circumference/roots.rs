@@ -5,7 +5,7 @@
 //! whose error falls with its fourth power, or with its third where a function turns back; a step that leaves the bracket halves it.
 
 use super::stretch::{FUNCTIONS, Functions};
-use crate::scalar::{Base, Columns, Lanes, Numeric, Pack, WIDEST, ZEROS, dispatch};
+use crate::scalar::{Base, Columns, Lanes, Numeric, Pack, WIDEST, dispatch};
 use pulp::{Arch, Simd};
 
 /// Largest number of brackets that one step needs.
@@ -30,6 +30,7 @@ pub(super) enum Aim {
 }
 
 /// A block of brackets, in each of which a place is looked for.
+#[derive(Default)]
 #[repr(align(64))]
 pub(super) struct Brackets {
     pub count: usize,
@@ -67,23 +68,6 @@ pub(super) struct Bracket {
 }
 
 impl Brackets {
-    pub const fn none() -> Self {
-        Self {
-            count: 0,
-            turns: 0,
-            aim: [Aim::Zero; WIDEST],
-            ends: [ZEROS; 2],
-            angle: ZEROS,
-            values: [ZEROS; 2],
-            slopes: [ZEROS; 2],
-            sign: ZEROS,
-            of: ZEROS,
-            of_slope: ZEROS,
-            value: ZEROS,
-            film: ZEROS,
-        }
-    }
-
     #[inline(always)]
     pub fn add(&mut self, bracket: Bracket) {
         let Bracket { ends, values, slopes, rises, of, aim } = bracket;
