@@ -109,68 +109,25 @@ impl<T: Copy> PointForce<T> {
     /// Its numbers, in the order of its fields.
     #[inline(always)]
     pub fn numbers(&self) -> [T; POINT_FORCE] {
-        let EllipseFriction { force: [ft, fl], couple: [mt, ml, mn], secants, temperature_rise } =
+        let EllipseFriction { force: [ft, fl], couple: [mt, ml, mn], secants, temperature_rise: rise } =
             self.friction;
         let ([s0, sx, sy, sh], [sxx, syy, shh, sxh, syh]) = (secants.first, secants.second);
         let [a, b] = self.half_axes;
-        let Self { normal, stiffness, damping, pressure, film, film_ratio, rolling_resistance, .. } = *self;
+        let Self {
+            normal, stiffness, damping, pressure, film, film_ratio, rolling_resistance: rolling, ..
+        } = *self;
         [
-            normal,
-            stiffness,
-            damping,
-            a,
-            b,
-            pressure,
-            film,
-            film_ratio,
-            ft,
-            fl,
-            mt,
-            ml,
-            mn,
-            s0,
-            sx,
-            sy,
-            sh,
-            sxx,
-            syy,
-            shh,
-            sxh,
-            syh,
-            temperature_rise,
-            rolling_resistance,
+            normal, stiffness, damping, a, b, pressure, film, film_ratio, ft, fl, mt, ml, mn, s0, sx, sy, sh,
+            sxx, syy, shh, sxh, syh, rise, rolling,
         ]
     }
 
     /// That of these numbers.
     #[inline(always)]
     pub fn of_numbers(numbers: [T; POINT_FORCE]) -> Self {
-        let [
-            normal,
-            stiffness,
-            damping,
-            a,
-            b,
-            pressure,
-            film,
-            film_ratio,
-            ft,
-            fl,
-            mt,
-            ml,
-            mn,
-            s0,
-            sx,
-            sy,
-            sh,
-            sxx,
-            syy,
-            shh,
-            sxh,
-            syh,
-            temperature_rise,
-            rolling_resistance,
-        ] = numbers;
+        let [normal, stiffness, damping, a, b, pressure, film, film_ratio, rest @ ..] = numbers;
+        let [ft, fl, mt, ml, mn, s0, sx, sy, sh, rest @ ..]: [T; 16] = rest;
+        let [sxx, syy, shh, sxh, syh, rise, rolling]: [T; 7] = rest;
         let secants = Secants { first: [s0, sx, sy, sh], second: [sxx, syy, shh, sxh, syh] };
         Self {
             normal,
@@ -180,8 +137,13 @@ impl<T: Copy> PointForce<T> {
             pressure,
             film,
             film_ratio,
-            friction: EllipseFriction { force: [ft, fl], couple: [mt, ml, mn], secants, temperature_rise },
-            rolling_resistance,
+            friction: EllipseFriction {
+                force: [ft, fl],
+                couple: [mt, ml, mn],
+                secants,
+                temperature_rise: rise,
+            },
+            rolling_resistance: rolling,
         }
     }
 }
