@@ -181,13 +181,6 @@ pub enum RollingLaw {
     Houpert,
 }
 
-impl RollingLaw {
-    /// Whether it is one of balls; the others are of rollers.
-    pub fn is_of_balls(self) -> bool {
-        matches!(self, Self::BibouletHoupert | Self::Houpert)
-    }
-}
-
 /// Contacts with rolling resistance.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]

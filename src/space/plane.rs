@@ -58,11 +58,6 @@ pub struct Frame<T> {
     pub cos: T,
 }
 
-impl Frame<f64> {
-    /// Global axes.
-    pub const GLOBAL: Self = Self { sin: 0.0, cos: 1.0 };
-}
-
 impl<T: Numeric> Frame<T> {
     /// A global vector in this frame.
     #[inline(always)]
