@@ -6,6 +6,7 @@ mod common;
 mod elastic_cage;
 mod extremes;
 mod grease_guide;
+mod host;
 mod host_derivatives;
 mod impossible;
 mod limits;
