@@ -125,6 +125,19 @@ pub(crate) struct PairInfo {
     pub(crate) share: f64,
 }
 
+/// The optional laws of a contact, of which these are present: film, traction with self-heating, regime, rolling resistance.
+pub(crate) fn parts(present: [bool; 5]) -> impl Iterator<Item = Law> {
+    let list =
+        [Law::FilmThickness, Law::Traction, Law::SelfHeating, Law::LubricationRegime, Law::RollingResistance];
+    list.into_iter().zip(present).filter_map(|(law, present)| present.then_some(law))
+}
+
+/// Those of a line contact.
+pub(crate) fn parts_of_line(line: &LineContact) -> impl Iterator<Item = Law> + use<> {
+    let LineContact { film, traction, self_heating: heated, regime, rolling_resistance: rolling, .. } = line;
+    parts([film.is_some(), traction.is_some(), heated.is_some(), regime.is_some(), rolling.is_some()])
+}
+
 /// Force law of the contacts of a pair.
 #[expect(clippy::large_enum_variant, reason = "a few per model")]
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -146,15 +159,7 @@ impl ContactLaw {
 
     /// The optional laws in it.
     pub(crate) fn parts(&self) -> Vec<Law> {
-        let Self::Line(line) = self else { return Vec::new() };
-        let parts = [
-            (Law::FilmThickness, line.film.is_some()),
-            (Law::Traction, line.traction.is_some()),
-            (Law::SelfHeating, line.self_heating.is_some()),
-            (Law::LubricationRegime, line.regime.is_some()),
-            (Law::RollingResistance, line.rolling_resistance.is_some()),
-        ];
-        parts.into_iter().filter_map(|(law, present)| present.then_some(law)).collect()
+        self.line().into_iter().flat_map(parts_of_line).collect()
     }
 
     /// Elastic force in N and energy in J at the approach `delta` (m).

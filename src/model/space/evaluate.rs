@@ -3,8 +3,9 @@
 use super::workspace::{BallBlock, WRENCH, Workspace, at_lane, load, store};
 use super::{RACES, Space};
 use crate::bodies::{Balls, Fault, INNER_RING, Input, Moves, MovingRing, OF_BALL, SOUND};
+use crate::laws::point_contact::PointContact;
 use crate::pairs::groove::{InGroove, Race};
-use crate::pairs::{Law, Waves};
+use crate::pairs::{Law, Waves, parts};
 use crate::scalar::{Columns, Numeric, Pack, dispatch, math, place_of};
 use crate::space::solid::{LARGEST_TILT, Moving, Tilt, Vector, added, dot, scaled, to_global, to_local};
 use pulp::Simd;
@@ -212,17 +213,11 @@ impl Space {
     /// The laws of the contacts with one race beside elasticity.
     pub(super) fn parts(&self, race: usize) -> impl Iterator<Item = Law> {
         let list = self.races.get(race).map(|race| {
-            let laws = &race.laws;
-            let heated = laws.traction.as_ref().is_some_and(|traction| traction.self_heating.is_some());
-            [
-                (laws.film.is_some(), Law::FilmThickness),
-                (laws.traction.is_some(), Law::Traction),
-                (heated, Law::SelfHeating),
-                (laws.regime.is_some(), Law::LubricationRegime),
-                (laws.rolling_resistance.is_some(), Law::RollingResistance),
-            ]
+            let PointContact { film, traction, regime, rolling_resistance: rolling, .. } = &race.laws;
+            let heated = traction.as_ref().is_some_and(|traction| traction.self_heating.is_some());
+            parts([film.is_some(), traction.is_some(), heated, regime.is_some(), rolling.is_some()])
         });
-        list.into_iter().flatten().filter(|(present, _)| *present).map(|(_, law)| law)
+        list.into_iter().flatten()
     }
 
     /// Collects forces on the bodies and lets them accelerate.

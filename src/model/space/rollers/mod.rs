@@ -28,9 +28,9 @@ use crate::laws::elastic::loaded::Loaded;
 use crate::laws::elastic::profile::USUAL_SLICES;
 use crate::laws::elastic::tilted::Slice;
 use crate::laws::line_contact::LineContact;
-use crate::pairs::Law;
 use crate::pairs::raceway::RacewayGeometry;
 use crate::pairs::roller::{Bars, EndPair, Shapes, SpotLaw};
+use crate::pairs::{Law, parts_of_line};
 use crate::scalar::{Numeric, math};
 use crate::scene::{Scene, SlicesOn};
 use crate::space::solid::{LARGEST_TILT, added, to_local};
@@ -343,17 +343,7 @@ impl Space {
 impl RollersOfScene {
     /// The laws of the contacts with one raceway beside elasticity.
     pub(super) fn parts(&self, side: usize) -> impl Iterator<Item = Law> {
-        let law = self.raceway(side);
-        [
-            (law.film.is_some(), Law::FilmThickness),
-            (law.traction.is_some(), Law::Traction),
-            (law.self_heating.is_some(), Law::SelfHeating),
-            (law.regime.is_some(), Law::LubricationRegime),
-            (law.rolling_resistance.is_some(), Law::RollingResistance),
-        ]
-        .into_iter()
-        .filter(|(present, _)| *present)
-        .map(|(_, law)| law)
+        parts_of_line(self.raceway(side))
     }
 
     /// Law of a raceway.
