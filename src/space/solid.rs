@@ -33,6 +33,14 @@ impl<T> Moving<T> {
     }
 }
 
+impl<T: Numeric> Moving<T> {
+    /// Power of this force and moment on it.
+    #[inline(always)]
+    pub fn power(&self, [force, moment]: [Vector<T>; 2]) -> T {
+        dot(force, self.velocity) + dot(moment, self.turning)
+    }
+}
+
 /// What `f` makes of every component, for the instructions of the caller.
 #[inline(always)]
 pub fn mapped<T, U>([a, b, c]: Vector<T>, f: impl Fn(T) -> U) -> Vector<U> {
@@ -64,6 +72,18 @@ pub fn sum<T: Numeric>(a: Vector<T>, b: Vector<T>) -> Vector<T> {
 #[inline(always)]
 pub fn added<T: Numeric>(a: [Vector<T>; 2], b: [Vector<T>; 2]) -> [Vector<T>; 2] {
     [sum(a[0], b[0]), sum(a[1], b[1])]
+}
+
+/// Force and moment as numbers.
+#[inline(always)]
+pub fn numbers<T>([[a, b, c], [d, e, f]]: [Vector<T>; 2]) -> [T; 6] {
+    [a, b, c, d, e, f]
+}
+
+/// Force and moment of these numbers.
+#[inline(always)]
+pub fn halves<T>([a, b, c, d, e, f]: [T; 6]) -> [Vector<T>; 2] {
+    [[a, b, c], [d, e, f]]
 }
 
 /// a - b.

@@ -7,7 +7,9 @@ use crate::laws::point_contact::PointContact;
 use crate::pairs::groove::{InGroove, Race};
 use crate::pairs::{Law, Waves, parts};
 use crate::scalar::{Columns, Numeric, Pack, dispatch, math, place_of};
-use crate::space::solid::{LARGEST_TILT, Moving, Tilt, Vector, added, dot, scaled, to_global, to_local};
+use crate::space::solid::{
+    LARGEST_TILT, Moving, Tilt, Vector, added, dot, halves, numbers, scaled, to_global, to_local,
+};
 use pulp::Simd;
 
 /// Which way the normal of a contact with outer and inner race points from the axis of the ring.
@@ -323,11 +325,6 @@ impl Space {
     }
 }
 
-/// Force and moment.
-pub(super) fn halves([a, b, c, d, e, f]: [f64; WRENCH]) -> [Vector<f64>; 2] {
-    [[a, b, c], [d, e, f]]
-}
-
 struct Apply<'a> {
     race: &'a Race,
     place: usize,
@@ -363,11 +360,10 @@ impl Columns for Apply<'_> {
         store(found.motion.numbers(), &mut contact.motion, lane);
         store(found.force.numbers(), &mut contact.force, lane);
         store(found.touch.in_meridian, &mut contact.in_meridian, lane);
-        let ([fx, fr, ft], [mx, mr, mt]) = (found.on_ball.force, found.on_ball.moment);
-        let on_ball = [fx, fr, ft, mx, mr, mt];
-        let [fx, fy, fz] = to_global(found.on_ring.force, direction);
-        let [mx, my, mz] = to_global(found.on_ring.moment, direction);
-        store([fx, fy, fz, mx, my, mz], &mut contact.on_ring, lane);
+        let on_ball = numbers(found.on_ball);
+        let [force, moment] = found.on_ring;
+        let on_ring = [to_global(force, direction), to_global(moment, direction)];
+        store(numbers(on_ring), &mut contact.on_ring, lane);
         if self.place == 0 {
             store(on_ball, &mut block.on_ball, lane);
         } else {

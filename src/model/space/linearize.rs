@@ -9,9 +9,9 @@ use crate::bodies::{Balls, Input, InputValues, MovingRing, OF_BALL, OF_RING, Rin
 use crate::integrate::{Linearization, Structure};
 use crate::laws::elastic::normal::NormalForce;
 use crate::laws::point_contact::{POINT_FORCE, POINT_MOTION, PointForce, PointMotion};
-use crate::pairs::groove::{InGroove, OnBody, Race, Wave};
+use crate::pairs::groove::{InGroove, Race, Wave};
 use crate::scalar::{Columns, Dual, Duals, Numeric, Pack, ZEROS, dispatch, place_of};
-use crate::space::solid::{Moving, Tilt, added, scaled, sum, to_local};
+use crate::space::solid::{Moving, Tilt, added, numbers, scaled, sum, to_local};
 use pulp::{Simd, WithSimd};
 
 /// How ball and ring lie and move to each other: x and rho of the ball, centre and tilt of the ring outwards and along the orbit,
@@ -40,11 +40,6 @@ type Row = [f64; RELATIVE];
 struct Sloped {
     on_ball: [Relative; 6],
     on_ring: [Relative; 6],
-}
-
-fn numbers(on: &OnBody<Relative>) -> [Relative; 6] {
-    let ([a, b, c], [d, e, f]) = (on.force, on.moment);
-    [a, b, c, d, e, f]
 }
 
 impl Space {
@@ -313,7 +308,7 @@ impl Space {
         sloped.friction.couple = [0, 1, 2].map(|i| chained(2 + i, force.friction.couple[i]));
         sloped.rolling_resistance = chained(5, force.rolling_resistance);
         let [on_ball, on_ring] = ball.wrenches(&touch, &sloped);
-        Sloped { on_ball: numbers(&on_ball), on_ring: numbers(&on_ring) }
+        Sloped { on_ball: numbers(on_ball), on_ring: numbers(on_ring) }
     }
 }
 

@@ -17,7 +17,7 @@ use crate::laws::point_contact::{PointForce, PointMotion};
 use crate::model::{Condition, Energy, RATES, STATIC_LIMIT};
 use crate::pairs::groove::{Fit, InGroove, Race, fit};
 use crate::scalar::{Columns, Lanes, Numeric, Pack, dispatch, math, place_of};
-use crate::space::solid::{added, dot, scaled, sum, to_global};
+use crate::space::solid::{added, dot, numbers, scaled, sum, to_global};
 use pulp::Simd;
 
 /// How far the grooves of a bearing with a contact angle are used on the side of the low shoulder, over that angle (assumed).
@@ -142,8 +142,8 @@ impl Space {
             let block = &ws.blocks[block];
             let r = self.set.pitch_radius + block.at[1][lane];
             let moving = Balls::moving(at_lane(&block.speeds, lane), r);
-            if let Some([force, moment]) = self.drag_on(j, &moving, ws.fluid.ln_viscosity) {
-                p[Power::Drag as usize] += dot(force, moving.velocity) + dot(moment, moving.turning);
+            if let Some(drag) = self.drag_on(j, &moving, ws.fluid.ln_viscosity) {
+                p[Power::Drag as usize] += moving.power(drag);
             }
         }
         for condition in Condition::ALL {
@@ -393,10 +393,8 @@ impl Columns for Step<'_> {
             }
             let (by_slip, couple) = force.friction.secants.friction(slip, turning);
             (change.friction.force, change.friction.couple) = (by_slip, couple);
-            let [_, on_ring] = ball.wrenches(&touch, &change);
-            let [fx, fy, fz] = to_global(on_ring.force, direction);
-            let [mx, my, mz] = to_global(on_ring.moment, direction);
-            reaction = [fx, fy, fz, mx, my, mz];
+            let [_, [push, moment]] = ball.wrenches(&touch, &change);
+            reaction = numbers([to_global(push, direction), to_global(moment, direction)]);
             force.normal += change.normal;
             for i in 0..2 {
                 force.friction.force[i] += by_slip[i];

@@ -18,14 +18,10 @@ use crate::bodies::MovingRing;
 use crate::laws::elastic::point::ElasticPoint;
 use crate::laws::point_contact::{PointContact, PointForce, PointMotion};
 use crate::scalar::{Base, Numeric, Of};
-use crate::space::solid::{Moving, Vector, cross, difference, dot, scaled, sum};
+use crate::space::solid::{Moving, Vector, added, cross, difference, dot, scaled, sum};
 
 /// Force, N, and moment about the centre of the body, N m.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct OnBody<T> {
-    pub(crate) force: Vector<T>,
-    pub(crate) moment: Vector<T>,
-}
+pub(crate) type OnBody<T> = [Vector<T>; 2];
 
 /// A ball at (x, rho), m, whose radius is larger than nominal by `excess` (m), with its elastic constants in a groove.
 #[derive(Clone, Copy, Debug)]
@@ -145,19 +141,14 @@ fn wrenches<B: Base, T: Of<B>>(touch: &Touch<T>, radius: B, force: &PointForce<T
     let lever = sum(touch.from_ring, to_contact);
     let through_axis = scaled(touch.along, pressure * curved);
     let on_race = sum(difference(resisted, pushed), through_axis);
-    let mut ball = OnBody {
-        force: sum(on_surface, scaled(touch.along, pressure)),
-        moment: sum(cross(to_contact, on_surface), couple),
-    };
-    let mut ring = OnBody {
-        force: on_race,
-        moment: sum(difference(cross(lever, on_race), couple), scaled(touch.across, pressure * radius)),
-    };
+    let mut ball =
+        [sum(on_surface, scaled(touch.along, pressure)), sum(cross(to_contact, on_surface), couple)];
+    let moment = sum(difference(cross(lever, on_race), couple), scaled(touch.across, pressure * radius));
+    let mut ring = [on_race, moment];
     if let Some(slope) = touch.slope {
         let back = scaled(touch.along, force.normal * slope);
-        ball.force = difference(ball.force, back);
-        ring =
-            OnBody { force: sum(ring.force, back), moment: sum(ring.moment, cross(touch.from_ring, back)) };
+        ball[0] = difference(ball[0], back);
+        ring = added(ring, [back, cross(touch.from_ring, back)]);
     }
     [ball, ring]
 }
@@ -228,17 +219,14 @@ mod tests {
             let force = law.force::<f64, f64>(&point, &motion, 0.0);
             assert!(force.normal > 100.0 && force.friction.couple[2] != 0.0, "{force:?}");
             let [on_ball, on_ring] = wrenches(&touch, RADIUS, &force);
-            let rest = sum(on_ball.force, on_ring.force);
+            let rest = sum(on_ball[0], on_ring[0]);
             // About the centre of the ring.
-            let moment = sum(sum(on_ball.moment, on_ring.moment), cross(touch.from_ring, on_ball.force));
+            let moment = sum(sum(on_ball[1], on_ring[1]), cross(touch.from_ring, on_ball[0]));
             for k in 0..3 {
                 assert!(rest[k].abs() < 1e-12 * force.normal, "{side:?}: {rest:?}");
                 assert!(moment[k].abs() < 1e-13 * force.normal, "{side:?}: {moment:?}");
             }
-            let power = |on: &OnBody<f64>, body: &Moving<f64>| {
-                dot(on.force, body.velocity) + dot(on.moment, body.turning)
-            };
-            let given = power(&on_ball, &ball) + power(&on_ring, &ring.moving);
+            let given = ball.power(on_ball) + ring.moving.power(on_ring);
             let pressed = -force.normal * motion.delta_dot;
             let [f, m] =
                 [force.friction.force.as_slice(), force.friction.couple.as_slice()].map(|part| part.to_vec());

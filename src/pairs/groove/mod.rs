@@ -5,7 +5,7 @@ mod geometry;
 mod laws;
 mod waviness;
 
-pub(crate) use contact::{Contact, InGroove, OnBody};
+pub(crate) use contact::{Contact, InGroove};
 pub(crate) use geometry::{Fit, Groove, RingPlace, Side, Touch};
 pub(crate) use waviness::Wave;
 

@@ -140,7 +140,7 @@ impl<'a, T: Numeric, P: Drops<T>> OnRaceway<'a, T, P> {
         let unit: UnitWrench<T> = [scaled(normal, one.like(-1.0)), on_roller];
         let along = [t, cross(lever, t)];
         let across = [axial, cross(lever, axial)];
-        let delta_dot = -(dot(unit[0], passing.velocity) + dot(unit[1], passing.turning));
+        let delta_dot = -passing.power(unit);
         let reach = distance + radius * upright;
         let grown = (disc.along + radius * dot(direction, b)) * self.geometry.cones.slopes[self.side];
         let deeper = *arm + grown - reach - disc.raceway_drop * k;
@@ -261,8 +261,7 @@ mod tests {
             let on = OnRaceway { geometry, profile: Straight, side, ring, roller, excess: 0.0 };
             let middle = on.middle(&on.disc(Straight, 0.0));
             let spot = on.spot(&middle, 3e-3, on.disc(Straight, 3e-3));
-            let power =
-                dot(spot.rolling[0], middle.passing.velocity) + dot(spot.rolling[1], middle.passing.turning);
+            let power = middle.passing.power(spot.rolling);
             let [u1, u2] = spot.surface_speeds;
             assert!((power - (u1 + u2)).abs() < 0.02 * (u1 + u2).abs(), "{side} {power} {}", u1 + u2);
         }

@@ -5,7 +5,7 @@ use super::super::Space;
 use super::super::linearize::RingSlopes;
 use super::super::workspace::Workspace;
 use super::memory::CageOfScene;
-use super::slopes::{WARMING, numbers, timed};
+use super::slopes::{WARMING, timed};
 use super::turning_outer;
 use crate::bodies::{
     CAGE, CageState, INNER_RING, Input, InputValues, MOST_MODES, MovingRing, OF_BALL, OF_CAGE, RingState,
@@ -14,6 +14,7 @@ use crate::integrate::Linearization;
 use crate::laws::guide::bent::Wanted;
 use crate::pairs::guide::land::{BentLandForces, Land, OfMode};
 use crate::scalar::{Dual, Numeric};
+use crate::space::solid::numbers;
 use nalgebra::DMatrix;
 
 type One = Dual<1>;

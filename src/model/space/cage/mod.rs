@@ -19,12 +19,8 @@ use crate::pairs::Law;
 use crate::pairs::ball_pocket::{BallAt, BallPockets, WALLS};
 use crate::pairs::guide::land::Land;
 use crate::scalar::{Numeric, Real, math, place_of};
-use crate::space::solid::{LARGEST_TILT, Moving, Vector, added, dot, scaled, to_global};
+use crate::space::solid::{LARGEST_TILT, Moving, Vector, added, numbers, scaled, to_global};
 use memory::{CageMemory, Touching};
-
-fn power([force, moment]: [Vector<f64>; 2], body: &Moving<f64>) -> f64 {
-    dot(force, body.velocity) + dot(moment, body.turning)
-}
 
 impl Space {
     /// Finds how the cage moves.
@@ -126,10 +122,8 @@ impl Space {
                 let Some(contact) = pockets.contact(wall, &ball, &place, &ws.cage.moving) else { continue };
                 let (block, lane) = place_of(j);
                 let direction = at_lane(&ws.blocks[block].direction, lane);
-                let [[force, moment], on_cage] = contact.wrenches();
-                let [fx, fr, ft] = force;
-                let [mx, mr, mt] = moment;
-                for (sum, x) in ws.blocks[block].on_ball.iter_mut().zip([fx, fr, ft, mx, mr, mt]) {
+                let [on_ball, on_cage] = contact.wrenches();
+                for (sum, x) in ws.blocks[block].on_ball.iter_mut().zip(numbers(on_ball)) {
                     sum[lane] += x;
                 }
                 if let Some(cage) = self.cage.as_ref().filter(|_| ball.bent.is_some()) {
@@ -190,7 +184,7 @@ impl Space {
             let lost: f64 = cage.body.damping_of_modes().zip(rates).map(|(damping, v)| damping * v * v).sum();
             p[Power::CageBending as usize] -= lost;
         }
-        p[Power::Loads as usize] += power(ws.cage.load, &ws.cage.moving.moving);
+        p[Power::Loads as usize] += ws.cage.moving.moving.power(ws.cage.load);
     }
 
     /// Powers of the films of all lands, and of their solid contacts, W.
@@ -200,7 +194,7 @@ impl Space {
         let lands = self.cage.iter().flat_map(|cage| &cage.lands);
         for (k, (land, force)) in lands.zip(&ws.cage.lands).enumerate() {
             let bodies = [&ws.cage.moving.moving, &ws.rings[land.ring].moving];
-            let total = |on: &[[Vector<f64>; 2]; 2]| power(on[0], bodies[0]) + power(on[1], bodies[1]);
+            let total = |on: &[[Vector<f64>; 2]; 2]| bodies[0].power(on[0]) + bodies[1].power(on[1]);
             let [bending, bending_by_film] = ws.cage.bent.get(k).map_or([0.0; 2], |bent| {
                 bent.on_modes.each_ref().map(|on| on.iter().zip(rates).map(|(f, v)| f * v).sum())
             });

@@ -12,7 +12,7 @@ use crate::integrate::Linearization;
 use crate::pairs::ball_pocket::{BallAt, BallPockets};
 use crate::pairs::guide::land::Land;
 use crate::scalar::{Dual, Numeric, place_of};
-use crate::space::solid::{Vector, to_global};
+use crate::space::solid::{numbers, to_global};
 use nalgebra::DMatrix;
 
 /// What a pocket sees: x, rho and azimuth of a ball, its six speeds, coordinates of the cage, their rates, displacement of the pocket by
@@ -45,10 +45,6 @@ pub(super) const WARMING: f64 = 1e-4;
 pub(super) fn timed<const N: usize>(mut x: Dual<N>, rate: f64) -> Dual<N> {
     x.eps[N - 1] += rate;
     x
-}
-
-pub(super) fn numbers<T>([[a, b, c], [d, e, f]]: [Vector<T>; 2]) -> [T; 6] {
-    [a, b, c, d, e, f]
 }
 
 impl Space {

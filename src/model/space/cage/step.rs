@@ -3,7 +3,7 @@
 use super::super::Space;
 use super::super::workspace::{Workspace, at_lane};
 use super::memory::{CageMemory, CageOfScene, Touching};
-use super::{add_to_modes, lifted, power};
+use super::{add_to_modes, lifted};
 use crate::bodies::{Balls, CageState, MovingCage, OF_BALL, OF_CAGE};
 use crate::integrate::{DampingBlock, GroupDamping, SemiImplicit, implicit_share};
 use crate::laws::guide::bent::Wanted;
@@ -128,7 +128,7 @@ impl Space {
             touching.friction = friction;
             touching.powers = [-(force - spring) * rates.0, dot(friction, rates.1)];
             let [on_ball, _] = contact.wrenches_of(force, friction);
-            touching.on_ball = power(on_ball, &of_ball);
+            touching.on_ball = of_ball.power(on_ball);
         }
         ws.cage.touching = list;
     }

@@ -5,7 +5,7 @@ use crate::model::space::Space;
 use crate::model::space::workspace::{Workspace, at_lane};
 use crate::model::{Quantity, quantity};
 use crate::scalar::{math, place_of};
-use crate::space::solid::to_global;
+use crate::space::solid::{numbers, to_global};
 
 /// What is reported of a contact in space. t points along the race, in a pocket outwards; l across, and n from the ball to the contact;
 /// (t, l, n) is right-handed. Friction and couple act on the ball, at the contact; the opposite on ring or cage.
@@ -101,10 +101,7 @@ impl Space {
         let side = if k == 0 { 1.0 } else { -1.0 };
         let angle = math::atan2(side * touch.in_meridian[0], side * touch.in_meridian[1]);
         let radius = self.set.radius + block.excess[lane];
-        let wrenches = ball.wrenches(&touch, &force).map(|on| {
-            let [[a, b, c], [d, e, f]] = [on.force, on.moment].map(|v| to_global(v, direction));
-            [a, b, c, d, e, f]
-        });
+        let wrenches = ball.wrenches(&touch, &force).map(|on| numbers(on.map(|v| to_global(v, direction))));
         let [nx, ny, nz] = to_global(touch.normal, direction);
         let [px, py, pz] = to_global([at[0], r, 0.0], direction);
         let ([ft, fl], [mt, ml, mn]) = (force.friction.force, force.friction.couple);
@@ -175,8 +172,8 @@ impl Space {
             let direction = at_lane(&block.direction, lane);
             let of_ball = Balls::moving(at_lane(&block.speeds, lane), r);
             if let Some(drag) = self.drag_on(j, &of_ball, ws.fluid.ln_viscosity) {
-                let [[a, b, c], [d, e, f]] = drag.map(|v| to_global(v, direction));
-                out.bodies[body][ForceSource::Drag as usize] = [a, b, c, d, e, f];
+                let drag = numbers(drag.map(|v| to_global(v, direction)));
+                out.bodies[body][ForceSource::Drag as usize] = drag;
             }
             let [mass, _] = self.balls.inertia(j);
             out.bodies[body][ForceSource::Gravity as usize] = [0.0, mass * gy, mass * gz, 0.0, 0.0, 0.0];

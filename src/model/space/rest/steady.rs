@@ -14,7 +14,7 @@ use crate::bodies::MovingRing;
 use crate::laws::point_contact::PointContact;
 use crate::pairs::groove::{Contact, InGroove};
 use crate::scalar::{Dual, Of, Real};
-use crate::space::solid::{Moving, Tilt, Vector, scaled, sum};
+use crate::space::solid::{Moving, Tilt, Vector, added, scaled};
 use nalgebra::{SMatrix, SVector};
 
 /// Unknowns of a ball: x, rho, psi', w_x, w_r, w_psi.
@@ -76,11 +76,10 @@ impl SteadyBall<'_> {
         let outer = contact(0, [zero; 3], [x.like(1.0), zero, zero]);
         let inner = contact(1, [ring[0], ring[1], ring[2]], tilt.axis);
         let [mass, inertia] = self.ball.inertia;
-        let [fx, fr, fpsi] = sum(outer.on_ball.force, inner.on_ball.force);
-        let [mx, mr, mpsi] = sum(outer.on_ball.moment, inner.on_ball.moment);
-        let on_ring = inner.on_ring;
+        let [[fx, fr, fpsi], [mx, mr, mpsi]] = added(outer.on_ball, inner.on_ball);
+        let [[on_x, on_r, on_psi], moment] = inner.on_ring;
         let gyroscopic = orbit * inertia;
-        let [over_r, over_psi] = tilt.moments_over_angles(on_ring.moment);
+        let [over_r, over_psi] = tilt.moments_over_angles(moment);
         Forces {
             rest: [
                 fx,
@@ -90,7 +89,7 @@ impl SteadyBall<'_> {
                 (mr + gyroscopic * wpsi) / radius,
                 (mpsi - gyroscopic * wr) / radius,
             ],
-            on_ring: [on_ring.force[0], on_ring.force[1], on_ring.force[2], over_r, over_psi],
+            on_ring: [on_x, on_r, on_psi, over_r, over_psi],
             loads: [outer.force.normal, inner.force.normal],
         }
     }

@@ -15,14 +15,9 @@ use crate::bodies::{CAGE, OF_ROLLER, ORBIT, RollerState, SPIN};
 use crate::integrate::{GroupDamping, SemiImplicit, implicit_share};
 use crate::pairs::roller::UnitWrench;
 use crate::scalar::place_of;
-use crate::space::solid::{Moving, Vector, added, difference, dot, scaled, sum};
+use crate::space::solid::{Moving, Vector, added, difference, dot, numbers, scaled, sum};
 
 type Matrix = [[f64; OF_ROLLER]; OF_ROLLER];
-
-/// Velocity and angular velocity together.
-fn six(Moving { velocity: [a, b, c], turning: [d, e, f] }: Moving<f64>) -> [f64; 6] {
-    [a, b, c, d, e, f]
-}
 
 /// Power of a unit wrench at this velocity and angular velocity.
 #[inline]
@@ -177,7 +172,10 @@ impl Space {
             };
             let mut change = [[[0.0; 3]; 2]; 2];
             (contact.normal, contact.powers) = (0.0, [0.0; 3]);
-            let [pressed, rubbed] = [pressed, rubbed].map(|change| six(of.state.moved(change)));
+            let [pressed, rubbed] = [pressed, rubbed].map(|change| {
+                let Moving { velocity, turning } = of.state.moved(change);
+                numbers([velocity, turning])
+            });
             for Node { force, spot, .. } in nodes {
                 let pushed = -(force.damping * speed(&spot.normal, &pressed));
                 let along = -(force.secant * speed(&spot.along, &rubbed));
@@ -186,14 +184,11 @@ impl Space {
                 add_scaled(&mut change[1], &spot.along, along);
                 add_scaled(&mut change[1], &spot.across, across);
                 contact.normal += force.normal + pushed;
-                let nearer = -(dot(spot.normal[0], passing.velocity) + dot(spot.normal[1], passing.turning));
+                let nearer = -passing.power(spot.normal);
                 contact.powers[NORMAL] -= (force.normal + pushed - force.elastic) * nearer;
             }
-            let power = |[force, moment]: [Vector<f64>; 2]| {
-                dot(force, passing.velocity) + dot(moment, passing.turning)
-            };
-            contact.powers[FRICTION] = power(added(contact.parts[FRICTION], change[1]));
-            contact.powers[ROLLING] = power(contact.parts[ROLLING]);
+            contact.powers[FRICTION] = passing.power(added(contact.parts[FRICTION], change[1]));
+            contact.powers[ROLLING] = passing.power(contact.parts[ROLLING]);
             let changed = added(change[0], change[1]);
             contact.on_bending = contact.over_bending(changed[0]);
             contact.reaction = on_mate(changed, contact.from_mate, of.direction);

@@ -295,7 +295,7 @@ impl RibGeometry {
             velocity: difference(roller.moving.velocity, carried),
             turning: difference(roller.moving.turning, ring.moving.turning),
         };
-        let delta_dot = -(dot(unit[0], passing.velocity) + dot(unit[1], passing.turning));
+        let delta_dot = -passing.power(unit);
         let across = cross(normal, e_t);
         let slip = sum(passing.velocity, cross(passing.turning, arm));
         let slip = [dot(slip, e_t), dot(slip, across)];
