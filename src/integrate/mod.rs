@@ -5,7 +5,7 @@
 //! | `system` | what a method asks of a system |
 //! | `stepper` | what a method gives |
 //! | `driver/` | a run: steps, errors, events, undoing, following |
-//! | `methods/` | leapfrog, Dormand-Prince, Adams, Rosenbrock, Radau |
+//! | `methods/` | leapfrog, Dormand-Prince, Rosenbrock, Radau |
 //! | `auto/` | the choice among them, its monitors and its constants |
 //! | `linear/` | structured linear systems |
 //!

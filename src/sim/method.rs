@@ -115,7 +115,7 @@ pub(super) fn name(kind: Kind) -> &'static str {
     match kind {
         Kind::Leapfrog => "leapfrog",
         Kind::DormandPrince => "dormand_prince",
-        Kind::Radau => "radau",
+        Kind::Rosenbrock => "rosenbrock",
     }
 }
 
@@ -147,7 +147,7 @@ pub(super) fn describe(choice: &Choice) -> String {
     }
     let steps = choice.steps;
     text + &format!(
-        "; {} steps by leapfrog, {} by dormand_prince, {} by radau, {} changes",
+        "; {} steps by leapfrog, {} by dormand_prince, {} by rosenbrock, {} changes",
         steps[0], steps[1], steps[2], choice.changes
     )
 }

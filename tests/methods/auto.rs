@@ -97,7 +97,7 @@ fn it_is_the_default_and_costs_little_more_than_the_leapfrog_once_rollers_vibrat
     );
     let choice = choice(&default);
     assert_eq!((choice.method, choice.reason), (Kind::Leapfrog, Reason::Vibration));
-    assert!(choice.steps[Kind::Radau as usize] > 20 && choice.changes < 10, "{choice:?}");
+    assert!(choice.steps[Kind::Rosenbrock as usize] > 20 && choice.changes < 10, "{choice:?}");
     assert!((1.5e5..3e5).contains(&choice.highest_frequency), "{choice:?}");
     scene["solver"] = json!({ "method": auto() });
     assert_eq!(default.model().scene().solver, sim(&scene, auto()).model().scene().solver.clone());
@@ -107,7 +107,7 @@ fn it_is_the_default_and_costs_little_more_than_the_leapfrog_once_rollers_vibrat
 fn a_standing_bearing_does_not_vibrate() {
     let mut run = run(&nu2310(&[rpm(0.0)]), auto(), 20e-3);
     let choice = choice(&run);
-    assert_eq!(choice.method, Kind::Radau, "{}", run.report());
+    assert_eq!(choice.method, Kind::Rosenbrock, "{}", run.report());
     assert!(choice.steps[Kind::Leapfrog as usize] < 100, "{}", run.report());
 }
 
@@ -126,7 +126,7 @@ fn finer_steps_cost_less_where_derivatives_are_dear() {
     let [finer, without] = [Tuning::default(), without].map(run);
     let Choice { method, reason, .. } = choice(&finer);
     assert_eq!((method, reason), (Kind::Leapfrog, Reason::Balance));
-    assert_eq!(choice(&without).method, Kind::Radau);
+    assert_eq!(choice(&without).method, Kind::Rosenbrock);
     let cost = |sim: &Sim| sim.statistics().evaluations + 9 * sim.statistics().jacobians;
     assert!(10 * cost(&finer) < cost(&without), "{} {}", cost(&finer), cost(&without));
 }
@@ -222,7 +222,7 @@ fn what_follows_an_event_is_followed_closely() {
     });
     let leapfrog = (Kind::Leapfrog, Reason::Vibration);
     assert_eq!([chosen[0], chosen[2]], [leapfrog; 2], "{}", sim.report());
-    assert_eq!(chosen[1].0, Kind::Radau, "{}", sim.report());
+    assert_eq!(chosen[1].0, Kind::Rosenbrock, "{}", sim.report());
 }
 
 /// Many events share what error control may take.
@@ -309,7 +309,7 @@ fn error_control_costs_little_more_than_with_the_better_method() {
         };
         let [explicit, implicit] = ["dormand_prince", "rosenbrock"].map(cost);
         let statistics = chosen.statistics();
-        let here = statistics.evaluations + 3 * choice(&chosen).steps[Kind::Radau as usize];
+        let here = statistics.evaluations + 3 * choice(&chosen).steps[Kind::Rosenbrock as usize];
         println!("{name}: {here}, Dormand-Prince {explicit}, Rosenbrock {implicit}; {}", chosen.report());
         assert_eq!(choice(&chosen).steps[Kind::Leapfrog as usize], 0, "{name}");
         // Trials cost one window of the other method each, and there are few windows in a short run.

@@ -44,7 +44,7 @@ fn runs_follow_the_constants_and_snapshots_know_them() {
         sim
     };
     let (mut usual, patient) = (run(Tuning::default()), run(Tuning { start: 50, ..Tuning::default() }));
-    let radau = |sim: &Sim| sim.statistics().choice.unwrap().steps[2];
-    assert!(radau(&patient) > 2 * radau(&usual));
+    let rosenbrock = |sim: &Sim| sim.statistics().choice.unwrap().steps[2];
+    assert!(rosenbrock(&patient) > 2 * rosenbrock(&usual));
     assert_eq!(usual.restore(&patient.save()).unwrap_err().status, Status::BadSnapshot);
 }

@@ -1,11 +1,11 @@
 //! Chooses among the other methods, from what is known about a system and from what it does.
 //!
 //! - A system that vibrates most of the time is followed in its statistics: the leapfrog, monitored by [`StabilityMonitor`]. When
-//!   it fails, or would need steps that cost as much as error control, the Radau method takes over until probes
+//!   it fails, or would need steps that cost as much as error control, the Rosenbrock method takes over until probes
 //!   say that the leapfrog would do again, or until it is seen that finer steps of the leapfrog advance further per evaluation. It
 //!   also has the phases in which so little happens that it costs no more.
 //! - Any other system, or with a tolerance that was asked for, is followed in its trajectory: Dormand-Prince or the
-//!   Radau method, whichever advances further per evaluation.
+//!   Rosenbrock method, whichever advances further per evaluation.
 //!
 //! Every stretch of steps is judged by the energy that it misses. A wrong one is made again: those of the leapfrog with error
 //! control or finer steps, those of error control with a tenth of the tolerance.
@@ -16,14 +16,14 @@ macro_rules! active {
         match $self.active {
             Kind::Leapfrog => Stepper::<$system>::$method(&mut $self.leapfrog, $($argument),*),
             Kind::DormandPrince => Stepper::<$system>::$method(&mut $self.explicit, $($argument),*),
-            Kind::Radau => Stepper::<$system>::$method(&mut $self.implicit, $($argument),*),
+            Kind::Rosenbrock => Stepper::<$system>::$method(&mut $self.implicit, $($argument),*),
         }
     };
     ($self:ident, ref $system:ty, $method:ident($($argument:expr),*)) => {
         match $self.active {
             Kind::Leapfrog => Stepper::<$system>::$method(&$self.leapfrog, $($argument),*),
             Kind::DormandPrince => Stepper::<$system>::$method(&$self.explicit, $($argument),*),
-            Kind::Radau => Stepper::<$system>::$method(&$self.implicit, $($argument),*),
+            Kind::Rosenbrock => Stepper::<$system>::$method(&$self.implicit, $($argument),*),
         }
     };
 }
@@ -35,7 +35,7 @@ pub mod stability;
 mod stepper;
 pub mod tuning;
 
-use crate::integrate::{DormandPrince, Leapfrog, Linearized, Observed, Radau, Split, Stepper, Tuning};
+use crate::integrate::{DormandPrince, Leapfrog, Linearized, Observed, Rosenbrock, Split, Stepper, Tuning};
 use balance::Balance;
 use selection::Selection;
 use stability::{Expectation, StabilityMonitor, Verdict};
@@ -77,12 +77,12 @@ pub enum Kind {
     Leapfrog,
     /// [`DormandPrince`].
     DormandPrince,
-    /// [`Radau`].
-    Radau,
+    /// [`Rosenbrock`].
+    Rosenbrock,
 }
 
 /// The methods, by their numbers.
-const KINDS: [Kind; 3] = [Kind::Leapfrog, Kind::DormandPrince, Kind::Radau];
+const KINDS: [Kind; 3] = [Kind::Leapfrog, Kind::DormandPrince, Kind::Rosenbrock];
 
 /// Why a method was chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -153,7 +153,7 @@ pub struct Auto<const N: usize> {
     aim: Aim,
     leapfrog: Leapfrog<N>,
     explicit: DormandPrince,
-    implicit: Radau<N>,
+    implicit: Rosenbrock<N>,
     monitor: StabilityMonitor<N>,
     selection: Selection,
     balance: Balance,
@@ -202,7 +202,7 @@ impl<const N: usize> Auto<N> {
         let mut auto = Self {
             leapfrog: Leapfrog::new(system),
             explicit: DormandPrince::new(system, &tolerance),
-            implicit: Radau::new(system, &tolerance),
+            implicit: Rosenbrock::new(system, &tolerance),
             monitor: StabilityMonitor::new(system, aim.expected, &aim.units, aim.tuning),
             selection: Selection::new(EXPLICIT, aim.tuning),
             balance: Balance::new(system, aim.missing_energy, aim.tuning),
@@ -244,7 +244,7 @@ impl<const N: usize> Auto<N> {
         (self.wait, self.pause) = (0, self.aim.tuning.first_pause);
         (self.event_wait, self.event) = (0, false);
         (self.active, self.reason) = match self.aim.statistics {
-            true => (Kind::Radau, Reason::Affordable),
+            true => (Kind::Rosenbrock, Reason::Affordable),
             false => (Kind::DormandPrince, Reason::Trajectory),
         };
         self.selection =
@@ -276,7 +276,7 @@ impl<const N: usize> Auto<N> {
         Some(match kind {
             Kind::Leapfrog => self.monitor.step(),
             Kind::DormandPrince => self.last_steps[EXPLICIT],
-            Kind::Radau => self.last_steps[IMPLICIT],
+            Kind::Rosenbrock => self.last_steps[IMPLICIT],
         })
     }
 
@@ -289,7 +289,7 @@ impl<const N: usize> Auto<N> {
     ) -> Option<f64> {
         self.selection = Selection::new(IMPLICIT, self.aim.tuning);
         self.last_steps = [self.monitor.step(); 2];
-        self.change_to(Kind::Radau, reason, system, t)
+        self.change_to(Kind::Rosenbrock, reason, system, t)
     }
 
     fn review_leapfrog<S: Linearized<N> + Split<N> + Observed>(
@@ -318,7 +318,7 @@ impl<const N: usize> Auto<N> {
             }
         }
         let reason = match self.monitor.look(system, &self.leapfrog, t) {
-            _ if self.attempts > 0 => Reason::Failures,
+            _ if self.attempts >= self.aim.tuning.patience => Reason::Failures,
             Verdict::TooFast => Reason::Cost,
             Verdict::Keep => return coarser.then(|| self.monitor.step()),
             Verdict::Change => {
@@ -415,7 +415,7 @@ impl<const N: usize> Auto<N> {
                 _ => Some(step),
             };
         }
-        let stuck = self.attempts >= self.aim.tuning.patience;
+        let stuck = self.attempts >= self.aim.tuning.long_patience;
         if stuck {
             self.last_steps[self.selection.active()] = self.h;
             self.selection.give_up();
@@ -429,7 +429,7 @@ impl<const N: usize> Auto<N> {
         if !changed {
             return None;
         }
-        let kind = if self.selection.active() == EXPLICIT { Kind::DormandPrince } else { Kind::Radau };
+        let kind = if self.selection.active() == EXPLICIT { Kind::DormandPrince } else { Kind::Rosenbrock };
         let reason = match self.selection.on_trial() {
             _ if stuck => Reason::Failures,
             true => Reason::Trial,

@@ -33,8 +33,8 @@ impl Selection {
             cost: 0.0,
             rates: [0.0; 2],
             trial: false,
-            wait: 1.0,
-            pause: 1.0,
+            wait: tuning.first_trial,
+            pause: tuning.first_trial,
         }
     }
 
@@ -86,7 +86,7 @@ impl Selection {
             self.trial = false;
             self.wait = self.pause;
             if self.rates[self.active] > self.tuning.clear_lead * self.rates[other] {
-                self.pause = 1.0;
+                self.pause = self.tuning.first_trial;
                 return false;
             }
             self.pause = (2.0 * self.pause).min(self.tuning.longest_trial);
@@ -104,7 +104,7 @@ impl Selection {
 
     /// Whether a state that was loaded is one that a selection can have.
     fn is_sound(&self) -> bool {
-        let pauses = 1.0..=self.tuning.longest_trial;
+        let pauses = self.tuning.first_trial..=self.tuning.longest_trial;
         let mut numbers = self.rates.iter().chain([&self.advanced, &self.cost]);
         self.active < 2 && pauses.contains(&self.pause) && numbers.all(|x| *x >= 0.0)
     }

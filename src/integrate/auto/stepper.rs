@@ -4,12 +4,12 @@ use super::balance::Judgement;
 use super::{Auto, Choice, EXPLICIT, IMPLICIT, KINDS, Kind, REASONS, Reason, Wrong};
 use crate::integrate::driver::control::{Estimate, Law};
 use crate::integrate::{
-    Applied, DormandPrince, Kept, Linearized, Observed, Samples, Split, Stepper, Stretch,
+    Applied, DormandPrince, Kept, Linearized, Observed, Rosenbrock, Samples, Split, Stepper, Stretch,
 };
 use crate::stored::{stored, stored_choice};
 
 /// Most numbers that a method keeps of a step, per state.
-const MOST_KEPT: usize = 4;
+const MOST_KEPT: usize = 3;
 
 impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto<N> {
     fn set_state(&mut self, state: &[f64]) {
@@ -32,7 +32,7 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
         }
         match self.active {
             Kind::Leapfrog => self.review_leapfrog(system, t),
-            Kind::DormandPrince | Kind::Radau => self.review_error_control(system, t),
+            Kind::DormandPrince | Kind::Rosenbrock => self.review_error_control(system, t),
         }
     }
 
@@ -52,7 +52,7 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
         match self.active {
             Kind::Leapfrog => return result,
             Kind::DormandPrince => self.note_cost(DormandPrince::EVALUATIONS),
-            Kind::Radau => self.note_cost(self.implicit.evaluations().into()),
+            Kind::Rosenbrock => self.note_cost(Rosenbrock::<N>::EVALUATIONS),
         }
         let stricter = self.aim.tuning.stricter.powi(self.strictness as i32);
         result.map(|estimate| {
@@ -72,11 +72,11 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
                 self.selection.note_advance(self.h);
                 self.advanced += self.h;
             }
-            Kind::Radau => {
+            Kind::Rosenbrock => {
                 self.last_steps[IMPLICIT] = self.h;
                 self.selection.note_advance(self.h);
                 self.advanced += self.h;
-                self.note_cost(1.0 + self.linearization_cost);
+                self.note_cost(Rosenbrock::<N>::EVALUATIONS_AT_START + self.linearization_cost);
             }
         }
     }
@@ -136,7 +136,7 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
         match KINDS[*kind as usize] {
             Kind::Leapfrog => Stepper::<S>::recall(&self.leapfrog, &kept, theta, out),
             Kind::DormandPrince => Stepper::<S>::recall(&self.explicit, &kept, theta, out),
-            Kind::Radau => Stepper::<S>::recall(&self.implicit, &kept, theta, out),
+            Kind::Rosenbrock => Stepper::<S>::recall(&self.implicit, &kept, theta, out),
         }
     }
 
@@ -144,7 +144,7 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
         let (kind, rest) = kept.rest.split_first()?;
         match KINDS[*kind as usize] {
             Kind::Leapfrog => Stepper::<S>::applied_in(&self.leapfrog, Kept { rest, ..kept }),
-            Kind::DormandPrince | Kind::Radau => None,
+            Kind::DormandPrince | Kind::Rosenbrock => None,
         }
     }
 

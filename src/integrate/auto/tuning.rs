@@ -85,12 +85,15 @@ tuning! {
     /// Stretches of the leapfrog until it is tried whether error control costs little, as where nothing vibrates. Twice as many after
     /// each trial in vain. Also those between two events that are followed so, as inputs from tables have kinks all the time.
     first_pause: u64 = 256, "stretches";
+    /// Failed attempts in a row after which the leapfrog gives way.
+    patience: u64 = 3, "attempts";
     /// Failed or rejected attempts in a row after which one method with error control gives way to the other.
-    patience: u64 = 12, "attempts";
-    /// Evaluations after which the advance of a method with error control is taken, and the other one is tried; twice as many
-    /// windows after each trial in vain.
+    long_patience: u64 = 12, "attempts";
+    /// Evaluations after which the advance of a method with error control is taken.
     window: f64 = 400.0, "evaluations";
-    /// The most of these windows.
+    /// Windows until the other one is tried; twice as many after each trial in vain.
+    first_trial: f64 = 2.0, "windows";
+    /// The most of these.
     longest_trial: f64 = 64.0, "windows";
     /// The other one takes over when it advances this many times as far.
     clear_lead: f64 = 1.2, "1";

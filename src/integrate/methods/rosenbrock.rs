@@ -94,6 +94,11 @@ pub struct Rosenbrock<const N: usize> {
 }
 
 impl<const N: usize> Rosenbrock<N> {
+    /// Evaluations of an attempt.
+    pub const EVALUATIONS: f64 = 5.0;
+    /// Those at its new state: one with the derivatives, whose own cost the system knows, one for the integrals.
+    pub const EVALUATIONS_AT_START: f64 = 2.0;
+
     /// Memory for a system with an absolute tolerance for every state.
     pub fn new<S: Linearized<N> + Observed>(system: &S, tolerance: &[f64]) -> Self {
         let structure = system.structure();
