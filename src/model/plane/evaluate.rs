@@ -238,10 +238,10 @@ impl Plane {
     /// Finds how the cage is deformed and where its pockets are.
     fn find_deformation(&self, ws: &mut Workspace) {
         let Workspace { motions, of_shared: [q, v, _], .. } = ws;
-        let at = self.layout.range(CAGE);
         if motions.displaced.is_empty() {
             return;
         }
+        let at = self.layout.range(CAGE);
         for (modes, x) in motions.modes.iter_mut().zip([q, v]) {
             modes.copy_from_slice(&x[at.clone()][CAGE_MOTION..]);
         }
