@@ -239,12 +239,8 @@ impl Ahead<'_> {
 
     /// How a deformed cage displaces the pocket of element `j`, outwards and counter-clockwise in m, and how fast, in m/s.
     pub(crate) fn displacement(&self, j: usize) -> [[f64; 2]; 2] {
-        let modes = self.modes();
-        if modes[0].is_empty() {
-            return [[0.0; 2]; 2];
-        }
         let basis = self.bodies[CAGE].as_ref().map_or(&[][..], |cage| cage.displacements(j));
-        modes.map(|x| displaced(basis, x))
+        self.modes().map(|x| displaced(basis, x))
     }
 
     /// Smaller of the masses of this shared body and of a free element, kg.

@@ -20,7 +20,7 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
 
     fn refresh(&mut self, system: &mut S, t: f64) -> Result<(), S::Fault> {
         if !std::mem::take(&mut self.placed) && self.aim.statistics && self.event_wait == 0 {
-            (self.event, self.event_wait) = (true, self.aim.tuning.first_pause);
+            (self.event, self.event_wait) = (true, self.aim.tuning.event_interval);
         }
         active!(self, S, refresh(system, t))
     }

@@ -82,8 +82,10 @@ tuning! {
     start: u64 = 5, "stretches";
     /// The same after a jump or kink of an input.
     transient: u64 = 8, "stretches";
+    /// Stretches between two such transients, as inputs from tables have kinks all the time.
+    event_interval: u64 = 256, "stretches";
     /// Stretches of the leapfrog until it is tried whether error control costs little, as where nothing vibrates. Twice as many after
-    /// each trial in vain. Also those between two events that are followed so, as inputs from tables have kinks all the time.
+    /// each trial in vain.
     first_pause: u64 = 256, "stretches";
     /// Failed attempts in a row after which the leapfrog gives way.
     patience: u64 = 3, "attempts";

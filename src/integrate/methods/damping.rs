@@ -12,7 +12,7 @@ use pulp::{Arch, Simd};
 pub struct DampingBlock {
     /// D, all of it.
     pub full: DMatrix<f64>,
-    /// How much of it, D_i, acts on the change of the step: half for the trapezoidal rule, all where rates exceed 1/h by
+    /// D_i over D, the share of it that acts on the change of the step: half for the trapezoidal rule, all where rates exceed 1/h by
     /// far, and up to twice as much where two bodies damp each other. See [`implicit_share`].
     pub share: f64,
 }
