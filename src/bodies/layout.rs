@@ -18,6 +18,7 @@
 
 use super::{CAGE, INNER_RING, SHARED};
 use crate::integrate::Structure;
+use crate::scalar::{Lanes, WIDEST};
 use std::ops::Range;
 
 /// Velocities of a free element in the plane.
@@ -163,6 +164,61 @@ impl Layout {
         let (first, spin, [positions, spins]) = (self.element(j), self.spin(j), self.of_element);
         debug_assert_eq!(positions + spins, N);
         std::array::from_fn(|k| if k < positions { first + k } else { spin + k - positions })
+    }
+
+    /// Brings the rates of the elements of a block in the plane from `v` into columns: radial, orbital, of the spin.
+    #[inline]
+    pub(crate) fn rates_of_block(
+        &self,
+        v: &[f64],
+        block: usize,
+        [radial, orbital, spin]: [&mut Lanes; OF_ELEMENT],
+    ) {
+        let here = self.in_block(block);
+        let of_elements = &v[self.elements..];
+        if self.has_spin_angles() {
+            let rows = &of_elements.as_chunks::<OF_ELEMENT>().0[here];
+            for (i, row) in rows.iter().enumerate().take(WIDEST) {
+                [radial[i], orbital[i], spin[i]] = *row;
+            }
+            return;
+        }
+        let (rates, spins) = of_elements.split_at(2 * self.count);
+        for (i, row) in rates.as_chunks::<2>().0[here.clone()].iter().enumerate().take(WIDEST) {
+            [radial[i], orbital[i]] = *row;
+        }
+        spin[..here.len()].copy_from_slice(&spins[here]);
+    }
+
+    /// Brings the places of the elements of a block in the plane from `q` into columns: radial offset, travel; and adds the spin
+    /// angles that are positions.
+    #[inline]
+    pub(in crate::bodies) fn places_of_block(
+        &self,
+        q: &[f64],
+        block: usize,
+        [offset, travel]: [&mut Lanes; 2],
+        spin_angles: &mut Vec<f64>,
+    ) {
+        let here = self.in_block(block);
+        let of_elements = &q[self.elements..];
+        if self.has_spin_angles() {
+            let rows = &of_elements.as_chunks::<OF_ELEMENT>().0[here];
+            for (i, [rho, psi, angle]) in rows.iter().enumerate().take(WIDEST) {
+                (offset[i], travel[i]) = (*rho, *psi);
+                spin_angles.push(*angle);
+            }
+            return;
+        }
+        for (i, row) in of_elements.as_chunks::<2>().0[here].iter().enumerate().take(WIDEST) {
+            [offset[i], travel[i]] = *row;
+        }
+    }
+
+    /// The elements of a block.
+    #[inline]
+    fn in_block(&self, block: usize) -> Range<usize> {
+        block * WIDEST..self.count.min((block + 1) * WIDEST)
     }
 
     /// Which velocities are coupled: shared bodies are the hub, elements the spokes.

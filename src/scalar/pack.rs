@@ -113,8 +113,10 @@ impl<S: Simd, const K: usize> Pack<S, K> {
     #[inline(always)]
     pub fn load(simd: S, numbers: &[f64]) -> Self {
         let (registers, _) = S::as_simd_f64s(&numbers[..K * S::F64_LANES]);
-        let mut v = [simd.splat_f64s(0.0); K];
-        v.copy_from_slice(registers);
+        let mut v = [registers[0]; K];
+        if K > 1 {
+            v[1] = registers[1];
+        }
         Self { simd, v }
     }
 
@@ -169,7 +171,7 @@ impl<S: Simd, const K: usize> Pack<S, K> {
     #[inline(always)]
     pub fn store(self, numbers: &mut [f64]) {
         let (registers, _) = S::as_mut_simd_f64s(&mut numbers[..K * S::F64_LANES]);
-        registers.copy_from_slice(&self.v);
+        each_register!(i: registers[i] = self.v[i]);
     }
 }
 

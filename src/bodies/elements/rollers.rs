@@ -10,8 +10,8 @@ use super::{
     Damping, ElementSlopes, ORBIT_TRAVEL, RADIAL_OFFSET, SPIN_ANGLE, SPIN_SPEED, Spacing, UPPER, scale_rows,
 };
 use crate::bodies::{
-    BodyEnergy, BodyForces, Coordinate, Element, ElementSet, Elements, Fault, ForceSource, Input,
-    InputValues, Layout, Motions, OF_ELEMENT, SOUND, WrenchLanes, weight,
+    BodyEnergy, BodyForces, Coordinate, Element, ElementBlock, ElementSet, Elements, Fault, ForceSource,
+    Input, InputValues, Layout, Motions, OF_ELEMENT, SOUND, WrenchLanes, weight,
 };
 use crate::integrate::SpokeDamping;
 use crate::scalar::{Columns, Lanes, Pack, WIDEST, ZEROS, dispatch, place_of};
@@ -65,57 +65,35 @@ impl Rollers {
         Fault::TooFast { velocity, speed }
     }
 
-    /// Refuses rollers that are lost, too fast or in each other, given the largest offset, m, and speed, m/s, and their places.
+    /// Refuses rollers that are lost, too fast or in each other, given their motion and their places.
     #[inline]
     fn judge(
         &self,
         layout: &Layout,
         v: &[f64],
-        [largest, fastest]: [f64; 2],
+        blocks: &[ElementBlock],
         place: impl Fn(usize) -> [f64; 2],
     ) -> Result<(), Fault> {
-        let limit = LOST_ROLLER * self.set.pitch_radius;
-        if largest > limit {
+        let ElementSet { pitch_radius, radius, .. } = self.set;
+        let limit = LOST_ROLLER * pitch_radius;
+        let beyond = |column: &Lanes, lever: f64, limit: f64| {
+            column.iter().fold(false, |beyond, x| beyond | (x.abs() * lever > limit))
+        };
+        let [mut lost, mut fast] = [false; 2];
+        for ElementBlock { motion, .. } in blocks {
+            lost |= beyond(&motion.radial_offset, 1.0, limit);
+            fast |= beyond(&motion.radial_speed, 1.0, SOUND);
+            fast |= beyond(&motion.orbit_speed, pitch_radius, SOUND);
+            fast |= beyond(&motion.spin_speed, radius, SOUND);
+        }
+        if lost {
             let roller = (0..layout.count).find(|j| place(*j)[0].abs() > limit).unwrap_or_default();
             return Err(Fault::LostRoller { roller, way: "radial", offset: place(roller)[0] });
         }
-        if fastest > SOUND {
+        if fast {
             return Err(self.too_fast(layout, v));
         }
         self.spacing.overlap(&self.set, place).map_or(Ok(()), Err)
-    }
-
-    /// [`Elements::find`] of rollers whose spin angles are positions.
-    fn find_with_angles(
-        &self,
-        layout: &Layout,
-        q: &[f64],
-        v: &[f64],
-        out: &mut Motions,
-    ) -> Result<(), Fault> {
-        let ((places, _), (rates, _)) =
-            (q[layout.elements..].as_chunks::<OF_ELEMENT>(), v[layout.elements..].as_chunks::<OF_ELEMENT>());
-        let lever = [1.0, self.set.pitch_radius, self.set.radius];
-        let [mut largest, mut fastest] = [0.0_f64; 2];
-        out.spin_angles.clear();
-        for (j, ([offset, turned, spun], rates)) in places.iter().zip(rates).take(layout.count).enumerate() {
-            let (block, lane) = place_of(j);
-            let block = &mut out.blocks[block];
-            (block.motion.radial_offset[lane], block.travel[lane]) = (*offset, *turned);
-            block.azimuth[lane] = self.set.reference_angles[j] + turned;
-            out.spin_angles.push(*spun);
-            [
-                block.motion.radial_speed[lane],
-                block.motion.orbit_speed[lane],
-                block.motion.spin_speed[lane],
-            ] = *rates;
-            largest = largest.max(offset.abs());
-            fastest =
-                rates.iter().zip(lever).fold(fastest, |most, (rate, lever)| most.max(rate.abs() * lever));
-        }
-        self.judge(layout, v, [largest, fastest], |j| [places[j][0], places[j][1]])?;
-        out.find_directions();
-        Ok(())
     }
 
     /// Radius of the circle of the centres of rollers that touch the outer raceway, m.
@@ -180,32 +158,25 @@ impl Elements for Rollers {
         _inputs: &InputValues,
         out: &mut Motions,
     ) -> Result<(), Fault> {
-        if layout.has_spin_angles() {
-            return self.find_with_angles(layout, q, v, out);
-        }
-        let n = layout.count;
-        let (places, _) = q[layout.elements..].as_chunks::<2>();
-        let (rates, spins) = v[layout.elements..].split_at(2 * n);
-        let (rates, _) = rates.as_chunks::<2>();
-        let [mut largest, mut fastest] = [0.0_f64; 2];
-        let rows = places.chunks(WIDEST).zip(rates.chunks(WIDEST)).zip(spins.chunks(WIDEST));
-        for ((block, reference), ((places, rates), spins)) in
-            out.blocks.iter_mut().zip(self.set.reference_angles.chunks(WIDEST)).zip(rows)
-        {
-            let motion = &mut block.motion;
-            for (i, [offset, turned]) in places.iter().enumerate().take(WIDEST) {
-                (motion.radial_offset[i], block.travel[i]) = (*offset, *turned);
-                block.azimuth[i] = reference[i] + turned;
-                largest = largest.max(offset.abs());
+        let place = |j: usize| {
+            let i = layout.element(j);
+            [q[i], q[i + 1]]
+        };
+        out.spin_angles.clear();
+        let references = self.set.reference_angles.chunks(WIDEST);
+        for (at, (block, references)) in out.blocks.iter_mut().zip(references).enumerate() {
+            let ElementBlock { motion, travel, azimuth, .. } = block;
+            layout.rates_of_block(v, at, [
+                &mut motion.radial_speed,
+                &mut motion.orbit_speed,
+                &mut motion.spin_speed,
+            ]);
+            layout.places_of_block(q, at, [&mut motion.radial_offset, travel], &mut out.spin_angles);
+            for ((azimuth, reference), travel) in azimuth.iter_mut().zip(references).zip(&*travel) {
+                *azimuth = reference + travel;
             }
-            for (i, rates) in rates.iter().enumerate().take(WIDEST) {
-                [motion.radial_speed[i], motion.orbit_speed[i]] = *rates;
-                fastest = fastest.max(rates[0].abs()).max(rates[1].abs() * self.set.pitch_radius);
-            }
-            motion.spin_speed[..reference.len()].copy_from_slice(&spins[..reference.len()]);
-            fastest = spins.iter().fold(fastest, |fastest, spin| fastest.max(spin.abs() * self.set.radius));
         }
-        self.judge(layout, v, [largest, fastest], |j| places[j])?;
+        self.judge(layout, v, &out.blocks, place)?;
         out.find_directions();
         Ok(())
     }

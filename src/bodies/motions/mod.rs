@@ -202,13 +202,6 @@ impl Motions {
         self.blocks[block].frame.of(lane)
     }
 
-    /// Distance of element `j` from the centre, m.
-    #[inline(always)]
-    pub(crate) fn radius(&self, j: usize) -> f64 {
-        let (block, lane) = place_of(j);
-        self.pitch_radius + self.blocks[block].motion.radial_offset[lane]
-    }
-
     /// Element `j`.
     #[inline]
     pub(crate) fn element(&self, j: usize) -> Element {

@@ -111,12 +111,10 @@ fn interpolate(positions: usize, h: f64, start: &[f64], end: &[f64], theta: f64,
     }
 }
 
-/// Velocities at the end of a step of `h` s with these mean accelerations, and their mean.
-fn step_on(v: &[f64], a: &[f64], h: f64, end: &mut [f64], mean: &mut [f64]) {
-    for (((v, a), end), mean) in v.iter().zip(a).zip(end).zip(mean) {
-        *end = v + h * a;
-        *mean = v + 0.5 * h * a;
-    }
+/// Velocity at the end of a step of `h` s with this mean acceleration, and its mean.
+#[inline(always)]
+fn step_on(v: f64, a: f64, h: f64) -> (f64, f64) {
+    (v + h * a, v + 0.5 * h * a)
 }
 
 /// The fault of an acceleration that is not finite, if there is one.
@@ -158,12 +156,14 @@ impl<S: Split<N> + Observed, const N: usize> Stepper<S> for Leapfrog<N> {
         let middle = (t + 0.5 * h).min(t_last);
         system.accelerations_to_split(middle, q_trial, &self.predicted, &mut self.a)?;
         system.damping(h, q_trial, &self.predicted, &mut self.damping);
+        let n = v.len();
+        let (a, predicted) = (&self.a[..n], &self.predicted[..n]);
         let [known, ahead] = &mut self.of_spokes;
         let spokes = self.structure.spokes.chunks(WIDEST);
         for (spokes, (known, ahead)) in spokes.zip(known.iter_mut().zip(ahead.iter_mut())) {
             for (lane, at) in spokes.iter().enumerate().take(WIDEST) {
                 for (k, &i) in at.iter().enumerate() {
-                    (known[k][lane], ahead[k][lane]) = (self.a[i], self.predicted[i] - v[i]);
+                    (known[k][lane], ahead[k][lane]) = (a[i], predicted[i] - v[i]);
                 }
             }
         }
@@ -176,7 +176,10 @@ impl<S: Split<N> + Observed, const N: usize> Stepper<S> for Leapfrog<N> {
                 }
             }
         }
-        step_on(v, &self.trial_a, h, v_trial, &mut self.mean_v);
+        let ends = v_trial.iter_mut().zip(&mut self.mean_v);
+        for ((v, a), (end, mean)) in v.iter().zip(&self.trial_a).zip(ends) {
+            (*end, *mean) = step_on(*v, *a, h);
+        }
         check_finite(system, &self.trial_a)?;
         let Structure { hub, bodies, .. } = &self.structure;
         let step = SemiImplicit { mean: &self.mean_v, end: v_trial, h };
@@ -193,10 +196,12 @@ impl<S: Split<N> + Observed, const N: usize> Stepper<S> for Leapfrog<N> {
             self.damping.solve_body(body, h, ahead, right);
             for (&a, &i) in right.iter().zip(at) {
                 self.trial_a[i] = a;
+                (v_trial[i], self.mean_v[i]) = step_on(v[i], a, h);
             }
         }
-        step_on(v, &self.trial_a, h, v_trial, &mut self.mean_v);
-        check_finite(system, &self.trial_a)?;
+        if let Some(&bad) = hub.iter().find(|i| !self.trial_a[**i].is_finite()) {
+            return Err(system.not_finite(bad));
+        }
         system.admit(v_trial)?;
         let step = SemiImplicit { mean: &self.mean_v, end: v_trial, h };
         system.powers(q_trial, &self.predicted, Some(&step), &mut self.works);

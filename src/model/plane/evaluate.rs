@@ -10,7 +10,7 @@ use crate::bodies::{
 };
 use crate::laws::contact_pair::ContactForce;
 use crate::pairs::{ContactBlock, Law};
-use crate::scalar::{ZEROS, all_finite, math};
+use crate::scalar::{WIDEST, ZEROS, all_finite, math};
 use crate::space::{Motion, Wrench};
 
 impl Plane {
@@ -204,12 +204,14 @@ impl Plane {
     ) {
         let pairs = ws.contacts.by_pair(&self.infos);
         for (batch, info, contacts) in pairs.filter(|(_, info, _)| self.layout.shared(info.mate).is_some()) {
-            let sum = &mut on[info.mate];
-            for i in contacts {
-                let (block, lane) = batch.at(i);
+            let mut sum = on[info.mate];
+            for (block, here) in batch.pieces(contacts) {
                 let [y, z, moment] = wrenches(block);
-                sum.add(&Wrench { force: [y[lane], z[lane]], moment: moment[lane] });
+                for lane in here.map(|lane| lane % WIDEST) {
+                    sum.add(&Wrench { force: [y[lane], z[lane]], moment: moment[lane] });
+                }
             }
+            on[info.mate] = sum;
         }
     }
 

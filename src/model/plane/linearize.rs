@@ -100,20 +100,21 @@ impl Plane {
             let on_body = OnBody { wrench: &ws.on_shared[place], coordinates: ws.on_coordinates(place) };
             body.add_inertial_slopes(&on_body, &ws.body(place, at), k, d);
         }
+        let mut of_elements = [over_positions, over_velocities].map(|part| {
+            let [_, own, _, over_hub, rim] = part.blocks_mut();
+            [own, over_hub, rim].map(|block| block.as_chunks_mut().0)
+        });
         for j in 0..self.layout.count {
             let (block, lane) = place_of(j);
-            let [radial, across, moment] = ws.on_elements[block].each_ref().map(|column| column[lane]);
-            let on_element = &Wrench { force: [radial, across], moment };
+            let [radial, across, moment] = &ws.on_elements[block];
+            let on_element = Wrench { force: [radial[lane], across[lane]], moment: moment[lane] };
             let element = ws.motions.element(j);
-            let [k, d] = [&mut *over_positions, &mut *over_velocities].map(|part| {
-                let [_, own, _, over_hub, rim] = part.blocks_mut();
-                ElementSlopes {
-                    own: of_element(own, j, OF_ELEMENT),
-                    over_hub: of_element(over_hub, j, width),
-                    over_neighbours: of_element(rim, j, 2 * OF_ELEMENT),
-                }
+            let [k, d] = of_elements.each_mut().map(|[own, over_hub, rim]| ElementSlopes {
+                own: of_element(own, j, OF_ELEMENT),
+                over_hub: of_element(over_hub, j, width),
+                over_neighbours: of_element(rim, j, 2 * OF_ELEMENT),
             });
-            let inverse = self.elements.slopes(&element, on_element, self.gravity, k, d);
+            let inverse = self.elements.slopes(&element, &on_element, self.gravity, k, d);
             for (place, factor) in self.layout.of_element::<OF_ELEMENT>(j).into_iter().zip(inverse) {
                 over_time[place] *= factor;
             }
@@ -121,9 +122,8 @@ impl Plane {
     }
 }
 
-/// The `n` columns of element `j` in a block of them; none where the block has none.
+/// The `n` columns of element `j` among these; none where there are none.
 #[inline]
-fn of_element(block: &mut [f64], j: usize, n: usize) -> &mut [[f64; OF_ELEMENT]] {
-    let columns = block.as_chunks_mut().0;
+fn of_element(columns: &mut [[f64; OF_ELEMENT]], j: usize, n: usize) -> &mut [[f64; OF_ELEMENT]] {
     columns.get_mut(j * n..(j + 1) * n).unwrap_or_default()
 }

@@ -18,6 +18,7 @@ use crate::integrate::SemiImplicit;
 use crate::model::Condition;
 use crate::model::Energy;
 use crate::pairs::{Batch, ContactBlock, Loaded, Site};
+use crate::scalar::WIDEST;
 use crate::space::Wrench;
 
 /// The rings, and the powers of what turns them.
@@ -37,27 +38,35 @@ impl Plane {
         let ws = &*ws;
         // Moments on outer and inner ring, which their drives hold up.
         let mut on_rings = [0.0; RINGS.len()];
+        let [mut at_floor, mut no_rolling] = [false; 2];
         let driven = |body: usize| RINGS.iter().position(|ring| *ring == body && self.is_driven(body));
         for (batch, info, contacts) in ws.contacts.by_pair(&self.infos) {
             let ([of_damping, of_friction], share) = (info.powers, info.share);
-            let mut moment = 0.0;
-            for i in contacts {
-                let (ContactBlock { step, .. }, lane) = batch.at(i);
+            let [mut by_damping, mut by_friction] = [of_damping, of_friction].map(|power| p[power as usize]);
+            let (mut by_rolling, mut moment) = (p[Power::RollingResistance as usize], 0.0);
+            for (ContactBlock { force, step, .. }, here) in batch.pieces(contacts.clone()) {
                 let [damping, friction, rolling] = &step.powers;
-                p[of_damping as usize] += share * damping[lane];
-                p[of_friction as usize] += share * friction[lane];
-                if info.rolls {
-                    p[Power::RollingResistance as usize] += rolling[lane];
-                    if self.is_at_floor(batch, i, ws.fluid.ln_viscosity) {
-                        p[Condition::AtFloor.place()] = 1.0;
-                    }
+                for lane in here.map(|lane| lane % WIDEST) {
+                    by_damping += share * damping[lane];
+                    by_friction += share * friction[lane];
+                    moment += step.moment_on_mate[lane];
+                    by_rolling += rolling[lane];
+                    // A resistance is at its floor where there is none.
+                    no_rolling |= info.rolls & (force.rolling_resistance[lane] == 0.0);
                 }
-                moment += step.moment_on_mate[lane];
+            }
+            p[of_damping as usize] = by_damping;
+            p[of_friction as usize] = by_friction;
+            if info.rolls {
+                p[Power::RollingResistance as usize] = by_rolling;
+                at_floor |= std::mem::take(&mut no_rolling)
+                    && contacts.into_iter().any(|i| self.is_at_floor(batch, i, ws.fluid.ln_viscosity));
             }
             if let Some(ring) = driven(info.mate) {
                 on_rings[ring] += moment;
             }
         }
+        p[Condition::AtFloor.place()] = f64::from(u8::from(at_floor));
         for (place, (info, force)) in self.between_infos.iter().zip(&ws.between).enumerate() {
             let [film, rest] = self.power_between(place, ws);
             p[info.powers[0] as usize] += film;
@@ -138,7 +147,6 @@ impl Plane {
 
     /// Whether a law of contact `i` is at a floor.
     fn is_at_floor(&self, batch: &Batch, i: usize, ln_viscosity: f64) -> bool {
-        // A resistance is at its floor where there is none.
         let (block, lane) = batch.at(i);
         if block.force.rolling_resistance[lane] != 0.0 {
             return false;

@@ -203,6 +203,16 @@ impl Batch {
         self.sites.chunks(WIDEST).zip(&self.blocks)
     }
 
+    /// These contacts block by block, with their places there.
+    #[inline]
+    pub(crate) fn pieces(&self, contacts: Range<usize>) -> impl Iterator<Item = (&ContactBlock, Range<usize>)> {
+        let Range { start, end } = contacts;
+        (start / WIDEST..blocks_for(end)).map(move |block| {
+            let first = block * WIDEST;
+            (&self.blocks[block], start.max(first) - first..end.min(first + WIDEST) - first)
+        })
+    }
+
     /// Block of contact `i`, and its place there.
     #[inline(always)]
     pub(crate) fn at(&self, i: usize) -> (&ContactBlock, usize) {

@@ -288,16 +288,15 @@ impl SharedPair for Guide {
         let bodies = [CAGE, self.ring];
         let wrenches = self.side.wrenches(&force, &motion).map(|on_body| on_body.components());
         for (body, rows) in bodies.into_iter().zip(wrenches) {
+            let rows = rows.map(|row| self.side.over_bodies(&row));
             for (k, over) in bodies.into_iter().enumerate() {
-                sums.add_mate(body, over, &rows.map(|row| self.side.over_bodies(&row)[k]));
+                sums.add_mate(body, over, &rows.map(|row| row[k]));
             }
-            let over_ring_speed = rows.map(|row| self.side.over_bodies(&row)[1].1[2]);
-            sums.add_mate_over_time(body, &over_ring_speed.map(|slope| slope * speeding));
+            sums.add_mate_over_time(body, &rows.map(|[_, (_, velocity)]| velocity[2] * speeding));
             if moving != [[0.0; 2]; 2] {
-                let over_ring = rows.map(|row| self.side.over_bodies(&row)[1]);
                 let rate = |x: &[f64], by: [f64; 2]| x[0] * by[0] + x[1] * by[1];
-                let rates =
-                    over_ring.map(|(place, velocity)| rate(&place, moving[0]) + rate(&velocity, moving[1]));
+                let rates = rows
+                    .map(|[_, (place, velocity)]| rate(&place, moving[0]) + rate(&velocity, moving[1]));
                 sums.add_mate_over_time(body, &rates);
             }
         }

@@ -48,10 +48,13 @@ impl<S: PocketShape> ElementPair for Pockets<S> {
         let largest_lead = OUT_OF_POCKET * place.element_radius / place.pitch_radius;
         let together = match motions.together {
             None => {
-                for element in 0..motions.count {
-                    let lead = motions.travel(element) - cage.angle;
-                    if lead.abs() > largest_lead {
-                        return Err(Fault::OutOfPocket { element, lead });
+                let out = |travel: &f64| (travel - cage.angle).abs() > largest_lead;
+                for (first, block) in (0..motions.count).step_by(WIDEST).zip(&motions.blocks) {
+                    let travels = &block.travel[..WIDEST.min(motions.count - first)];
+                    if travels.iter().fold(false, |any, travel| any | out(travel)) {
+                        let at = travels.iter().position(out).unwrap_or_default();
+                        let lead = travels[at] - cage.angle;
+                        return Err(Fault::OutOfPocket { element: first + at, lead });
                     }
                 }
                 None

@@ -1,12 +1,12 @@
 //! Forces of a semi-implicit step, which differ from those of its evaluation: of all contacts by `pairs/contacts/step`, found
 //! once for all that ask.
 
-use crate::bodies::{CAGE, CAGE_MOTION, SHARED};
+use crate::bodies::{CAGE, CAGE_MOTION, ElementBlock, OF_ELEMENT, SHARED};
 use crate::integrate::SemiImplicit;
 use crate::model::plane::Plane;
 use crate::model::plane::workspace::{StepMemory, Workspace};
 use crate::pairs::ContactBlock;
-use crate::scalar::place_of;
+use crate::scalar::{WIDEST, ZEROS};
 use crate::space::Wrench;
 
 impl Plane {
@@ -65,12 +65,18 @@ impl Plane {
         }
         *found = Some(wanted);
         if let Some(step) = step {
-            for j in 0..self.layout.count {
-                let (block, lane) = place_of(j);
-                let ([a, b, c], radius) = (self.layout.of_element(j), motions.radius(j));
-                for ([radial, across, spin], to) in of_elements[block].iter_mut().zip([step.mean, step.end]) {
-                    (radial[lane], spin[lane]) = (to[a] - v[a], to[c] - v[c]);
-                    across[lane] = radius * (to[b] - v[b]);
+            let blocks = of_elements.iter_mut().zip(&motions.blocks).enumerate();
+            for (at, (changes, ElementBlock { motion, .. })) in blocks {
+                let [mut from, mut rates] = [[ZEROS; OF_ELEMENT]; 2];
+                self.layout.rates_of_block(v, at, from.each_mut());
+                for (change, to) in changes.iter_mut().zip([step.mean, step.end]) {
+                    self.layout.rates_of_block(to, at, rates.each_mut());
+                    for i in 0..WIDEST {
+                        let radius = self.pitch_radius() + motion.radial_offset[i];
+                        change[0][i] = rates[0][i] - from[0][i];
+                        change[1][i] = radius * (rates[1][i] - from[1][i]);
+                        change[2][i] = rates[2][i] - from[2][i];
+                    }
                 }
             }
         }
