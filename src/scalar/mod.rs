@@ -17,7 +17,14 @@ use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Sub, SubAssign};
 /// Whether all numbers are finite: zero times any other is no number.
 #[inline(always)]
 pub fn all_finite(numbers: &[f64]) -> bool {
-    numbers.iter().fold(0.0, |nothing, x| nothing + 0.0 * x) == 0.0
+    let (fours, rest) = numbers.as_chunks::<4>();
+    let mut nothing = [0.0; 4];
+    for four in fours {
+        for (nothing, x) in nothing.iter_mut().zip(four) {
+            *nothing += 0.0 * x;
+        }
+    }
+    rest.iter().fold(nothing.iter().sum(), |nothing: f64, x| nothing + 0.0 * x) == 0.0
 }
 
 /// One real number or several side by side, with or without derivatives.

@@ -166,11 +166,11 @@ impl Elements for Rollers {
         let references = self.set.reference_angles.chunks(WIDEST);
         for (at, (block, references)) in out.blocks.iter_mut().zip(references).enumerate() {
             let ElementBlock { motion, travel, azimuth, .. } = block;
-            layout.rates_of_block(v, at, [
-                &mut motion.radial_speed,
-                &mut motion.orbit_speed,
-                &mut motion.spin_speed,
-            ]);
+            layout.rates_of_block(
+                v,
+                at,
+                [&mut motion.radial_speed, &mut motion.orbit_speed, &mut motion.spin_speed],
+            );
             layout.places_of_block(q, at, [&mut motion.radial_offset, travel], &mut out.spin_angles);
             for ((azimuth, reference), travel) in azimuth.iter_mut().zip(references).zip(&*travel) {
                 *azimuth = reference + travel;

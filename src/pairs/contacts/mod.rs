@@ -205,7 +205,10 @@ impl Batch {
 
     /// These contacts block by block, with their places there.
     #[inline]
-    pub(crate) fn pieces(&self, contacts: Range<usize>) -> impl Iterator<Item = (&ContactBlock, Range<usize>)> {
+    pub(crate) fn pieces(
+        &self,
+        contacts: Range<usize>,
+    ) -> impl Iterator<Item = (&ContactBlock, Range<usize>)> {
         let Range { start, end } = contacts;
         (start / WIDEST..blocks_for(end)).map(move |block| {
             let first = block * WIDEST;

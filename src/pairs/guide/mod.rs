@@ -295,8 +295,8 @@ impl SharedPair for Guide {
             sums.add_mate_over_time(body, &rows.map(|[_, (_, velocity)]| velocity[2] * speeding));
             if moving != [[0.0; 2]; 2] {
                 let rate = |x: &[f64], by: [f64; 2]| x[0] * by[0] + x[1] * by[1];
-                let rates = rows
-                    .map(|[_, (place, velocity)]| rate(&place, moving[0]) + rate(&velocity, moving[1]));
+                let rates =
+                    rows.map(|[_, (place, velocity)]| rate(&place, moving[0]) + rate(&velocity, moving[1]));
                 sums.add_mate_over_time(body, &rates);
             }
         }

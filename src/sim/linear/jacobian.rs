@@ -42,21 +42,28 @@ impl AnySlopes {
         any!(self, slopes => slopes.check())
     }
 
-    /// Tells row, column and value of every derivative of the rates that is not always zero.
-    pub(super) fn for_each(&self, positions: usize, mut tell: impl FnMut(usize, usize, f64)) {
-        (0..positions).for_each(|i| tell(i, positions + i, 1.0));
+    /// Tells row and column of every derivative of the rates that is not always zero, and its value: first those over velocities of the
+    /// rates of positions, which are one, then in the order of [`AnySlopes::blocks`]. What has no place in a state is zero.
+    pub(super) fn for_each(&self, positions: usize, mut tell: impl FnMut(Option<[usize; 2]>, f64)) {
+        (0..positions).for_each(|i| tell(Some([i, positions + i]), 1.0));
         any!(self, slopes => {
             let Linearization { over_positions, over_velocities, .. } = &slopes.linearization;
             for_each(&slopes.structure, over_positions, |row, column, value| {
-                // Spins have no position; what stands in their place is zero.
-                if column < positions {
-                    tell(positions + row, column, value);
-                }
+                // Spins have no position.
+                tell((column < positions).then_some([positions + row, column]), value);
             });
             for_each(&slopes.structure, over_velocities, |row, column, value| {
-                tell(positions + row, positions + column, value);
+                tell(Some([positions + row, positions + column]), value);
             });
         });
+    }
+
+    /// Values of the derivatives of the accelerations over positions and over velocities.
+    pub(super) fn blocks(&self) -> [[&[f64]; 5]; 2] {
+        any!(self, slopes => {
+            let Linearization { over_positions, over_velocities, .. } = &slopes.linearization;
+            [over_positions.blocks(), over_velocities.blocks()]
+        })
     }
 
     /// Derivatives of the accelerations over time.
@@ -89,34 +96,31 @@ impl<const N: usize> Slopes<N> {
     }
 }
 
-/// Tells row, column (both as velocities) and value of every entry of a matrix of this structure.
+/// Tells row, column (both as velocities) and value of every entry of a matrix of this structure, in the order of its blocks.
 fn for_each<const N: usize>(
     structure: &Structure<N>,
     matrix: &Arrowhead<f64, N>,
     mut tell: impl FnMut(usize, usize, f64),
 ) {
     let Structure { hub, spokes, .. } = structure;
-    for (i, &row) in hub.iter().enumerate() {
-        for (k, &column) in hub.iter().enumerate() {
-            tell(row, column, matrix.hub[(i, k)]);
+    let mut tell_block = |columns: &[usize], rows: &[usize], values: &[f64]| {
+        for (column, values) in columns.iter().zip(values.chunks_exact(rows.len().max(1))) {
+            rows.iter().zip(values).for_each(|(row, value)| tell(*row, *column, *value));
         }
-    }
-    for (j, places) in spokes.iter().enumerate() {
-        let (own, from_hub) = (matrix.own_of(j), matrix.from_hub_of(j));
-        let to_hub = matrix.to_hub_of(j).chunks_exact(hub.len().max(1));
-        for (&column, slopes) in places.iter().zip(own) {
-            places.iter().zip(slopes).for_each(|(&row, slope)| tell(row, column, *slope));
-        }
-        for (&column, slopes) in hub.iter().zip(from_hub) {
-            places.iter().zip(slopes).for_each(|(&row, slope)| tell(row, column, *slope));
-        }
-        for (&column, slopes) in places.iter().zip(to_hub) {
-            hub.iter().zip(slopes).for_each(|(&row, slope)| tell(row, column, *slope));
-        }
-        for (other, columns) in matrix.rim_of(j) {
-            for (&column, slopes) in spokes[other].iter().zip(columns) {
-                places.iter().zip(slopes).for_each(|(&row, slope)| tell(row, column, *slope));
-            }
+    };
+    let [of_hub, own, to_hub, from_hub, rim] = matrix.blocks();
+    let across = (N * hub.len()).max(1);
+    tell_block(hub, hub, of_hub);
+    spokes.iter().zip(own.chunks_exact(N * N)).for_each(|(spoke, values)| tell_block(spoke, spoke, values));
+    spokes.iter().zip(to_hub.chunks_exact(across)).for_each(|(spoke, values)| tell_block(spoke, hub, values));
+    spokes
+        .iter()
+        .zip(from_hub.chunks_exact(across))
+        .for_each(|(spoke, values)| tell_block(hub, spoke, values));
+    let n = spokes.len();
+    for (j, values) in rim.chunks_exact(2 * N * N).enumerate() {
+        for (other, values) in [(j + 1) % n, (j + n - 1) % n].into_iter().zip(values.chunks_exact(N * N)) {
+            tell_block(&spokes[other], &spokes[j], values);
         }
     }
 }
@@ -142,7 +146,11 @@ impl Sim {
         let positions = self.model().layout().positions();
         let slopes = self.slopes_at(t, state)?;
         out.fill(0.0);
-        slopes.for_each(positions, |row, column, value| out[column * state.len() + row] = value);
+        slopes.for_each(positions, |place, value| {
+            if let Some([row, column]) = place {
+                out[column * state.len() + row] = value;
+            }
+        });
         Ok(())
     }
 

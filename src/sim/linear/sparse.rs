@@ -12,16 +12,21 @@ pub struct SparsePattern {
     pub column_starts: Vec<usize>,
     /// Row of every entry, ascending in each column.
     pub rows: Vec<usize>,
-    /// Place of every entry in the order in which they are found.
+    /// Place of every entry in the order in which they are found; [`NOWHERE`] of what is no entry.
     places: Vec<usize>,
 }
+
+const NOWHERE: usize = usize::MAX;
 
 impl SparsePattern {
     fn new(slopes: &AnySlopes, positions: usize) -> Self {
         let states = positions + slopes.over_time().len();
-        let mut found: Vec<[usize; 2]> = Vec::new();
-        slopes.for_each(positions, |row, column, _| found.push([column, row]));
-        Self::of(states, &found)
+        let mut found = Vec::new();
+        slopes.for_each(positions, |place, _| found.push(place.map(|[row, column]| [column, row])));
+        let pattern = Self::of(states, &found.iter().copied().flatten().collect::<Vec<_>>());
+        let mut next = pattern.places.iter();
+        let place_of = |entry: &Option<_>| entry.and_then(|_| next.next().copied()).unwrap_or(NOWHERE);
+        Self { places: found.iter().map(place_of).collect(), ..pattern }
     }
 
     /// Of entries by column and row in any order, each there once.
@@ -83,11 +88,15 @@ impl Sim {
         }
         let slopes = self.slopes_at(t, state)?;
         let mut places = pattern.places.iter();
-        slopes.for_each(positions, |_, _, value| {
-            if let Some(place) = places.next() {
-                out[*place] = value;
+        let mut write = |place: &usize, value| {
+            if let Some(out) = out.get_mut(*place) {
+                *out = value;
             }
-        });
+        };
+        places.by_ref().take(positions).for_each(|place| write(place, 1.0));
+        for block in slopes.blocks().as_flattened() {
+            block.iter().zip(places.by_ref()).for_each(|(value, place)| write(place, *value));
+        }
         Ok(())
     }
 }
