@@ -1,5 +1,5 @@
 //! Throughput of `cagedyn cases`: 24 equal cases on all cores over the same on one, in pairs. `cargo bench --bench throughput`
-//! prints it.
+//! prints it. On one means that the whole process is held on it with `taskset`: files are written beside the cases.
 
 use std::error::Error;
 use std::path::Path;
@@ -25,7 +25,12 @@ fn main() -> Result<(), Box<dyn Error>> {
             std::fs::remove_dir_all(&out)?;
         }
         let started = Instant::now();
-        let status = Command::new(env!("CARGO_BIN_EXE_cagedyn"))
+        let tool = env!("CARGO_BIN_EXE_cagedyn");
+        let mut command = if jobs == 1 { Command::new("taskset") } else { Command::new(tool) };
+        if jobs == 1 {
+            command.args(["--cpu-list", "0", tool]);
+        }
+        let status = command
             .args(["cases".as_ref(), file.as_os_str(), "--jobs".as_ref(), jobs.to_string().as_ref()])
             .args(["--out".as_ref(), out.as_os_str()])
             .stdout(Stdio::null())

@@ -187,7 +187,7 @@ impl Layout {
         for (i, row) in rates.as_chunks::<2>().0[here.clone()].iter().enumerate().take(WIDEST) {
             [radial[i], orbital[i]] = *row;
         }
-        spin[..here.len()].copy_from_slice(&spins[here]);
+        spin.iter_mut().zip(&spins[here]).for_each(|(to, spin)| *to = *spin);
     }
 
     /// Brings the places of the elements of a block in the plane from `q` into columns: radial offset, travel; and adds the spin

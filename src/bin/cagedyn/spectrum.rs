@@ -109,7 +109,7 @@ impl Analysis {
         let step = 1.0 / (length as f64 * interval);
         Spectrum {
             frequencies: (0..values.len()).map(|k| k as f64 * step).collect(),
-            amplitudes: values.iter().map(|x| 2.0 * x.norm() / gain).collect(),
+            amplitudes: values.iter().map(|x| 2.0 * x.norm_sqr().sqrt() / gain).collect(),
             resolution: 2.0 / (window.len() as f64 * interval),
             segments: 1,
         }

@@ -11,6 +11,7 @@ use cagedyn::{Result, Scene};
 use serde::Serialize;
 use serde_json::Value;
 use std::fs::{self, File, TryLockError};
+use std::io::Read as _;
 use std::path::Path;
 
 /// Name of the summary.
@@ -123,7 +124,9 @@ fn check(folder: &Path) -> Result<()> {
         (CASE_SPECTRA, "case,inner ring speed [1/min]"),
     ] {
         let path = folder.join(name);
-        if fs::read(&path).is_ok_and(|bytes| !bytes.starts_with(begins.as_bytes())) {
+        let mut head = Vec::new();
+        let read = File::open(&path).and_then(|file| file.take(begins.len() as u64).read_to_end(&mut head));
+        if read.is_ok() && head != begins.as_bytes() {
             return Err(file_error(&path, "is not of this program; choose another folder or remove it"));
         }
     }
