@@ -23,7 +23,7 @@
 # make accuracy  what accuracy costs in time, beside other solvers: docs/results/accuracy.md
 # make bench     time of a force evaluation and of a step, cost of roundness, throughput of cases
 # make profile   what a run spends its instructions on, counted by Valgrind: docs/results/profile.md
-# make build-times  what building and testing takes: docs/building.md; half an hour
+# make build-times  what building and testing takes: docs/building.md; an hour, with PART=builds six minutes
 # make header    writes include/cagedyn.h and schemas/ anew after a change
 # make abi       commits to the ABI of the header anew, after it grew: ctests/abi
 # make deb       a Debian package in out/
@@ -226,7 +226,7 @@ bench: tools
 	$(CARGO) bench --locked
 
 build-times: tools
-	tools/build_times.sh --docs
+	tools/build_times.sh --docs $(PART)
 
 header:
 	CAGEDYN_BLESS=1 $(CARGO) test $(FLAGS) --test interfaces --test scene -- committed

@@ -113,10 +113,8 @@ impl<S: Simd, const K: usize> Pack<S, K> {
     #[inline(always)]
     pub fn load(simd: S, numbers: &[f64]) -> Self {
         let (registers, _) = S::as_simd_f64s(&numbers[..K * S::F64_LANES]);
-        let mut v = [registers[0]; K];
-        if K > 1 {
-            v[1] = registers[1];
-        }
+        let mut v = [simd.splat_f64s(0.0); K];
+        v.copy_from_slice(registers);
         Self { simd, v }
     }
 
@@ -171,7 +169,7 @@ impl<S: Simd, const K: usize> Pack<S, K> {
     #[inline(always)]
     pub fn store(self, numbers: &mut [f64]) {
         let (registers, _) = S::as_mut_simd_f64s(&mut numbers[..K * S::F64_LANES]);
-        each_register!(i: registers[i] = self.v[i]);
+        registers.copy_from_slice(&self.v);
     }
 }
 
