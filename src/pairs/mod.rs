@@ -116,7 +116,7 @@ pub(crate) struct PairInfo {
     pub(crate) contacts: &'static [&'static str],
     /// Laws that its contacts are counted by: of walls, and of edges, if it has any.
     pub(crate) laws: [Option<Law>; LAWS_OF_PAIR],
-    /// Powers that its damping and its friction belong to.
+    /// Powers that its damping and its friction belong to: two, neither of which is that of rolling resistance.
     pub(crate) powers: [Power; 2],
     /// Whether elements roll on it under load. Then its vibration is that of the bearing, rolling resistance has a power of its
     /// own, and floors of its laws are watched.

@@ -38,12 +38,13 @@ impl Plane {
         let ws = &*ws;
         // Moments on outer and inner ring, which their drives hold up.
         let mut on_rings = [0.0; RINGS.len()];
-        let [mut at_floor, mut no_rolling] = [false; 2];
+        let mut at_floor = false;
         let driven = |body: usize| RINGS.iter().position(|ring| *ring == body && self.is_driven(body));
         for (batch, info, contacts) in ws.contacts.by_pair(&self.infos) {
             let ([of_damping, of_friction], share) = (info.powers, info.share);
             let [mut by_damping, mut by_friction] = [of_damping, of_friction].map(|power| p[power as usize]);
             let (mut by_rolling, mut moment) = (p[Power::RollingResistance as usize], 0.0);
+            let mut without_resistance = false;
             for (ContactBlock { force, step, .. }, here) in batch.pieces(contacts.clone()) {
                 let [damping, friction, rolling] = &step.powers;
                 for lane in here.map(|lane| lane % WIDEST) {
@@ -52,14 +53,14 @@ impl Plane {
                     moment += step.moment_on_mate[lane];
                     by_rolling += rolling[lane];
                     // A resistance is at its floor where there is none.
-                    no_rolling |= info.rolls & (force.rolling_resistance[lane] == 0.0);
+                    without_resistance |= force.rolling_resistance[lane] == 0.0;
                 }
             }
             p[of_damping as usize] = by_damping;
             p[of_friction as usize] = by_friction;
             if info.rolls {
                 p[Power::RollingResistance as usize] = by_rolling;
-                at_floor |= std::mem::take(&mut no_rolling)
+                at_floor |= without_resistance
                     && contacts.into_iter().any(|i| self.is_at_floor(batch, i, ws.fluid.ln_viscosity));
             }
             if let Some(ring) = driven(info.mate) {

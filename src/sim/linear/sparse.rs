@@ -108,9 +108,12 @@ mod tests {
 
     #[test]
     fn sparse_is_dense_without_its_zeros() {
-        for text in
-            [include_str!("../../../scenes/nu2310.json"), include_str!("../../../scenes/grease_guide.json")]
-        {
+        for text in [
+            include_str!("../../../scenes/nu2310.json"),
+            include_str!("../../../scenes/grease_guide.json"),
+            include_str!("../../../scenes/full_complement.json"),
+            include_str!("../../../scenes/angular_contact_70_cage.json"),
+        ] {
             let model = Arc::new(Model::from_json(text).unwrap());
             let pattern = model.jacobian_pattern();
             let mut sim = Sim::new(model).unwrap();
