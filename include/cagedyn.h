@@ -992,8 +992,8 @@ int64_t cagedyn_statistic_count(void);
  *   events: counts.
  * - smallest_step, largest_step: s.
  * - raceway_vibration_rms: root mean square approach speed of the loaded raceway contacts, m/s.
- * - leapfrog_steps, dormand_prince_steps, rosenbrock_steps, method_changes (of method or leapfrog step): what the
- *   method "auto" did; zero with other methods.
+ * - leapfrog_steps, dormand_prince_steps, rosenbrock_steps, radau_steps, method_changes (of method or leapfrog step): what
+ *   the method "auto" did; zero with other methods.
  * - highest_frequency (rad/s): what "auto" measured while it made leapfrog steps.
  * - failed_...: failed_steps by cause.
  * - jacobians: derivatives of all forces; undone_steps: steps that "auto" took back because they missed energy. */

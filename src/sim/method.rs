@@ -116,6 +116,7 @@ pub(super) fn name(kind: Kind) -> &'static str {
         Kind::Leapfrog => "leapfrog",
         Kind::DormandPrince => "dormand_prince",
         Kind::Rosenbrock => "rosenbrock",
+        Kind::Radau => "radau",
     }
 }
 
@@ -147,7 +148,7 @@ pub(super) fn describe(choice: &Choice) -> String {
     }
     let steps = choice.steps;
     text + &format!(
-        "; {} steps by leapfrog, {} by dormand_prince, {} by rosenbrock, {} changes",
-        steps[0], steps[1], steps[2], choice.changes
+        "; {} steps by leapfrog, {} by dormand_prince, {} by rosenbrock, {} by radau, {} changes",
+        steps[0], steps[1], steps[2], steps[3], choice.changes
     )
 }

@@ -137,7 +137,7 @@ fn error_control_of_the_choice_keeps_the_tolerance_and_takes_the_faster_method()
     // 1e-8 of 100 for each of some thousand steps.
     assert!((out[0] - 200f64.cos()).abs() < 1e-3, "{out:?}");
     let choice = driver.choice().unwrap();
-    let [leapfrog, explicit, implicit] = choice.steps;
+    let [leapfrog, explicit, implicit, _] = choice.steps;
     assert!(leapfrog == 0 && implicit > 0 && explicit > 5 * implicit, "{choice:?}");
     assert!(choice.lead > 1.2 || choice.reason == Reason::Trial, "{choice:?}");
 }

@@ -11,4 +11,5 @@ mod choice;
 mod implicit;
 mod orders;
 mod presets;
+mod stiff;
 mod tuning;

@@ -92,7 +92,7 @@ fn imposed_motion_is_not_judged() {
     assert_eq!(s.trust(), Ok(()));
     other.reset().unwrap();
     assert_eq!(other.trust(), Ok(()));
-    assert_eq!(other.statistics().choice.unwrap().steps, [0; 3]);
+    assert_eq!(other.statistics().choice.unwrap().steps, [0; 4]);
 }
 
 #[test]

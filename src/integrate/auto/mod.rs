@@ -3,7 +3,8 @@
 //! - A system that vibrates most of the time is followed in its statistics: the leapfrog, monitored by [`StabilityMonitor`]. When
 //!   it fails, or would need steps that cost as much as error control, the Rosenbrock method takes over until probes
 //!   say that the leapfrog would do again, or until it is seen that finer steps of the leapfrog advance further per evaluation. It
-//!   also has the phases in which so little happens that it costs no more.
+//!   also has the phases in which so little happens that it costs no more. Where its steps become tiny, the Radau method is tried in its
+//!   place.
 //! - Any other system, or with a tolerance that was asked for, is followed in its trajectory: Dormand-Prince or the
 //!   Rosenbrock method, whichever advances further per evaluation.
 //!
@@ -17,6 +18,7 @@ macro_rules! active {
             Kind::Leapfrog => Stepper::<$system>::$method(&mut $self.leapfrog, $($argument),*),
             Kind::DormandPrince => Stepper::<$system>::$method(&mut $self.explicit, $($argument),*),
             Kind::Rosenbrock => Stepper::<$system>::$method(&mut $self.implicit, $($argument),*),
+            Kind::Radau => Stepper::<$system>::$method(&mut $self.stiff, $($argument),*),
         }
     };
     ($self:ident, ref $system:ty, $method:ident($($argument:expr),*)) => {
@@ -24,6 +26,7 @@ macro_rules! active {
             Kind::Leapfrog => Stepper::<$system>::$method(&$self.leapfrog, $($argument),*),
             Kind::DormandPrince => Stepper::<$system>::$method(&$self.explicit, $($argument),*),
             Kind::Rosenbrock => Stepper::<$system>::$method(&$self.implicit, $($argument),*),
+            Kind::Radau => Stepper::<$system>::$method(&$self.stiff, $($argument),*),
         }
     };
 }
@@ -35,7 +38,9 @@ pub mod stability;
 mod stepper;
 pub mod tuning;
 
-use crate::integrate::{DormandPrince, Leapfrog, Linearized, Observed, Rosenbrock, Split, Stepper, Tuning};
+use crate::integrate::{
+    DormandPrince, Leapfrog, Linearized, Observed, Radau, Rosenbrock, Split, Stepper, Tuning,
+};
 use balance::Balance;
 use selection::Selection;
 use stability::{Expectation, StabilityMonitor, Verdict};
@@ -43,6 +48,9 @@ use stability::{Expectation, StabilityMonitor, Verdict};
 /// Places of the methods in the selection.
 const EXPLICIT: usize = 0;
 const IMPLICIT: usize = 1;
+/// Places of the implicit ones in the selection between them.
+const ROSENBROCK: usize = 0;
+const RADAU: usize = 1;
 
 /// How to follow a system.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,10 +87,12 @@ pub enum Kind {
     DormandPrince,
     /// [`Rosenbrock`].
     Rosenbrock,
+    /// [`Radau`].
+    Radau,
 }
 
 /// The methods, by their numbers.
-const KINDS: [Kind; 3] = [Kind::Leapfrog, Kind::DormandPrince, Kind::Rosenbrock];
+const KINDS: [Kind; 4] = [Kind::Leapfrog, Kind::DormandPrince, Kind::Rosenbrock, Kind::Radau];
 
 /// Why a method was chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -125,7 +135,7 @@ pub struct Choice {
     /// Why.
     pub reason: Reason,
     /// Accepted steps of each method, in the order of [`Kind`].
-    pub steps: [u64; 3],
+    pub steps: [u64; KINDS.len()],
     /// Changes of the method or the leapfrog's step.
     pub changes: u64,
     /// Step of the leapfrog, s.
@@ -154,13 +164,16 @@ pub struct Auto<const N: usize> {
     leapfrog: Leapfrog<N>,
     explicit: DormandPrince,
     implicit: Rosenbrock<N>,
+    stiff: Radau<N>,
     monitor: StabilityMonitor<N>,
     selection: Selection,
+    /// Between the implicit methods.
+    stiffness: Selection,
     balance: Balance,
     active: Kind,
     reason: Reason,
     /// Step that each method with error control took last, s.
-    last_steps: [f64; 2],
+    last_steps: [f64; KINDS.len()],
     /// Size of the last attempt, s.
     h: f64,
     /// Attempts since the last change or accepted step.
@@ -187,7 +200,7 @@ pub struct Auto<const N: usize> {
     /// Stretches until an event calls for error control again, and whether one does.
     event_wait: u64,
     event: bool,
-    steps: [u64; 3],
+    steps: [u64; KINDS.len()],
     changes: u64,
     /// Whether the state was set since the last refresh, which is no event of the system then.
     placed: bool,
@@ -203,12 +216,14 @@ impl<const N: usize> Auto<N> {
             leapfrog: Leapfrog::new(system),
             explicit: DormandPrince::new(system, &tolerance),
             implicit: Rosenbrock::new(system, &tolerance),
+            stiff: Radau::new(system, &tolerance),
             monitor: StabilityMonitor::new(system, aim.expected, &aim.units, aim.tuning),
             selection: Selection::new(EXPLICIT, aim.tuning),
+            stiffness: Selection::new(ROSENBROCK, aim.tuning),
             balance: Balance::new(system, aim.missing_energy, aim.tuning),
             active: Kind::DormandPrince,
             reason: Reason::Trajectory,
-            last_steps: [aim.first_step; 2],
+            last_steps: [aim.first_step; KINDS.len()],
             h: aim.first_step,
             attempts: 0,
             judged: false,
@@ -224,7 +239,7 @@ impl<const N: usize> Auto<N> {
             pause: 0,
             event_wait: 0,
             event: false,
-            steps: [0; 3],
+            steps: [0; KINDS.len()],
             changes: 0,
             placed: true,
             state: vec![0.0; system.positions() + system.velocities()],
@@ -237,7 +252,7 @@ impl<const N: usize> Auto<N> {
     fn start_over(&mut self) {
         self.monitor.forget();
         self.balance.forget();
-        self.last_steps = [self.aim.first_step; 2];
+        self.last_steps = [self.aim.first_step; KINDS.len()];
         (self.attempts, self.judged, self.advanced, self.cost) = (0, false, 0.0, 0.0);
         (self.strictness, self.hold, self.next_hold, self.right) =
             (0, self.aim.tuning.start, self.aim.tuning.first_hold, 0);
@@ -249,6 +264,7 @@ impl<const N: usize> Auto<N> {
         };
         self.selection =
             Selection::new(if self.aim.statistics { IMPLICIT } else { EXPLICIT }, self.aim.tuning);
+        self.stiffness = Selection::new(ROSENBROCK, self.aim.tuning);
     }
 
     /// Goes on with another method from the present state at time `t`. Returns the step to take, or nothing if the
@@ -275,8 +291,7 @@ impl<const N: usize> Auto<N> {
         (self.advanced, self.cost) = (0.0, 0.0);
         Some(match kind {
             Kind::Leapfrog => self.monitor.step(),
-            Kind::DormandPrince => self.last_steps[EXPLICIT],
-            Kind::Rosenbrock => self.last_steps[IMPLICIT],
+            _ => self.last_steps[kind as usize],
         })
     }
 
@@ -288,7 +303,8 @@ impl<const N: usize> Auto<N> {
         t: f64,
     ) -> Option<f64> {
         self.selection = Selection::new(IMPLICIT, self.aim.tuning);
-        self.last_steps = [self.monitor.step(); 2];
+        self.stiffness = Selection::new(ROSENBROCK, self.aim.tuning);
+        self.last_steps = [self.monitor.step(); KINDS.len()];
         self.change_to(Kind::Rosenbrock, reason, system, t)
     }
 
@@ -416,8 +432,11 @@ impl<const N: usize> Auto<N> {
             };
         }
         let stuck = self.attempts >= self.aim.tuning.long_patience;
+        if let Some(step) = self.weigh_stiffness(stuck, system, t) {
+            return Some(step);
+        }
         if stuck {
-            self.last_steps[self.selection.active()] = self.h;
+            self.last_steps[self.active as usize] = self.h;
             self.selection.give_up();
         }
         // In statistics the explicit method at loose tolerance drives the vibration: it only helps out.
@@ -429,7 +448,7 @@ impl<const N: usize> Auto<N> {
         if !changed {
             return None;
         }
-        let kind = if self.selection.active() == EXPLICIT { Kind::DormandPrince } else { Kind::Rosenbrock };
+        let kind = if self.selection.active() == EXPLICIT { Kind::DormandPrince } else { self.implicit_kind() };
         let reason = match self.selection.on_trial() {
             _ if stuck => Reason::Failures,
             true => Reason::Trial,
@@ -438,6 +457,38 @@ impl<const N: usize> Auto<N> {
         let step = self.change_to(kind, reason, system, t);
         if step.is_none() {
             self.selection.give_up();
+        }
+        step
+    }
+
+    /// The implicit method that advances further.
+    fn implicit_kind(&self) -> Kind {
+        if self.stiffness.active() == RADAU { Kind::Radau } else { Kind::Rosenbrock }
+    }
+
+    /// Of a system that is followed in its statistics: goes on with the other implicit method where that advances further, which is tried
+    /// where the steps are tiny beside those of the leapfrog, or where the Radau method is `stuck`.
+    fn weigh_stiffness<S: Linearized<N> + Split<N> + Observed>(
+        &mut self,
+        stuck: bool,
+        system: &mut S,
+        t: f64,
+    ) -> Option<f64> {
+        if self.active != self.implicit_kind() {
+            return None;
+        }
+        let tiny = self.aim.expected.step() / self.aim.tuning.stiff;
+        if stuck && self.active == Kind::Radau {
+            self.last_steps[Kind::Rosenbrock as usize] = self.h;
+            self.stiffness.give_up();
+        } else if !self.stiffness.decide_below(tiny) {
+            return None;
+        }
+        let (kind, last) = (self.implicit_kind(), self.last_steps[self.active as usize]);
+        self.last_steps[kind as usize] = self.last_steps[kind as usize].min(last);
+        let step = self.change_to(kind, self.reason, system, t);
+        if step.is_none() {
+            self.stiffness.give_up();
         }
         step
     }
@@ -455,6 +506,9 @@ impl<const N: usize> Auto<N> {
 
     fn note_cost(&mut self, evaluations: f64) {
         self.selection.note_cost(evaluations);
+        if self.active == self.implicit_kind() {
+            self.stiffness.note_cost(evaluations);
+        }
         self.cost += evaluations;
     }
 }

@@ -76,10 +76,16 @@ impl Selection {
 
     /// At the end of a window: decides. Whether the active method changed.
     pub fn decide(&mut self) -> bool {
+        self.decide_below(f64::INFINITY)
+    }
+
+    /// The same, but the other method is not tried where the active one advances by more than `limit` s per evaluation.
+    pub fn decide_below(&mut self, limit: f64) -> bool {
         if self.cost < self.tuning.window {
             return false;
         }
-        self.rates[self.active] = self.advanced / self.cost;
+        let rate = self.advanced / self.cost;
+        self.rates[self.active] = rate;
         (self.advanced, self.cost) = (0.0, 0.0);
         let other = 1 - self.active;
         if self.trial {
@@ -92,6 +98,9 @@ impl Selection {
             self.pause = (2.0 * self.pause).min(self.tuning.longest_trial);
             self.active = other;
             return true;
+        }
+        if rate > limit {
+            return false;
         }
         self.wait -= 1.0;
         if self.wait > 0.0 {

@@ -1,7 +1,7 @@
 //! The chosen method at work: attempts, accounts, judgement, memory.
 
 use super::balance::Judgement;
-use super::{Auto, Choice, EXPLICIT, IMPLICIT, KINDS, Kind, REASONS, Reason, Wrong};
+use super::{Auto, Choice, KINDS, Kind, REASONS, Reason, Wrong};
 use crate::integrate::driver::control::{Estimate, Law};
 use crate::integrate::{
     Applied, DormandPrince, Kept, Linearized, Observed, Rosenbrock, Samples, Split, Stepper, Stretch,
@@ -9,7 +9,7 @@ use crate::integrate::{
 use crate::stored::{stored, stored_choice};
 
 /// Most numbers that a method keeps of a step, per state.
-const MOST_KEPT: usize = 3;
+const MOST_KEPT: usize = 4;
 
 impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto<N> {
     fn set_state(&mut self, state: &[f64]) {
@@ -32,7 +32,7 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
         }
         match self.active {
             Kind::Leapfrog => self.review_leapfrog(system, t),
-            Kind::DormandPrince | Kind::Rosenbrock => self.review_error_control(system, t),
+            _ => self.review_error_control(system, t),
         }
     }
 
@@ -41,7 +41,7 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
     }
 
     fn reset_counts(&mut self) {
-        (self.steps, self.changes) = ([0; 3], 0);
+        (self.steps, self.changes) = ([0; KINDS.len()], 0);
         self.monitor.reset_highest();
     }
 
@@ -53,6 +53,7 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
             Kind::Leapfrog => return result,
             Kind::DormandPrince => self.note_cost(DormandPrince::EVALUATIONS),
             Kind::Rosenbrock => self.note_cost(Rosenbrock::<N>::EVALUATIONS),
+            Kind::Radau => self.note_cost(f64::from(self.stiff.evaluations())),
         }
         let stricter = self.aim.tuning.stricter.powi(self.strictness as i32);
         result.map(|estimate| {
@@ -65,19 +66,19 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
         active!(self, S, accept());
         self.steps[self.active as usize] += 1;
         self.attempts = 0;
+        if self.active == Kind::Leapfrog {
+            return self.monitor.count_step();
+        }
+        self.last_steps[self.active as usize] = self.h;
+        self.selection.note_advance(self.h);
+        self.advanced += self.h;
+        if self.active == self.implicit_kind() {
+            self.stiffness.note_advance(self.h);
+        }
         match self.active {
-            Kind::Leapfrog => self.monitor.count_step(),
-            Kind::DormandPrince => {
-                self.last_steps[EXPLICIT] = self.h;
-                self.selection.note_advance(self.h);
-                self.advanced += self.h;
-            }
-            Kind::Rosenbrock => {
-                self.last_steps[IMPLICIT] = self.h;
-                self.selection.note_advance(self.h);
-                self.advanced += self.h;
-                self.note_cost(Rosenbrock::<N>::EVALUATIONS_AT_START + self.linearization_cost);
-            }
+            Kind::Rosenbrock => self.note_cost(Rosenbrock::<N>::EVALUATIONS_AT_START + self.linearization_cost),
+            Kind::Radau => self.note_cost(1.0 + self.linearization_cost),
+            Kind::Leapfrog | Kind::DormandPrince => {}
         }
     }
 
@@ -137,6 +138,7 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
             Kind::Leapfrog => Stepper::<S>::recall(&self.leapfrog, &kept, theta, out),
             Kind::DormandPrince => Stepper::<S>::recall(&self.explicit, &kept, theta, out),
             Kind::Rosenbrock => Stepper::<S>::recall(&self.implicit, &kept, theta, out),
+            Kind::Radau => Stepper::<S>::recall(&self.stiff, &kept, theta, out),
         }
     }
 
@@ -144,7 +146,7 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
         let (kind, rest) = kept.rest.split_first()?;
         match KINDS[*kind as usize] {
             Kind::Leapfrog => Stepper::<S>::applied_in(&self.leapfrog, Kept { rest, ..kept }),
-            Kind::DormandPrince | Kind::Rosenbrock => None,
+            _ => None,
         }
     }
 
@@ -199,7 +201,8 @@ impl<const N: usize> Auto<N> {
 stored! {
     impl[const N: usize] Auto<N> {
         active, reason, last_steps, h, advanced, cost, placed, judged, event, attempts, strictness, hold, next_hold,
-        right, wait, pause, event_wait, steps, changes, monitor, selection, balance, leapfrog, explicit, implicit
+        right, wait, pause, event_wait, steps, changes, monitor, selection, stiffness, balance, leapfrog, explicit, implicit,
+        stiff
     }
     if Self::is_sound
 }

@@ -99,6 +99,9 @@ tuning! {
     longest_trial: f64 = 64.0, "windows";
     /// The other one takes over when it advances this many times as far.
     clear_lead: f64 = 1.2, "1";
+    /// Where an implicit method spends this many evaluations on what the leapfrog was expected to make one step of, the other one is
+    /// tried.
+    stiff: f64 = 30.0, "evaluations";
     /// Steps of the leapfrog between two measurements of the highest frequency: each costs a Jacobian.
     frequency_interval: u64 = 512, "steps";
     /// Its step follows a frequency that differs by this factor.

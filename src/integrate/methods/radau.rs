@@ -27,7 +27,7 @@
 use crate::integrate::driver::control::{ErrorNorm, Estimate, Law};
 use crate::integrate::linear::shifted::Shifted;
 use crate::integrate::{
-    Linearization, Linearized, Observed, Samples, Stepper, Structure, add_weighted, zero_works,
+    Kept, Linearization, Linearized, Observed, Samples, Stepper, Structure, add_weighted, zero_works,
 };
 use crate::scalar::math;
 use crate::stored::stored;
@@ -99,12 +99,11 @@ pub struct Radau<const N: usize> {
     /// Size of the last accepted step and of the attempt, s.
     step: f64,
     trial_step: f64,
-    /// Divided differences of the collocation polynomials of the two.
-    dense: [Vec<f64>; 3],
-    trial_dense: [Vec<f64>; 3],
-    /// Factors of B(x) beside the two polynomials.
-    defect: Vec<f64>,
-    trial_defect: Vec<f64>,
+    /// Divided differences of the collocation polynomials of the two, and the factors of B(x) beside them.
+    dense: [Vec<f64>; 4],
+    trial_dense: [Vec<f64>; 4],
+    /// Evaluations of the last attempt.
+    evaluations: u32,
     /// The polynomial of the last step leads into the next one.
     smooth: bool,
 }
@@ -147,20 +146,25 @@ impl<const N: usize> Radau<N> {
             contraction: 1.0,
             step: 0.0,
             trial_step: 0.0,
-            dense: three(),
-            trial_dense: three(),
-            defect: zeros(),
-            trial_defect: zeros(),
+            dense: std::array::from_fn(|_| zeros()),
+            trial_dense: std::array::from_fn(|_| zeros()),
+            evaluations: 0,
             smooth: false,
             structure,
         }
+    }
+
+    /// Evaluations of the last attempt, without those of derivatives.
+    pub fn evaluations(&self) -> u32 {
+        self.evaluations
     }
 
     /// Starting values of the iteration: the last collocation polynomial continued, or none.
     fn predict(&mut self, h: f64) {
         let ratio = if self.smooth { h / self.step } else { 0.0 };
         for k in 0..self.state.len() {
-            let z = TIMES.map(|c| bend(&self.dense, k, c * ratio));
+            let dense = self.dense.each_ref().map(|part| part[k]);
+            let z = TIMES.map(|c| bend(dense, c * ratio));
             let w = combined(&INVERSE_T, z);
             for i in 0..3 {
                 self.stages[i][k] = z[i];
@@ -183,6 +187,7 @@ impl<const N: usize> Radau<N> {
         self.contraction = math::powf(self.contraction.max(f64::EPSILON), 0.8);
         let (mut last_size, mut last_ratio) = (0.0, 0.0);
         for iteration in 1..=MAX_ITERATIONS {
+            self.evaluations += 3;
             let stages = self.stages.iter().zip(&mut self.a).zip(&mut self.powers).zip(TIMES);
             for (place, (((z, a), powers), c)) in stages.enumerate() {
                 for ((trial, y), z) in self.trial.iter_mut().zip(&self.state).zip(z) {
@@ -267,7 +272,6 @@ impl<S: Linearized<N> + Observed, const N: usize> Stepper<S> for Radau<N> {
         for part in &mut self.dense {
             part.fill(0.0);
         }
-        self.defect.fill(0.0);
         (self.linearized, self.retried, self.smooth) = (false, false, false);
         self.contraction = 1.0;
     }
@@ -282,6 +286,7 @@ impl<S: Linearized<N> + Observed, const N: usize> Stepper<S> for Radau<N> {
 
     fn attempt(&mut self, system: &mut S, t: f64, h: f64, t_last: f64) -> Result<Option<Estimate>, S::Fault> {
         let nq = self.positions;
+        self.evaluations = 0;
         if !self.linearized {
             let (q, v) = self.state.split_at(nq);
             system.linearize(t, q, v, &mut self.start_a, &mut self.slope)?;
@@ -306,6 +311,7 @@ impl<S: Linearized<N> + Observed, const N: usize> Stepper<S> for Radau<N> {
                 *trial = y + e;
             }
             let (q, v) = self.trial.split_at(nq);
+            self.evaluations += 1;
             if system.accelerations(t, q, v, &mut self.a[0]).is_ok() {
                 estimate = self.estimate(h, true);
             }
@@ -327,7 +333,7 @@ impl<S: Linearized<N> + Observed, const N: usize> Stepper<S> for Radau<N> {
             self.trial_dense[0][k] = last;
             self.trial_dense[1][k] = second;
             self.trial_dense[2][k] = second - first;
-            self.trial_defect[k] = GAMMA * self.right[k];
+            self.trial_dense[3][k] = GAMMA * self.right[k];
         }
         Ok(Some(estimate))
     }
@@ -335,7 +341,6 @@ impl<S: Linearized<N> + Observed, const N: usize> Stepper<S> for Radau<N> {
     fn accept(&mut self) {
         std::mem::swap(&mut self.state, &mut self.trial);
         std::mem::swap(&mut self.dense, &mut self.trial_dense);
-        std::mem::swap(&mut self.defect, &mut self.trial_defect);
         self.step = self.trial_step;
         (self.linearized, self.retried, self.smooth) = (false, false, true);
     }
@@ -353,11 +358,15 @@ impl<S: Linearized<N> + Observed, const N: usize> Stepper<S> for Radau<N> {
     }
 
     fn interpolate(&self, theta: f64, out: &mut [f64]) {
-        let x = theta;
-        let b = x * (1.0 - x * (4.5 - x * (6.0 - x * 2.5)));
-        for (k, (out, end)) in out.iter_mut().zip(&self.state).enumerate() {
-            *out = end + bend(&self.dense, k, theta - 1.0) + b * self.defect[k];
-        }
+        interpolate(&self.state, self.dense.each_ref().map(Vec::as_slice), theta, out);
+    }
+
+    fn keep(&self, out: &mut Vec<f64>) {
+        self.dense.iter().for_each(|part| out.extend_from_slice(part));
+    }
+
+    fn recall(&self, kept: &Kept<'_>, theta: f64, out: &mut [f64]) {
+        interpolate(kept.end, kept.parts(), theta, out);
     }
 
     fn control(&self) -> Law {
@@ -365,10 +374,19 @@ impl<S: Linearized<N> + Observed, const N: usize> Stepper<S> for Radau<N> {
     }
 }
 
+/// State at the fraction `x` of the step that ends here and has this dense output.
+fn interpolate(end: &[f64], dense: [&[f64]; 4], x: f64, out: &mut [f64]) {
+    let b = x * (1.0 - x * (4.5 - x * (6.0 - x * 2.5)));
+    for (k, (out, end)) in out.iter_mut().zip(end).enumerate() {
+        let dense = dense.map(|part| part[k]);
+        *out = end + bend(dense, x - 1.0) + b * dense[3];
+    }
+}
+
 /// Difference of a collocation polynomial to its end, at `x` steps after the end.
-fn bend(dense: &[Vec<f64>; 3], k: usize, x: f64) -> f64 {
+fn bend([first, second, third, _]: [f64; 4], x: f64) -> f64 {
     let [c1, c2, _] = TIMES;
-    x * (dense[0][k] + (x + 1.0 - c2) * (dense[1][k] + (x + 1.0 - c1) * dense[2][k]))
+    x * (first + (x + 1.0 - c2) * (second + (x + 1.0 - c1) * third))
 }
 
 fn combined(matrix: &[[f64; 3]; 3], x: [f64; 3]) -> [f64; 3] {
@@ -376,6 +394,6 @@ fn combined(matrix: &[[f64; 3]; 3], x: [f64; 3]) -> [f64; 3] {
 }
 
 stored! {
-    impl[const N: usize] Radau<N> { step, contraction, smooth, state, dense, defect }
+    impl[const N: usize] Radau<N> { step, contraction, smooth, state, dense }
     then { linearized = false, retried = false }
 }

@@ -57,6 +57,7 @@ registry! {
         FailedAbovePocket = "failed_above_pocket",
         FailedAskewRoller = "failed_askew_roller",
         FailedLostRotor = "failed_lost_rotor",
+        RadauSteps = "radau_steps",
     }
 }
 
@@ -83,6 +84,7 @@ impl RunStatistics {
             Statistic::LeapfrogSteps => of_choice(|c| c.steps[Kind::Leapfrog as usize] as f64),
             Statistic::DormandPrinceSteps => of_choice(|c| c.steps[Kind::DormandPrince as usize] as f64),
             Statistic::RosenbrockSteps => of_choice(|c| c.steps[Kind::Rosenbrock as usize] as f64),
+            Statistic::RadauSteps => of_choice(|c| c.steps[Kind::Radau as usize] as f64),
             Statistic::MethodChanges => of_choice(|c| c.changes as f64),
             Statistic::HighestFrequency => of_choice(|c| c.highest_frequency),
             Statistic::FailedNoGuideFilm => failed(FaultKind::NoGuideFilm),
