@@ -28,10 +28,10 @@ pub use methods::dormand_prince::DormandPrince;
 pub use methods::leapfrog::Leapfrog;
 pub use methods::radau::Radau;
 pub use methods::rosenbrock::Rosenbrock;
-pub use stepper::{Applied, Kept, Stepper, Stretch};
+pub use stepper::{Applied, Kept, Progress, Stepper, Stretch};
 pub use system::{
-    Interruption, Linearization, Linearized, Observed, SemiImplicit, Split, Structure, Structured, System,
-    Vibration,
+    Complete, Interruption, Linearization, Linearized, Observed, SemiImplicit, Split, Structure, Structured,
+    System, Vibration,
 };
 
-pub(crate) use system::{add_weighted, zero_works};
+pub(crate) use system::{add_weighted, parts_mut, zero_works};

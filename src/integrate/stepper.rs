@@ -3,8 +3,8 @@
 use super::auto::Choice;
 use super::driver::control::{Estimate, Law};
 use super::driver::watch::Samples;
-use super::system::System;
-use crate::stored::Stored;
+use super::system::{Observed, System, zero_works};
+use crate::stored::{Stored, stored};
 
 /// The evaluation that a semi-implicit step was made with: positions `start.q + h/2 start.v`, velocities `predicted`. The
 /// forces it applied lie between those of the states on both sides; where friction is steep neither of them has their mean.
@@ -51,6 +51,64 @@ impl<'a> Kept<'a> {
     }
 }
 
+/// Where a method is: the last accepted step and the attempt behind it.
+#[derive(Clone, Debug)]
+pub struct Progress {
+    /// State (q, v) at the start of the last accepted step.
+    pub start: Vec<f64>,
+    /// State at its end.
+    pub end: Vec<f64>,
+    /// What the method knows between the two.
+    pub dense: Vec<f64>,
+    /// State at the end of the attempt.
+    pub trial: Vec<f64>,
+    /// What the method knows of the attempt.
+    pub trial_dense: Vec<f64>,
+    /// Works of [`Observed::powers`] over the attempt.
+    pub works: Vec<f64>,
+    /// What the host watches in the attempt.
+    pub samples: Samples,
+}
+
+impl Progress {
+    /// Of a system that is watched at up to `places` places of a step, with so many numbers between its ends.
+    pub fn new<S: Observed>(system: &S, places: usize, dense: usize) -> Self {
+        let (state, dense) = (vec![0.0; system.positions() + system.velocities()], vec![0.0; dense]);
+        Self {
+            start: state.clone(),
+            end: state.clone(),
+            trial: state,
+            trial_dense: dense.clone(),
+            dense,
+            works: zero_works(system),
+            samples: Samples::new(system.watched(), places),
+        }
+    }
+
+    /// Begins at this state.
+    pub fn begin(&mut self, state: &[f64]) {
+        self.start.copy_from_slice(state);
+        self.end.copy_from_slice(state);
+        self.dense.fill(0.0);
+    }
+
+    /// The attempt becomes the last step.
+    pub fn accept(&mut self) {
+        std::mem::swap(&mut self.start, &mut self.end);
+        std::mem::swap(&mut self.end, &mut self.trial);
+        std::mem::swap(&mut self.dense, &mut self.trial_dense);
+    }
+
+    /// The last accepted step.
+    pub fn kept(&self) -> Kept<'_> {
+        Kept { start: &self.start, end: &self.end, rest: &self.dense }
+    }
+}
+
+stored! {
+    impl[] Progress { start, end, dense }
+}
+
 /// One integration method: makes steps and interpolates in the last one. What is stored is everything that the next steps
 /// depend on.
 pub trait Stepper<S: System>: Stored {
@@ -78,18 +136,20 @@ pub trait Stepper<S: System>: Stored {
     fn attempt(&mut self, system: &mut S, t: f64, h: f64, t_last: f64) -> Result<Option<Estimate>, S::Fault>;
     /// Makes the last attempt the current state.
     fn accept(&mut self);
-    /// Works of [`super::Observed::powers`] over the last attempt.
-    fn works(&self) -> &[f64];
-    /// What the host watches, in the last attempt.
-    fn samples(&self) -> &Samples;
+    /// The last accepted step and the last attempt.
+    fn progress(&self) -> &Progress;
+    /// State at the end of the last accepted step.
+    fn state(&self) -> &[f64] {
+        &self.progress().end
+    }
     /// What the last accepted step was made with, for methods whose forces are those of steps and not of states.
     fn applied(&self) -> Option<Applied<'_>> {
-        None
+        self.applied_in(self.progress().kept())
     }
-    /// State at the end of the last accepted step.
-    fn state(&self) -> &[f64];
     /// State within the last accepted step at the fraction 0 <= `theta` <= 1 of it.
-    fn interpolate(&self, theta: f64, out: &mut [f64]);
+    fn interpolate(&self, theta: f64, out: &mut [f64]) {
+        self.recall(&self.progress().kept(), theta, out);
+    }
     /// Steps that are judged together before they count.
     fn longest_stretch(&self) -> Stretch {
         Stretch::default()
@@ -104,14 +164,14 @@ pub trait Stepper<S: System>: Stored {
         None
     }
     /// Appends what [`Stepper::recall`] needs to know of the last accepted step, beside the states at its ends.
-    fn keep(&self, _out: &mut Vec<f64>) {}
-    /// State within a step of which this was kept, at the fraction 0 <= `theta` <= 1 of it.
-    fn recall(&self, _kept: &Kept<'_>, theta: f64, out: &mut [f64]) {
-        self.interpolate(theta, out);
+    fn keep(&self, out: &mut Vec<f64>) {
+        out.extend_from_slice(&self.progress().dense);
     }
+    /// State within a step of which this was kept, at the fraction 0 <= `theta` <= 1 of it.
+    fn recall(&self, kept: &Kept<'_>, theta: f64, out: &mut [f64]);
     /// As [`Stepper::applied`], of a step of which this was kept.
-    fn applied_in<'a>(&'a self, _kept: Kept<'a>) -> Option<Applied<'a>> {
-        self.applied()
+    fn applied_in<'a>(&self, _kept: Kept<'a>) -> Option<Applied<'a>> {
+        None
     }
     /// How the steps follow the errors; of no use for methods without error estimate.
     fn control(&self) -> Law;

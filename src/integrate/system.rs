@@ -135,6 +135,11 @@ pub trait Observed: System {
     fn rejected(&mut self, _group: usize) {}
 }
 
+/// A system that any method can follow.
+pub trait Complete<const N: usize>: Linearized<N> + Split<N> + Observed {}
+
+impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Complete<N> for S {}
+
 /// Why a host stops a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interruption {
@@ -159,6 +164,12 @@ pub struct SemiImplicit<'a> {
 /// Zero for each of the rates that a system integrates beside its state.
 pub(crate) fn zero_works<S: Observed>(system: &S) -> Vec<f64> {
     vec![0.0; system.power_count().iter().sum()]
+}
+
+/// Parts of equal length.
+pub(crate) fn parts_mut<const N: usize>(whole: &mut [f64]) -> [&mut [f64]; N] {
+    let mut parts = whole.chunks_exact_mut((whole.len() / N).max(1));
+    std::array::from_fn(|_| parts.next().unwrap_or_default())
 }
 
 /// `sum` + `weight` `x`, in place.

@@ -56,7 +56,7 @@ fn polynomials_are_exact_over_uneven_steps() {
         assert!(error <= 1.0, "step {i}: {error}");
         let before = method.state().to_vec();
         method.accept();
-        work += method.works()[0];
+        work += method.progress().works[0];
         t += h;
         // From where it was, with the speed that it had.
         let start = Thrown::exact(t - h);

@@ -3,32 +3,31 @@
 //! - A system that vibrates most of the time is followed in its statistics: the leapfrog, monitored by [`StabilityMonitor`]. When
 //!   it fails, or would need steps that cost as much as error control, the Rosenbrock method takes over until probes
 //!   say that the leapfrog would do again, or until it is seen that finer steps of the leapfrog advance further per evaluation. It
-//!   also has the phases in which so little happens that it costs no more. Where its steps become tiny, the Radau method is tried in its
-//!   place.
+//!   also has the phases in which so little happens that it costs no more.
 //! - Any other system, or with a tolerance that was asked for, is followed in its trajectory: Dormand-Prince or the
 //!   Rosenbrock method, whichever advances further per evaluation.
+//!
+//! Where the steps of the Rosenbrock method become tiny, the Radau method is tried in its place.
 //!
 //! Every stretch of steps is judged by the energy that it misses. A wrong one is made again: those of the leapfrog with error
 //! control or finer steps, those of error control with a tenth of the tolerance.
 
-/// Calls a method of the active stepper.
+/// Calls a function of [`Stepper`] of the method of this kind.
+macro_rules! of_kind {
+    ($kind:expr, [$($borrow:tt)+] $self:ident, $system:ty, $call:ident($($argument:expr),*)) => {
+        match $kind {
+            Kind::Leapfrog => Stepper::<$system>::$call($($borrow)+ $self.leapfrog, $($argument),*),
+            Kind::DormandPrince => Stepper::<$system>::$call($($borrow)+ $self.dormand_prince, $($argument),*),
+            Kind::Rosenbrock => Stepper::<$system>::$call($($borrow)+ $self.rosenbrock, $($argument),*),
+            Kind::Radau => Stepper::<$system>::$call($($borrow)+ $self.radau, $($argument),*),
+        }
+    };
+}
+
+/// The same of the active method.
 macro_rules! active {
-    ($self:ident, $system:ty, $method:ident($($argument:expr),*)) => {
-        match $self.active {
-            Kind::Leapfrog => Stepper::<$system>::$method(&mut $self.leapfrog, $($argument),*),
-            Kind::DormandPrince => Stepper::<$system>::$method(&mut $self.explicit, $($argument),*),
-            Kind::Rosenbrock => Stepper::<$system>::$method(&mut $self.implicit, $($argument),*),
-            Kind::Radau => Stepper::<$system>::$method(&mut $self.stiff, $($argument),*),
-        }
-    };
-    ($self:ident, ref $system:ty, $method:ident($($argument:expr),*)) => {
-        match $self.active {
-            Kind::Leapfrog => Stepper::<$system>::$method(&$self.leapfrog, $($argument),*),
-            Kind::DormandPrince => Stepper::<$system>::$method(&$self.explicit, $($argument),*),
-            Kind::Rosenbrock => Stepper::<$system>::$method(&$self.implicit, $($argument),*),
-            Kind::Radau => Stepper::<$system>::$method(&$self.stiff, $($argument),*),
-        }
-    };
+    ($self:ident, $system:ty, $($call:tt)+) => { of_kind!($self.active, [&mut] $self, $system, $($call)+) };
+    ($self:ident, ref $system:ty, $($call:tt)+) => { of_kind!($self.active, [&] $self, $system, $($call)+) };
 }
 
 pub mod balance;
@@ -38,9 +37,7 @@ pub mod stability;
 mod stepper;
 pub mod tuning;
 
-use crate::integrate::{
-    DormandPrince, Leapfrog, Linearized, Observed, Radau, Rosenbrock, Split, Stepper, Tuning,
-};
+use crate::integrate::{Complete, DormandPrince, Leapfrog, Radau, Rosenbrock, Stepper, Tuning};
 use balance::Balance;
 use selection::Selection;
 use stability::{Expectation, StabilityMonitor, Verdict};
@@ -162,12 +159,12 @@ struct Wrong {
 pub struct Auto<const N: usize> {
     aim: Aim,
     leapfrog: Leapfrog<N>,
-    explicit: DormandPrince,
-    implicit: Rosenbrock<N>,
-    stiff: Radau<N>,
+    dormand_prince: DormandPrince,
+    rosenbrock: Rosenbrock<N>,
+    radau: Radau<N>,
     monitor: StabilityMonitor<N>,
     selection: Selection,
-    /// Between the implicit methods.
+    /// The same between the implicit methods.
     stiffness: Selection,
     balance: Balance,
     active: Kind,
@@ -210,13 +207,13 @@ pub struct Auto<const N: usize> {
 
 impl<const N: usize> Auto<N> {
     /// Memory for a system.
-    pub fn new<S: Linearized<N> + Split<N> + Observed>(system: &S, aim: Aim) -> Self {
+    pub fn new<S: Complete<N>>(system: &S, aim: Aim) -> Self {
         let tolerance: Vec<f64> = aim.units.iter().map(|unit| unit * aim.tolerance).collect();
         let mut auto = Self {
             leapfrog: Leapfrog::new(system),
-            explicit: DormandPrince::new(system, &tolerance),
-            implicit: Rosenbrock::new(system, &tolerance),
-            stiff: Radau::new(system, &tolerance),
+            dormand_prince: DormandPrince::new(system, &tolerance),
+            rosenbrock: Rosenbrock::new(system, &tolerance),
+            radau: Radau::new(system, &tolerance),
             monitor: StabilityMonitor::new(system, aim.expected, &aim.units, aim.tuning),
             selection: Selection::new(EXPLICIT, aim.tuning),
             stiffness: Selection::new(ROSENBROCK, aim.tuning),
@@ -269,7 +266,7 @@ impl<const N: usize> Auto<N> {
 
     /// Goes on with another method from the present state at time `t`. Returns the step to take, or nothing if the
     /// method cannot start there.
-    fn change_to<S: Linearized<N> + Split<N> + Observed>(
+    fn change_to<S: Complete<N>>(
         &mut self,
         kind: Kind,
         reason: Reason,
@@ -296,23 +293,14 @@ impl<const N: usize> Auto<N> {
     }
 
     /// From the leapfrog to error control.
-    fn control_errors<S: Linearized<N> + Split<N> + Observed>(
-        &mut self,
-        reason: Reason,
-        system: &mut S,
-        t: f64,
-    ) -> Option<f64> {
+    fn control_errors<S: Complete<N>>(&mut self, reason: Reason, system: &mut S, t: f64) -> Option<f64> {
         self.selection = Selection::new(IMPLICIT, self.aim.tuning);
         self.stiffness = Selection::new(ROSENBROCK, self.aim.tuning);
         self.last_steps = [self.monitor.step(); KINDS.len()];
         self.change_to(Kind::Rosenbrock, reason, system, t)
     }
 
-    fn review_leapfrog<S: Linearized<N> + Split<N> + Observed>(
-        &mut self,
-        system: &mut S,
-        t: f64,
-    ) -> Option<f64> {
+    fn review_leapfrog<S: Complete<N>>(&mut self, system: &mut S, t: f64) -> Option<f64> {
         let stretch_over = std::mem::take(&mut self.judged);
         if stretch_over {
             self.note_right_stretch();
@@ -347,7 +335,7 @@ impl<const N: usize> Auto<N> {
     }
 
     /// After a right stretch of error control: whether the leapfrog takes over, or how strict the next one is.
-    fn ease<S: Linearized<N> + Split<N> + Observed>(&mut self, system: &mut S, t: f64) -> Option<f64> {
+    fn ease<S: Complete<N>>(&mut self, system: &mut S, t: f64) -> Option<f64> {
         let (advanced, cost) = (std::mem::take(&mut self.advanced), std::mem::take(&mut self.cost));
         self.note_right_stretch();
         if self.derivatives_are_dear() {
@@ -384,11 +372,7 @@ impl<const N: usize> Auto<N> {
     }
 
     /// Goes on with the leapfrog, whose steps have become finer. Returns them as [`Auto::change_to`].
-    pub(super) fn go_on_finer<S: Linearized<N> + Split<N> + Observed>(
-        &mut self,
-        system: &mut S,
-        t: f64,
-    ) -> Option<f64> {
+    pub(super) fn go_on_finer<S: Complete<N>>(&mut self, system: &mut S, t: f64) -> Option<f64> {
         self.strictness = 0;
         // What error control costs may have been that of a single impact.
         let pause = self.aim.tuning.finer_pause;
@@ -415,11 +399,7 @@ impl<const N: usize> Auto<N> {
         }
     }
 
-    fn review_error_control<S: Linearized<N> + Split<N> + Observed>(
-        &mut self,
-        system: &mut S,
-        t: f64,
-    ) -> Option<f64> {
+    fn review_error_control<S: Complete<N>>(&mut self, system: &mut S, t: f64) -> Option<f64> {
         if std::mem::take(&mut self.event) {
             self.hold = self.hold.max(self.aim.tuning.transient);
         }
@@ -448,7 +428,8 @@ impl<const N: usize> Auto<N> {
         if !changed {
             return None;
         }
-        let kind = if self.selection.active() == EXPLICIT { Kind::DormandPrince } else { self.implicit_kind() };
+        let kind =
+            if self.selection.active() == EXPLICIT { Kind::DormandPrince } else { self.implicit_kind() };
         let reason = match self.selection.on_trial() {
             _ if stuck => Reason::Failures,
             true => Reason::Trial,
@@ -466,14 +447,9 @@ impl<const N: usize> Auto<N> {
         if self.stiffness.active() == RADAU { Kind::Radau } else { Kind::Rosenbrock }
     }
 
-    /// Of a system that is followed in its statistics: goes on with the other implicit method where that advances further, which is tried
-    /// where the steps are tiny beside those of the leapfrog, or where the Radau method is `stuck`.
-    fn weigh_stiffness<S: Linearized<N> + Split<N> + Observed>(
-        &mut self,
-        stuck: bool,
-        system: &mut S,
-        t: f64,
-    ) -> Option<f64> {
+    /// Goes on with the other implicit method: where that advances further, which is tried where steps are tiny beside those
+    /// that the leapfrog was expected to make, or where the Radau method is `stuck`.
+    fn weigh_stiffness<S: Complete<N>>(&mut self, stuck: bool, system: &mut S, t: f64) -> Option<f64> {
         if self.active != self.implicit_kind() {
             return None;
         }
@@ -494,7 +470,7 @@ impl<const N: usize> Auto<N> {
     }
 
     /// Whether a probe says that the leapfrog could go on from the present state.
-    fn may_leapfrog<S: Linearized<N> + Split<N> + Observed>(&mut self, system: &mut S, t: f64) -> bool {
+    fn may_leapfrog<S: Complete<N>>(&mut self, system: &mut S, t: f64) -> bool {
         let mut state = std::mem::take(&mut self.state);
         state.copy_from_slice(Stepper::<S>::state(self));
         Stepper::<S>::set_state(&mut self.leapfrog, &state);

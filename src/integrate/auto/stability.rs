@@ -4,7 +4,7 @@
 //! that it expects; from time to time it is measured at the present state.
 
 use crate::integrate::auto::mode::{Mode, ModeFinder};
-use crate::integrate::{Leapfrog, Linearization, Linearized, Observed, Split, Stepper, Tuning};
+use crate::integrate::{Complete, Leapfrog, Linearization, Stepper, Tuning};
 use crate::stored::stored;
 
 /// Most refinements of a step: no step is left after more.
@@ -72,12 +72,7 @@ pub struct StabilityMonitor<const N: usize> {
 
 impl<const N: usize> StabilityMonitor<N> {
     /// A monitor of a system; `units` are one unit of error of each state.
-    pub fn new<S: Linearized<N> + Split<N> + Observed>(
-        system: &S,
-        expected: Expectation,
-        units: &[f64],
-        tuning: Tuning,
-    ) -> Self {
+    pub fn new<S: Complete<N>>(system: &S, expected: Expectation, units: &[f64], tuning: Tuning) -> Self {
         let structure = system.structure();
         Self {
             tuning,
@@ -171,12 +166,7 @@ impl<const N: usize> StabilityMonitor<N> {
     }
 
     /// Measures, if it is time to, at the state of `main` at time `t` (s).
-    pub fn look<S: Linearized<N> + Split<N> + Observed>(
-        &mut self,
-        system: &mut S,
-        main: &Leapfrog<N>,
-        t: f64,
-    ) -> Verdict {
+    pub fn look<S: Complete<N>>(&mut self, system: &mut S, main: &Leapfrog<N>, t: f64) -> Verdict {
         if self.due > 0 {
             return Verdict::Keep;
         }
@@ -193,12 +183,7 @@ impl<const N: usize> StabilityMonitor<N> {
     }
 
     /// Whether the leapfrog could go on from the state that `main` has been set to at time `t` (s).
-    pub fn allows<S: Linearized<N> + Split<N> + Observed>(
-        &mut self,
-        system: &mut S,
-        main: &Leapfrog<N>,
-        t: f64,
-    ) -> bool {
+    pub fn allows<S: Complete<N>>(&mut self, system: &mut S, main: &Leapfrog<N>, t: f64) -> bool {
         self.due = self.tuning.frequency_interval;
         self.measure(system, main, t);
         !self.too_fast()
@@ -210,12 +195,7 @@ impl<const N: usize> StabilityMonitor<N> {
             && !self.beats_rival(self.step())
     }
 
-    fn measure<S: Linearized<N> + Split<N> + Observed>(
-        &mut self,
-        system: &mut S,
-        main: &Leapfrog<N>,
-        t: f64,
-    ) {
+    fn measure<S: Complete<N>>(&mut self, system: &mut S, main: &Leapfrog<N>, t: f64) {
         let (q, v) = Stepper::<S>::state(main).split_at(system.positions());
         if system.linearize(t, q, v, &mut self.a, &mut self.slopes).is_err() {
             return;

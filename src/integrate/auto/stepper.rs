@@ -3,15 +3,13 @@
 use super::balance::Judgement;
 use super::{Auto, Choice, KINDS, Kind, REASONS, Reason, Wrong};
 use crate::integrate::driver::control::{Estimate, Law};
-use crate::integrate::{
-    Applied, DormandPrince, Kept, Linearized, Observed, Rosenbrock, Samples, Split, Stepper, Stretch,
-};
+use crate::integrate::{Applied, Complete, DormandPrince, Kept, Progress, Rosenbrock, Stepper, Stretch};
 use crate::stored::{stored, stored_choice};
 
 /// Most numbers that a method keeps of a step, per state.
 const MOST_KEPT: usize = 4;
 
-impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto<N> {
+impl<S: Complete<N>, const N: usize> Stepper<S> for Auto<N> {
     fn set_state(&mut self, state: &[f64]) {
         self.balance.close();
         self.placed = true;
@@ -53,7 +51,7 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
             Kind::Leapfrog => return result,
             Kind::DormandPrince => self.note_cost(DormandPrince::EVALUATIONS),
             Kind::Rosenbrock => self.note_cost(Rosenbrock::<N>::EVALUATIONS),
-            Kind::Radau => self.note_cost(f64::from(self.stiff.evaluations())),
+            Kind::Radau => self.note_cost(f64::from(self.radau.evaluations())),
         }
         let stricter = self.aim.tuning.stricter.powi(self.strictness as i32);
         result.map(|estimate| {
@@ -62,7 +60,7 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
     }
 
     fn accept(&mut self) {
-        self.balance.add(active!(self, ref S, works()));
+        self.balance.add(&active!(self, ref S, progress()).works);
         active!(self, S, accept());
         self.steps[self.active as usize] += 1;
         self.attempts = 0;
@@ -76,7 +74,9 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
             self.stiffness.note_advance(self.h);
         }
         match self.active {
-            Kind::Rosenbrock => self.note_cost(Rosenbrock::<N>::EVALUATIONS_AT_START + self.linearization_cost),
+            Kind::Rosenbrock => {
+                self.note_cost(Rosenbrock::<N>::EVALUATIONS_AT_START + self.linearization_cost)
+            }
             Kind::Radau => self.note_cost(1.0 + self.linearization_cost),
             Kind::Leapfrog | Kind::DormandPrince => {}
         }
@@ -133,37 +133,20 @@ impl<S: Linearized<N> + Split<N> + Observed, const N: usize> Stepper<S> for Auto
 
     fn recall(&self, kept: &Kept<'_>, theta: f64, out: &mut [f64]) {
         let Some((kind, rest)) = kept.rest.split_first() else { return };
-        let kept = Kept { rest, ..*kept };
-        match KINDS[*kind as usize] {
-            Kind::Leapfrog => Stepper::<S>::recall(&self.leapfrog, &kept, theta, out),
-            Kind::DormandPrince => Stepper::<S>::recall(&self.explicit, &kept, theta, out),
-            Kind::Rosenbrock => Stepper::<S>::recall(&self.implicit, &kept, theta, out),
-            Kind::Radau => Stepper::<S>::recall(&self.stiff, &kept, theta, out),
-        }
+        of_kind!(KINDS[*kind as usize], [&] self, S, recall(&Kept { rest, ..*kept }, theta, out));
     }
 
-    fn applied_in<'a>(&'a self, kept: Kept<'a>) -> Option<Applied<'a>> {
+    fn applied_in<'a>(&self, kept: Kept<'a>) -> Option<Applied<'a>> {
         let (kind, rest) = kept.rest.split_first()?;
-        match KINDS[*kind as usize] {
-            Kind::Leapfrog => Stepper::<S>::applied_in(&self.leapfrog, Kept { rest, ..kept }),
-            _ => None,
-        }
+        of_kind!(KINDS[*kind as usize], [&] self, S, applied_in(Kept { rest, ..kept }))
     }
 
-    fn works(&self) -> &[f64] {
-        active!(self, ref S, works())
-    }
-
-    fn samples(&self) -> &Samples {
-        active!(self, ref S, samples())
+    fn progress(&self) -> &Progress {
+        active!(self, ref S, progress())
     }
 
     fn applied(&self) -> Option<Applied<'_>> {
         active!(self, ref S, applied())
-    }
-
-    fn state(&self) -> &[f64] {
-        active!(self, ref S, state())
     }
 
     fn interpolate(&self, theta: f64, out: &mut [f64]) {
@@ -201,8 +184,8 @@ impl<const N: usize> Auto<N> {
 stored! {
     impl[const N: usize] Auto<N> {
         active, reason, last_steps, h, advanced, cost, placed, judged, event, attempts, strictness, hold, next_hold,
-        right, wait, pause, event_wait, steps, changes, monitor, selection, stiffness, balance, leapfrog, explicit, implicit,
-        stiff
+        right, wait, pause, event_wait, steps, changes, monitor, selection, stiffness, balance, leapfrog,
+        dormand_prince, rosenbrock, radau
     }
     if Self::is_sound
 }

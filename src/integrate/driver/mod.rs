@@ -16,7 +16,9 @@ pub mod watch;
 pub use outcome::{Failure, Limits, Statistics};
 
 use crate::integrate::auto::Choice;
-use crate::integrate::{Applied, Observed, Stepper, Stretch, Total, Vibration, add_weighted, throughput};
+use crate::integrate::{
+    Applied, Observed, Progress, Stepper, Stretch, Total, Vibration, add_weighted, throughput,
+};
 use crate::stored::{Reader, Stored, stored};
 use control::{Controller, Estimate, Plan, RECOVERY_GROWTH};
 use trail::Trail;
@@ -65,7 +67,8 @@ pub struct Driver<S: Observed> {
 impl<S: Observed> Driver<S> {
     /// A driver at rest; [`Driver::start`] comes next.
     pub fn new(stepper: Box<dyn Stepper<S> + Send>, limits: Limits) -> Self {
-        let (watched, works) = (stepper.samples().count(), vec![0.0; stepper.works().len()]);
+        let Progress { samples, works, .. } = stepper.progress();
+        let (watched, works) = (samples.count(), vec![0.0; works.len()]);
         let mut driver = Self {
             stepper,
             limits,
@@ -236,7 +239,8 @@ impl<S: Observed> Driver<S> {
     fn keep_step(&mut self) {
         let works = self.works.each_ref().map(Vec::as_slice);
         let (span, stepper) = ([self.from, self.to], &self.stepper);
-        self.stretch.add(span, stepper.state(), works, stepper.samples(), |rest| stepper.keep(rest));
+        let Progress { end, samples, .. } = stepper.progress();
+        self.stretch.add(span, end, works, samples, |rest| stepper.keep(rest));
         self.made += 1;
     }
 
@@ -324,7 +328,7 @@ impl<S: Observed> Driver<S> {
             }
         }
         if self.stretch.longest() == 0 {
-            self.tally.add([self.from, self.to], self.stepper.samples(), t);
+            self.tally.add([self.from, self.to], &self.stepper.progress().samples, t);
         }
     }
 
@@ -423,7 +427,7 @@ impl<S: Observed> Driver<S> {
     fn accept(&mut self, system: &S, plan: &Plan) -> Result<(), Failure<S::Fault>> {
         let [sum, last] = &mut self.works;
         add_weighted(sum, 1.0, last);
-        last.copy_from_slice(self.stepper.works());
+        last.copy_from_slice(&self.stepper.progress().works);
         self.stepper.accept();
         (self.from, self.to) = (self.to, plan.end);
         self.needs_refresh = plan.on_event;

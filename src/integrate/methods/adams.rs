@@ -14,7 +14,7 @@
 //! the tolerance, the second evaluation would change nothing and is left out.
 
 use crate::integrate::driver::control::{ErrorNorm, Estimate, Law};
-use crate::integrate::{Observed, Samples, Stepper, zero_works};
+use crate::integrate::{Kept, Observed, Progress, Stepper};
 use crate::stored::stored;
 
 /// Highest order.
@@ -68,10 +68,7 @@ impl Basis {
 pub struct Adams {
     positions: usize,
     norm: ErrorNorm,
-    /// State at the end of the last accepted step, and at its start.
-    state: Vec<f64>,
-    before: Vec<f64>,
-    trial: Vec<f64>,
+    progress: Progress,
     /// Rates of the state and powers, at the last evaluated point.
     rate: Vec<f64>,
     /// Their differences at the end of the last accepted step.
@@ -96,8 +93,6 @@ pub struct Adams {
     h: f64,
     basis: Basis,
     a: Vec<f64>,
-    works: Vec<f64>,
-    samples: Samples,
     /// What is watched at the end of the last accepted step.
     watched: Vec<f64>,
 }
@@ -106,14 +101,11 @@ impl Adams {
     /// Memory for a system with an absolute tolerance for every state.
     pub fn new<S: Observed>(system: &S, tolerance: &[f64]) -> Self {
         let n = system.positions() + system.velocities();
-        let works = zero_works(system);
-        let rates = || vec![0.0; n + works.len()];
+        let progress = Progress::new(system, WEIGHTS.len(), 0);
+        let rates = || vec![0.0; n + progress.works.len()];
         Self {
             positions: system.positions(),
             norm: ErrorNorm::new(system, tolerance),
-            state: vec![0.0; n],
-            before: vec![0.0; n],
-            trial: vec![0.0; n],
             rate: rates(),
             differences: std::array::from_fn(|_| rates()),
             last_difference: rates(),
@@ -128,9 +120,8 @@ impl Adams {
             h: 0.0,
             basis: Basis::default(),
             a: vec![0.0; system.velocities()],
-            works,
-            samples: Samples::new(system.watched(), WEIGHTS.len()),
             watched: vec![0.0; system.watched()],
+            progress,
         }
     }
 
@@ -141,8 +132,8 @@ impl Adams {
 
     /// Evaluates rates and powers at time `t` (s) of the trial.
     fn evaluate<S: Observed>(&mut self, system: &mut S, t: f64) -> Result<(), S::Fault> {
-        let Self { positions, trial, a, rate, .. } = self;
-        evaluate(system, t, *positions, trial, a, rate)
+        let Self { positions, progress, a, rate, .. } = self;
+        evaluate(system, t, *positions, &progress.trial, a, rate)
     }
 
     /// Size of `weight` times the difference that lies `above` that of the attempt's order.
@@ -206,34 +197,33 @@ fn evaluate<S: Observed>(
 
 impl<S: Observed> Stepper<S> for Adams {
     fn set_state(&mut self, state: &[f64]) {
-        self.state.copy_from_slice(state);
-        self.before.copy_from_slice(state);
+        self.progress.begin(state);
         self.h = 0.0;
         self.start_over();
     }
 
     fn refresh(&mut self, system: &mut S, t: f64) -> Result<(), S::Fault> {
         self.start_over();
-        let positions = self.positions;
+        let (positions, Progress { end: state, trial, .. }) = (self.positions, &mut self.progress);
         // A first step in which the second derivative makes half a tolerance, seen from a step that is far shorter.
-        evaluate(system, t, positions, &self.state, &mut self.a, &mut self.differences[0])?;
+        evaluate(system, t, positions, state, &mut self.a, &mut self.differences[0])?;
         let rate = &self.differences[0];
         let speed = self.norm.of(|i| rate[i]).error;
         let probe = if speed > 0.0 { PROBE / speed } else { 0.0 };
-        for ((trial, y), rate) in self.trial.iter_mut().zip(&self.state).zip(rate) {
+        for ((trial, y), rate) in trial.iter_mut().zip(&*state).zip(rate) {
             *trial = y + probe * rate;
         }
         self.first_step = None;
-        if probe > 0.0 && evaluate(system, t, positions, &self.trial, &mut self.a, &mut self.rate).is_ok() {
+        if probe > 0.0 && evaluate(system, t, positions, trial, &mut self.a, &mut self.rate).is_ok() {
             let (then, now) = (&self.rate, &self.differences[0]);
             let bend = self.norm.of(|i| (then[i] - now[i]) / probe).error;
             let step = (1.0 / bend).sqrt();
             self.first_step = step.is_finite().then_some(step);
         }
         // What is watched belongs to the evaluation of the state.
-        evaluate(system, t, positions, &self.state, &mut self.a, &mut self.differences[0])?;
+        evaluate(system, t, positions, state, &mut self.a, &mut self.differences[0])?;
         if !self.watched.is_empty() {
-            let (q, v) = self.state.split_at(positions);
+            let (q, v) = state.split_at(positions);
             system.watch(q, v, None, &mut self.watched);
         }
         Ok(())
@@ -256,10 +246,11 @@ impl<S: Observed> Stepper<S> for Adams {
         let basis = Basis::new(h, &self.behind, k + 2);
         (self.h, self.basis) = (h, basis);
         let end = (t + h).min(t_last);
-        let n = self.state.len();
+        let Progress { end: state, trial, .. } = &mut self.progress;
+        let n = state.len();
         for i in 0..n {
             let sum: f64 = (0..k).map(|j| basis.mean[j] * self.differences[j][i]).sum();
-            self.trial[i] = self.state[i] + h * sum;
+            trial[i] = state[i] + h * sum;
         }
         self.evaluate(system, end)?;
         for i in 0..self.rate.len() {
@@ -280,9 +271,9 @@ impl<S: Observed> Stepper<S> for Adams {
         }
         self.next_order = self.choose_order(estimate.error);
         for i in 0..n {
-            self.trial[i] += correction * self.last_difference[i];
+            self.progress.trial[i] += correction * self.last_difference[i];
         }
-        for (w, work) in self.works.iter_mut().enumerate() {
+        for (w, work) in self.progress.works.iter_mut().enumerate() {
             let i = n + w;
             let sum: f64 = (0..k).map(|j| basis.mean[j] * self.differences[j][i]).sum();
             *work = h * sum + correction * self.last_difference[i];
@@ -290,20 +281,20 @@ impl<S: Observed> Stepper<S> for Adams {
         if moved > NEGLIGIBLE {
             self.evaluate(system, end)?;
         }
-        if let Some(row) = self.samples.row(0) {
+        let Progress { trial, samples, .. } = &mut self.progress;
+        if let Some(row) = samples.row(0) {
             row.copy_from_slice(&self.watched);
         }
-        if let Some(row) = self.samples.row(1) {
-            let (q, v) = self.trial.split_at(self.positions);
+        if let Some(row) = samples.row(1) {
+            let (q, v) = trial.split_at(self.positions);
             system.watch(q, v, None, row);
         }
-        self.samples.weigh(&WEIGHTS);
+        samples.weigh(&WEIGHTS);
         Ok(Some(estimate))
     }
 
     fn accept(&mut self) {
-        std::mem::swap(&mut self.before, &mut self.state);
-        std::mem::swap(&mut self.state, &mut self.trial);
+        self.progress.accept();
         let (k, Basis { value, .. }) = (self.order, self.basis);
         for (i, rate) in self.rate.iter().enumerate() {
             let mut carried = *rate;
@@ -321,24 +312,16 @@ impl<S: Observed> Stepper<S> for Adams {
         self.points = (self.points + 1).min(HIGHEST + 1);
         self.same = if self.next_order == k { self.same + 1 } else { 0 };
         (self.order, self.failed) = (self.next_order, 0);
-        if let Some(row) = self.samples.row(1) {
+        if let Some(row) = self.progress.samples.row(1) {
             self.watched.copy_from_slice(row);
         }
     }
 
-    fn works(&self) -> &[f64] {
-        &self.works
+    fn progress(&self) -> &Progress {
+        &self.progress
     }
 
-    fn samples(&self) -> &Samples {
-        &self.samples
-    }
-
-    fn state(&self) -> &[f64] {
-        &self.state
-    }
-
-    fn interpolate(&self, theta: f64, out: &mut [f64]) {
+    fn recall(&self, &Kept { start, end, .. }: &Kept<'_>, theta: f64, out: &mut [f64]) {
         // Back from the end; what is missing at the start is spread over the step.
         let count = self.order + 1;
         let [here, whole] =
@@ -347,8 +330,8 @@ impl<S: Observed> Stepper<S> for Adams {
             *h * (0..count).map(|j| basis.mean[j] * self.differences[j][i]).sum::<f64>()
         };
         for (i, out) in out.iter_mut().enumerate() {
-            let missing = self.before[i] - (self.state[i] + back(&whole, i));
-            *out = self.state[i] + back(&here, i) + (1.0 - theta) * missing;
+            let missing = start[i] - (end[i] + back(&whole, i));
+            *out = end[i] + back(&here, i) + (1.0 - theta) * missing;
         }
     }
 
@@ -359,7 +342,7 @@ impl<S: Observed> Stepper<S> for Adams {
 
 stored! {
     impl[] Adams {
-        state, before, differences, behind, points, order, rising, same, failed, first_step, h, watched
+        progress, differences, behind, points, order, rising, same, failed, first_step, h, watched
     }
     if |adams: &Adams| (1..=HIGHEST).contains(&adams.order) && adams.points <= HIGHEST + 1
 }

@@ -4,7 +4,7 @@
 //! section II.6.
 
 use crate::integrate::driver::control::{ErrorNorm, Estimate, Law};
-use crate::integrate::{Kept, Observed, Samples, Stepper, add_weighted, zero_works};
+use crate::integrate::{Kept, Observed, Progress, Stepper, add_weighted, parts_mut, zero_works};
 use crate::stored::stored;
 
 const C: [f64; 7] = [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0];
@@ -41,20 +41,12 @@ const SAMPLE_WEIGHTS: [f64; 3] = [2.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0];
 pub struct DormandPrince {
     positions: usize,
     norm: ErrorNorm,
-    /// State at the end of the last accepted step, and at its start.
-    state: Vec<f64>,
-    before: Vec<f64>,
-    trial: Vec<f64>,
-    /// Rates at the seven stages; the first is that of `state`.
+    progress: Progress,
+    /// Rates at the seven stages; the first is that of the state.
     k: [Vec<f64>; 7],
     a: Vec<f64>,
-    /// Powers at the stages, and their works.
+    /// Powers at the stages.
     powers: [Vec<f64>; 7],
-    works: Vec<f64>,
-    samples: Samples,
-    /// Polynomials of the last accepted step and of the attempt.
-    dense: [Vec<f64>; 3],
-    trial_dense: [Vec<f64>; 3],
 }
 
 impl DormandPrince {
@@ -68,16 +60,10 @@ impl DormandPrince {
         Self {
             positions: system.positions(),
             norm: ErrorNorm::new(system, tolerance),
-            state: zeros(),
-            before: zeros(),
-            trial: zeros(),
+            progress: Progress::new(system, SAMPLED.len(), 3 * n),
             k: std::array::from_fn(|_| zeros()),
             a: vec![0.0; system.velocities()],
             powers: std::array::from_fn(|_| zero_works(system)),
-            works: zero_works(system),
-            samples: Samples::new(system.watched(), SAMPLED.len()),
-            dense: std::array::from_fn(|_| zeros()),
-            trial_dense: std::array::from_fn(|_| zeros()),
         }
     }
 
@@ -105,26 +91,13 @@ fn weigh(vectors: &[Vec<f64>], weights: &[f64], out: &mut [f64]) {
     }
 }
 
-/// State at the fraction `theta` of the step with this dense output.
-fn interpolate([start, end]: [&[f64]; 2], dense: [&[f64]; 3], theta: f64, out: &mut [f64]) {
-    let (x, y) = (theta, 1.0 - theta);
-    let [d2, d3, d4] = dense;
-    for (i, out) in out.iter_mut().enumerate() {
-        *out = start[i] + x * (end[i] - start[i] + y * (d2[i] + x * (d3[i] + y * d4[i])));
-    }
-}
-
 impl<S: Observed> Stepper<S> for DormandPrince {
     fn set_state(&mut self, state: &[f64]) {
-        self.state.copy_from_slice(state);
-        for part in &mut self.dense {
-            part.fill(0.0);
-        }
-        self.before.copy_from_slice(state);
+        self.progress.begin(state);
     }
 
     fn refresh(&mut self, system: &mut S, t: f64) -> Result<(), S::Fault> {
-        let Self { positions, state, a, k, powers, .. } = self;
+        let Self { positions, progress: Progress { end: state, .. }, a, k, powers, .. } = self;
         Self::rate(system, t, *positions, state, a, &mut k[0])?;
         let (q, v) = state.split_at(*positions);
         system.powers(q, v, None, &mut powers[0]);
@@ -132,38 +105,39 @@ impl<S: Observed> Stepper<S> for DormandPrince {
     }
 
     fn attempt(&mut self, system: &mut S, t: f64, h: f64, t_last: f64) -> Result<Option<Estimate>, S::Fault> {
+        let Progress { end: state, trial, trial_dense, works, samples, .. } = &mut self.progress;
         for stage in 1..7 {
             let (done, rest) = self.k.split_at_mut(stage);
-            weigh(done, &A[stage], &mut self.trial);
-            for (trial, start) in self.trial.iter_mut().zip(&self.state) {
+            weigh(done, &A[stage], trial);
+            for (trial, start) in trial.iter_mut().zip(&*state) {
                 *trial = start + h * *trial;
             }
             let time = (t + C[stage] * h).min(t_last);
-            Self::rate(system, time, self.positions, &self.trial, &mut self.a, &mut rest[0])?;
+            Self::rate(system, time, self.positions, trial, &mut self.a, &mut rest[0])?;
             // Those of the last stage are the first ones of the next step.
             if stage == 6 || A[6][stage] != 0.0 {
-                let (q, v) = self.trial.split_at(self.positions);
+                let (q, v) = trial.split_at(self.positions);
                 system.powers(q, v, None, &mut self.powers[stage]);
             }
             if let Some(place) = SAMPLED.iter().position(|s| *s == stage)
-                && let Some(row) = self.samples.row(place)
+                && let Some(row) = samples.row(place)
             {
-                let (q, v) = self.trial.split_at(self.positions);
+                let (q, v) = trial.split_at(self.positions);
                 system.watch(q, v, None, row);
             }
         }
-        self.samples.weigh(&SAMPLE_WEIGHTS);
-        self.works.fill(0.0);
+        samples.weigh(&SAMPLE_WEIGHTS);
+        works.fill(0.0);
         for (x, weight) in self.powers.iter().zip(A[6]) {
-            add_weighted(&mut self.works, h * weight, x);
+            add_weighted(works, h * weight, x);
         }
-        let [d2, d3, d4] = &mut self.trial_dense;
+        let [d2, d3, d4] = parts_mut(trial_dense);
         // The room of the last one holds the error first.
         weigh(&self.k, &E, d4);
         let estimate = self.norm.of(|i| h * d4[i]);
         weigh(&self.k, &D, d4);
-        for i in 0..self.state.len() {
-            let change = self.trial[i] - self.state[i];
+        for i in 0..state.len() {
+            let change = trial[i] - state[i];
             d2[i] = h * self.k[0][i] - change;
             d3[i] = change - h * self.k[6][i] - d2[i];
             d4[i] *= h;
@@ -172,36 +146,21 @@ impl<S: Observed> Stepper<S> for DormandPrince {
     }
 
     fn accept(&mut self) {
-        std::mem::swap(&mut self.before, &mut self.state);
-        std::mem::swap(&mut self.state, &mut self.trial);
-        std::mem::swap(&mut self.dense, &mut self.trial_dense);
+        self.progress.accept();
         self.k.swap(0, 6);
         self.powers.swap(0, 6);
     }
 
-    fn works(&self) -> &[f64] {
-        &self.works
-    }
-
-    fn samples(&self) -> &Samples {
-        &self.samples
-    }
-
-    fn state(&self) -> &[f64] {
-        &self.state
-    }
-
-    fn interpolate(&self, theta: f64, out: &mut [f64]) {
-        let dense = self.dense.each_ref().map(Vec::as_slice);
-        interpolate([&self.before, &self.state], dense, theta, out);
-    }
-
-    fn keep(&self, out: &mut Vec<f64>) {
-        self.dense.iter().for_each(|part| out.extend_from_slice(part));
+    fn progress(&self) -> &Progress {
+        &self.progress
     }
 
     fn recall(&self, kept: &Kept<'_>, theta: f64, out: &mut [f64]) {
-        interpolate([kept.start, kept.end], kept.parts(), theta, out);
+        let (x, y) = (theta, 1.0 - theta);
+        let (Kept { start, end, .. }, [d2, d3, d4]) = (kept, kept.parts());
+        for (i, out) in out.iter_mut().enumerate() {
+            *out = start[i] + x * (end[i] - start[i] + y * (d2[i] + x * (d3[i] + y * d4[i])));
+        }
     }
 
     fn control(&self) -> Law {
@@ -210,5 +169,5 @@ impl<S: Observed> Stepper<S> for DormandPrince {
 }
 
 stored! {
-    impl[] DormandPrince { state, before, k[0], powers[0], dense }
+    impl[] DormandPrince { progress, k[0], powers[0] }
 }

@@ -20,7 +20,7 @@
 use crate::integrate::driver::control::{Estimate, Law};
 use crate::integrate::methods::damping::{VectorLanes, zero_vectors};
 use crate::integrate::{
-    Applied, GroupDamping, Kept, Observed, Samples, SemiImplicit, Split, Stepper, Structure, zero_works,
+    Applied, GroupDamping, Kept, Observed, Progress, SemiImplicit, Split, Stepper, Structure,
 };
 use crate::scalar::{WIDEST, all_finite};
 use crate::stored::stored;
@@ -30,17 +30,12 @@ use pulp::Arch;
 #[derive(Clone, Debug)]
 pub struct Leapfrog<const N: usize> {
     positions: usize,
-    h: f64,
-    start: Vec<f64>,
-    end: Vec<f64>,
+    /// Of a step there are its size in s and the velocities that it was evaluated with.
+    progress: Progress,
     /// Mean acceleration of the last step.
     mean_a: Vec<f64>,
-    trial: Vec<f64>,
     trial_a: Vec<f64>,
     a: Vec<f64>,
-    predicted: Vec<f64>,
-    /// `predicted` of the last step.
-    applied: Vec<f64>,
     mean_v: Vec<f64>,
     damping: GroupDamping<N>,
     /// Velocities of each spoke and of each body of the hub.
@@ -49,41 +44,32 @@ pub struct Leapfrog<const N: usize> {
     of_spokes: [Vec<VectorLanes<N>>; 2],
     of_body: [Vec<f64>; 2],
     instructions: Arch,
-    works: Vec<f64>,
-    samples: Samples,
 }
 
 impl<const N: usize> Leapfrog<N> {
     /// Number of velocities.
     pub(in crate::integrate) fn velocities(&self) -> usize {
-        self.end.len() - self.positions
+        self.a.len()
     }
 
     /// Memory for a system.
     pub fn new<S: Split<N> + Observed>(system: &S) -> Self {
         let (nq, nv) = (system.positions(), system.velocities());
-        let (state, velocity) = (vec![0.0; nq + nv], vec![0.0; nv]);
+        let velocity = vec![0.0; nv];
         let structure = system.structure();
         let spokes = structure.spokes.len();
         Self {
             positions: nq,
-            h: 0.0,
-            start: state.clone(),
-            end: state.clone(),
+            progress: Progress::new(system, 1, 1 + nv),
             mean_a: velocity.clone(),
-            trial: state,
             trial_a: velocity.clone(),
             a: velocity.clone(),
-            mean_v: velocity.clone(),
-            applied: velocity.clone(),
-            predicted: velocity,
+            mean_v: velocity,
             damping: GroupDamping::new(&structure),
             of_spokes: [zero_vectors(spokes), zero_vectors(spokes)],
             of_body: std::array::from_fn(|_| vec![0.0; structure.hub.len()]),
             structure,
             instructions: Arch::new(),
-            works: zero_works(system),
-            samples: Samples::new(system.watched(), 1),
         }
     }
 }
@@ -127,13 +113,11 @@ fn check_finite<S: Split<N>, const N: usize>(system: &S, a: &[f64]) -> Result<()
 
 impl<S: Split<N> + Observed, const N: usize> Stepper<S> for Leapfrog<N> {
     fn set_state(&mut self, state: &[f64]) {
-        self.start.copy_from_slice(state);
-        self.end.copy_from_slice(state);
-        self.h = 0.0;
+        self.progress.begin(state);
     }
 
     fn refresh(&mut self, system: &mut S, t: f64) -> Result<(), S::Fault> {
-        let (q, v) = self.end.split_at(self.positions);
+        let (q, v) = self.progress.end.split_at(self.positions);
         system.accelerations(t, q, v, &mut self.a)?;
         // Those without a position, such as spins, may be about to jump to what friction wants.
         let (moving, spinning) = self.mean_a.split_at_mut(self.positions);
@@ -144,20 +128,23 @@ impl<S: Split<N> + Observed, const N: usize> Stepper<S> for Leapfrog<N> {
 
     fn attempt(&mut self, system: &mut S, t: f64, h: f64, t_last: f64) -> Result<Option<Estimate>, S::Fault> {
         let nq = self.positions;
-        let (q, v) = self.end.split_at(nq);
-        let (q_trial, v_trial) = self.trial.split_at_mut(nq);
+        let Progress { end, trial, trial_dense, works, samples, .. } = &mut self.progress;
+        let (q, v) = end.split_at(nq);
+        let (q_trial, v_trial) = trial.split_at_mut(nq);
+        let (step, predicted) = trial_dense.split_at_mut(1);
+        step[0] = h;
         let half = 0.5 * h;
         for ((trial, q), v) in q_trial.iter_mut().zip(q).zip(v) {
             *trial = q + half * v;
         }
-        for ((predicted, v), a) in self.predicted.iter_mut().zip(v).zip(&self.mean_a) {
+        for ((predicted, v), a) in predicted.iter_mut().zip(v).zip(&self.mean_a) {
             *predicted = v + half * a;
         }
         let middle = (t + 0.5 * h).min(t_last);
-        system.accelerations_to_split(middle, q_trial, &self.predicted, &mut self.a)?;
-        system.damping(h, q_trial, &self.predicted, &mut self.damping);
+        system.accelerations_to_split(middle, q_trial, predicted, &mut self.a)?;
+        system.damping(h, q_trial, predicted, &mut self.damping);
         let n = v.len();
-        let (a, predicted) = (&self.a[..n], &self.predicted[..n]);
+        let (a, predicted) = (&self.a[..n], &predicted[..n]);
         let [known, ahead] = &mut self.of_spokes;
         let spokes = self.structure.spokes.chunks(WIDEST);
         for (spokes, (known, ahead)) in spokes.zip(known.iter_mut().zip(ahead.iter_mut())) {
@@ -184,14 +171,14 @@ impl<S: Split<N> + Observed, const N: usize> Stepper<S> for Leapfrog<N> {
         let Structure { hub, bodies, .. } = &self.structure;
         let step = SemiImplicit { mean: &self.mean_v, end: v_trial, h };
         if !self.structure.spokes.is_empty() {
-            system.react(q_trial, &self.predicted, &step, &mut self.a);
+            system.react(q_trial, predicted, &step, &mut self.a);
         }
         for (body, places) in bodies.iter().enumerate() {
             let [right, ahead] = &mut self.of_body;
             let (right, ahead) = (&mut right[..places.len()], &mut ahead[..places.len()]);
             let at = &hub[places.clone()];
             for ((right, ahead), &i) in right.iter_mut().zip(ahead.iter_mut()).zip(at) {
-                (*right, *ahead) = (self.a[i], self.predicted[i] - v[i]);
+                (*right, *ahead) = (self.a[i], predicted[i] - v[i]);
             }
             self.damping.solve_body(body, h, ahead, right);
             for (&a, &i) in right.iter().zip(at) {
@@ -204,61 +191,36 @@ impl<S: Split<N> + Observed, const N: usize> Stepper<S> for Leapfrog<N> {
         }
         system.admit(v_trial)?;
         let step = SemiImplicit { mean: &self.mean_v, end: v_trial, h };
-        system.powers(q_trial, &self.predicted, Some(&step), &mut self.works);
-        self.works.iter_mut().for_each(|work| *work *= h);
-        if let Some(row) = self.samples.row(0) {
-            system.watch(q_trial, &self.predicted, Some(&step), row);
-            self.samples.weigh(&[1.0]);
+        system.powers(q_trial, predicted, Some(&step), works);
+        works.iter_mut().for_each(|work| *work *= h);
+        if let Some(row) = samples.row(0) {
+            system.watch(q_trial, predicted, Some(&step), row);
+            samples.weigh(&[1.0]);
         }
         for (q, v) in q_trial.iter_mut().zip(v_trial.iter()) {
             *q += half * v;
         }
-        self.h = h;
         Ok(None)
     }
 
     fn accept(&mut self) {
-        std::mem::swap(&mut self.start, &mut self.end);
-        std::mem::swap(&mut self.end, &mut self.trial);
+        self.progress.accept();
         std::mem::swap(&mut self.mean_a, &mut self.trial_a);
-        std::mem::swap(&mut self.applied, &mut self.predicted);
     }
 
-    fn works(&self) -> &[f64] {
-        &self.works
-    }
-
-    fn applied(&self) -> Option<Applied<'_>> {
-        let Self { start, end, applied: predicted, h, .. } = self;
-        (*h > 0.0).then_some(Applied { start, end, predicted, h: *h })
-    }
-
-    fn samples(&self) -> &Samples {
-        &self.samples
-    }
-
-    fn state(&self) -> &[f64] {
-        &self.end
-    }
-
-    fn interpolate(&self, theta: f64, out: &mut [f64]) {
-        interpolate(self.positions, self.h, &self.start, &self.end, theta, out);
-    }
-
-    fn keep(&self, out: &mut Vec<f64>) {
-        out.push(self.h);
-        out.extend_from_slice(&self.applied);
+    fn progress(&self) -> &Progress {
+        &self.progress
     }
 
     fn recall(&self, kept: &Kept<'_>, theta: f64, out: &mut [f64]) {
-        if let Some(Applied { start, end, h, .. }) = Stepper::<S>::applied_in(self, *kept) {
-            interpolate(self.positions, h, start, end, theta, out);
+        if let Some(h) = kept.rest.first() {
+            interpolate(self.positions, *h, kept.start, kept.end, theta, out);
         }
     }
 
-    fn applied_in<'a>(&'a self, Kept { start, end, rest }: Kept<'a>) -> Option<Applied<'a>> {
+    fn applied_in<'a>(&self, Kept { start, end, rest }: Kept<'a>) -> Option<Applied<'a>> {
         let (h, predicted) = rest.split_first()?;
-        Some(Applied { start, end, predicted, h: *h })
+        (*h > 0.0).then_some(Applied { start, end, predicted, h: *h })
     }
 
     fn control(&self) -> Law {
@@ -267,5 +229,5 @@ impl<S: Split<N> + Observed, const N: usize> Stepper<S> for Leapfrog<N> {
 }
 
 stored! {
-    impl[const N: usize] Leapfrog<N> { h, start, end, mean_a, applied }
+    impl[const N: usize] Leapfrog<N> { progress, mean_a }
 }

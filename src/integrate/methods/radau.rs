@@ -27,7 +27,8 @@
 use crate::integrate::driver::control::{ErrorNorm, Estimate, Law};
 use crate::integrate::linear::shifted::Shifted;
 use crate::integrate::{
-    Kept, Linearization, Linearized, Observed, Samples, Stepper, Structure, add_weighted, zero_works,
+    Kept, Linearization, Linearized, Observed, Progress, Stepper, Structure, add_weighted, parts_mut,
+    zero_works,
 };
 use crate::scalar::math;
 use crate::stored::stored;
@@ -72,8 +73,8 @@ pub struct Radau<const N: usize> {
     /// Absolute tolerance per state.
     tolerance: Vec<f64>,
     norm: ErrorNorm,
-    state: Vec<f64>,
-    trial: Vec<f64>,
+    /// Between the ends of a step there are the divided differences of its collocation polynomial, and the factor of B(x).
+    progress: Progress,
     /// Accelerations at the start of the step; with `slope` they serve every attempt from there.
     start_a: Vec<f64>,
     slope: Linearization<N>,
@@ -84,10 +85,8 @@ pub struct Radau<const N: usize> {
     stages: [Vec<f64>; 3],
     transformed: [Vec<f64>; 3],
     a: [Vec<f64>; 3],
-    /// Powers at the stages, and their works.
+    /// Powers at the stages.
     powers: [Vec<f64>; 3],
-    works: Vec<f64>,
-    samples: Samples,
     /// What one iteration may leave in each state.
     allowed: Vec<f64>,
     real: Shifted<f64, N>,
@@ -99,9 +98,6 @@ pub struct Radau<const N: usize> {
     /// Size of the last accepted step and of the attempt, s.
     step: f64,
     trial_step: f64,
-    /// Divided differences of the collocation polynomials of the two, and the factors of B(x) beside them.
-    dense: [Vec<f64>; 4],
-    trial_dense: [Vec<f64>; 4],
     /// Evaluations of the last attempt.
     evaluations: u32,
     /// The polynomial of the last step leads into the next one.
@@ -126,8 +122,7 @@ impl<const N: usize> Radau<N> {
             positions: nq,
             tolerance: tolerance.to_vec(),
             norm: ErrorNorm::new(system, tolerance),
-            state: zeros(),
-            trial: zeros(),
+            progress: Progress::new(system, 3, 4 * (nq + nv)),
             start_a: vec![0.0; nv],
             slope: Linearization::new(&structure, nv),
             linearized: false,
@@ -136,8 +131,6 @@ impl<const N: usize> Radau<N> {
             transformed: three(),
             a: std::array::from_fn(|_| vec![0.0; nv]),
             powers: std::array::from_fn(|_| zero_works(system)),
-            works: zero_works(system),
-            samples: Samples::new(system.watched(), 3),
             allowed: zeros(),
             real: Shifted::new(&structure),
             pair: Shifted::new(&structure),
@@ -146,8 +139,6 @@ impl<const N: usize> Radau<N> {
             contraction: 1.0,
             step: 0.0,
             trial_step: 0.0,
-            dense: std::array::from_fn(|_| zeros()),
-            trial_dense: std::array::from_fn(|_| zeros()),
             evaluations: 0,
             smooth: false,
             structure,
@@ -162,15 +153,16 @@ impl<const N: usize> Radau<N> {
     /// Starting values of the iteration: the last collocation polynomial continued, or none.
     fn predict(&mut self, h: f64) {
         let ratio = if self.smooth { h / self.step } else { 0.0 };
-        for k in 0..self.state.len() {
-            let dense = self.dense.each_ref().map(|part| part[k]);
+        let parts = self.progress.kept().parts::<4>();
+        for (k, state) in self.progress.end.iter().enumerate() {
+            let dense = parts.map(|part| part[k]);
             let z = TIMES.map(|c| bend(dense, c * ratio));
             let w = combined(&INVERSE_T, z);
             for i in 0..3 {
                 self.stages[i][k] = z[i];
                 self.transformed[i][k] = w[i];
             }
-            self.allowed[k] = (ITERATION_SHARE * self.tolerance[k]).max(ROUNDING * self.state[k].abs());
+            self.allowed[k] = (ITERATION_SHARE * self.tolerance[k]).max(ROUNDING * state.abs());
         }
     }
 
@@ -182,7 +174,8 @@ impl<const N: usize> Radau<N> {
         h: f64,
         t_last: f64,
     ) -> Result<Iteration, S::Fault> {
-        let (nq, n) = (self.positions, self.state.len());
+        let Progress { end: state, trial, samples, .. } = &mut self.progress;
+        let (nq, n) = (self.positions, state.len());
         let (real, pair) = (GAMMA / h, Complex::new(ALPHA, BETA) / h);
         self.contraction = math::powf(self.contraction.max(f64::EPSILON), 0.8);
         let (mut last_size, mut last_ratio) = (0.0, 0.0);
@@ -190,19 +183,19 @@ impl<const N: usize> Radau<N> {
             self.evaluations += 3;
             let stages = self.stages.iter().zip(&mut self.a).zip(&mut self.powers).zip(TIMES);
             for (place, (((z, a), powers), c)) in stages.enumerate() {
-                for ((trial, y), z) in self.trial.iter_mut().zip(&self.state).zip(z) {
+                for ((trial, y), z) in trial.iter_mut().zip(&*state).zip(z) {
                     *trial = y + z;
                 }
-                let (q, v) = self.trial.split_at(nq);
+                let (q, v) = trial.split_at(nq);
                 system.accelerations((t + c * h).min(t_last), q, v, a)?;
                 system.powers(q, v, None, powers);
-                if let Some(row) = self.samples.row(place) {
+                if let Some(row) = samples.row(place) {
                     system.watch(q, v, None, row);
                 }
             }
             for k in 0..n {
                 let rates = std::array::from_fn(|i| {
-                    if k < nq { self.state[nq + k] + self.stages[i][nq + k] } else { self.a[i][k - nq] }
+                    if k < nq { state[nq + k] + self.stages[i][nq + k] } else { self.a[i][k - nq] }
                 });
                 let [r1, r2, r3] = combined(&INVERSE_T, rates);
                 let [w1, w2, w3] = self.transformed.each_ref().map(|w| w[k]);
@@ -253,9 +246,10 @@ impl<const N: usize> Radau<N> {
     /// The error, left in `right`, from the rates at the start of the step or, if `nearby`,
     /// at `trial`.
     fn estimate(&mut self, h: f64, nearby: bool) -> Estimate {
-        let (nq, n) = (self.positions, self.state.len());
+        let Progress { end: state, trial, .. } = &self.progress;
+        let (nq, n) = (self.positions, state.len());
         for k in 0..n {
-            let (v, a) = if nearby { (&self.trial, &self.a[0]) } else { (&self.state, &self.start_a) };
+            let (v, a) = if nearby { (trial, &self.a[0]) } else { (state, &self.start_a) };
             let rate = if k < nq { v[nq + k] } else { a[k - nq] };
             let sum: f64 = self.stages.iter().zip(ERROR).map(|(z, e)| e * z[k]).sum();
             self.right[k] = rate + sum / h;
@@ -268,16 +262,13 @@ impl<const N: usize> Radau<N> {
 
 impl<S: Linearized<N> + Observed, const N: usize> Stepper<S> for Radau<N> {
     fn set_state(&mut self, state: &[f64]) {
-        self.state.copy_from_slice(state);
-        for part in &mut self.dense {
-            part.fill(0.0);
-        }
+        self.progress.begin(state);
         (self.linearized, self.retried, self.smooth) = (false, false, false);
         self.contraction = 1.0;
     }
 
     fn refresh(&mut self, system: &mut S, t: f64) -> Result<(), S::Fault> {
-        let (q, v) = self.state.split_at(self.positions);
+        let (q, v) = self.progress.end.split_at(self.positions);
         (self.linearized, self.retried, self.smooth) = (false, false, false);
         system.linearize(t, q, v, &mut self.start_a, &mut self.slope)?;
         self.linearized = true;
@@ -288,7 +279,7 @@ impl<S: Linearized<N> + Observed, const N: usize> Stepper<S> for Radau<N> {
         let nq = self.positions;
         self.evaluations = 0;
         if !self.linearized {
-            let (q, v) = self.state.split_at(nq);
+            let (q, v) = self.progress.end.split_at(nq);
             system.linearize(t, q, v, &mut self.start_a, &mut self.slope)?;
             self.linearized = true;
         }
@@ -307,79 +298,61 @@ impl<S: Linearized<N> + Observed, const N: usize> Stepper<S> for Radau<N> {
         let mut estimate = self.estimate(h, false);
         if careful && estimate.error > 1.0 {
             // Evaluated again where the estimate points to, it has no part left that decays within the step.
-            for ((trial, y), e) in self.trial.iter_mut().zip(&self.state).zip(&self.right) {
+            let Progress { end: state, trial, .. } = &mut self.progress;
+            for ((trial, y), e) in trial.iter_mut().zip(&*state).zip(&self.right) {
                 *trial = y + e;
             }
-            let (q, v) = self.trial.split_at(nq);
+            let (q, v) = trial.split_at(nq);
             self.evaluations += 1;
             if system.accelerations(t, q, v, &mut self.a[0]).is_ok() {
                 estimate = self.estimate(h, true);
             }
         }
         self.trial_step = h;
-        self.samples.weigh(&WEIGHTS);
-        self.works.fill(0.0);
+        let Progress { end: state, trial, trial_dense, works, samples, .. } = &mut self.progress;
+        samples.weigh(&WEIGHTS);
+        works.fill(0.0);
         for (x, weight) in self.powers.iter().zip(WEIGHTS) {
-            add_weighted(&mut self.works, h * weight, x);
+            add_weighted(works, h * weight, x);
         }
         let [c1, c2, _] = TIMES;
-        for k in 0..self.state.len() {
+        let dense = parts_mut::<4>(trial_dense);
+        for k in 0..state.len() {
             let [z1, z2, z3] = self.stages.each_ref().map(|z| z[k]);
             let last = (z3 - z2) / (1.0 - c2);
             let middle = (z2 - z1) / (c2 - c1);
             let second = (last - middle) / (1.0 - c1);
             let first = (middle - z1 / c1) / c2;
-            self.trial[k] = self.state[k] + z3;
-            self.trial_dense[0][k] = last;
-            self.trial_dense[1][k] = second;
-            self.trial_dense[2][k] = second - first;
-            self.trial_dense[3][k] = GAMMA * self.right[k];
+            trial[k] = state[k] + z3;
+            dense[0][k] = last;
+            dense[1][k] = second;
+            dense[2][k] = second - first;
+            dense[3][k] = GAMMA * self.right[k];
         }
         Ok(Some(estimate))
     }
 
     fn accept(&mut self) {
-        std::mem::swap(&mut self.state, &mut self.trial);
-        std::mem::swap(&mut self.dense, &mut self.trial_dense);
+        self.progress.accept();
         self.step = self.trial_step;
         (self.linearized, self.retried, self.smooth) = (false, false, true);
     }
 
-    fn works(&self) -> &[f64] {
-        &self.works
-    }
-
-    fn samples(&self) -> &Samples {
-        &self.samples
-    }
-
-    fn state(&self) -> &[f64] {
-        &self.state
-    }
-
-    fn interpolate(&self, theta: f64, out: &mut [f64]) {
-        interpolate(&self.state, self.dense.each_ref().map(Vec::as_slice), theta, out);
-    }
-
-    fn keep(&self, out: &mut Vec<f64>) {
-        self.dense.iter().for_each(|part| out.extend_from_slice(part));
+    fn progress(&self) -> &Progress {
+        &self.progress
     }
 
     fn recall(&self, kept: &Kept<'_>, theta: f64, out: &mut [f64]) {
-        interpolate(kept.end, kept.parts(), theta, out);
+        let (x, parts) = (theta, kept.parts::<4>());
+        let b = x * (1.0 - x * (4.5 - x * (6.0 - x * 2.5)));
+        for (k, (out, end)) in out.iter_mut().zip(kept.end).enumerate() {
+            let dense = parts.map(|part| part[k]);
+            *out = end + bend(dense, x - 1.0) + b * dense[3];
+        }
     }
 
     fn control(&self) -> Law {
         Law::implicit(4.0)
-    }
-}
-
-/// State at the fraction `x` of the step that ends here and has this dense output.
-fn interpolate(end: &[f64], dense: [&[f64]; 4], x: f64, out: &mut [f64]) {
-    let b = x * (1.0 - x * (4.5 - x * (6.0 - x * 2.5)));
-    for (k, (out, end)) in out.iter_mut().zip(end).enumerate() {
-        let dense = dense.map(|part| part[k]);
-        *out = end + bend(dense, x - 1.0) + b * dense[3];
     }
 }
 
@@ -394,6 +367,6 @@ fn combined(matrix: &[[f64; 3]; 3], x: [f64; 3]) -> [f64; 3] {
 }
 
 stored! {
-    impl[const N: usize] Radau<N> { step, contraction, smooth, state, dense }
+    impl[const N: usize] Radau<N> { step, contraction, smooth, progress }
     then { linearized = false, retried = false }
 }

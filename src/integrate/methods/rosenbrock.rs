@@ -14,7 +14,8 @@
 use crate::integrate::driver::control::{ErrorNorm, Estimate, Law};
 use crate::integrate::linear::shifted::Shifted;
 use crate::integrate::{
-    Kept, Linearization, Linearized, Observed, Samples, Stepper, Structure, add_weighted, zero_works,
+    Kept, Linearization, Linearized, Observed, Progress, Stepper, Structure, add_weighted, parts_mut,
+    zero_works,
 };
 use crate::stored::stored;
 
@@ -69,28 +70,20 @@ pub struct Rosenbrock<const N: usize> {
     positions: usize,
     structure: Structure<N>,
     norm: ErrorNorm,
-    /// State at the end of the last accepted step, and at its start.
-    state: Vec<f64>,
-    before: Vec<f64>,
-    trial: Vec<f64>,
+    /// Watched at the start, at the end and in the middle; between the ends there are two bending terms.
+    progress: Progress,
     /// State in the middle of the attempt.
     middle: Vec<f64>,
     a: Vec<f64>,
     /// Accelerations at the start of the step; with `slope` they serve every attempt from there.
     start_a: Vec<f64>,
     linearized: bool,
-    /// Powers at the start, in the middle and at the end, and their works over the attempt.
+    /// Powers at the start, in the middle and at the end.
     powers: [Vec<f64>; 3],
-    works: Vec<f64>,
-    /// At the start, at the end and in the middle.
-    samples: Samples,
     /// u_1 to u_6 over the whole state.
     stages: [Vec<f64>; 6],
     slope: Linearization<N>,
     system: Shifted<f64, N>,
-    /// Start, end and two bending terms of the last accepted step and of the attempt.
-    dense: [Vec<f64>; 2],
-    trial_dense: [Vec<f64>; 2],
 }
 
 impl<const N: usize> Rosenbrock<N> {
@@ -107,22 +100,16 @@ impl<const N: usize> Rosenbrock<N> {
         Self {
             positions: nq,
             norm: ErrorNorm::new(system, tolerance),
-            state: zeros(),
-            before: zeros(),
-            trial: zeros(),
+            progress: Progress::new(system, 3, 2 * (nq + nv)),
             middle: zeros(),
             a: vec![0.0; nv],
             start_a: vec![0.0; nv],
             linearized: false,
             powers: std::array::from_fn(|_| zero_works(system)),
-            works: zero_works(system),
-            samples: Samples::new(system.watched(), 3),
             stages: std::array::from_fn(|_| zeros()),
             slope: Linearization::new(&structure, nv),
             system: Shifted::new(&structure),
             structure,
-            dense: std::array::from_fn(|_| zeros()),
-            trial_dense: std::array::from_fn(|_| zeros()),
         }
     }
 }
@@ -131,12 +118,13 @@ impl<const N: usize> Rosenbrock<N> {
     /// Integrates over the attempt by Simpson's rule. The last stage was evaluated within its error of the end; the
     /// middle comes from the dense output.
     fn integrate<S: Linearized<N> + Observed>(&mut self, system: &mut S, t: f64, h: f64, t_last: f64) {
-        let (start, last, [bend, twist]) = (&self.state, &self.trial, &self.trial_dense);
+        let Progress { end: start, trial: last, trial_dense, works, samples, .. } = &mut self.progress;
+        let [bend, twist] = parts_mut(trial_dense);
         for (k, x) in self.middle.iter_mut().enumerate() {
             *x = 0.5 * (start[k] + last[k] + 0.5 * (bend[k] + 0.5 * twist[k]));
         }
         let (q, v) = self.middle.split_at(self.positions);
-        self.works.fill(0.0);
+        works.fill(0.0);
         // Where nothing is defined between the ends, they alone must do: sums must not stop a step.
         let defined = system.accelerations((t + 0.5 * h).min(t_last), q, v, &mut self.a).is_ok();
         if defined {
@@ -145,12 +133,12 @@ impl<const N: usize> Rosenbrock<N> {
             self.powers[1].fill(0.0);
         }
         let weights = if defined { [1.0, 4.0, 1.0] } else { [3.0, 0.0, 3.0] };
-        if let Some(row) = self.samples.row(2).filter(|_| defined) {
+        if let Some(row) = samples.row(2).filter(|_| defined) {
             system.watch(q, v, None, row);
         }
-        self.samples.weigh(if defined { &[1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0] } else { &[0.5, 0.5] });
+        samples.weigh(if defined { &[1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0] } else { &[0.5, 0.5] });
         for (x, weight) in self.powers.iter().zip(weights) {
-            add_weighted(&mut self.works, weight * h / 6.0, x);
+            add_weighted(works, weight * h / 6.0, x);
         }
     }
 }
@@ -165,28 +153,18 @@ fn weighted_sum(out: &mut [f64], stages: &[Vec<f64>], weights: &[f64]) {
     }
 }
 
-/// State at the fraction `theta` of the step with this dense output.
-fn interpolate([start, end]: [&[f64]; 2], [bend, twist]: [&[f64]; 2], theta: f64, out: &mut [f64]) {
-    let (x, y) = (theta, 1.0 - theta);
-    for (i, out) in out.iter_mut().enumerate() {
-        *out = start[i] * y + x * (end[i] + y * (bend[i] + x * twist[i]));
-    }
-}
-
 impl<S: Linearized<N> + Observed, const N: usize> Stepper<S> for Rosenbrock<N> {
     fn set_state(&mut self, state: &[f64]) {
-        self.state.copy_from_slice(state);
-        self.before.copy_from_slice(state);
-        self.dense.iter_mut().for_each(|part| part.fill(0.0));
+        self.progress.begin(state);
         self.linearized = false;
     }
 
     fn refresh(&mut self, system: &mut S, t: f64) -> Result<(), S::Fault> {
-        let (q, v) = self.state.split_at(self.positions);
+        let (q, v) = self.progress.end.split_at(self.positions);
         self.linearized = false;
         system.linearize(t, q, v, &mut self.start_a, &mut self.slope)?;
         system.powers(q, v, None, &mut self.powers[0]);
-        if let Some(row) = self.samples.row(0) {
+        if let Some(row) = self.progress.samples.row(0) {
             system.watch(q, v, None, row);
         }
         self.linearized = true;
@@ -201,13 +179,13 @@ impl<S: Linearized<N> + Observed, const N: usize> Stepper<S> for Rosenbrock<N> {
         if !self.system.factorize(&self.slope, 1.0 / (GAMMA * h)) {
             return Err(system.not_finite(0));
         }
-        self.trial.copy_from_slice(&self.state);
+        let Progress { end: state, trial, trial_dense, samples, .. } = &mut self.progress;
         for i in 0..6 {
-            weighted_sum(&mut self.trial, &self.stages[..i], &A[i]);
-            for (x, start) in self.trial.iter_mut().zip(&self.state) {
+            weighted_sum(trial, &self.stages[..i], &A[i]);
+            for (x, start) in trial.iter_mut().zip(&*state) {
                 *x += start;
             }
-            let (q, v) = self.trial.split_at(nq);
+            let (q, v) = trial.split_at(nq);
             if i == 0 {
                 self.a.copy_from_slice(&self.start_a);
             } else {
@@ -215,7 +193,7 @@ impl<S: Linearized<N> + Observed, const N: usize> Stepper<S> for Rosenbrock<N> {
             }
             if i == 5 {
                 system.powers(q, v, None, &mut self.powers[2]);
-                if let Some(row) = self.samples.row(1) {
+                if let Some(row) = samples.row(1) {
                     system.watch(q, v, None, row);
                 }
             }
@@ -233,10 +211,10 @@ impl<S: Linearized<N> + Observed, const N: usize> Stepper<S> for Rosenbrock<N> {
         }
         // The last stage is the error; with it the step is complete.
         let last = &self.stages[5];
-        for (x, error) in self.trial.iter_mut().zip(last) {
+        for (x, error) in trial.iter_mut().zip(last) {
             *x += error;
         }
-        let [bend, twist] = &mut self.trial_dense;
+        let [bend, twist] = parts_mut(trial_dense);
         weighted_sum(bend, &self.stages[..5], &DENSE[0]);
         weighted_sum(twist, &self.stages[..5], &DENSE[1]);
         let estimate = self.norm.of(|k| last[k]);
@@ -247,35 +225,20 @@ impl<S: Linearized<N> + Observed, const N: usize> Stepper<S> for Rosenbrock<N> {
     }
 
     fn accept(&mut self) {
-        std::mem::swap(&mut self.before, &mut self.state);
-        std::mem::swap(&mut self.state, &mut self.trial);
-        std::mem::swap(&mut self.dense, &mut self.trial_dense);
+        self.progress.accept();
         self.linearized = false;
     }
 
-    fn works(&self) -> &[f64] {
-        &self.works
-    }
-
-    fn samples(&self) -> &Samples {
-        &self.samples
-    }
-
-    fn state(&self) -> &[f64] {
-        &self.state
-    }
-
-    fn interpolate(&self, theta: f64, out: &mut [f64]) {
-        let dense = self.dense.each_ref().map(Vec::as_slice);
-        interpolate([&self.before, &self.state], dense, theta, out);
-    }
-
-    fn keep(&self, out: &mut Vec<f64>) {
-        self.dense.iter().for_each(|part| out.extend_from_slice(part));
+    fn progress(&self) -> &Progress {
+        &self.progress
     }
 
     fn recall(&self, kept: &Kept<'_>, theta: f64, out: &mut [f64]) {
-        interpolate([kept.start, kept.end], kept.parts(), theta, out);
+        let (x, y) = (theta, 1.0 - theta);
+        let (Kept { start, end, .. }, [bend, twist]) = (kept, kept.parts());
+        for (i, out) in out.iter_mut().enumerate() {
+            *out = start[i] * y + x * (end[i] + y * (bend[i] + x * twist[i]));
+        }
     }
 
     fn control(&self) -> Law {
@@ -284,6 +247,6 @@ impl<S: Linearized<N> + Observed, const N: usize> Stepper<S> for Rosenbrock<N> {
 }
 
 stored! {
-    impl[const N: usize] Rosenbrock<N> { state, before, dense }
+    impl[const N: usize] Rosenbrock<N> { progress }
     then { linearized = false }
 }
