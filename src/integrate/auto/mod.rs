@@ -462,7 +462,10 @@ impl<const N: usize> Auto<N> {
         }
         let (kind, last) = (self.implicit_kind(), self.last_steps[self.active as usize]);
         self.last_steps[kind as usize] = self.last_steps[kind as usize].min(last);
+        // What is known of error control holds for both.
+        let known = (self.right, self.advanced, self.cost);
         let step = self.change_to(kind, self.reason, system, t);
+        (self.right, self.advanced, self.cost) = known;
         if step.is_none() {
             self.stiffness.give_up();
         }
