@@ -448,20 +448,19 @@ impl<const N: usize> Auto<N> {
     }
 
     /// Goes on with the other implicit method: where that advances further, which is tried where steps are tiny beside those
-    /// that the leapfrog was expected to make, or where the Radau method is `stuck`.
+    /// that the leapfrog was expected to make, or where the Radau method is `stuck` or its steps are the finest.
     fn weigh_stiffness<S: Complete<N>>(&mut self, stuck: bool, system: &mut S, t: f64) -> Option<f64> {
         if self.active != self.implicit_kind() {
             return None;
         }
-        let tiny = self.aim.expected.step() / self.aim.tuning.stiff;
-        if stuck && self.active == Kind::Radau {
-            self.last_steps[Kind::Rosenbrock as usize] = self.h;
+        let finest = self.is_finest(self.h);
+        if self.active == Kind::Radau && (stuck || finest) {
             self.stiffness.give_up();
-        } else if !self.stiffness.decide_below(tiny) {
+        } else if finest || !self.stiffness.decide_below(self.aim.expected.step() / self.aim.tuning.stiff) {
             return None;
         }
-        let (kind, last) = (self.implicit_kind(), self.last_steps[self.active as usize]);
-        self.last_steps[kind as usize] = self.last_steps[kind as usize].min(last);
+        self.last_steps[Kind::Radau as usize] = self.last_steps[Kind::Rosenbrock as usize];
+        let kind = self.implicit_kind();
         // What is known of error control holds for both.
         let known = (self.right, self.advanced, self.cost);
         let step = self.change_to(kind, self.reason, system, t);
@@ -470,6 +469,11 @@ impl<const N: usize> Auto<N> {
             self.stiffness.give_up();
         }
         step
+    }
+
+    /// Whether finer steps than those of `h` s are not asked for.
+    pub(super) fn is_finest(&self, h: f64) -> bool {
+        h < self.aim.tuning.finest * self.aim.expected.step()
     }
 
     /// Whether a probe says that the leapfrog could go on from the present state.

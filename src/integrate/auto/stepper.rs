@@ -53,7 +53,8 @@ impl<S: Complete<N>, const N: usize> Stepper<S> for Auto<N> {
             Kind::Rosenbrock => self.note_cost(Rosenbrock::<N>::EVALUATIONS),
             Kind::Radau => self.note_cost(f64::from(self.radau.evaluations())),
         }
-        let stricter = self.aim.tuning.stricter.powi(self.strictness as i32);
+        let strictness = if self.is_finest(h) { 0 } else { self.strictness };
+        let stricter = self.aim.tuning.stricter.powi(strictness as i32);
         result.map(|estimate| {
             estimate.map(|estimate| Estimate { error: stricter * estimate.error, ..estimate })
         })

@@ -102,6 +102,9 @@ tuning! {
     /// Where an implicit method spends this many evaluations on what the leapfrog was expected to make one step of, the other one is
     /// tried.
     stiff: f64 = 30.0, "evaluations";
+    /// Below this share of the step that the leapfrog was expected to make no step is followed more strictly than others, and the
+    /// Radau method gives way: friction as steep as a wall would need steps too small for the digits of time.
+    finest: f64 = 1e-8, "1";
     /// Steps of the leapfrog between two measurements of the highest frequency: each costs a Jacobian.
     frequency_interval: u64 = 512, "steps";
     /// Its step follows a frequency that differs by this factor.
