@@ -122,8 +122,9 @@ fn finer_steps_cost_less_where_derivatives_are_dear() {
         assert_eq!(sim.trust(), Ok(()), "{}", sim.report());
         sim
     };
-    let without = Tuning { dear_derivatives: f64::INFINITY, ..Tuning::default() };
-    let [finer, without] = [Tuning::default(), without].map(run);
+    // The Radau method, which helps there, too, is left out.
+    let finer = Tuning { stiff: f64::INFINITY, ..Tuning::default() };
+    let [finer, without] = [finer, Tuning { dear_derivatives: f64::INFINITY, ..finer }].map(run);
     let Choice { method, reason, .. } = choice(&finer);
     assert_eq!((method, reason), (Kind::Leapfrog, Reason::Balance));
     assert_eq!(choice(&without).method, Kind::Rosenbrock);

@@ -82,7 +82,9 @@ fn the_choice_leaves_the_leapfrog_where_it_must_and_returns() {
     // No damping was found: half the step.
     assert!((before.leapfrog_step - 0.05).abs() < 1e-3, "{before:?}");
     let stiff = at(&mut driver, &mut system, 150.0);
-    assert_eq!((stiff.method, stiff.reason), (Kind::Rosenbrock, Reason::Cost), "{stiff:?}");
+    // Many steps for a tolerance as tight as this: the Radau method, whose order is higher, is tried.
+    assert_eq!(stiff.reason, Reason::Cost, "{stiff:?}");
+    assert!(stiff.steps[Kind::Radau as usize] > stiff.steps[Kind::Rosenbrock as usize], "{stiff:?}");
     assert!((stiff.highest_frequency - 20.0).abs() < 0.1, "{stiff:?}");
     let after = at(&mut driver, &mut system, 3000.0);
     assert_eq!((after.method, after.reason), (Kind::Leapfrog, Reason::Vibration), "{after:?}");

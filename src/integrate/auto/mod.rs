@@ -450,7 +450,8 @@ impl<const N: usize> Auto<N> {
     /// Goes on with the other implicit method: where that advances further, which is tried where steps are tiny beside those
     /// that the leapfrog was expected to make, or where the Radau method is `stuck` or its steps are the finest.
     fn weigh_stiffness<S: Complete<N>>(&mut self, stuck: bool, system: &mut S, t: f64) -> Option<f64> {
-        if self.active != self.implicit_kind() {
+        // What does not cost more than the leapfrog is not stiff, and what does is soon over.
+        if self.active != self.implicit_kind() || self.reason == Reason::Affordable {
             return None;
         }
         let finest = self.is_finest(self.h);
