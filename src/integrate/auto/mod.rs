@@ -163,8 +163,9 @@ pub struct Auto<const N: usize> {
     rosenbrock: Rosenbrock<N>,
     radau: Radau<N>,
     monitor: StabilityMonitor<N>,
+    /// Between the explicit and the implicit method.
     selection: Selection,
-    /// The same between the implicit methods.
+    /// Between the implicit methods.
     stiffness: Selection,
     balance: Balance,
     active: Kind,
